@@ -1,0 +1,102 @@
+/*
+ * context.h -- the one handle of the library: options, workspace, last message.
+ *
+ * Owns: the tolerance and method of all computations made with it, the ARKODE
+ * memory of its blocks, and the message that explains the last failure.
+ *
+ * Thread safety: a context belongs to one thread at a time; two contexts never
+ * share anything. Results do not depend on which context computed them.
+ */
+#ifndef PENDRES_CONTEXT_H
+#define PENDRES_CONTEXT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <pendres/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pendres_context pendres_context;
+
+/** How pendulums are advanced. The first is the default and by far the fastest. */
+typedef enum pendres_method {
+  PENDRES_BLOCK_FIXED = 0, /**< blocks on ARKODE, fixed steps, reset every period */
+  PENDRES_BLOCK_ADAPTIVE,  /**< blocks on ARKODE, adaptive steps */
+  PENDRES_SINGLE,          /**< one adaptive ARKODE problem a pendulum */
+  PENDRES_CVODE_ADAMS,     /**< one CVODE Adams problem a pendulum */
+  PENDRES_CVODE_BDF,       /**< one CVODE BDF problem a pendulum, Newton with the exact Jacobian */
+  PENDRES_METHOD_COUNT
+} pendres_method;
+
+/** Butcher tables offered; measured orders in tests/test_flow.c. */
+typedef enum pendres_table {
+  PENDRES_TABLE_DEFAULT = 0, /**< PENDRES_TABLE_TP8 */
+  PENDRES_TABLE_TP8,    /**< Tsitouras and Papakostas 8(7), SIAM J. Sci. Comput. 20 (1999) 2067 */
+  PENDRES_TABLE_EV8,    /**< Enright and Verner 8(7) */
+  PENDRES_TABLE_VERN8,  /**< Verner 8(7) */
+  PENDRES_TABLE_DOP853, /**< Dormand-Prince 8, embedded 5; Hairer, Norsett, Wanner, Solving ODEs I */
+  PENDRES_TABLE_TSIT5,  /**< Tsitouras 5(4), Comput. Math. Appl. 62 (2011) 770 */
+  PENDRES_TABLE_VERN9,  /**< Verner 9(8) */
+  PENDRES_TABLE_SH9,    /**< Sharp 9(8) */
+  PENDRES_TABLE_DP5,    /**< ARKODE's built-in Dormand-Prince 5(4) */
+  PENDRES_TABLE_COUNT
+} pendres_table;
+
+/** Names for decks and messages ("block_fixed", "tp8", ...); NULL if out of range. */
+const char *pendres_method_name(pendres_method method);
+const char *pendres_table_name(pendres_table table);
+/** Order of the method of a table, 0 if out of range. */
+int pendres_table_order(pendres_table table);
+
+/** What a caller may choose. Zero in any field means the default. */
+typedef struct pendres_options {
+  double tolerance;     /**< of the results, absolute for angles of order one; default 1e-8,
+                             from 1e-13 to 1e-2 */
+  pendres_method method;
+  pendres_table table;
+  int steps_per_period; /**< overrides the choice made from the tolerance */
+  int block_lanes;      /**< pendulums side by side, a multiple of 8; default 192 */
+  long period_budget;   /**< drive periods after which a pendulum is unresolved; default
+                             from damping and tolerance */
+} pendres_options;
+
+/** What a context has spent since its creation or the last reset. */
+typedef struct pendres_cost {
+  double pendulum_periods;  /**< drive periods, summed over lanes in use */
+  double rhs_evaluations;   /**< right-hand sides, one a lane, stage and step */
+  double newton_steps;      /**< Newton iterations on the stroboscopic map */
+  double settled_pendulums; /**< pendulums that were asked what they settle on */
+} pendres_cost;
+
+/**
+ * Create a context. options may be NULL (all defaults) and is copied.
+ * On failure *out is NULL.
+ */
+pendres_status pendres_context_create(const pendres_options *options, pendres_context **out);
+
+/** Free a context; NULL is allowed. Objects made with it stay valid unless they say otherwise. */
+void pendres_context_free(pendres_context *ctx);
+
+/** The sentence on the last failure; "" if none. Owned by the context, valid until its next use. */
+const char *pendres_context_message(const pendres_context *ctx);
+
+/** The options in force, defaults resolved. */
+const pendres_options *pendres_context_options(const pendres_context *ctx);
+
+/** Cost so far; reset sets all to zero. */
+void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost);
+void pendres_context_cost_reset(pendres_context *ctx);
+
+/**
+ * A function that is asked now and then whether to go on: it returns nonzero to stop, and the
+ * computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not owned.
+ */
+void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

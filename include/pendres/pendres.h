@@ -1,0 +1,12 @@
+/*
+ * pendres.h -- umbrella header of libpendres: everything public.
+ */
+#ifndef PENDRES_PENDRES_H
+#define PENDRES_PENDRES_H
+
+#include <pendres/version.h>
+#include <pendres/status.h>
+#include <pendres/pendulum.h>
+#include <pendres/context.h>
+
+#endif

@@ -1,0 +1,43 @@
+/*
+ * status.h -- what every function of the library returns.
+ *
+ * Owns: the list of status codes and their messages. Zero is success; every
+ * other code is a failure, and the context (context.h) holds a sentence that
+ * says which pendulum failed, where and why. Thread safe: no state.
+ */
+#ifndef PENDRES_STATUS_H
+#define PENDRES_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* One list makes both the codes and their messages. */
+#define PENDRES_STATUS_LIST(X)                                                 \
+  X(OK, "success")                                                             \
+  X(INVALID_ARGUMENT, "an argument is out of its range")                       \
+  X(OUT_OF_MEMORY, "out of memory")                                            \
+  X(INTEGRATION_FAILED, "the integrator failed")                               \
+  X(TOLERANCE_UNREACHABLE, "the tolerance cannot be reached in double precision") \
+  X(NOT_CONVERGED, "an iteration did not converge within its budget")          \
+  X(NOT_FOUND, "nothing with the properties asked for exists in the range")    \
+  X(UNRESOLVED, "some pendulums did not settle within their budget")           \
+  X(INTERRUPTED, "interrupted on request")                                     \
+  X(IO, "reading or writing a file failed")                                    \
+  X(UNSUPPORTED, "not supported by this build")                                \
+  X(INTERNAL, "internal error")
+
+typedef enum pendres_status {
+#define PENDRES_STATUS_CODE(name, text) PENDRES_##name,
+  PENDRES_STATUS_LIST(PENDRES_STATUS_CODE)
+#undef PENDRES_STATUS_CODE
+  PENDRES_STATUS_COUNT
+} pendres_status;
+
+/** A short English message for a status. The string is static; never NULL. */
+const char *pendres_status_message(pendres_status status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

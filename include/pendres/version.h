@@ -1,0 +1,25 @@
+/*
+ * version.h -- the version of the library, at compile time and at run time.
+ */
+#ifndef PENDRES_VERSION_H
+#define PENDRES_VERSION_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PENDRES_VERSION_MAJOR 0
+#define PENDRES_VERSION_MINOR 1
+#define PENDRES_VERSION_PATCH 0
+#define PENDRES_VERSION "0.1.0"
+
+/** Version of the library that was linked, "MAJOR.MINOR.PATCH". Static string. */
+const char *pendres_version(void);
+
+/** Versions of SUNDIALS, GSL and HDF5 in use and of the compiler, one line. Static string. */
+const char *pendres_build_info(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

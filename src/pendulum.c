@@ -1,0 +1,92 @@
+/* pendulum.c -- the model and its exact neighbours; see pendulum.h. */
+#include <pendres/pendulum.h>
+
+#include <math.h>
+#include <stddef.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sf_ellint.h>
+
+static const double half_pi = 1.57079632679489661923;
+static const double two_pi = 6.28318530717958647693;
+
+pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **why)
+{
+  const char *reason = NULL;
+  if (p == NULL) reason = "no pendulum was given";
+  else if (!(isfinite(p->damping) && p->damping >= 0.0)) reason = "the damping must be finite and not negative";
+  else if (!isfinite(p->drive_amplitude)) reason = "the drive amplitude must be finite";
+  else if (!(isfinite(p->drive_frequency) && p->drive_frequency > 0.0)) reason = "the drive frequency must be finite and positive";
+  else if (!(isfinite(p->temperature) && p->temperature >= 0.0)) reason = "the temperature must be finite and not negative";
+  if (reason == NULL) return PENDRES_OK;
+  if (why != NULL) *why = reason;
+  return PENDRES_INVALID_ARGUMENT;
+}
+
+double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t)
+{
+  return cos(x) - p->damping * v + p->drive_amplitude * cos(p->drive_frequency * t);
+}
+
+void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, double *dx, double *dv)
+{
+  (void)v;
+  *dx = -sin(x);
+  *dv = -p->damping;
+}
+
+double pendres_pendulum_energy(double x, double v)
+{
+  return 0.5 * v * v - sin(x);
+}
+
+long pendres_pendulum_well(double x)
+{
+  /* The well's upper end belongs to it: the paper's ensemble is half open
+     at the lower end. */
+  return (long)ceil((x - 3.0 * half_pi) / two_pi);
+}
+
+void pendres_pendulum_mirror(double *x, double *v)
+{
+  *x = 2.0 * half_pi - *x;
+  *v = -*v;
+}
+
+pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out)
+{
+  const pendres_status status = pendres_pendulum_check(p, NULL);
+  if (status != PENDRES_OK || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  const double w = p->drive_frequency;
+  const double stiffness = (1.0 - w) * (1.0 + w);
+  const double friction = p->damping * w;
+  const double response = hypot(stiffness, friction);
+  /* Undamped at resonance the response is infinite: say so with inf, not a trap. */
+  out->amplitude = fabs(p->drive_amplitude) / response;
+  out->phase_lag = atan2(friction, stiffness);
+  if (p->drive_amplitude < 0.0) out->phase_lag = two_pi / 2.0 - out->phase_lag;
+  out->loop_area = two_pi / 2.0 * p->drive_amplitude * p->drive_amplitude * (friction / response) / response;
+  return PENDRES_OK;
+}
+
+double pendres_free_frequency(double amplitude)
+{
+  if (!(amplitude >= 0.0 && amplitude < two_pi / 2.0)) return NAN;
+  /* K by the arithmetic-geometric mean form of GSL's Carlson integral
+     R_F(0, cos^2(a/2), 1): unlike K(sin(a/2)) it keeps its digits up to pi. */
+  const double c = sin((two_pi / 2.0 - amplitude) / 2.0);
+  gsl_sf_result k;
+  if (gsl_sf_ellint_RF_e(0.0, c * c, 1.0, GSL_PREC_DOUBLE, &k) != GSL_SUCCESS) return NAN;
+  return half_pi / k.val;
+}
+
+double pendres_free_frequency_kittel(double amplitude)
+{
+  return 1.0 - amplitude * amplitude / 16.0;
+}
+
+double pendres_free_frequency_belendez(double amplitude)
+{
+  const double s = 1.0 + sqrt(cos(amplitude / 2.0));
+  return s * s / 4.0;
+}
