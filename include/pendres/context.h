@@ -71,6 +71,9 @@ typedef struct pendres_cost {
   double settled_pendulums; /**< pendulums that were asked what they settle on */
 } pendres_cost;
 
+/** NULL when the options are valid, else a static sentence on what is wrong. NULL: defaults. */
+const char *pendres_options_check(const pendres_options *options);
+
 /**
  * Create a context. options may be NULL (all defaults) and is copied.
  * On failure *out is NULL.

@@ -1,0 +1,47 @@
+/*
+ * strobe.h -- the stroboscopic map: pendulums seen once a drive period.
+ *
+ * Owns: advancing any number of pendulums by whole drive periods. The strobe
+ * is at drive phase 0, where the drive is at its maximum.
+ *
+ * Source of the term: Baker and Gollub, Chaotic Dynamics (1996), chapter 3.
+ */
+#ifndef PENDRES_STROBE_H
+#define PENDRES_STROBE_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/**
+ * Advance n pendulums, whatever their parameters, by `periods` drive periods.
+ *
+ * pendulums[n] are read; x[n] and v[n] (position and velocity at drive phase 0) are
+ * replaced in place. x keeps its whole turns: it is not wrapped.
+ *
+ * error[n], if not NULL, receives an estimate of the larger of the errors of x and v:
+ * a second run with fewer steps a period is compared with the first, which costs about
+ * as much again. It covers discretisation and rounding, amplified along each trajectory
+ * as the trajectory itself amplifies them; where that is by more than the tolerance
+ * allows, the estimate says so, it is not an error of the function.
+ *
+ * The steps a period of each pendulum depend on its own parameters, its initial speed
+ * and the tolerance alone; so do the results, whatever the other pendulums.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT (message names the pendulum; nothing was changed),
+ * PENDRES_INTEGRATION_FAILED, PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY,
+ * PENDRES_INTERRUPTED. On any of these x and v are unchanged.
+ */
+pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
+                                      const pendres_pendulum *pendulums, double *x, double *v,
+                                      long periods, double *error);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

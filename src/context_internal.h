@@ -1,0 +1,54 @@
+/*
+ * context_internal.h -- what the modules of the library share through a context.
+ *
+ * Owns: nothing; pendres_context is laid out here so that each module can keep
+ * its workspace in it.
+ */
+#ifndef PENDRES_CONTEXT_INTERNAL_H
+#define PENDRES_CONTEXT_INTERNAL_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include "flow.h"
+
+enum { PENDRES_MESSAGE_LENGTH = 512 };
+
+/* The blocks of a context. */
+typedef enum pendres_rows {
+  PENDRES_FLOW_STATE,
+  PENDRES_FLOW_VARIATIONAL,
+  PENDRES_FLOW_SENSITIVITY,
+  PENDRES_FLOW_ADAPTIVE, /* the state, by adaptive steps */
+  PENDRES_FLOW_KINDS
+} pendres_rows;
+
+struct pendres_steps_memo; /* steps.c */
+
+struct pendres_context {
+  pendres_options options; /* defaults resolved */
+  SUNContext sun;
+  pendres_flow *flows[PENDRES_FLOW_KINDS];
+  struct pendres_steps_memo *steps;
+  pendres_cost cost;
+  int (*stop)(void *arg);
+  void *stop_arg;
+  char message[PENDRES_MESSAGE_LENGTH];
+};
+
+/* Record why something failed, and return the status. */
+pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
+                                    const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The context's block of a kind, made at its first use. */
+pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pendres_flow **out);
+
+/* PENDRES_INTERRUPTED when the caller asked to stop. */
+pendres_status pendres_context_poll(pendres_context *ctx);
+
+/* Record a failure of the integrator. */
+pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
+                                           pendres_status status);
+
+#endif

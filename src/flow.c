@@ -1,0 +1,308 @@
+/* flow.c -- a block of pendulums on one ARKODE problem; see flow.h. */
+#include "flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <arkode/arkode_butcher_erk.h>
+#include <arkode/arkode_erkstep.h>
+
+#include "compat.h"
+#include "flow_table.h"
+#include "lanes.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* cos(theta) at the right-hand sides of one period, in their order: the same every period. */
+typedef struct drive_memo {
+  double *theta, *cosine;
+  size_t size, next;
+} drive_memo;
+
+struct pendres_flow {
+  pendres_lanes_shape shape;
+  double tolerance;
+  int steps, stages;
+  N_Vector state, scratch;
+  double *coefficient[4]; /* stiffness, drive, friction, inverse */
+  pendres_coefficients kernel_coefficients;
+  pendres_rhs_kernel *rhs;
+  drive_memo memo;
+  void *arkode;
+  double evaluations;
+  size_t lanes; /* in use */
+  int failure;
+};
+
+static double drive_cosine(drive_memo *m, double theta)
+{
+  if (m->next >= m->size) return cos(theta); /* adaptive steps, or an unforeseen call */
+  const size_t i = m->next++;
+  if (m->theta[i] != theta) {
+    m->theta[i] = theta;
+    m->cosine[i] = cos(theta);
+  }
+  return m->cosine[i];
+}
+
+static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
+{
+  pendres_flow *flow = arg;
+  flow->rhs(flow->shape.stride, &flow->kernel_coefficients, drive_cosine(&flow->memo, theta),
+            pendres_lanes_data(y), pendres_lanes_data(slope));
+  flow->evaluations += (double)flow->lanes;
+  return 0;
+}
+
+/*
+ * ERKStep before SUNDIALS 6.7 takes every table whose last node is 1 as
+ * first-same-as-last and reuses a wrong stage. A step-postprocess function makes
+ * it evaluate the slope anew.
+ */
+static int after_step(sunrealtype theta, N_Vector y, void *arg)
+{
+  (void)theta;
+  (void)y;
+  (void)arg;
+  return 0;
+}
+
+/* With fixed steps nobody reads the weights: leave them at one. */
+static int unit_weights(N_Vector y, N_Vector weights, void *arg)
+{
+  (void)y;
+  (void)weights;
+  (void)arg;
+  return 0;
+}
+
+static int memo_resize(drive_memo *m, int stages, int steps)
+{
+  const size_t wanted = (size_t)(stages + 1) * (size_t)(steps + 2);
+  m->next = 0;
+  if (wanted > m->size) {
+    double *theta = realloc(m->theta, wanted * sizeof *theta);
+    if (theta == NULL) return -1;
+    m->theta = theta;
+    double *cosine = realloc(m->cosine, wanted * sizeof *cosine);
+    if (cosine == NULL) return -1;
+    m->cosine = cosine;
+    for (size_t i = m->size; i < wanted; i++) {
+      m->theta[i] = 0.0;
+      m->cosine[i] = 1.0;
+    }
+    m->size = wanted;
+  }
+  return 0;
+}
+
+static pendres_rhs_kernel *kernel_for(const pendres_kernels *k, size_t rows)
+{
+  if (rows == PENDRES_ROWS_STATE) return k->state;
+  if (rows == PENDRES_ROWS_VARIATIONAL) return k->variational;
+  if (rows == PENDRES_ROWS_SENSITIVITY) return k->sensitivity;
+  return NULL;
+}
+
+static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNContext sun)
+{
+  ARKodeButcherTable butcher = NULL;
+  pendres_status status = PENDRES_OK;
+
+  flow->arkode = ERKStepCreate(right_hand_side, 0.0, flow->state, sun);
+  if (flow->arkode == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_compat_silence(sun, flow->arkode, NULL);
+  butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
+  if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
+
+  int bad = ERKStepSetTable(flow->arkode, butcher) != 0 ||
+            ERKStepSetUserData(flow->arkode, flow) != 0 ||
+            ERKStepSetPostprocessStepFn(flow->arkode, after_step) != 0 ||
+            ERKStepSetMaxNumSteps(flow->arkode, 100000000L) != 0 ||
+            ERKStepSetMaxHnilWarns(flow->arkode, -1) != 0 ||
+            ERKStepSetInterpolantType(flow->arkode, ARK_INTERP_LAGRANGE) != 0 ||
+            ERKStepSetInterpolantDegree(flow->arkode, flow->tolerance == 0.0 ? 0 : 1) != 0;
+  if (!bad && flow->tolerance == 0.0)
+    bad = ERKStepWFtolerances(flow->arkode, unit_weights) != 0;
+  else if (!bad)
+    bad = ERKStepSStolerances(flow->arkode, flow->tolerance, flow->tolerance) != 0 ||
+          pendres_flow_set_controller(flow->arkode) != 0;
+  if (bad) status = PENDRES_INTEGRATION_FAILED;
+  ARKodeButcherTable_Free(butcher);
+  return status;
+}
+
+pendres_status pendres_flow_create(const pendres_flow_options *options, SUNContext sun,
+                                   pendres_flow **out)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_flow *flow = calloc(1, sizeof *flow);
+  *out = NULL;
+  if (flow == NULL) return status;
+
+  flow->shape.rows = options->rows;
+  flow->shape.capacity = (options->lanes + PENDRES_LANES_MULTIPLE - 1) / PENDRES_LANES_MULTIPLE *
+                         PENDRES_LANES_MULTIPLE;
+  flow->shape.stride = flow->shape.capacity;
+  flow->shape.kernels = pendres_kernels_select();
+  flow->shape.norm_unused = options->tolerance == 0.0;
+  flow->lanes = options->lanes;
+  flow->tolerance = options->tolerance;
+  flow->rhs = kernel_for(flow->shape.kernels, options->rows);
+  if (flow->rhs == NULL) {
+    status = PENDRES_INVALID_ARGUMENT;
+    goto fail;
+  }
+  for (int i = 0; i < 4; i++) {
+    flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
+    if (flow->coefficient[i] == NULL) goto fail;
+  }
+  flow->kernel_coefficients =
+    (pendres_coefficients){.stiffness = flow->coefficient[0], .drive = flow->coefficient[1],
+                           .friction = flow->coefficient[2], .inverse = flow->coefficient[3]};
+  flow->state = pendres_lanes_create(&flow->shape, sun);
+  flow->scratch = pendres_lanes_create(&flow->shape, sun);
+  if (flow->state == NULL || flow->scratch == NULL) goto fail;
+  status = arkode_setup(flow, options->table, sun);
+  if (status != PENDRES_OK) goto fail;
+  *out = flow;
+  return PENDRES_OK;
+fail:
+  pendres_flow_free(flow);
+  return status;
+}
+
+void pendres_flow_free(pendres_flow *flow)
+{
+  if (flow == NULL) return;
+  if (flow->arkode != NULL) ERKStepFree(&flow->arkode);
+  if (flow->state != NULL) N_VDestroy(flow->state);
+  if (flow->scratch != NULL) N_VDestroy(flow->scratch);
+  for (int i = 0; i < 4; i++) free(flow->coefficient[i]);
+  free(flow->memo.theta);
+  free(flow->memo.cosine);
+  free(flow);
+}
+
+pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
+{
+  if (steps < 1 || flow->tolerance != 0.0) return PENDRES_INVALID_ARGUMENT;
+  if (steps == flow->steps) return PENDRES_OK;
+  if (memo_resize(&flow->memo, flow->stages, steps) != 0) return PENDRES_OUT_OF_MEMORY;
+  flow->failure = ERKStepSetFixedStep(flow->arkode, two_pi / steps);
+  if (flow->failure != 0) return PENDRES_INTEGRATION_FAILED;
+  flow->steps = steps;
+  return PENDRES_OK;
+}
+
+void pendres_flow_resize(pendres_flow *flow, size_t lanes)
+{
+  const size_t old = flow->shape.stride;
+  const size_t stride =
+    (lanes + PENDRES_LANES_MULTIPLE - 1) / PENDRES_LANES_MULTIPLE * PENDRES_LANES_MULTIPLE;
+  double *data = pendres_lanes_data(flow->state);
+
+  /* Rows move towards lower addresses when shrinking, to higher ones when growing. */
+  if (stride < old)
+    for (size_t r = 1; r < flow->shape.rows; r++)
+      memmove(data + r * stride, data + r * old, stride * sizeof *data);
+  else if (stride > old)
+    for (size_t r = flow->shape.rows; r-- > 0;) {
+      memmove(data + r * stride, data + r * old, old * sizeof *data);
+      memset(data + r * stride + old, 0, (stride - old) * sizeof *data);
+    }
+  flow->shape.stride = stride;
+  flow->lanes = lanes;
+  /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
+  for (size_t i = lanes; i < stride; i++) {
+    for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
+    for (int c = 0; c < 4; c++) flow->coefficient[c][i] = 0.0;
+  }
+}
+
+size_t pendres_flow_stride(const pendres_flow *flow)
+{
+  return flow->shape.stride;
+}
+
+size_t pendres_flow_capacity(const pendres_flow *flow)
+{
+  return flow->shape.capacity;
+}
+
+void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
+                           double w)
+{
+  const size_t stride = flow->shape.stride;
+  const double omega = p->drive_frequency;
+  double *data = pendres_lanes_data(flow->state);
+
+  flow->coefficient[0][lane] = 1.0 / (omega * omega);
+  flow->coefficient[1][lane] = p->drive_amplitude / (omega * omega);
+  flow->coefficient[2][lane] = p->damping / omega;
+  flow->coefficient[3][lane] = 1.0 / omega;
+  for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + lane] = 0.0;
+  data[lane] = y;
+  data[stride + lane] = w;
+  if (flow->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
+    data[2 * stride + lane] = 1.0;
+    data[5 * stride + lane] = 1.0;
+  }
+}
+
+void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
+{
+  double *data = pendres_lanes_data(flow->state);
+  for (size_t r = 0; r < flow->shape.rows; r++)
+    data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
+  for (int c = 0; c < 4; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
+}
+
+double *pendres_flow_state(pendres_flow *flow)
+{
+  return pendres_lanes_data(flow->state);
+}
+
+/* Put the clock back to phase 0, with the block's present state. */
+static pendres_status start_period(pendres_flow *flow)
+{
+  flow->memo.next = 0;
+  flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
+  if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, two_pi);
+  return flow->failure == 0 ? PENDRES_OK : PENDRES_INTEGRATION_FAILED;
+}
+
+pendres_status pendres_flow_period(pendres_flow *flow)
+{
+  sunrealtype reached = 0.0;
+  const pendres_status status = start_period(flow);
+  if (status != PENDRES_OK) return status;
+  flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_NORMAL);
+  return flow->failure < 0 ? PENDRES_INTEGRATION_FAILED : PENDRES_OK;
+}
+
+pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
+                                           void *arg)
+{
+  sunrealtype reached = 0.0;
+  if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
+  const pendres_status status = start_period(flow);
+  if (status != PENDRES_OK) return status;
+  for (int step = 1; step <= flow->steps; step++) {
+    flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_ONE_STEP);
+    if (flow->failure < 0) return PENDRES_INTEGRATION_FAILED;
+    sample(arg, step, reached, flow->shape.stride, pendres_lanes_data(flow->state));
+  }
+  return PENDRES_OK;
+}
+
+double pendres_flow_evaluations(const pendres_flow *flow)
+{
+  return flow->evaluations;
+}
+
+int pendres_flow_failure(const pendres_flow *flow)
+{
+  return flow->failure;
+}

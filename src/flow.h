@@ -1,0 +1,79 @@
+/*
+ * flow.h -- advancing a block of pendulums over drive phase with ARKODE.
+ *
+ * Owns: the ARKODE memory of a block, its steps, and the clock. flow*.c are the
+ * only files that include SUNDIALS' integrators.
+ *
+ * One call advances every lane from drive phase 0 to 2 pi. With fixed steps
+ * the integrator is reset at each period's start: the stroboscopic map is then
+ * exactly autonomous, so that results do not depend on block size, lane order
+ * or how many periods went before (design notes, docs/architecture.md).
+ *
+ * Internal units: y = x - pi/2, w = dy/dtheta = v/omega (see kernels.h).
+ */
+#ifndef PENDRES_FLOW_H
+#define PENDRES_FLOW_H
+
+#include <stddef.h>
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include <sundials/sundials_context.h>
+
+#include "kernels.h"
+
+typedef struct pendres_flow pendres_flow;
+
+typedef struct pendres_flow_options {
+  size_t rows;      /* one of PENDRES_ROWS_... */
+  size_t lanes;     /* capacity */
+  pendres_table table;
+  double tolerance; /* 0: fixed steps; else adaptive, this relative and absolute tolerance */
+} pendres_flow_options;
+
+/* sun is kept, not owned, and must outlive the flow. */
+pendres_status pendres_flow_create(const pendres_flow_options *options, SUNContext sun,
+                                   pendres_flow **out);
+void pendres_flow_free(pendres_flow *flow);
+
+/* Steps a period from the next period on (fixed steps only). */
+pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
+
+/*
+ * Use `lanes` lanes from now on; the states of lanes below are kept. The stride
+ * (distance between rows) becomes lanes rounded up to a multiple of 8.
+ */
+void pendres_flow_resize(pendres_flow *flow, size_t lanes);
+size_t pendres_flow_stride(const pendres_flow *flow);
+size_t pendres_flow_capacity(const pendres_flow *flow);
+
+/* Put a pendulum into a lane; variational rows start as the identity, sensitivities as 0. */
+void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
+                           double w);
+
+/* Copy a lane with all its coefficients. */
+void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
+
+/* Rows of the block, valid until the next call that advances or resizes. */
+double *pendres_flow_state(pendres_flow *flow);
+
+/* Advance all lanes by one drive period. */
+pendres_status pendres_flow_period(pendres_flow *flow);
+
+/*
+ * The same, and call sample(arg, step, theta, stride, state) after each step 1..n; fixed steps
+ * only, so the samples are equally spaced and the last one is the period's end.
+ */
+typedef void pendres_flow_sample(void *arg, int step, double theta, size_t stride,
+                                 const double *state);
+pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
+                                           void *arg);
+
+/* Right-hand sides evaluated so far, counting each lane in use. */
+double pendres_flow_evaluations(const pendres_flow *flow);
+
+/* ARKODE's words on the last failure, its return code. */
+int pendres_flow_failure(const pendres_flow *flow);
+
+#endif

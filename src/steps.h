@@ -1,0 +1,30 @@
+/*
+ * steps.h -- how many fixed steps a drive period needs.
+ *
+ * Owns: the choice of steps from a tolerance by step doubling. The choice
+ * depends on a pendulum's own parameters and speed and on the tolerance, never
+ * on which other pendulums are computed with it: it is made for cells of a
+ * fixed lattice in parameter space and remembered in the context.
+ */
+#ifndef PENDRES_STEPS_H
+#define PENDRES_STEPS_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+typedef struct pendres_steps_memo pendres_steps_memo;
+
+pendres_status pendres_steps_create(pendres_steps_memo **out);
+void pendres_steps_free(pendres_steps_memo *memo);
+
+/* The steps a period that can be chosen from: a ladder about 1.12 apart. The next rung at or above n. */
+int pendres_steps_rung(int n);
+
+/*
+ * Steps a period so that one period's error of a pendulum with |v| up to `speed` stays below
+ * `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy helps.
+ */
+pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                                    double tolerance, int *steps);
+
+#endif

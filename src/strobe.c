@@ -1,0 +1,118 @@
+/* strobe.c -- the stroboscopic map of any list of pendulums; see strobe.h. */
+#include <pendres/strobe.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "context_internal.h"
+#include "steps.h"
+#include "strobe_run.h"
+
+static const double half_pi = 1.57079632679489661923;
+static const double two_pi = 6.28318530717958647693;
+
+static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  (void)index;
+  return lane->period >= *(const long *)arg;
+}
+
+static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                            const double *x, const double *v, long periods)
+{
+  const char *why = NULL;
+  if (periods < 0)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%ld periods: not negative, please",
+                                periods);
+  for (size_t i = 0; i < n; i++) {
+    if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK && !(isfinite(x[i]) && isfinite(v[i])))
+      why = "position and velocity must be finite";
+    if (why != NULL)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
+  }
+  return PENDRES_OK;
+}
+
+/*
+ * The error of one period that leaves the tolerance for the whole run: errors of earlier
+ * periods fade as exp(-gamma t / 2), or add up without damping.
+ */
+static double share_of_a_period(const pendres_pendulum *p, double tolerance, long periods)
+{
+  const double decay = -expm1(-0.5 * p->damping * two_pi / p->drive_frequency);
+  return tolerance * fmax(decay, 1.0 / fmax(1.0, (double)periods));
+}
+
+static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                           const double *x, const double *v, long periods, double coarsening,
+                           pendres_strobe_lane *lanes)
+{
+  for (size_t i = 0; i < n; i++) {
+    pendres_strobe_lane *l = &lanes[i];
+    *l = (pendres_strobe_lane){
+      .pendulum = &p[i], .y = x[i] - half_pi, .w = v[i] / p[i].drive_frequency};
+    pendres_strobe_wrap(&l->y, &l->turns);
+    const pendres_status status =
+      pendres_steps_choose(ctx, &p[i], fabs(v[i]),
+                           share_of_a_period(&p[i], ctx->options.tolerance, periods), &l->steps);
+    if (status != PENDRES_OK) return status;
+    if (coarsening != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * coarsening));
+  }
+  return PENDRES_OK;
+}
+
+/* |a - b| of two final states, in x and v. */
+static double distance(const pendres_strobe_lane *a, const pendres_strobe_lane *b)
+{
+  const double dy = (a->y - b->y) + two_pi * (double)(a->turns - b->turns);
+  const double dv = (a->w - b->w) * a->pendulum->drive_frequency;
+  return fmax(fabs(dy), fabs(dv));
+}
+
+pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
+                                      const pendres_pendulum *pendulums, double *x, double *v,
+                                      long periods, double *error)
+{
+  if (ctx == NULL || (n > 0 && (pendulums == NULL || x == NULL || v == NULL)))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = check(ctx, n, pendulums, x, v, periods);
+  if (status != PENDRES_OK || n == 0) return status;
+  if (periods == 0) {
+    for (size_t i = 0; error != NULL && i < n; i++) error[i] = 0.0;
+    return PENDRES_OK;
+  }
+
+  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes), *finer = NULL;
+  if (lanes == NULL) goto no_memory;
+  status = load(ctx, n, pendulums, x, v, periods, 1.0, lanes);
+  if (status == PENDRES_OK)
+    status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
+  if (status != PENDRES_OK) goto done;
+
+  if (error != NULL) {
+    finer = malloc(n * sizeof *finer);
+    if (finer == NULL) goto no_memory;
+    /* More steps rather than fewer: below the tolerance both runs are in the regime where the
+       order holds, and the difference is the error of the first run itself. */
+    status = load(ctx, n, pendulums, x, v, periods, 1.4, finer);
+    if (status == PENDRES_OK)
+      status = pendres_strobe_run(ctx, n, finer, after_all_periods, &periods);
+    if (status != PENDRES_OK) goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    const pendres_strobe_lane *l = &lanes[i];
+    x[i] = l->y + half_pi + two_pi * (double)l->turns;
+    v[i] = l->w * pendulums[i].drive_frequency;
+    /* Rounding: half a unit in the last place of each step's sum, at random. */
+    if (error != NULL)
+      error[i] = distance(l, &finer[i]) +
+                 2.2e-16 * (fabs(x[i]) + 4.0 * sqrt((double)l->steps * (double)periods));
+  }
+  goto done;
+no_memory:
+  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+done:
+  free(lanes);
+  free(finer);
+  return status;
+}

@@ -1,0 +1,148 @@
+/* strobe_run.c -- lanes of a block, retired and refilled at the strobe; see strobe_run.h. */
+#include "strobe_run.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "context_internal.h"
+#include "flow_single.h"
+
+void pendres_strobe_wrap(double *y, long *turns)
+{
+  /* 2 pi in two parts, so that taking out many turns costs no digits. */
+  static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
+  if (fabs(*y) <= 3.14159265358979323846) return;
+  const double k = rint(*y / two_pi_high);
+  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, *y));
+  *turns += (long)k;
+}
+
+/* Lanes in the order of their steps, those of equal steps in their own order. */
+typedef struct ranked {
+  int steps;
+  size_t index;
+} ranked;
+
+static int by_steps(const void *a, const void *b)
+{
+  const ranked *p = a, *q = b;
+  if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
+  return p->index < q->index ? -1 : p->index > q->index;
+}
+
+typedef struct block {
+  pendres_context *ctx;
+  pendres_flow *flow;
+  pendres_strobe_lane *lanes;
+  size_t *slot; /* which lane sits in a slot of the block */
+  size_t filled;
+  pendres_strobe_visit *visit;
+  void *arg;
+} block;
+
+static void put(block *b, size_t slot, size_t index)
+{
+  const pendres_strobe_lane *l = &b->lanes[index];
+  b->slot[slot] = index;
+  pendres_flow_set_lane(b->flow, slot, l->pendulum, l->y, l->w);
+}
+
+/* Take the states over from the block after a period; returns whether the lane is done. */
+static int look(block *b, size_t slot)
+{
+  pendres_strobe_lane *l = &b->lanes[b->slot[slot]];
+  double *state = pendres_flow_state(b->flow);
+  const size_t stride = pendres_flow_stride(b->flow);
+  l->y = state[slot];
+  l->w = state[stride + slot];
+  l->period++;
+  pendres_strobe_wrap(&l->y, &l->turns);
+  state[slot] = l->y;
+  return b->visit(b->arg, b->slot[slot], l);
+}
+
+/* Run all lanes of one class of steps, queue[0..n). */
+static pendres_status run_class(block *b, const ranked *queue, size_t n)
+{
+  size_t next = 0;
+  const size_t capacity = pendres_flow_capacity(b->flow);
+  pendres_status status = PENDRES_OK;
+  if (b->ctx->options.method == PENDRES_BLOCK_FIXED)
+    status = pendres_flow_set_steps(b->flow, queue[0].steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+
+  b->filled = n < capacity ? n : capacity;
+  pendres_flow_resize(b->flow, b->filled);
+  while (next < b->filled) {
+    put(b, next, queue[next].index);
+    next++;
+  }
+  while (b->filled > 0) {
+    status = pendres_context_poll(b->ctx);
+    if (status != PENDRES_OK) return status;
+    status = pendres_flow_period(b->flow);
+    if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+    b->ctx->cost.pendulum_periods += (double)b->filled;
+
+    for (size_t slot = 0; slot < b->filled;) {
+      if (!look(b, slot)) {
+        slot++;
+      } else if (next < n) {
+        put(b, slot++, queue[next++].index);
+      } else {
+        /* Nobody waits: close the gap with the last lane, which is yet to be looked at. */
+        b->filled--;
+        if (slot < b->filled) {
+          b->slot[slot] = b->slot[b->filled];
+          pendres_flow_move_lane(b->flow, b->filled, slot);
+        }
+      }
+    }
+    if (b->filled > 0) pendres_flow_resize(b->flow, b->filled);
+  }
+  return PENDRES_OK;
+}
+
+static pendres_status run_blocks(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                 pendres_strobe_visit *visit, void *arg)
+{
+  block b = {.ctx = ctx, .lanes = lanes, .visit = visit, .arg = arg};
+  ranked *queue = NULL;
+  const int adaptive = ctx->options.method == PENDRES_BLOCK_ADAPTIVE;
+  pendres_status status =
+    pendres_context_flow(ctx, adaptive ? PENDRES_FLOW_ADAPTIVE : PENDRES_FLOW_STATE, &b.flow);
+  if (status != PENDRES_OK) return status;
+
+  queue = malloc(n * sizeof *queue);
+  b.slot = malloc(pendres_flow_capacity(b.flow) * sizeof *b.slot);
+  if (queue == NULL || b.slot == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+    goto done;
+  }
+  int sorted = 1;
+  for (size_t i = 0; i < n; i++) {
+    queue[i] = (ranked){.steps = adaptive ? 1 : lanes[i].steps, .index = i};
+    if (i > 0 && queue[i].steps < queue[i - 1].steps) sorted = 0;
+  }
+  if (!sorted) qsort(queue, n, sizeof *queue, by_steps);
+
+  for (size_t first = 0; first < n && status == PENDRES_OK;) {
+    size_t last = first;
+    while (last < n && queue[last].steps == queue[first].steps) last++;
+    status = run_class(&b, queue + first, last - first);
+    first = last;
+  }
+done:
+  free(queue);
+  free(b.slot);
+  return status;
+}
+
+pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                  pendres_strobe_visit *visit, void *arg)
+{
+  if (n == 0) return PENDRES_OK;
+  if (ctx->options.method == PENDRES_BLOCK_FIXED || ctx->options.method == PENDRES_BLOCK_ADAPTIVE)
+    return run_blocks(ctx, n, lanes, visit, arg);
+  return pendres_flow_single_run(ctx, n, lanes, visit, arg);
+}
