@@ -1,0 +1,299 @@
+# Makefile of libpendres and the program `resonance`. GNU make 4.2 or later.
+#
+#   make            library (static and shared) and program
+#   make check      build and run all tests; CHECKS="test_flow ..." runs some; RUN=valgrind wraps
+#   make bench      build and run the benchmarks, one after another
+#   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
+#   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
+#   make doc        reference manual from the public headers, with doxygen
+#   make clean
+#
+# Yours to set: CC CFLAGS CPPFLAGS LDFLAGS PREFIX DESTDIR SUNDIALS_DIR HDF5_DIR GSL_DIR BUILD,
+# WERROR=1 (warnings are errors), SANITIZE=address,undefined (in a build directory of its own).
+#
+# Conventions:
+# - src/*.c make the library. src/kernels*.c are compiled once for each instruction set, with
+#   PENDRES_KERNELS set to its name; the program chooses when it runs. Nothing else is compiled
+#   for more than the baseline, so what was built here runs anywhere.
+# - Everything is hidden unless a public header says otherwise: each header in include/pendres
+#   has `#pragma GCC visibility push(default)` after its includes and `pop` at its end.
+# - drivers/*.c except main.c make libdriver.a; drivers see the public headers alone.
+# - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
+#   They run at the top of the tree, with RESONANCE naming the program to try.
+
+VERSION_H := include/pendres/version.h
+version_part = $(shell sed -n 's/^.define PENDRES_VERSION_$(1) //p' $(VERSION_H))
+SOVERSION := $(call version_part,MAJOR)
+VERSION := $(SOVERSION).$(call version_part,MINOR).$(call version_part,PATCH)
+
+# ---- What a user may set ---------------------------------------------------------------------
+
+comma := ,
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+AR ?= ar
+PKG_CONFIG ?= pkg-config
+INSTALL ?= install
+BUILD ?= build$(if $(SANITIZE),/sanitize-$(subst $(comma),-,$(SANITIZE)))
+PREFIX ?= /usr/local
+BINDIR ?= $(PREFIX)/bin
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+MANDIR ?= $(PREFIX)/share/man
+TEST_TIMEOUT ?= 600
+CFLAGS ?= $(if $(SANITIZE),-O2,-O3) -g -Wall -Wextra -Wpedantic
+
+# ---- What the results rely on, whatever CFLAGS say -------------------------------------------
+
+# No contraction: the same bytes on every instruction set; fused operations are written out.
+NEEDED := -std=c11 -ffp-contract=off -fno-math-errno -fopenmp-simd -fvisibility=hidden -fPIC
+SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all \
+               -fno-omit-frame-pointer)
+ALL_CFLAGS = $(CFLAGS) $(NEEDED) $(SANITIZER) $(if $(filter-out 0,$(WERROR)),-Werror)
+OPENMP := -fopenmp
+
+FLAGS_avx2 := -mavx2 -mfma
+FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
+
+# ---- Goals that need no compiler and no libraries --------------------------------------------
+
+GOALS := $(or $(MAKECMDGOALS),all)
+BUILDING := $(filter-out deps deps-plots clean uninstall doc help,$(GOALS))
+
+ifneq ($(BUILDING),)
+have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
+cflags_of = $(shell $(PKG_CONFIG) --cflags $(1))
+libs_of = $(shell $(PKG_CONFIG) --libs $(1))
+# A library in a folder of its own: DIR/lib and DIR/lib64, found again at run time.
+folder_libs = $(foreach d,$(wildcard $(1)/lib $(1)/lib64),-L$(d) -Wl,-rpath,$(d))
+
+# SUNDIALS has no pkg-config file. From 7.0 on there is a core library beside the others.
+SUNDIALS_CFLAGS := $(if $(SUNDIALS_DIR),-I$(SUNDIALS_DIR)/include)
+SUNDIALS_MAJOR := $(lastword $(shell \
+  printf '%s\n' '#include <sundials/sundials_config.h>' SUNDIALS_VERSION_MAJOR | \
+  $(CC) $(CPPFLAGS) $(SUNDIALS_CFLAGS) -E -P -x c - 2>/dev/null))
+SUNDIALS_LIBS := $(if $(SUNDIALS_DIR),$(call folder_libs,$(SUNDIALS_DIR))) \
+                 -lsundials_arkode -lsundials_cvode -lsundials_nvecserial \
+                 $(if $(filter-out 0 1 2 3 4 5 6,$(SUNDIALS_MAJOR)),-lsundials_core)
+
+ifneq ($(GSL_DIR),)
+GSL_CFLAGS := -I$(GSL_DIR)/include
+GSL_LIBS := $(call folder_libs,$(GSL_DIR)) -lgsl -lgslcblas
+else ifeq ($(call have,gsl),yes)
+GSL_PC := gsl
+GSL_CFLAGS := $(call cflags_of,gsl)
+GSL_LIBS := $(call libs_of,gsl)
+else
+GSL_LIBS := -lgsl -lgslcblas
+endif
+
+# With the dimension scales of hdf5_hl. hdf5-serial first: on Debian hdf5.pc may be the MPI flavour.
+ifneq ($(HDF5_DIR),)
+HDF5_CFLAGS := -I$(HDF5_DIR)/include
+HDF5_LIBS := $(call folder_libs,$(HDF5_DIR)) -lhdf5_hl -lhdf5
+else
+HDF5_PC := $(firstword $(foreach p,hdf5-serial hdf5,$(if $(call have,$(p)),$(p))))
+HDF5_CFLAGS := $(if $(HDF5_PC),$(call cflags_of,$(HDF5_PC)))
+HDF5_LIBS := -lhdf5_hl $(if $(HDF5_PC),$(call libs_of,$(HDF5_PC)),-lhdf5)
+endif
+
+X86_64 := $(filter x86_64-%,$(shell $(CC) -dumpmachine))
+endif
+
+SETS := base $(if $(X86_64),avx2 avx512)
+LIBS = $(SUNDIALS_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
+ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
+LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
+
+# ---- Sources and products --------------------------------------------------------------------
+
+KERNEL_SOURCES := $(wildcard src/kernels*.c)
+LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*.c))
+DRIVER_SOURCES := $(filter-out drivers/main.c,$(wildcard drivers/*.c))
+HEADERS := $(wildcard include/pendres/*.h)
+OBJ := $(BUILD)/obj
+LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(OBJ)/%.o) \
+                   $(foreach s,$(SETS),$(KERNEL_SOURCES:%.c=$(OBJ)/%.$(s).o))
+DRIVER_OBJECTS := $(DRIVER_SOURCES:%.c=$(OBJ)/%.o)
+
+STATIC := $(BUILD)/libpendres.a
+SONAME := libpendres.so.$(SOVERSION)
+SHARED := $(BUILD)/libpendres.so.$(VERSION)
+DRIVER := $(BUILD)/libdriver.a
+# Other build directories leave the program at the top alone.
+PROGRAM := $(if $(wildcard drivers/main.c),$(patsubst build/resonance,resonance,$(BUILD)/resonance))
+PC := $(BUILD)/pendres.pc
+
+TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
+TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
+# Scripts look at what would be installed: nothing for sanitizers.
+SCRIPT_NAMES := $(if $(SANITIZE),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
+CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
+BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
+
+.PHONY: all check check-run bench install uninstall deps deps-plots doc clean help FORCE
+.SUFFIXES:
+.DELETE_ON_ERROR:
+
+all: $(STATIC) $(SHARED) $(BUILD)/libpendres.so $(BUILD)/$(SONAME) $(PC) $(PROGRAM)
+
+help:
+	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
+
+# Objects are made anew when a compiler or a flag has changed.
+ifneq ($(BUILDING),)
+FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(LIBS) $(FLAGS_avx2) $(FLAGS_avx512))
+ifneq ($(FLAGS_TEXT),$(strip $(file <$(BUILD)/flags)))
+$(shell mkdir -p $(BUILD))
+$(file >$(BUILD)/flags,$(FLAGS_TEXT))
+endif
+ifeq ($(SUNDIALS_MAJOR),SUNDIALS_VERSION_MAJOR)
+SUNDIALS_MAJOR :=
+endif
+ifeq ($(SUNDIALS_MAJOR),)
+$(warning SUNDIALS was not found: run `make deps`, or set SUNDIALS_DIR)
+endif
+endif
+$(BUILD)/flags: ;
+
+COMPILE = @mkdir -p $(@D); echo "  CC  $(@:$(OBJ)/%=%)"; \
+          $(CC) $(ALL_CPPFLAGS) $(1) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+
+$(OBJ)/src/%.o: src/%.c $(BUILD)/flags
+	$(call COMPILE,-Isrc)
+
+$(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
+	$(call COMPILE,-Idrivers $(OPENMP))
+
+$(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
+	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP))
+
+$(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
+	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP))
+
+define KERNEL_RULE
+$(OBJ)/src/%.$(1).o: src/%.c $(BUILD)/flags
+	$$(call COMPILE,-Isrc -DPENDRES_KERNELS=$(1) $(FLAGS_$(1)))
+endef
+$(foreach s,$(SETS),$(eval $(call KERNEL_RULE,$(s))))
+
+# The list of members is a prerequisite too: a file taken away leaves the archive.
+ARCHIVE = @rm -f $@; echo "  AR  $@"; $(AR) rcs $@ $(filter %.o,$^)
+
+$(STATIC): $(LIBRARY_OBJECTS)
+	$(ARCHIVE)
+
+$(DRIVER): $(DRIVER_OBJECTS) $(BUILD)/flags
+	$(ARCHIVE)
+
+$(SHARED): $(LIBRARY_OBJECTS)
+	@echo "  LD  $@"
+	@$(LINK) -shared -Wl,-soname,$(SONAME) $(if $(SANITIZE),,-Wl$(comma)-z$(comma)defs) \
+	  -o $@ $(filter %.o,$^) $(LIBS)
+
+$(BUILD)/$(SONAME) $(BUILD)/libpendres.so: $(SHARED)
+	@ln -sf $(notdir $(SHARED)) $@
+
+ifneq ($(PROGRAM),)
+$(PROGRAM): $(OBJ)/drivers/main.o $(DRIVER) $(STATIC)
+	@echo "  LD  $@"
+	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+endif
+
+# ---- Tests and benchmarks --------------------------------------------------------------------
+
+.SECONDARY: $(TEST_NAMES:%=$(OBJ)/tests/%.o) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.o)
+
+$(BUILD)/tests/%: $(OBJ)/tests/%.o $(DRIVER) $(STATIC)
+	@mkdir -p $(@D); echo "  LD  $@"
+	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS) -lcmocka
+
+$(BUILD)/bench/%: $(OBJ)/bench/%.o $(DRIVER) $(STATIC)
+	@mkdir -p $(@D); echo "  LD  $@"
+	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+
+# What does not compile counts as failed, and the others still run.
+check:
+	@rm -rf $(BUILD)/results; mkdir -p $(BUILD)/results
+	+@$(MAKE) --no-print-directory -k check-run || true
+	@tests/summary.sh $(BUILD)/results $(CHECKS)
+
+check-run: all $(CHECKS:%=run/%)
+
+# For scripts: what they need to know of this build.
+RUN_ENVIRONMENT = BUILD='$(BUILD)' CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' \
+                  RESONANCE='$(if $(PROGRAM),$(abspath $(PROGRAM)))' \
+                  UBSAN_OPTIONS="$${UBSAN_OPTIONS-print_stacktrace=1}"
+
+.PHONY: $(TEST_NAMES:%=run/%) $(SCRIPT_NAMES:%=run/%)
+$(TEST_NAMES:%=run/%): run/%: $(BUILD)/tests/% $(PROGRAM)
+	@$(RUN_ENVIRONMENT) tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) $(RUN) $<
+
+$(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
+	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
+
+bench: all $(BENCH_PROGRAMS)
+	@for b in $(BENCH_PROGRAMS); do echo "== $$b"; $(RUN_ENVIRONMENT) $$b || exit 1; done
+
+# ---- Installation ----------------------------------------------------------------------------
+
+# What a program needs that links libpendres.a; the shared library knows by itself.
+$(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
+	@mkdir -p $(@D)
+	@sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
+	  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
+	  -e 's|@REQUIRES@|$(strip $(GSL_PC) $(HDF5_PC))|' \
+	  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(GSL_PC),,$(GSL_LIBS)) \
+	      $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) -lm)|' pendres.pc.in >$@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
+install: all
+	$(INSTALL) -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(INCLUDEDIR)/pendres
+	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)
+	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(LIBDIR)
+	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/$(SONAME)
+	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/libpendres.so
+	$(INSTALL) -m 644 $(HEADERS) $(DESTDIR)$(INCLUDEDIR)/pendres
+	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(LIBDIR)/pkgconfig
+ifneq ($(PROGRAM),)
+	$(INSTALL) -d $(DESTDIR)$(BINDIR)
+	$(INSTALL) -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)
+	@if command -v help2man >/dev/null && \
+	    help2man -N -n 'resonance of driven pendulums' -o $(BUILD)/resonance.1 ./$(PROGRAM); then \
+	  $(INSTALL) -d $(DESTDIR)$(MANDIR)/man1; \
+	  $(INSTALL) -m 644 $(BUILD)/resonance.1 $(DESTDIR)$(MANDIR)/man1; fi
+endif
+	@test -n '$(DESTDIR)' || ldconfig 2>/dev/null || true
+
+uninstall:
+	rm -f $(DESTDIR)$(LIBDIR)/libpendres.a $(DESTDIR)$(LIBDIR)/libpendres.so \
+	  $(DESTDIR)$(LIBDIR)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(notdir $(SHARED)) \
+	  $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc $(DESTDIR)$(BINDIR)/resonance \
+	  $(DESTDIR)$(MANDIR)/man1/resonance.1
+	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres
+
+doc:
+	doxygen Doxyfile
+
+# Another build directory loses what was made here, and is kept if it holds anything else.
+clean:
+	rm -rf build resonance
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results flags pendres.pc resonance resonance.1) \
+	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a
+	@rmdir $(BUILD) 2>/dev/null || true
+
+# ---- What is needed --------------------------------------------------------------------------
+
+PACKAGES := gcc make pkg-config libc6-dev libsundials-dev libhdf5-dev libgsl-dev libcmocka-dev \
+            librandom123-dev
+PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
+
+deps:
+	@.ci/packages $(PACKAGES)
+
+deps-plots:
+	@.ci/packages $(PLOT_PACKAGES)
+
+-include $(LIBRARY_OBJECTS:.o=.d) $(DRIVER_OBJECTS:.o=.d) $(OBJ)/drivers/main.d \
+         $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)
