@@ -15,6 +15,7 @@
 
 #include <pendres/status.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -102,4 +103,5 @@ void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg),
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -23,6 +23,7 @@
 
 #include <pendres/status.h>
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -86,4 +87,5 @@ double pendres_free_frequency_belendez(double amplitude);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -8,6 +8,7 @@
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -40,4 +41,5 @@ const char *pendres_status_message(pendres_status status);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif

@@ -4,6 +4,7 @@
 #ifndef PENDRES_VERSION_H
 #define PENDRES_VERSION_H
 
+#pragma GCC visibility push(default)
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -22,4 +23,5 @@ const char *pendres_build_info(void);
 #ifdef __cplusplus
 }
 #endif
+#pragma GCC visibility pop
 #endif
