@@ -49,7 +49,7 @@ int pendres_steps_rung(int n)
     /* Multiples of 2 up to 24, then eight rungs an octave. */
     int octave = 1;
     while (octave * 16 <= rung) octave *= 2;
-    rung += rung < 24 ? 2 : 2 * octave;
+    rung += rung < 24 ? 2 : octave;
   }
   return rung;
 }
@@ -152,18 +152,20 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
   if (status != PENDRES_OK) return status;
 
-  double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed));
+  double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
     status = run_probes(ctx, flow, &p, speed, n, coarse);
     if (status == PENDRES_OK) status = run_probes(ctx, flow, &p, speed, 2 * n, fine);
     if (status != PENDRES_OK) return status;
     const double error = difference(coarse, fine);
-    /* Rounding alone: more steps would not help. */
-    if (error <= tolerance || error < 4e-16 * n) {
+    /* Where the error no longer falls it is rounding alone: more steps would not help. */
+    const int rounding = error < 1e-9 && error > 0.5 * last_error;
+    if (error <= tolerance || rounding) {
       *steps = n;
       return PENDRES_OK;
     }
+    last_error = error;
     /* Not yet in the asymptotic regime: climb; there: go where the order says, one rung short. */
     const double growth =
       error < 1e-2 ? pow(error / tolerance, 1.0 / order) * 0.95 : 1.5;

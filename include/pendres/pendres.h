@@ -8,5 +8,7 @@
 #include <pendres/status.h>
 #include <pendres/pendulum.h>
 #include <pendres/context.h>
+#include <pendres/strobe.h>
+#include <pendres/orbit.h>
 
 #endif

@@ -1,0 +1,104 @@
+/*
+ * attractor.h -- what pendulums settle on, proved rather than hoped for.
+ *
+ * Owns: the catalogue of attractors of a parameter set, their trapping regions, and
+ * the labels of pendulums.
+ *
+ * A pendulum has settled when it is inside an attractor's trapping ellipse: every state in
+ * there goes to that attractor. The stroboscopic map is a homeomorphism of the plane, so
+ * when the ellipse's edge lies in the basin, all of its inside does (Jordan curve theorem);
+ * rings of pendulums on the edge are integrated to show that. What has not settled within its
+ * budget of periods is unresolved, never guessed.
+ *
+ * Attractors are numbered by amplitude, then by their Poincaré point, never by the order in
+ * which they were found.
+ */
+#ifndef PENDRES_ATTRACTOR_H
+#define PENDRES_ATTRACTOR_H
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/**
+ * Labels. SA (small amplitude, phase lag below pi/3) and LA (large amplitude, large phase lag)
+ * are orbits of period one, mirror symmetric, without winding, under the weak drive that the
+ * paper is about (|F0| <= 0.25). Where two such orbits coexist the smaller is SA.
+ */
+typedef enum pendres_label {
+  PENDRES_LABEL_SA = 0,
+  PENDRES_LABEL_LA = 1,
+  PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit */
+  PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
+  PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
+  PENDRES_LABEL_UNRESOLVED = 5,
+  PENDRES_LABEL_COUNT
+} pendres_label;
+
+/** "sa", "la", "periodic", "running", "chaotic", "unresolved"; NULL if out of range. */
+const char *pendres_label_name(pendres_label label);
+
+/** An attractor of one parameter set. */
+typedef struct pendres_attractor {
+  pendres_label label;
+  pendres_orbit orbit;      /**< for a chaotic attractor only pendulum is set, results are NaN */
+  double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
+                                 y = x and w = v/omega; largest semi-axis of P = 1 is one */
+  double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
+  double lyapunov;          /**< largest Lyapunov exponent a unit time */
+  double lyapunov_error;    /**< standard error; 0 for closed orbits, where it is exact */
+} pendres_attractor;
+
+/** Opaque: attractors of one or more parameter sets. */
+typedef struct pendres_attractors pendres_attractors;
+
+void pendres_attractors_free(pendres_attractors *set);
+size_t pendres_attractors_count(const pendres_attractors *set);
+/** Attractor number i; owned by the set. NULL out of range. */
+const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, size_t i);
+
+/** What became of a pendulum. */
+typedef struct pendres_outcome {
+  pendres_label label;
+  int attractor;         /**< index in the set; -1: unresolved */
+  long well;             /**< well that it settled in; 0 for running and chaotic ones */
+  long settling_periods; /**< drive periods until it was inside the trapping region; -1: unresolved */
+} pendres_outcome;
+
+/**
+ * Find the attractors of one parameter set from n scouts x[n], v[n] at drive phase 0 (n = 0: a
+ * built-in set of scouts). *out is to be freed by pendres_attractors_free.
+ * PENDRES_OK also when a scout stayed unresolved.
+ */
+pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+                                       const double *x, const double *v,
+                                       pendres_attractors **out);
+
+/**
+ * Label n pendulums of the parameter set that `set` was found for. Only attractors in the set
+ * are seen: what goes elsewhere is unresolved. outcome[n] is written.
+ */
+pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
+                                         size_t n, const double *x, const double *v,
+                                         pendres_outcome *outcome);
+
+/**
+ * What each of n pendulums settles on, whatever their parameters. Equal consecutive parameters
+ * make one parameter set; attractors are found from the pendulums themselves. outcome[n] is
+ * written. *found (may be NULL) receives all attractors, set after set in the order of
+ * the pendulums; to be freed by pendres_attractors_free.
+ * PENDRES_OK also when some are unresolved: their outcome says so.
+ */
+pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                              const double *x, const double *v, pendres_outcome *outcome,
+                              pendres_attractors **found);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

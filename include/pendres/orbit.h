@@ -1,0 +1,104 @@
+/*
+ * orbit.h -- periodic orbits of the driven pendulum and their measures.
+ *
+ * Owns: Newton's method on the stroboscopic map with the variational equations,
+ * Floquet multipliers, and everything measured on a closed orbit: amplitude,
+ * phase lag, loop area, dissipation, harmonics.
+ *
+ * An orbit of period q and winding p closes after q drive periods, in which the
+ * angle grows by 2 pi p. Definitions, all a drive cycle (theta = omega t):
+ *
+ *   loop area     A = (1/q) closed integral of F dx, F = F0 cos theta
+ *   dissipation   D = (gamma/q) closed integral of v^2 dt; equal to A on a closed
+ *                 orbit: the difference is a free check (energy balance)
+ *   mean power    P = A omega / (2 pi)
+ *   amplitude     half the peak-to-peak of the angle (of its periodic part if p != 0)
+ *   first harmonic of the angle, a cos theta + b sin theta = R cos(theta - phi):
+ *                 R its amplitude, phi in [0, pi] the phase lag; A = pi F0 b if p = 0
+ *
+ * Samples are equally spaced over the closed orbit, so that all of these are
+ * spectrally accurate. Floquet multipliers are the eigenvalues of the derivative of
+ * the q-th iterate of the map; their product is exp(-gamma q tau) (Liouville).
+ *
+ * Errors: every result x has x_error, from repeating the computation with 1.4 times
+ * the steps a period, plus a bound on rounding. See docs/accuracy.md.
+ */
+#ifndef PENDRES_ORBIT_H
+#define PENDRES_ORBIT_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** A periodic orbit with its measures. Plain data, nothing to free. */
+typedef struct pendres_orbit {
+  pendres_pendulum pendulum;
+  double x, v;               /**< Poincaré point at drive phase 0; the orbit's mean angle lies in
+                                  the well number 0 */
+  double x_error, v_error;
+  int period;                /**< q: drive periods until it closes */
+  int winding;               /**< p: whole turns in q drive periods */
+  int symmetric;             /**< 1: its own mirror image half a drive period later */
+  int stable;                /**< 1: both Floquet multipliers inside the unit circle */
+  double multiplier_re[2];   /**< Floquet multipliers, largest modulus first */
+  double multiplier_im[2];
+  double multiplier_error;
+  double monodromy[2][2];    /**< derivative of (x, v) after q periods by (x, v) */
+  double loop_area, loop_area_error;
+  double dissipation, dissipation_error;
+  double mean_power, mean_power_error;
+  double amplitude, amplitude_error;
+  double first_harmonic_amplitude, first_harmonic_amplitude_error;
+  double phase_lag, phase_lag_error;
+  double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi] */
+  double first_cosine, first_sine; /**< a and b */
+  double frequency_derivative[2];  /**< d(x, v)/d omega of the Poincaré point, NaN if not asked for */
+  double loop_area_slope;          /**< dA/d omega along the branch, NaN if not asked for */
+  double loop_area_slope_error;
+  int steps;                 /**< steps a period of the finer computation */
+} pendres_orbit;
+
+/** Where to look for an orbit. */
+typedef struct pendres_orbit_guess {
+  pendres_pendulum pendulum;
+  double x, v;
+  int period;  /**< q >= 1 */
+  int winding; /**< p */
+} pendres_orbit_guess;
+
+/** What to compute beside the orbit itself. */
+typedef enum pendres_orbit_want {
+  PENDRES_ORBIT_PLAIN = 0,
+  PENDRES_ORBIT_FREQUENCY_SLOPE = 1 /**< derivatives along the branch by omega */
+} pendres_orbit_want;
+
+/**
+ * Refine n guesses to periodic orbits, side by side; stable and unstable ones alike.
+ *
+ * guess[n] is read; out[n] and outcome[n] are written. outcome[i] is PENDRES_OK, or
+ * PENDRES_NOT_CONVERGED where Newton's method found no orbit near the guess (out[i] is
+ * then undefined), or PENDRES_TOLERANCE_UNREACHABLE where an orbit was found but its
+ * estimated error exceeds the tolerance (out[i] is complete, errors say how far).
+ * Returns PENDRES_OK unless nothing could be computed at all.
+ */
+pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
+                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
+                                    pendres_orbit *out, pendres_status *outcome);
+
+/**
+ * Samples of an orbit over its period: count equally spaced points a drive period, count * q in
+ * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL.
+ * By trigonometric interpolation of the orbit's own samples.
+ */
+pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                                    double *x, double *v);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

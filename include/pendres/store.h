@@ -1,0 +1,258 @@
+/*
+ * store.h -- self-describing HDF5 files, written whole or not at all.
+ *
+ * Owns: the layout rules of a result file. Knows no physics. A store writes to PATH.part and
+ * renames it to PATH when it is closed, so that PATH is either what it was before or complete.
+ *
+ *     pendres_store *store = NULL;
+ *     const pendres_store_spec area = { .name = "loop_area", .dimensions = { "damping" },
+ *                                       .long_name = "area of the loop" };
+ *
+ *     if (pendres_store_create("run.h5", &(pendres_store_options){ .title = "A run" }, &store) ||
+ *         pendres_store_dimension(store, "", "damping", n, gamma, "damping", "1") ||
+ *         pendres_store_put_result(store, &area, areas, errors, n) ||
+ *         pendres_store_close(store))
+ *       fprintf(stderr, "%s\n", pendres_store_message(store));
+ *     pendres_store_free(store);
+ *
+ * Layout (netCDF-4 conventions, so that h5py and xarray with either engine open every group):
+ * each dimension of each group has one one-dimensional scale in that group; links keep their
+ * order of creation; every variable has `units` and `long_name`; labels are int8 with
+ * `flag_values` and `flag_meanings`, without a fill value; doubles that were never written read
+ * as NaN; numbers are stored little-endian. No time stamps are stored: the same calls with the
+ * same values give the same bytes.
+ *
+ * Groups are paths such as "paper" or "paper/fig2"; NULL, "" and "/" are the root. They are made
+ * when first named. Names are letters, digits and underscores, a letter first. Text is UTF-8;
+ * bytes that are not are taken for Latin-1.
+ *
+ * Failures: PENDRES_INVALID_ARGUMENT changes nothing in the file, and the store can be used
+ * further. After PENDRES_IO (a full disk, say) or PENDRES_OUT_OF_MEMORY all further writing is
+ * refused with the same status and message; close, abandon or free it. A process that limits its
+ * file sizes must ignore SIGXFSZ to see PENDRES_IO instead of being killed.
+ *
+ * Locking: the part file is locked (flock) against a second writer, unless the environment
+ * variable HDF5_USE_FILE_LOCKING is FALSE or 0; with BEST_EFFORT a file system that knows no
+ * locks is accepted.
+ *
+ * Thread safety: HDF5 is not thread safe. At most one thread of a process may be inside any
+ * function of this header at a time, whatever the stores.
+ */
+#ifndef PENDRES_STORE_H
+#define PENDRES_STORE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <pendres/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+enum { PENDRES_STORE_RANK = 8 /**< most dimensions of a variable */ };
+
+typedef struct pendres_store pendres_store;
+
+/** Types of elements, and what a buffer of them holds. */
+typedef enum pendres_store_type {
+  PENDRES_STORE_DOUBLE = 0, /**< double */
+  PENDRES_STORE_INT8,       /**< int8_t */
+  PENDRES_STORE_INT32,      /**< int32_t */
+  PENDRES_STORE_INT64,      /**< int64_t */
+  PENDRES_STORE_STRING,     /**< const char *, zero-terminated, not NULL */
+  PENDRES_STORE_TYPE_COUNT
+} pendres_store_type;
+
+/** Attributes of the root group. NULL leaves one out. What changes from run to run (dates,
+ *  hosts) belongs into the provenance instead, so that equal results stay equal bytes. */
+typedef struct pendres_store_options {
+  const char *title;
+  const char *history;
+  const char *source;
+  const char *references;
+} pendres_store_options;
+
+/** What a variable is. Zero in any field means its default; nothing is kept after the call. */
+typedef struct pendres_store_spec {
+  const char *group;       /**< default: the root */
+  const char *name;        /**< required */
+  pendres_store_type type; /**< default: double */
+  const char *dimensions[PENDRES_STORE_RANK]; /**< names of dimensions of the same group, slowest
+                              first, up to the first NULL; none: a scalar */
+  const char *long_name;   /**< required */
+  const char *units;       /**< default "1"; use "s", since xarray turns "seconds" into dates */
+  const char *comment;     /**< attribute of that name, if not NULL */
+  const char *coordinates; /**< CF: names of auxiliary coordinates, separated by blanks */
+  int flag_count;                   /**< int8 only: number of labels */
+  const int8_t *flag_values;        /**< their codes; default 0, 1, 2, ... */
+  const char *const *flag_meanings; /**< their names, without blanks; required with flag_count */
+  int deflate;             /**< compression 1 to 9, default 4; -1 for none. Arrays of less than
+                                4 KiB, and strings, are never compressed */
+  size_t chunk_rows;       /**< rows a chunk; default one, or as many as make 64 KiB; a chunk
+                                never exceeds 1 MiB */
+} pendres_store_spec;
+
+/** One entry of the provenance. */
+typedef struct pendres_store_entry {
+  const char *key;
+  const char *text;      /**< not NULL: the entry is this text, of any length */
+  double number;         /**< else it is a double, ... */
+  int64_t integer;       /**< ... or this, if is_integer */
+  int is_integer;
+  const char *units;     /**< default "1" */
+  const char *long_name; /**< default: the key */
+} pendres_store_entry;
+
+/**
+ * Start to write a file: PATH.part, in the folder of path, whose former contents are lost (a
+ * caller that resumes moves it away first). An existing file of the name path is not touched.
+ *
+ * options may be NULL. *out receives the store, also when the function fails (unless out of
+ * memory: then NULL), so that pendres_store_message() can tell why; pass it to
+ * pendres_store_free() in any case.
+ *
+ * PENDRES_IO: the folder does not exist or cannot be written, the disk is full, path is a
+ * folder, or another process is writing the same file.
+ */
+pendres_status pendres_store_create(const char *path, const pendres_store_options *options,
+                                    pendres_store **out);
+
+/**
+ * Finish: write everything to the disk, rename PATH.part to PATH. The store is then only good
+ * for pendres_store_message() and pendres_store_free(). On PENDRES_IO PATH is what it was.
+ */
+pendres_status pendres_store_close(pendres_store *store);
+
+/**
+ * Give up: stop writing and remove PATH.part, or keep it if keep_part is not 0 (all that was
+ * written up to now is then readable in it, provided no earlier call failed with PENDRES_IO).
+ * PATH is not touched. As after pendres_store_close(), only message and free remain.
+ */
+pendres_status pendres_store_abandon(pendres_store *store, int keep_part);
+
+/**
+ * Free a store; NULL is allowed. One that was neither closed nor abandoned is abandoned, its part
+ * removed. (If closing failed only at the rename, the part is complete and stays.)
+ */
+void pendres_store_free(pendres_store *store);
+
+/** The sentence on the last failure; "" if none. Owned by the store, valid until its next use. */
+const char *pendres_store_message(const pendres_store *store);
+
+/** Make what was written so far survive the end of the process: PATH.part can be opened up to
+ *  here if the process is killed later. Costs a rewrite of chunks that are not full. */
+pendres_status pendres_store_flush(pendres_store *store);
+
+/** Make a group, and those above it. Not an error if it exists. */
+pendres_status pendres_store_group(pendres_store *store, const char *group);
+
+/**
+ * Define a dimension of a group and its scale. values[size], if NULL 0, 1, ... size - 1 (as
+ * int64), is written at once. size may be 0. units NULL: "1". The name must be new.
+ */
+pendres_status pendres_store_dimension(pendres_store *store, const char *group, const char *name,
+                                       uint64_t size, const double *values, const char *long_name,
+                                       const char *units);
+
+/** The same with whole numbers. */
+pendres_status pendres_store_dimension_integer(pendres_store *store, const char *group,
+                                               const char *name, uint64_t size,
+                                               const int64_t *values, const char *long_name,
+                                               const char *units);
+
+/** The same with names, e.g. of methods. */
+pendres_status pendres_store_dimension_text(pendres_store *store, const char *group,
+                                            const char *name, uint64_t size,
+                                            const char *const *values, const char *long_name);
+
+/** Define a variable; *id is what the writing functions take. The name must be new and the
+ *  dimensions must exist in the same group. */
+pendres_status pendres_store_variable(pendres_store *store, const pendres_store_spec *spec,
+                                      int *id);
+
+/** Define a number NAME and, of the same shape and units, the double NAME_error, named in the
+ *  attribute `ancillary_variables` of the first. Either both are made or none. */
+pendres_status pendres_store_result(pendres_store *store, const pendres_store_spec *spec, int *id,
+                                    int *error_id);
+
+/** Write a whole variable of n elements; n must be its size (1 for a scalar). data holds
+ *  elements of its type, the last dimension fastest. */
+pendres_status pendres_store_write(pendres_store *store, int id, const void *data, size_t n);
+
+/** Write rows first, ... first + rows - 1 along the first dimension, in any order and as often
+ *  as wanted; n elements in all. */
+pendres_status pendres_store_write_rows(pendres_store *store, int id, uint64_t first,
+                                        uint64_t rows, const void *data, size_t n);
+
+/** Define and write in one call: a variable; a result with its error estimate; a text. */
+pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec *spec,
+                                 const void *data, size_t n);
+pendres_status pendres_store_put_result(pendres_store *store, const pendres_store_spec *spec,
+                                        const void *data, const double *error, size_t n);
+pendres_status pendres_store_put_text(pendres_store *store, const char *group, const char *name,
+                                      const char *long_name, const char *text);
+
+/**
+ * Set an attribute of `object` (a variable or dimension of the group), or of the group itself if
+ * object is NULL. An attribute that exists is replaced. Those that make the layout (DIMENSION_LIST
+ * and the like) are not to be touched.
+ */
+pendres_status pendres_store_attribute_text(pendres_store *store, const char *group,
+                                            const char *object, const char *name,
+                                            const char *value);
+pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
+                                              const char *object, const char *name, double value);
+pendres_status pendres_store_attribute_integer(pendres_store *store, const char *group,
+                                               const char *object, const char *name,
+                                               int64_t value);
+
+/** Write n entries as scalars of the group "provenance". May be called more than once. */
+pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,
+                                        size_t n);
+
+/* ---- Reading back: for resuming a run and for tests ------------------------------------------ */
+
+/** Open a file, finished or a part, for reading. *out and failures as in pendres_store_create(),
+ *  free with pendres_store_free(). */
+pendres_status pendres_store_open(const char *path, pendres_store **out);
+
+/** 1 if the group holds an object of that name (NULL: if the group exists), else 0. */
+int pendres_store_has(pendres_store *store, const char *group, const char *name);
+
+/** Rank and sizes of a variable; sizes beyond the rank are set to 1. PENDRES_NOT_FOUND. */
+pendres_status pendres_store_shape(pendres_store *store, const char *group, const char *name,
+                                   int *rank, uint64_t sizes[PENDRES_STORE_RANK]);
+
+/** Read a whole variable of numbers, n elements, converted to `type` (not a string). */
+pendres_status pendres_store_read(pendres_store *store, const char *group, const char *name,
+                                  pendres_store_type type, void *data, size_t n);
+
+/** Read rows first, ... first + rows - 1 along the first dimension; n elements in all. */
+pendres_status pendres_store_read_rows(pendres_store *store, const char *group, const char *name,
+                                       pendres_store_type type, uint64_t first, uint64_t rows,
+                                       void *data, size_t n);
+
+/** Read element `index` of a variable of strings. *text is the caller's, to be freed by free(). */
+pendres_status pendres_store_read_text(pendres_store *store, const char *group, const char *name,
+                                       uint64_t index, char **text);
+
+/** Read a text attribute (object as above). *text is the caller's, to be freed by free(). */
+pendres_status pendres_store_read_attribute_text(pendres_store *store, const char *group,
+                                                 const char *object, const char *name,
+                                                 char **text);
+
+/** Read a scalar attribute that is a number. */
+pendres_status pendres_store_read_attribute_double(pendres_store *store, const char *group,
+                                                   const char *object, const char *name,
+                                                   double *value);
+
+/** Version of the HDF5 library that is linked. */
+void pendres_store_hdf5_version(unsigned *major, unsigned *minor, unsigned *release);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

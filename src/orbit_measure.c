@@ -1,0 +1,141 @@
+/* orbit_measure.c -- measures of a closed orbit from equally spaced samples; see orbit_measure.h. */
+#include "orbit_measure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_fft_real.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+/*
+ * Discrete Fourier coefficients of n real values in GSL's half-complex order; the wavetable is
+ * made anew each time: a few microseconds beside the milliseconds of an orbit.
+ */
+static pendres_status transform(const double *y, size_t n, double *c)
+{
+  gsl_fft_real_wavetable *table = gsl_fft_real_wavetable_alloc(n);
+  gsl_fft_real_workspace *work = gsl_fft_real_workspace_alloc(n);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (table != NULL && work != NULL) {
+    memcpy(c, y, n * sizeof *c);
+    status = gsl_fft_real_transform(c, 1, n, table, work) == GSL_SUCCESS ? PENDRES_OK
+                                                                        : PENDRES_INTERNAL;
+  }
+  if (table != NULL) gsl_fft_real_wavetable_free(table);
+  if (work != NULL) gsl_fft_real_workspace_free(work);
+  return status;
+}
+
+/* Value and first two derivatives by phase of the series with half-complex coefficients c. */
+static void evaluate(const double *c, size_t n, double phase, double out[3])
+{
+  const double turn_re = cos(phase), turn_im = sin(phase);
+  double re = 1.0, im = 0.0;
+  out[0] = c[0] / (double)n;
+  out[1] = out[2] = 0.0;
+  for (size_t m = 1; 2 * m <= n; m++) {
+    const double next = re * turn_re - im * turn_im;
+    im = re * turn_im + im * turn_re;
+    re = next;
+    const int nyquist = 2 * m == n;
+    const double a = c[2 * m - 1], b = nyquist ? 0.0 : c[2 * m], k = (double)m;
+    const double scale = (nyquist ? 1.0 : 2.0) / (double)n;
+    out[0] += scale * (a * re - b * im);
+    out[1] += scale * k * (-a * im - b * re);
+    out[2] += scale * k * k * (-a * re + b * im);
+  }
+}
+
+/* The extreme of the interpolant next to sample number k, by Newton on its slope. */
+static double extreme_near(const double *c, size_t n, size_t k)
+{
+  const double spacing = two_pi / (double)n, start = spacing * (double)k;
+  double phase = start, f[3];
+  evaluate(c, n, phase, f);
+  for (int i = 0; i < 8; i++) {
+    if (f[2] == 0.0) break;
+    const double next = phase - f[1] / f[2];
+    /* A flat or inflected top: the sample itself is the best there is. */
+    if (!(fabs(next - start) <= 1.5 * spacing)) {
+      evaluate(c, n, start, f);
+      break;
+    }
+    const double step = fabs(next - phase);
+    phase = next;
+    evaluate(c, n, phase, f);
+    if (step < 1e-9) break; /* the value is flat there: settled to 1e-18 */
+  }
+  return f[0];
+}
+
+pendres_status pendres_orbit_half_range(const double *y, size_t n, double *work, double *out)
+{
+  size_t top = 0, bottom = 0;
+  const pendres_status status = transform(y, n, work);
+  if (status != PENDRES_OK) return status;
+  for (size_t k = 1; k < n; k++) {
+    if (y[k] > y[top]) top = k;
+    if (y[k] < y[bottom]) bottom = k;
+  }
+  *out = 0.5 * (extreme_near(work, n, top) - extreme_near(work, n, bottom));
+  return PENDRES_OK;
+}
+
+pendres_status pendres_orbit_interpolate(const double *y, size_t n, size_t points, double *work,
+                                         double *out)
+{
+  const pendres_status status = transform(y, n, work);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < points; i++) {
+    double f[3];
+    evaluate(work, n, two_pi * (double)i / (double)points, f);
+    out[i] = f[0];
+  }
+  return PENDRES_OK;
+}
+
+/*
+ * Largest harmonic that a mirror-symmetric orbit does not have: with q = 1, and its mean taken
+ * out, y(theta + pi) = -y(theta) leaves odd harmonics alone. For q > 1 all harmonics but odd
+ * multiples of q count.
+ */
+static double symmetry_defect(const double *c, size_t n, int q)
+{
+  double largest = 0.0;
+  for (size_t m = 1; 2 * m < n; m++) {
+    const int odd_multiple = m % (size_t)q == 0 && (m / (size_t)q) % 2 == 1;
+    const double size = 2.0 / (double)n * hypot(c[2 * m - 1], c[2 * m]);
+    if (!odd_multiple && size > largest) largest = size;
+  }
+  return largest;
+}
+
+pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                                     double *work, pendres_orbit_measures *out)
+{
+  const size_t n = s->n;
+  const double spacing = two_pi * s->period / (double)n;
+  double *periodic = work, *coefficients = work + n;
+  double cos_w = 0.0, w_w = 0.0, y_cos = 0.0, y_sin = 0.0, mean = 0.0;
+
+  for (size_t k = 0; k < n; k++) {
+    const double theta = spacing * (double)k, c = cos(theta);
+    periodic[k] = s->y[k] - s->winding * theta / s->period;
+    mean += periodic[k];
+    cos_w += c * s->w[k];
+    w_w += s->w[k] * s->w[k];
+    y_cos += periodic[k] * c;
+    y_sin += periodic[k] * sin(theta);
+  }
+  out->loop_area = p->drive_amplitude * two_pi * cos_w / (double)n;
+  out->dissipation = p->damping * p->drive_frequency * two_pi * w_w / (double)n;
+  out->first_cosine = 2.0 * y_cos / (double)n;
+  out->first_sine = 2.0 * y_sin / (double)n;
+  out->mean_angle = mean / (double)n;
+  const pendres_status status =
+    pendres_orbit_half_range(periodic, n, coefficients, &out->amplitude);
+  if (status == PENDRES_OK) out->symmetry_defect = symmetry_defect(coefficients, n, s->period);
+  return status;
+}

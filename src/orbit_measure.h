@@ -1,0 +1,37 @@
+/*
+ * orbit_measure.h -- what is measured on equally spaced samples of a closed orbit.
+ *
+ * Owns: sums, Fourier series and extremes. No integration here.
+ */
+#ifndef PENDRES_ORBIT_MEASURE_H
+#define PENDRES_ORBIT_MEASURE_H
+
+#include <stddef.h>
+
+#include <pendres/pendulum.h>
+#include <pendres/status.h>
+
+/* Samples k = 0..n-1 at theta = 2 pi q k / n of a closed orbit: angle y, slope w = dy/dtheta. */
+typedef struct pendres_orbit_samples {
+  size_t n;
+  int period, winding;
+  const double *y, *w;
+} pendres_orbit_samples;
+
+typedef struct pendres_orbit_measures {
+  double loop_area, dissipation, amplitude, first_cosine, first_sine, mean_angle;
+  double symmetry_defect; /* largest |even harmonic| of the angle about its mean */
+} pendres_orbit_measures;
+
+/* work: 2 n doubles. */
+pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                                     double *work, pendres_orbit_measures *out);
+
+/* Half the peak-to-peak of the trigonometric interpolant of n equally spaced values; work: n. */
+pendres_status pendres_orbit_half_range(const double *y, size_t n, double *work, double *out);
+
+/* Value at samples*count equally spaced points of the interpolant of n values. work: n. */
+pendres_status pendres_orbit_interpolate(const double *y, size_t n, size_t points, double *work,
+                                         double *out);
+
+#endif

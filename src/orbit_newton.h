@@ -1,0 +1,60 @@
+/*
+ * orbit_newton.h -- Newton's method on the stroboscopic map, many guesses side by side.
+ *
+ * Owns: one integration of a group of candidates over their period with the
+ * variational equation, sampled or not, and the iteration.
+ */
+#ifndef PENDRES_ORBIT_NEWTON_H
+#define PENDRES_ORBIT_NEWTON_H
+
+#include <pendres/orbit.h>
+
+typedef enum pendres_newton_state {
+  PENDRES_NEWTON_ACTIVE,
+  PENDRES_NEWTON_CONVERGED,
+  PENDRES_NEWTON_FAILED
+} pendres_newton_state;
+
+typedef struct pendres_newton_candidate {
+  const pendres_orbit_guess *guess;
+  size_t index;       /* in the caller's list */
+  double y, w;        /* the point integrated from */
+  int steps;
+  pendres_newton_state state;
+  int iterations;
+  double last_step;
+  /* What the latest pass found: */
+  size_t lane;
+  double residual[2]; /* map(z) - z - 2 pi p */
+  double m[2][2];     /* derivative of the map by (y, w) */
+  double by_omega[2]; /* derivative of the map by omega */
+} pendres_newton_candidate;
+
+/* Samples 0 .. samples-1 of a pass, all lanes. */
+typedef struct pendres_newton_tape {
+  size_t samples, lanes, rows, size;
+  double *data; /* [sample][lane][row] */
+} pendres_newton_tape;
+
+static inline const double *pendres_newton_sample(const pendres_newton_tape *t, size_t sample,
+                                                  size_t lane)
+{
+  return t->data + (sample * t->lanes + lane) * t->rows;
+}
+
+void pendres_newton_tape_free(pendres_newton_tape *tape);
+
+/*
+ * Integrate c[first ..) once over their period, up to the first candidate whose steps or period
+ * differ, the end, or the block's capacity; *last is the one after. tape may be NULL.
+ * Candidates that have failed are carried along and not to be read.
+ */
+pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
+                                   size_t first, pendres_orbit_want want,
+                                   pendres_newton_tape *tape, size_t *last);
+
+/* Iterate all active candidates; c is reordered. Each ends converged or failed. */
+pendres_status pendres_newton_converge(pendres_context *ctx, size_t n,
+                                       pendres_newton_candidate *c);
+
+#endif

@@ -1,0 +1,34 @@
+/*
+ * trap.h -- trapping ellipses around attracting periodic orbits.
+ *
+ * Owns: the metric of an orbit and the largest ellipse shown, by rings of pendulums on its
+ * edge, to lie in the orbit's basin (see attractor.h for the argument).
+ *
+ * Metric: P - M' P M = I with M the derivative of the q-th iterate of the map at the point, so
+ * that the linear map contracts in it; scaled so that the unit ellipse's longest semi-axis is 1.
+ */
+#ifndef PENDRES_TRAP_H
+#define PENDRES_TRAP_H
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
+
+typedef struct pendres_trap {
+  double y, w;      /* centre: a Poincaré point of the orbit; y as in orbit.h, mean in well 0 */
+  double metric[3]; /* P_yy, P_yw, P_ww */
+  double radius;    /* 0: none could be shown */
+  int period;       /* of the orbit */
+  int winding;
+} pendres_trap;
+
+/* (z - centre)' P (z - centre), the angle taken modulo whole turns. */
+double pendres_trap_norm2(const pendres_trap *trap, double y, double w);
+
+/*
+ * The traps of n orbits (one trap a Poincaré point: an orbit of period q comes as q entries,
+ * each refined at its own point). effort 0: coarse, 1: the radius is found to 5 %.
+ */
+pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                 int effort, pendres_trap *traps);
+
+#endif
