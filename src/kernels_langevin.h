@@ -1,0 +1,58 @@
+/*
+ * kernels_langevin.h -- the inner loops of thermal noise, chosen at run time.
+ *
+ * Owns: random words, Gaussian numbers, and the two moves of the integrator of langevin.h
+ * for a block of pendulums side by side. kernels_langevin.c is compiled once per instruction
+ * set; all variants do the same IEEE operations and give the same bytes.
+ *
+ * Every array has `stride` entries, one a lane, a multiple of 8, on a 64-byte boundary. Rows
+ * that belong together follow each other.
+ */
+#ifndef PENDRES_KERNELS_LANGEVIN_H
+#define PENDRES_KERNELS_LANGEVIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* What one call of the generator yields a lane. */
+enum { PENDRES_LANGEVIN_WORDS = 4 };
+
+/*
+ * A block in the frame of a free particle that the drive shakes: y = u + pivot, where
+ * pivot = pivot_cos cos theta + pivot_sin sin theta solves y'' + gamma y' = F0 cos theta,
+ * and w = du/dt. In this frame the drive shows only as the place where the sine is taken.
+ */
+typedef struct pendres_langevin_rows {
+  double *u, *w;
+  const double *pivot_cos, *pivot_sin;
+  const double *push;   /* duration of a kick */
+  const double *spread; /* standard deviation of a kick's noise */
+  const double *bend;   /* of the fourth-order correction */
+  double *sum_cos, *sum_sin; /* sums of y cos theta and y sin theta over kicks, or NULL */
+} pendres_langevin_rows;
+
+typedef struct pendres_kernels_langevin {
+  const char *name;
+  /* Philox4x32-10 (Random123) of the counters (id low, id high, period, call): four rows of
+   * 32-bit words, each in 64 bits. */
+  void (*words)(size_t stride, const uint64_t *id, uint32_t period, uint32_t call,
+                const uint32_t key[2], uint64_t *words);
+  /* Four rows of words to four rows of independent Gaussian numbers of variance 1. */
+  void (*gauss)(size_t stride, const uint64_t *words, double *gauss);
+  /* Free motion: u += reach w, w *= decay. */
+  void (*drift)(size_t stride, const double *reach, const double *decay, double *u, double *w);
+  /* Free motion, then a kick at the drive phase whose cosine and sine are given. */
+  void (*kick)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
+               const double *decay, double cosine, double sine, const double *gauss);
+} pendres_kernels_langevin;
+
+extern const pendres_kernels_langevin pendres_kernels_langevin_base;
+#if defined(__x86_64__)
+extern const pendres_kernels_langevin pendres_kernels_langevin_avx2;
+extern const pendres_kernels_langevin pendres_kernels_langevin_avx512;
+#endif
+
+/* The fastest variant that this processor runs. Never NULL; static. In langevin.c. */
+const pendres_kernels_langevin *pendres_kernels_langevin_select(void);
+
+#endif
