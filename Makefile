@@ -68,14 +68,25 @@ libs_of = $(shell $(PKG_CONFIG) --libs $(1))
 # A library in a folder of its own: DIR/lib and DIR/lib64, found again at run time.
 folder_libs = $(foreach d,$(wildcard $(1)/lib $(1)/lib64),-L$(d) -Wl,-rpath,$(d))
 
-# SUNDIALS has no pkg-config file. From 7.0 on there is a core library beside the others.
+# SUNDIALS has no pkg-config file; its configuration says what else it wants. From 7.0 on there is
+# a core library beside the others, and a SUNDIALS with MPI, as in Debian 13, includes mpi.h.
 SUNDIALS_CFLAGS := $(if $(SUNDIALS_DIR),-I$(SUNDIALS_DIR)/include)
-SUNDIALS_MAJOR := $(lastword $(shell \
-  printf '%s\n' '#include <sundials/sundials_config.h>' SUNDIALS_VERSION_MAJOR | \
-  $(CC) $(CPPFLAGS) $(SUNDIALS_CFLAGS) -E -P -x c - 2>/dev/null))
+SUNDIALS_FACTS := $(shell \
+  printf '%s\n' '#include <sundials/sundials_config.h>' 'major=SUNDIALS_VERSION_MAJOR' \
+    'mpi=SUNDIALS_MPI_ENABLED' | \
+  $(CC) $(CPPFLAGS) $(SUNDIALS_CFLAGS) -E -P -x c - 2>/dev/null | sed -n '/^[a-z]*=[0-9]*$$/p')
+SUNDIALS_MAJOR := $(patsubst major=%,%,$(filter major=%,$(SUNDIALS_FACTS)))
+SUNDIALS_CORE := $(filter-out 6,$(SUNDIALS_MAJOR))
+ifeq ($(SUNDIALS_MAJOR),)
+$(warning SUNDIALS was not found: run `make deps`, or set SUNDIALS_DIR)
+else ifneq ($(and $(SUNDIALS_CORE),$(filter mpi=1,$(SUNDIALS_FACTS))),)
+MPI_PC := $(firstword $(foreach p,mpi-c ompi-c mpich mpi,$(if $(call have,$(p)),$(p))))
+MPI_CFLAGS := $(if $(MPI_PC),$(call cflags_of,$(MPI_PC)),$(shell mpicc --showme:compile))
+MPI_LIBS := $(if $(MPI_PC),$(call libs_of,$(MPI_PC)),$(shell mpicc --showme:link))
+endif
 SUNDIALS_LIBS := $(if $(SUNDIALS_DIR),$(call folder_libs,$(SUNDIALS_DIR))) \
                  -lsundials_arkode -lsundials_cvode -lsundials_nvecserial \
-                 $(if $(filter-out 0 1 2 3 4 5 6,$(SUNDIALS_MAJOR)),-lsundials_core)
+                 $(if $(SUNDIALS_CORE),-lsundials_core)
 
 ifneq ($(GSL_DIR),)
 GSL_CFLAGS := -I$(GSL_DIR)/include
@@ -102,8 +113,8 @@ X86_64 := $(filter x86_64-%,$(shell $(CC) -dumpmachine))
 endif
 
 SETS := base $(if $(X86_64),avx2 avx512)
-LIBS = $(SUNDIALS_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
-ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
+LIBS = $(SUNDIALS_LIBS) $(MPI_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
+ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(MPI_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
 LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
 # ---- Sources and products --------------------------------------------------------------------
@@ -147,12 +158,6 @@ FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(LIBS) $(FLAGS_avx2
 ifneq ($(FLAGS_TEXT),$(strip $(file <$(BUILD)/flags)))
 $(shell mkdir -p $(BUILD))
 $(file >$(BUILD)/flags,$(FLAGS_TEXT))
-endif
-ifeq ($(SUNDIALS_MAJOR),SUNDIALS_VERSION_MAJOR)
-SUNDIALS_MAJOR :=
-endif
-ifeq ($(SUNDIALS_MAJOR),)
-$(warning SUNDIALS was not found: run `make deps`, or set SUNDIALS_DIR)
 endif
 endif
 $(BUILD)/flags: ;
@@ -243,9 +248,9 @@ $(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
 	@mkdir -p $(@D)
 	@sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
 	  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
-	  -e 's|@REQUIRES@|$(strip $(GSL_PC) $(HDF5_PC))|' \
-	  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(GSL_PC),,$(GSL_LIBS)) \
-	      $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) -lm)|' pendres.pc.in >$@.new
+	  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
+	  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
+	      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) -lm)|' pendres.pc.in >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 install: all

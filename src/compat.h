@@ -30,13 +30,6 @@
 #error "SUNDIALS must be built for double precision"
 #endif
 
-#if PENDRES_COMPAT_SUNDIALS(6, 7)
-#include <sunadaptcontroller/sunadaptcontroller_soderlind.h>
-#endif
-#if PENDRES_COMPAT_SUNDIALS(7, 0)
-#include <sundials/sundials_logger.h>
-#endif
-
 #if !PENDRES_COMPAT_SUNDIALS(7, 0)
 static inline void pendres_compat_quiet(int code, const char *module, const char *function,
                                         char *message, void *arg)
@@ -54,12 +47,9 @@ static inline int pendres_compat_context_create(SUNContext *out)
 {
   *out = NULL;
 #if PENDRES_COMPAT_SUNDIALS(7, 0)
-  SUNLogger logger = NULL;
   if (SUNContext_Create(SUN_COMM_NULL, out) != 0) return -1;
-  /* Without handlers and without files nothing is written. */
-  if (SUNContext_ClearErrHandlers(*out) != 0 || SUNContext_GetLogger(*out, &logger) != 0 ||
-      SUNLogger_SetErrorFilename(logger, "") != 0 ||
-      SUNLogger_SetWarningFilename(logger, "") != 0) {
+  /* Errors go to the handlers, warnings straight to the logger: take both away. */
+  if (SUNContext_ClearErrHandlers(*out) != 0 || SUNContext_SetLogger(*out, NULL) != 0) {
     (void)SUNContext_Free(out);
     *out = NULL;
     return -1;
@@ -90,13 +80,60 @@ static inline int pendres_compat_silence(SUNContext sun, void *arkode_mem, void 
 }
 
 /*
- * Choose the PID step controller, all its numbers given: those of SUNDIALS 6.4, on the order of
- * the embedding. 0 on success.
+ * Choose the PID step controller of SUNDIALS 6.4, all its numbers given. Later releases count the
+ * order differently, hence the adjustment. Controllers as objects, which 7.x would rather see, do
+ * not belong to the integrator and would need an owner. 0 on success.
  */
+#if PENDRES_COMPAT_SUNDIALS(6, 7)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#endif
 static inline int pendres_compat_set_pid(void *arkode_mem)
 {
   sunrealtype k[3] = {0.58, 0.21, 0.1};
-  return ERKStepSetAdaptivityMethod(arkode_mem, ARK_ADAPT_PID, 0, 0, k);
+  int bad = ERKStepSetAdaptivityMethod(arkode_mem, ARK_ADAPT_PID, 0, 0, k);
+#if PENDRES_COMPAT_SUNDIALS(6, 7)
+  bad |= ERKStepSetAdaptivityAdjustment(arkode_mem, -1);
+#endif
+  return bad;
 }
+#if PENDRES_COMPAT_SUNDIALS(6, 7)
+#pragma GCC diagnostic pop
+#endif
+
+#if PENDRES_COMPAT_SUNDIALS(7, 1)
+#define ERKStepEvolve ARKodeEvolve
+#define ERKStepFree ARKodeFree
+#define ERKStepGetCurrentStep ARKodeGetCurrentStep
+#define ERKStepGetCurrentTime ARKodeGetCurrentTime
+#define ERKStepGetLastStep ARKodeGetLastStep
+#define ERKStepGetNumErrTestFails ARKodeGetNumErrTestFails
+#define ERKStepGetNumStepAttempts ARKodeGetNumStepAttempts
+#define ERKStepGetNumSteps ARKodeGetNumSteps
+#define ERKStepReset ARKodeReset
+#define ERKStepSStolerances ARKodeSStolerances
+#define ERKStepSetErrorBias ARKodeSetErrorBias
+#define ERKStepSetFixedStep ARKodeSetFixedStep
+#define ERKStepSetFixedStepBounds ARKodeSetFixedStepBounds
+#define ERKStepSetInitStep ARKodeSetInitStep
+#define ERKStepSetInterpolantDegree ARKodeSetInterpolantDegree
+#define ERKStepSetInterpolantType ARKodeSetInterpolantType
+#define ERKStepSetMaxEFailGrowth ARKodeSetMaxEFailGrowth
+#define ERKStepSetMaxErrTestFails ARKodeSetMaxErrTestFails
+#define ERKStepSetMaxFirstGrowth ARKodeSetMaxFirstGrowth
+#define ERKStepSetMaxGrowth ARKodeSetMaxGrowth
+#define ERKStepSetMaxHnilWarns ARKodeSetMaxHnilWarns
+#define ERKStepSetMaxNumSteps ARKodeSetMaxNumSteps
+#define ERKStepSetMaxStep ARKodeSetMaxStep
+#define ERKStepSetMinReduction ARKodeSetMinReduction
+#define ERKStepSetMinStep ARKodeSetMinStep
+#define ERKStepSetOrder ARKodeSetOrder
+#define ERKStepSetPostprocessStepFn ARKodeSetPostprocessStepFn
+#define ERKStepSetSafetyFactor ARKodeSetSafetyFactor
+#define ERKStepSetSmallNumEFails ARKodeSetSmallNumEFails
+#define ERKStepSetStopTime ARKodeSetStopTime
+#define ERKStepSetUserData ARKodeSetUserData
+#define ERKStepWFtolerances ARKodeWFtolerances
+#endif
 
 #endif
