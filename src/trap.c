@@ -15,7 +15,7 @@ enum {
   POINTS = 24,     /* of a ring */
   RINGS = 10,      /* tried at once */
   MOST_PASSES = 6, /* of rings, each set inside the former one */
-  MOST_LOOKS = 48  /* strobes of the q-th iterate before a ring is given up */
+  MOST_LOOKS = 24  /* strobes of the q-th iterate before a ring is given up */
 };
 
 /* Longest semi-axis of the outermost ring: well inside one turn, so that angles stay unique. */
@@ -155,7 +155,8 @@ static double ring_radius(int pass, int ring)
 typedef struct search {
   size_t orbit;
   int pass;
-  double proven; /* largest radius shown so far */
+  double proven;               /* largest radius shown */
+  unsigned holds[MOST_PASSES]; /* bit r: ring r of that pass came home */
 } search;
 
 /* Integrate the rings of all searches at once. */
@@ -189,16 +190,19 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, const search *s,
 static int judge(search *s, const point *rings, const pendres_orbit *o)
 {
   int base = -1;
-  for (int r = 0; r < RINGS && base < 0; r++)
+  s->holds[s->pass] = 0;
+  for (int r = 0; r < RINGS && base < 0; r++) {
     if (ring_linear(&rings[r * POINTS], o)) base = r;
+    if (ring_holds(&rings[r * POINTS])) s->holds[s->pass] |= 1u << r;
+  }
   if (base < 0) {
     s->pass++;
     return s->pass < MOST_PASSES; /* look again, further in */
   }
-  /* Every ring inside a linear one is linear; climb outwards from it. */
-  s->proven = rings[base * POINTS].radius;
-  for (int r = base - 1; r >= 0 && ring_holds(&rings[r * POINTS]); r--)
-    s->proven = rings[r * POINTS].radius;
+  /* Every ring inside a linear one is linear; climb outwards from it, over all passes. */
+  int rung = s->pass * RINGS + base;
+  while (rung > 0 && (s->holds[(rung - 1) / RINGS] >> ((rung - 1) % RINGS) & 1u)) rung--;
+  s->proven = ring_radius(rung / RINGS, rung % RINGS);
   return 0;
 }
 

@@ -10,5 +10,6 @@
 #include <pendres/context.h>
 #include <pendres/strobe.h>
 #include <pendres/orbit.h>
+#include <pendres/attractor.h>
 
 #endif

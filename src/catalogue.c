@@ -1,0 +1,378 @@
+/* catalogue.c -- the attractors of parameter sets, with their traps; see catalogue.h. */
+#include "catalogue.h"
+
+#include <pendres/strobe.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "context_internal.h"
+#include "steps.h"
+
+static const double pi = 3.14159265358979323846;
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+/* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
+   unless they are about to annihilate in a fold, where neither is an attractor much longer. */
+static const double same_point = 1e-6;
+/* Guesses closer than this lead to the same orbit, so one of them is enough. */
+static const double same_guess = 0.05;
+/* SA and LA are names for the response to the weak drives of the paper. */
+static const double strongest_named_drive = 0.25;
+
+const char *pendres_label_name(pendres_label label)
+{
+  static const char *const names[PENDRES_LABEL_COUNT] = {"sa",      "la",      "periodic",
+                                                         "running", "chaotic", "unresolved"};
+  return (unsigned)label < PENDRES_LABEL_COUNT ? names[label] : NULL;
+}
+
+void pendres_catalogue_clear(pendres_catalogue *c)
+{
+  free(c->attractors);
+  free(c->trap);
+  free(c->owner);
+  *c = (pendres_catalogue){.pendulum = c->pendulum};
+}
+
+int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane, long *well)
+{
+  for (size_t i = 0; i < c->traps; i++) {
+    const pendres_trap *t = &c->trap[i];
+    if (pendres_trap_norm2(t, lane->y, lane->w) > t->radius * t->radius) continue;
+    *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / two_pi);
+    return c->owner[i];
+  }
+  return -1;
+}
+
+/* ---- numbering and labels ---- */
+
+static int named_family(const pendres_orbit *o)
+{
+  return o->period == 1 && o->winding == 0 && o->symmetric &&
+         fabs(o->pendulum.drive_amplitude) <= strongest_named_drive;
+}
+
+/*
+ * By amplitude, then by Poincaré point; amplitudes of mirror images differ by rounding alone, and
+ * must not decide.
+ */
+static int physical_order(const void *a, const void *b)
+{
+  const pendres_orbit *p = &((const pendres_attractor *)a)->orbit;
+  const pendres_orbit *q = &((const pendres_attractor *)b)->orbit;
+  if (fabs(p->amplitude - q->amplitude) > 1e-7) return p->amplitude < q->amplitude ? -1 : 1;
+  if (fabs(p->x - q->x) > same_point) return p->x < q->x ? -1 : 1;
+  if (p->v != q->v) return p->v < q->v ? -1 : 1;
+  return 0;
+}
+
+static void label_all(pendres_catalogue *c)
+{
+  size_t named = 0;
+  for (size_t i = 0; i < c->count; i++) named += named_family(&c->attractors[i].orbit);
+  size_t rank = 0;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_orbit *o = &c->attractors[i].orbit;
+    pendres_label *label = &c->attractors[i].label;
+    if (o->winding != 0)
+      *label = PENDRES_LABEL_RUNNING;
+    else if (!named_family(o))
+      *label = PENDRES_LABEL_PERIODIC;
+    else if (named == 1)
+      *label = o->phase_lag < pi / 3.0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+    else
+      *label = rank++ == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+  }
+}
+
+/* Sort attractors, and let the traps follow their owners. */
+static pendres_status renumber(pendres_context *ctx, pendres_catalogue *c)
+{
+  pendres_attractor *sorted = malloc((c->count + 1) * sizeof *sorted);
+  if (sorted == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  memcpy(sorted, c->attractors, c->count * sizeof *sorted);
+  qsort(sorted, c->count, sizeof *sorted, physical_order);
+  for (size_t t = 0; t < c->traps; t++) {
+    const pendres_orbit *o = &c->attractors[c->owner[t]].orbit;
+    for (size_t i = 0; i < c->count; i++)
+      if (sorted[i].orbit.x == o->x && sorted[i].orbit.v == o->v) {
+        c->owner[t] = -1 - (int)i; /* marked as done */
+        break;
+      }
+  }
+  for (size_t t = 0; t < c->traps; t++)
+    if (c->owner[t] < 0) c->owner[t] = -1 - c->owner[t];
+  memcpy(c->attractors, sorted, c->count * sizeof *sorted);
+  free(sorted);
+  label_all(c);
+  return PENDRES_OK;
+}
+
+/* ---- adding orbits ---- */
+
+static double point_distance(const pendres_orbit *o, double x, double v)
+{
+  double dx = x - o->x;
+  dx -= two_pi * rint(dx / two_pi);
+  return hypot(dx, v - o->v);
+}
+
+/* Whether an orbit, or another point of the same orbit, is in the catalogue. */
+static int known(const pendres_catalogue *c, const pendres_orbit *o)
+{
+  for (size_t t = 0; t < c->traps; t++) {
+    const pendres_orbit *a = &c->attractors[c->owner[t]].orbit;
+    const double omega = o->pendulum.drive_frequency;
+    pendres_orbit here = *a;
+    here.x = c->trap[t].y + half_pi;
+    here.v = c->trap[t].w * omega;
+    if (a->period == o->period && a->winding == o->winding &&
+        point_distance(&here, o->x, o->v) < same_point)
+      return 1;
+  }
+  return 0;
+}
+
+static int reserve(pendres_catalogue *c, size_t more_traps)
+{
+  if (c->count == c->capacity) {
+    const size_t capacity = c->capacity + 4;
+    pendres_attractor *a = realloc(c->attractors, capacity * sizeof *a);
+    if (a == NULL) return -1;
+    c->attractors = a;
+    c->capacity = capacity;
+  }
+  if (c->traps + more_traps > c->trap_capacity) {
+    const size_t capacity = c->traps + more_traps + 4;
+    pendres_trap *t = realloc(c->trap, capacity * sizeof *t);
+    if (t != NULL) c->trap = t;
+    int *owner = realloc(c->owner, capacity * sizeof *owner);
+    if (owner != NULL) c->owner = owner;
+    if (t == NULL || owner == NULL) return -1;
+    c->trap_capacity = capacity;
+  }
+  return 0;
+}
+
+/* Whether an orbit of period q closes earlier already: it is then found under that period. */
+static int closes_earlier(const pendres_orbit *points, int q)
+{
+  for (int d = 1; d < q; d++)
+    if (q % d == 0 && point_distance(&points[0], points[d].x, points[d].v) < same_point) return 1;
+  return 0;
+}
+
+/*
+ * All Poincaré points of an orbit, each refined at its own place; points[0] is the given one.
+ * The one with the largest x represents it.
+ */
+static pendres_status all_points(pendres_context *ctx, const pendres_orbit *o,
+                                 pendres_orbit *points, int *complete)
+{
+  const int q = o->period;
+  double x = o->x, v = o->v;
+  *complete = 1;
+  points[0] = *o;
+  for (int j = 1; j < q; j++) {
+    pendres_status outcome = PENDRES_OK;
+    pendres_status status =
+      pendres_strobe_advance(ctx, 1, &o->pendulum, &x, &v, 1, NULL);
+    if (status != PENDRES_OK) return status;
+    const pendres_orbit_guess g = {
+      .pendulum = o->pendulum, .x = x, .v = v, .period = q, .winding = o->winding};
+    status = pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &points[j], &outcome);
+    if (status != PENDRES_OK) return status;
+    if (outcome == PENDRES_NOT_CONVERGED) *complete = 0;
+  }
+  if (*complete && closes_earlier(points, q)) *complete = 0;
+  return PENDRES_OK;
+}
+
+static pendres_status append(pendres_context *ctx, pendres_catalogue *c, const pendres_orbit *points,
+                             const pendres_trap *traps)
+{
+  const int q = points[0].period;
+  int representative = 0;
+  for (int j = 1; j < q; j++)
+    if (points[j].x > points[representative].x) representative = j;
+  if (reserve(c, (size_t)q) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  pendres_attractor *a = &c->attractors[c->count];
+  const double rate = log(hypot(points[0].multiplier_re[0], points[0].multiplier_im[0]));
+  *a = (pendres_attractor){
+    .orbit = points[representative],
+    .trap_radius = traps[representative].radius,
+    .lyapunov = rate * points[0].pendulum.drive_frequency / (two_pi * q)};
+  memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
+  for (int j = 0; j < q; j++) {
+    c->trap[c->traps] = traps[j];
+    c->owner[c->traps++] = (int)c->count;
+  }
+  c->count++;
+  return PENDRES_OK;
+}
+
+/* One stable orbit that may be new. */
+static pendres_status add_orbit(pendres_context *ctx, pendres_catalogue *c, const pendres_orbit *o,
+                                const pendres_trap *trap)
+{
+  if (known(c, o)) return PENDRES_OK;
+  if (o->period == 1) return append(ctx, c, o, trap);
+
+  int complete = 0;
+  pendres_orbit *points = malloc((size_t)o->period * sizeof *points);
+  pendres_trap *traps = malloc((size_t)o->period * sizeof *traps);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (points == NULL || traps == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for an orbit");
+  else
+    status = all_points(ctx, o, points, &complete);
+  if (status == PENDRES_OK && complete) {
+    status = pendres_trap_find(ctx, (size_t)o->period, points, 0, traps);
+    if (status == PENDRES_OK) status = append(ctx, c, points, traps);
+  }
+  free(points);
+  free(traps);
+  return status;
+}
+
+/* Guesses of one set near an earlier guess are left out. */
+static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_catalogue *c,
+                               pendres_orbit_guess *g, size_t *set)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    const pendres_pendulum *p = &c[s[i].set].pendulum;
+    int new = 1;
+    for (size_t j = count; j-- > 0 && set[j] == s[i].set && new;) {
+      double dx = g[j].x - half_pi - s[i].y;
+      dx -= two_pi * rint(dx / two_pi);
+      new = g[j].period != s[i].period || g[j].winding != s[i].winding ||
+            hypot(dx, g[j].v - s[i].w * p->drive_frequency) > same_guess;
+    }
+    if (!new) continue;
+    set[count] = s[i].set;
+    g[count++] = (pendres_orbit_guess){.pendulum = *p,
+                                       .x = s[i].y + half_pi,
+                                       .v = s[i].w * p->drive_frequency,
+                                       .period = s[i].period,
+                                       .winding = s[i].winding};
+  }
+  return count;
+}
+
+/* Keep the stable orbits, drop repetitions within a set. */
+static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set, const pendres_status *outcome)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (outcome[i] == PENDRES_NOT_CONVERGED || !o[i].stable) continue;
+    int new = 1;
+    for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
+      new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
+            point_distance(&o[j], o[i].x, o[i].v) > same_point;
+    if (!new) continue;
+    set[count] = set[i];
+    o[count++] = o[i];
+  }
+  return count;
+}
+
+pendres_status pendres_catalogue_add(pendres_context *ctx, size_t sets,
+                                     pendres_catalogue *catalogues, size_t n,
+                                     const pendres_scout *guesses)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  pendres_orbit_guess *g = calloc(n, sizeof *g);
+  pendres_orbit *orbits = malloc(n * sizeof *orbits);
+  pendres_status *outcome = malloc(n * sizeof *outcome);
+  pendres_trap *traps = malloc(n * sizeof *traps);
+  size_t *set = malloc(n * sizeof *set);
+  if (g == NULL || orbits == NULL || outcome == NULL || traps == NULL || set == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
+    goto done;
+  }
+  size_t count = distinct_guesses(n, guesses, catalogues, g, set);
+  status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
+  if (status != PENDRES_OK) goto done;
+  count = distinct_orbits(count, orbits, set, outcome);
+  status = pendres_trap_find(ctx, count, orbits, 0, traps);
+  for (size_t i = 0; i < count && status == PENDRES_OK; i++)
+    status = add_orbit(ctx, &catalogues[set[i]], &orbits[i], &traps[i]);
+  for (size_t i = 0; i < sets && status == PENDRES_OK; i++) status = renumber(ctx, &catalogues[i]);
+done:
+  free(g);
+  free(orbits);
+  free(outcome);
+  free(traps);
+  free(set);
+  return status;
+}
+
+/* ---- scouts ---- */
+
+typedef struct scouting {
+  pendres_scout *scouts;
+  const long *periods; /* of each set */
+  double *before;      /* unwrapped angle one period ago */
+} scouting;
+
+static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const scouting *s = arg;
+  pendres_scout *me = &s->scouts[index];
+  const double angle = lane->y + two_pi * (double)lane->turns;
+  const double advance = angle - s->before[index];
+  s->before[index] = angle;
+  if (lane->period < s->periods[me->set]) return 0;
+  me->y = lane->y;
+  me->w = lane->w;
+  me->period = 1;
+  me->winding = (int)rint(advance / two_pi);
+  return 1;
+}
+
+/* Periods after which a transient has faded to a hundredth, within reason. */
+static long scouting_periods(const pendres_pendulum *p)
+{
+  const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
+  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), 60.0));
+}
+
+pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
+                                         pendres_catalogue *catalogues, size_t n,
+                                         pendres_scout *scouts)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
+  long *periods = malloc((sets + 1) * sizeof *periods);
+  double *before = malloc(n * sizeof *before);
+  if (lanes == NULL || periods == NULL || before == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu scouts", n);
+    goto done;
+  }
+  for (size_t i = 0; i < sets; i++) periods[i] = scouting_periods(&catalogues[i].pendulum);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum *p = &catalogues[scouts[i].set].pendulum;
+    lanes[i] = (pendres_strobe_lane){.pendulum = p, .y = scouts[i].y, .w = scouts[i].w};
+    before[i] = scouts[i].y;
+    /* Scouts only have to come near: Newton's method does the rest. */
+    status = pendres_steps_choose(ctx, p, fabs(scouts[i].w) * p->drive_frequency, 1e-4,
+                                  &lanes[i].steps);
+  }
+  scouting s = {.scouts = scouts, .periods = periods, .before = before};
+  if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, scout_look, &s);
+  if (status == PENDRES_OK) status = pendres_catalogue_add(ctx, sets, catalogues, n, scouts);
+done:
+  free(lanes);
+  free(periods);
+  free(before);
+  return status;
+}
