@@ -1,0 +1,56 @@
+/*
+ * store_file.h -- the file below a store: a part file that becomes the real one at the end.
+ *
+ * Owns: the descriptor, its lock, what failed first, and the bytes that could not be written.
+ */
+#ifndef PENDRES_STORE_FILE_H
+#define PENDRES_STORE_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <pendres/status.h>
+
+enum { PENDRES_STORE_WHY = 512 };
+
+/* Bytes that the disk refused, newest first. */
+typedef struct pendres_store_refused {
+  struct pendres_store_refused *next;
+  uint64_t offset;
+  size_t size;
+  unsigned char bytes[];
+} pendres_store_refused;
+
+typedef struct pendres_store_file {
+  char *path; /* what the user asked for */
+  char *part; /* what is written: path with ".part" behind it */
+  int fd;     /* -1 when closed */
+  int error;  /* errno of the first failure, 0 if none; sticky */
+  pendres_store_refused *refused;
+  char why[PENDRES_STORE_WHY]; /* the sentence on the last failure */
+} pendres_store_file;
+
+/* Open and lock the part file, and empty it. file is zeroed first; destroy it in any case. */
+pendres_status pendres_store_file_create(pendres_store_file *file, const char *path);
+
+/* Close what is open and free; the part file stays where it is. */
+void pendres_store_file_destroy(pendres_store_file *file);
+
+/* Close the part file if it is open, and remove it unless `keep`. */
+void pendres_store_file_abandon(pendres_store_file *file, int keep);
+
+/* Everything to the disk, close, rename to path, and the folder to the disk. *whole is set once
+ * the part is complete on disk, even where the rename then fails. */
+pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole);
+
+/*
+ * Read and write at an offset. A write that the disk refuses is remembered in memory and counts as
+ * done: `error` tells. HDF5 cannot close a file whose last writes fail; this way it can.
+ * Reading beyond the end gives zeros. All three return 0, or -1 when even that is impossible.
+ */
+int pendres_store_file_write(pendres_store_file *file, uint64_t offset, size_t size,
+                             const void *bytes);
+int pendres_store_file_read(pendres_store_file *file, uint64_t offset, size_t size, void *bytes);
+int pendres_store_file_resize(pendres_store_file *file, uint64_t size);
+
+#endif

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Check that h5py and xarray, with both of its engines, open every group of a result file.
+
+    store_readers.py FILE...
+
+Exit code 0: all is well; 1: it is not, and stderr says what; 77: a module is missing.
+"""
+import subprocess
+import sys
+
+ATTRIBUTES = ("Conventions",)
+MODULES = ("h5py", "numpy", "xarray", "h5netcdf", "netCDF4")
+
+
+def groups_of(name):
+    """Paths of all groups, the root first."""
+    import h5py
+    with h5py.File(name, "r") as f:
+        found = ["/"]
+        f.visititems(lambda path, item: found.append("/" + path)
+                     if isinstance(item, h5py.Group) else None)
+    return found
+
+
+def check_h5py(name):
+    """Each dimension has one scale in its own group; units and long_name everywhere."""
+    import h5py
+    wrong = []
+
+    def look(path, item):
+        if isinstance(item, h5py.Group):
+            if not item.id.get_create_plist().get_link_creation_order():
+                wrong.append(f"{path}: link creation order is not tracked")
+            return
+        for attribute in ("units", "long_name"):
+            if not isinstance(item.attrs.get(attribute), str):
+                wrong.append(f"{path}: no text '{attribute}'")
+        if item.dtype.kind == "i" and item.dtype.itemsize == 1 and "_FillValue" in item.attrs:
+            wrong.append(f"{path}: labels have a fill value")
+        if "flag_values" in item.attrs:
+            values, meanings = item.attrs["flag_values"], item.attrs["flag_meanings"].split()
+            if values.dtype != item.dtype or len(values) != len(meanings):
+                wrong.append(f"{path}: flag_values and flag_meanings do not fit")
+        if h5py.h5ds.is_scale(item.id):
+            if item.ndim != 1 or item.shape is None:
+                wrong.append(f"{path}: a scale must be one-dimensional")
+            return
+        for k, dimension in enumerate(item.dims):
+            if len(dimension) != 1:
+                wrong.append(f"{path}: dimension {k} has {len(dimension)} scales")
+            elif dimension[0].parent != item.parent:
+                wrong.append(f"{path}: the scale of dimension {k} is in another group")
+            elif dimension[0].shape != (item.shape[k],):
+                wrong.append(f"{path}: the scale of dimension {k} has another size")
+
+    with h5py.File(name, "r") as f:
+        for attribute in ATTRIBUTES:
+            if not isinstance(f.attrs.get(attribute), str):
+                wrong.append(f"/: no text '{attribute}'")
+        f.visititems(look)
+    return wrong
+
+
+def check_xarray(name, engine):
+    """Each group opens, without invented dimensions, with the values that h5py reads."""
+    import h5py
+    import numpy
+    import xarray
+    wrong = []
+    for group in groups_of(name):
+        with xarray.open_dataset(name, engine=engine, group=group) as data:
+            for dimension in data.sizes:
+                if dimension not in data.coords:
+                    wrong.append(f"{engine} {group}: dimension {dimension} has no coordinate")
+            with h5py.File(name, "r") as f:
+                wanted = {key: item[()] for key, item in f[group].items()
+                          if isinstance(item, h5py.Dataset)}
+            if set(wanted) != set(data.variables):
+                differing = sorted(set(wanted) ^ set(data.variables))
+                wrong.append(f"{engine} {group}: variables differ: {differing}")
+                continue
+            for key, values in wanted.items():
+                variable = data[key].values
+                if "phony" in " ".join(map(str, data[key].dims)):
+                    wrong.append(f"{engine} {group}: {key} has invented dimensions")
+                if getattr(values, "dtype", None) is not None and values.dtype.kind in "if":
+                    same = numpy.array_equal(values, variable, equal_nan=values.dtype.kind == "f")
+                    if variable.dtype != values.dtype or not same:
+                        wrong.append(f"{engine} {group}: {key} differs ({variable.dtype})")
+                else:
+                    texts = [t.decode() for t in numpy.ravel(numpy.array(values, dtype=object))]
+                    if texts != [str(t) for t in numpy.ravel(variable)]:
+                        wrong.append(f"{engine} {group}: text {key} differs")
+    return wrong
+
+
+def check_one(how, name):
+    wrong = check_h5py(name) if how == "h5py" else check_xarray(name, how)
+    for line in wrong:
+        print(line, file=sys.stderr)
+    return 1 if wrong else 0
+
+
+def main(arguments):
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(__doc__)
+        return 0 if arguments else 2
+    if arguments[0] == "--one":
+        return check_one(*arguments[1:])
+    import importlib.util
+    missing = [m for m in MODULES if importlib.util.find_spec(m) is None]
+    if missing:
+        print("skipped, missing: " + ", ".join(missing))
+        return 77
+    failed = 0
+    for name in arguments:
+        for how in ("h5py", "h5netcdf", "netcdf4"):
+            # Of its own, since a library may take the whole process with it.
+            code = subprocess.run([sys.executable, __file__, "--one", how, name]).returncode
+            print(f"{'ok' if code == 0 else 'FAILED'} {how} {name}")
+            failed += code != 0
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

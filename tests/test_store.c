@@ -1,0 +1,983 @@
+/*
+ * test_store.c -- files are self-describing, equal for equal input, and whole or absent.
+ *
+ * Values are compared exactly: a store must give back the bits it was given.
+ */
+#ifndef _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE /* mkdtemp, seteuid */
+#endif
+
+#include "check.h"
+#include "store_internal.h" /* to look at HDF5's own state */
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* The call comes first: it may set the store. */
+#define WITH_STATUS(call, check)                                                                  \
+  do {                                                                                            \
+    const pendres_status status_ = (call);                                                        \
+    check;                                                                                        \
+  } while (0)
+#define OK(call) WITH_STATUS(call, check_store_at(status_, store, #call, __FILE__, __LINE__))
+#define REFUSED(call, words)                                                                      \
+  WITH_STATUS(call, check_refused_at(status_, PENDRES_INVALID_ARGUMENT, store, (words), #call,    \
+                                     __FILE__, __LINE__))
+#define MISSING(call, words)                                                                      \
+  WITH_STATUS(call, check_refused_at(status_, PENDRES_NOT_FOUND, store, (words), #call, __FILE__, \
+                                     __LINE__))
+#define LENGTH(array) (sizeof(array) / sizeof(array)[0])
+
+enum { PATH_ROOM = 256 };
+
+static char folder[PATH_ROOM / 2];
+
+static void check_store_at(pendres_status status, const pendres_store *store, const char *what,
+                           const char *file, int line)
+{
+  if (status == PENDRES_OK) return;
+  print_error("%s:%d: %s: status %d, %s\n", file, line, what, (int)status,
+              pendres_store_message(store));
+  fail();
+}
+
+/* The call failed so, and its message holds the words. */
+static void check_refused_at(pendres_status status, pendres_status wanted,
+                             const pendres_store *store, const char *words, const char *what,
+                             const char *file, int line)
+{
+  if (status == wanted && strstr(pendres_store_message(store), words)) return;
+  print_error("%s:%d: %s: status %d (wanted %d), message '%s' (wanted '%s')\n", file, line, what,
+              (int)status, (int)wanted, pendres_store_message(store), words);
+  fail();
+}
+
+/* ---- Files ----------------------------------------------------------------------------------- */
+
+static const char *in_folder(char path[PATH_ROOM], const char *name)
+{
+  snprintf(path, PATH_ROOM, "%s/%s", folder, name);
+  return path;
+}
+
+static int exists(const char *path)
+{
+  struct stat info;
+
+  return !lstat(path, &info);
+}
+
+static void write_file(const char *path, const char *text)
+{
+  FILE *f = fopen(path, "wb");
+
+  assert_non_null(f);
+  assert_int_equal(fputs(text, f) >= 0, 1);
+  assert_int_equal(fclose(f), 0);
+}
+
+/* malloc'd contents. */
+static char *read_file(const char *path, size_t *size)
+{
+  FILE *f = fopen(path, "rb");
+  char *bytes = NULL;
+  long end;
+
+  assert_non_null(f);
+  assert_int_equal(fseek(f, 0, SEEK_END), 0);
+  end = ftell(f);
+  assert_true(end >= 0);
+  rewind(f);
+  bytes = malloc((size_t)end + 1);
+  assert_non_null(bytes);
+  assert_int_equal(fread(bytes, 1, (size_t)end, f), end);
+  bytes[end] = '\0';
+  fclose(f);
+  *size = (size_t)end;
+  return bytes;
+}
+
+static void check_contents(const char *path, const char *text)
+{
+  size_t size;
+  char *bytes = read_file(path, &size);
+
+  assert_string_equal(bytes, text);
+  free(bytes);
+}
+
+static void check_same_bytes(const char *one, const char *other)
+{
+  size_t size, other_size;
+  char *bytes = read_file(one, &size), *other_bytes = read_file(other, &other_size);
+
+  assert_int_equal(size, other_size);
+  assert_memory_equal(bytes, other_bytes, size);
+  free(bytes);
+  free(other_bytes);
+}
+
+static int make_folder(void **state)
+{
+  const char *base = getenv("TMPDIR");
+
+  (void)state;
+  snprintf(folder, sizeof folder, "%.80s/test_store.XXXXXX", base && *base ? base : "/tmp");
+  return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+  DIR *d = opendir(folder);
+  struct dirent *entry;
+
+  (void)state;
+  while (d && (entry = readdir(d))) {
+    char path[2 * PATH_ROOM];
+
+    snprintf(path, sizeof path, "%s/%.200s", folder, entry->d_name);
+    if (entry->d_name[0] != '.') remove(path);
+  }
+  if (d) closedir(d);
+  return rmdir(folder);
+}
+
+/* Nothing of HDF5 stays open after any test: not after failures either. */
+static int nothing_open(void **state)
+{
+  (void)state;
+  return H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0 ? 0 : -1;
+}
+
+/* ---- A file with one of everything ----------------------------------------------------------- */
+
+enum { DAMPINGS = 3, PERIODS = 700, WIDE = 300000 };
+
+static const double damping[DAMPINGS] = { 0.06, 0.1 + 0.2, 1.0 };
+static const char *const meanings[] = { "sa", "la", "unresolved" };
+static const int8_t codes[] = { 0, 1, -1 };
+static const char *const methods[] = { "block_fixed", "gsl_rk8pd" };
+
+static double area(size_t i)
+{
+  return sin(0.37 * (double)i) / 3;
+}
+
+static void write_root(pendres_store *store)
+{
+  const double scalar = 1.0 / 3, scalar_error = 1e-9;
+  double *areas = malloc(DAMPINGS * PERIODS * sizeof *areas);
+  double *errors = malloc(DAMPINGS * PERIODS * sizeof *errors);
+  int8_t labels[DAMPINGS] = { 1, 0, -1 };
+  int id = -1, error_id = -1;
+  const pendres_store_spec loop_area = { .name = "mean_loop_area", .units = "1",
+    .dimensions = { "damping", "drive_period" }, .long_name = "mean area of the loops",
+    .coordinates = "drive_frequency", .comment = "a comment" };
+
+  assert_non_null(areas);
+  assert_non_null(errors);
+  for (size_t i = 0; i < DAMPINGS * PERIODS; i++) {
+    areas[i] = i == 5 ? NAN : area(i);
+    errors[i] = 1e-9 * (double)i;
+  }
+  OK(pendres_store_dimension(store, NULL, "damping", DAMPINGS, damping, "damping", "1"));
+  OK(pendres_store_dimension(store, "/", "drive_period", PERIODS, NULL, "number of the period",
+                             NULL));
+  OK(pendres_store_dimension_text(store, "", "method", 2, methods, "method"));
+  OK(pendres_store_result(store, &loop_area, &id, &error_id));
+  /* Rows in any order, some twice. */
+  for (uint64_t r = DAMPINGS; r-- > 0;) {
+    OK(pendres_store_write_rows(store, id, r, 1, areas + r * PERIODS, PERIODS));
+    OK(pendres_store_write_rows(store, id, r, 1, areas + r * PERIODS, PERIODS));
+  }
+  OK(pendres_store_write(store, error_id, errors, DAMPINGS * PERIODS));
+  OK(pendres_store_put_result(store, &(pendres_store_spec){ .name = "cusp_damping",
+       .long_name = "damping at the cusp" }, &scalar, &scalar_error, 1));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "label", .type = PENDRES_STORE_INT8,
+       .dimensions = { "damping" }, .long_name = "attractor", .flag_count = LENGTH(meanings),
+       .flag_values = codes, .flag_meanings = meanings }, labels, DAMPINGS));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "method_title",
+       .type = PENDRES_STORE_STRING, .dimensions = { "method" }, .long_name = "title" },
+       methods, 2));
+  free(areas);
+  free(errors);
+}
+
+/* Groups of groups, a dimension without points, an axis of its own beside the root's. */
+static void write_groups(pendres_store *store)
+{
+  const int64_t index[] = { -5, 0, INT64_MAX };
+  const int32_t turns[] = { INT32_MIN, 7, 0 };
+  const double none = 0;
+  int id = -1;
+
+  OK(pendres_store_group(store, "paper"));
+  OK(pendres_store_group(store, "paper"));
+  OK(pendres_store_dimension_integer(store, "paper/fig2", "point", 3, index, "point", "1"));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .group = "/paper/fig2/", .name = "turns",
+       .type = PENDRES_STORE_INT32, .dimensions = { "point" }, .long_name = "turns" }, turns, 3));
+  OK(pendres_store_dimension(store, "paper", "damping", DAMPINGS, damping, "damping", "1"));
+  OK(pendres_store_dimension(store, "paper", "fold", 0, NULL, "fold", "1"));
+  OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "paper",
+       .name = "fold_damping", .dimensions = { "damping", "fold" },
+       .long_name = "damping of the fold" }, &id));
+  OK(pendres_store_write(store, id, &none, 0));
+}
+
+/* One variable whose rows are longer than a chunk may be, one of many short rows. */
+static void write_large(pendres_store *store)
+{
+  double *wide = malloc(2 * WIDE * sizeof *wide);
+  int64_t *tall = malloc(WIDE * sizeof *tall);
+
+  assert_non_null(wide);
+  assert_non_null(tall);
+  for (size_t i = 0; i < 2 * WIDE; i++) wide[i] = (double)(i / 1000);
+  for (size_t i = 0; i < WIDE; i++) tall[i] = (int64_t)(i / 100);
+  OK(pendres_store_dimension(store, "large", "side", 2, NULL, "side", NULL));
+  OK(pendres_store_dimension(store, "large", "sample", WIDE, NULL, "sample", NULL));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "wide",
+       .dimensions = { "side", "sample" }, .long_name = "wide" }, wide, 2 * WIDE));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "tall",
+       .type = PENDRES_STORE_INT64, .dimensions = { "sample" }, .long_name = "tall" },
+       tall, WIDE));
+  free(wide);
+  free(tall);
+}
+
+static void write_provenance(pendres_store *store)
+{
+  const pendres_store_entry entries[] = {
+    { .key = "deck", .text = "&scene\n  title = 'caf\xe9 \xc3\xa9'\n/\n" },
+    { .key = "wall_time", .number = 1.5, .units = "s", .long_name = "time of the run" },
+    { .key = "seed", .integer = -42, .is_integer = 1 },
+  };
+
+  OK(pendres_store_provenance(store, entries, LENGTH(entries)));
+  OK(pendres_store_attribute_text(store, NULL, NULL, "title", "a better title"));
+  OK(pendres_store_attribute_double(store, "paper", "damping", "largest", 0.1));
+  OK(pendres_store_attribute_integer(store, "paper", NULL, "figure", 2));
+}
+
+static void write_all(const char *path)
+{
+  pendres_store *store = NULL;
+
+  OK(pendres_store_create(path, &(pendres_store_options){ .title = "a title", .source = "test",
+       .history = "made by a test", .references = "none" }, &store));
+  write_root(store);
+  write_groups(store);
+  write_large(store);
+  write_provenance(store);
+  OK(pendres_store_flush(store));
+  OK(pendres_store_close(store));
+  assert_string_equal(pendres_store_message(store), "");
+  pendres_store_free(store);
+}
+
+static void check_text(pendres_store *store, const char *group, const char *object,
+                       const char *attribute, const char *wanted)
+{
+  char *text = NULL;
+
+  if (attribute)
+    OK(pendres_store_read_attribute_text(store, group, object, attribute, &text));
+  else
+    OK(pendres_store_read_text(store, group, object, 0, &text));
+  assert_string_equal(text, wanted);
+  free(text);
+}
+
+static void what_is_written_is_read(void **state)
+{
+  char path[PATH_ROOM], part[PATH_ROOM];
+  static double areas[DAMPINGS * PERIODS];
+  int64_t index[PERIODS];
+  int32_t turns[3];
+  int8_t labels[DAMPINGS];
+  double number = 0, rows[DAMPINGS];
+  uint64_t sizes[PENDRES_STORE_RANK];
+  int rank = -1;
+  char *text = NULL;
+  pendres_store *store = NULL;
+
+  (void)state;
+  write_all(in_folder(path, "all.h5"));
+  assert_false(exists(in_folder(part, "all.h5.part")));
+
+  OK(pendres_store_open(path, &store));
+  OK(pendres_store_shape(store, "", "mean_loop_area_error", &rank, sizes));
+  assert_int_equal(rank, 2);
+  assert_int_equal(sizes[0], DAMPINGS);
+  assert_int_equal(sizes[1], PERIODS);
+  assert_int_equal(sizes[2], 1);
+  OK(pendres_store_read(store, "", "mean_loop_area", PENDRES_STORE_DOUBLE, areas, LENGTH(areas)));
+  for (size_t i = 0; i < LENGTH(areas); i++)
+    assert_true(i == 5 ? isnan(areas[i]) : areas[i] == area(i));
+  OK(pendres_store_read_rows(store, "", "mean_loop_area_error", PENDRES_STORE_DOUBLE, 2, 1, areas,
+                             PERIODS));
+  assert_true(areas[3] == 1e-9 * (2 * PERIODS + 3));
+  OK(pendres_store_read(store, "", "damping", PENDRES_STORE_DOUBLE, rows, DAMPINGS));
+  assert_memory_equal(rows, damping, sizeof damping);
+  OK(pendres_store_read(store, "", "drive_period", PENDRES_STORE_INT64, index, PERIODS));
+  for (int i = 0; i < PERIODS; i++) assert_int_equal(index[i], i);
+  OK(pendres_store_read(store, "", "label", PENDRES_STORE_INT8, labels, DAMPINGS));
+  assert_int_equal(labels[0], 1);
+  assert_int_equal(labels[2], -1);
+  OK(pendres_store_read(store, "", "label", PENDRES_STORE_DOUBLE, rows, DAMPINGS));
+  assert_true(rows[2] == -1); /* numbers are converted */
+  OK(pendres_store_read(store, "", "cusp_damping", PENDRES_STORE_DOUBLE, &number, 1));
+  assert_true(number == 1.0 / 3);
+  OK(pendres_store_read(store, "paper/fig2", "turns", PENDRES_STORE_INT32, turns, 3));
+  assert_int_equal(turns[0], INT32_MIN);
+  OK(pendres_store_read(store, "paper/fig2", "point", PENDRES_STORE_INT64, index, 3));
+  assert_true(index[2] == INT64_MAX);
+  OK(pendres_store_read(store, "paper", "fold_damping", PENDRES_STORE_DOUBLE, NULL, 0));
+  REFUSED(pendres_store_read(store, "large", "wide", PENDRES_STORE_DOUBLE, NULL, 0), "room for");
+  OK(pendres_store_read_text(store, "", "method_title", 1, &text));
+  assert_string_equal(text, "gsl_rk8pd");
+  free(text);
+  check_text(store, "", "cusp_damping_error", "long_name", "error estimate of damping at the cusp");
+  check_text(store, "", "cusp_damping", "ancillary_variables", "cusp_damping_error");
+  check_text(store, "", "cusp_damping", "units", "1");
+  check_text(store, "", "label", "flag_meanings", "sa la unresolved");
+  check_text(store, "", "mean_loop_area", "coordinates", "drive_frequency");
+  check_text(store, "", NULL, "Conventions", "CF-1.8");
+  check_text(store, "", NULL, "title", "a better title"); /* replaced */
+  check_text(store, "provenance", "wall_time", "units", "s");
+  /* The stray Latin-1 byte became UTF-8, the UTF-8 beside it stayed. */
+  check_text(store, "provenance", "deck", NULL,
+             "&scene\n  title = 'caf\xc3\xa9 \xc3\xa9'\n/\n");
+  OK(pendres_store_read(store, "provenance", "seed", PENDRES_STORE_INT64, index, 1));
+  assert_int_equal(index[0], -42);
+  OK(pendres_store_read_attribute_double(store, "paper", "damping", "largest", &number));
+  assert_true(number == 0.1);
+  OK(pendres_store_read_attribute_double(store, "paper", NULL, "figure", &number));
+  assert_true(number == 2);
+  assert_int_equal(pendres_store_has(store, "paper", "turns"), 0);
+  assert_int_equal(pendres_store_has(store, "paper/fig2", "turns"), 1);
+  assert_int_equal(pendres_store_has(store, "paper/fig2", NULL), 1);
+  assert_int_equal(pendres_store_has(store, "no/such/group", "turns"), 0);
+  pendres_store_free(store);
+}
+
+static void large_arrays_are_read_and_compressed(void **state)
+{
+  char path[PATH_ROOM];
+  double *wide = malloc(2 * WIDE * sizeof *wide);
+  int64_t *tall = malloc(WIDE * sizeof *tall);
+  hsize_t chunk[2];
+  hid_t id, creation;
+  pendres_store *store = NULL;
+
+  (void)state;
+  assert_non_null(wide);
+  assert_non_null(tall);
+  write_all(in_folder(path, "all.h5"));
+  OK(pendres_store_open(path, &store));
+  OK(pendres_store_read(store, "large", "wide", PENDRES_STORE_DOUBLE, wide, 2 * WIDE));
+  for (size_t i = 0; i < 2 * WIDE; i++) assert_true(wide[i] == (double)(i / 1000));
+  OK(pendres_store_read(store, "large", "tall", PENDRES_STORE_INT64, tall, WIDE));
+  for (size_t i = 0; i < WIDE; i++) assert_true(tall[i] == (int64_t)(i / 100));
+
+  id = H5Dopen2(store->h5, "large/wide", H5P_DEFAULT);
+  creation = H5Dget_create_plist(id);
+  assert_int_equal(H5Pget_chunk(creation, 2, chunk), 2);
+  assert_int_equal(chunk[0], 1);
+  assert_true(chunk[1] * sizeof(double) <= 1024 * 1024);
+  assert_int_equal(H5Pget_nfilters(creation), 2);
+  /* Steps of 1000 equal numbers: anything above a tenth would mean that no filter ran. */
+  assert_true(H5Dget_storage_size(id) < 2 * WIDE * sizeof(double) / 10);
+  H5Pclose(creation);
+  H5Dclose(id);
+
+  id = H5Dopen2(store->h5, "mean_loop_area", H5P_DEFAULT);
+  creation = H5Dget_create_plist(id);
+  assert_int_equal(H5Pget_chunk(creation, 2, chunk), 2);
+  assert_int_equal(chunk[1], PERIODS); /* whole rows */
+  H5Pclose(creation);
+  H5Dclose(id);
+  pendres_store_free(store);
+  free(wide);
+  free(tall);
+}
+
+static void equal_runs_give_equal_bytes(void **state)
+{
+  char one[PATH_ROOM], other[PATH_ROOM];
+
+  (void)state;
+  write_all(in_folder(one, "one.h5"));
+  sleep(1); /* past the next tick of a time stamp, if there were any */
+  write_all(in_folder(other, "other.h5"));
+  check_same_bytes(one, other);
+}
+
+/* Python's readers, where they are installed. The program can be named by $PYTHON. */
+static void python_opens_every_group(void **state)
+{
+  const char *const pythons[] = { getenv("PYTHON"), "python3", "/usr/bin/python3" };
+  char path[PATH_ROOM], command[3 * PATH_ROOM];
+  int result = 77;
+
+  (void)state;
+  write_all(in_folder(path, "all.h5"));
+  for (size_t i = 0; i < LENGTH(pythons) && result != 0; i++) {
+    int code;
+
+    if (!pythons[i]) continue;
+    snprintf(command, sizeof command, "%.200s tests/store_readers.py %s", pythons[i], path);
+    code = system(command);
+    if (WIFEXITED(code) && WEXITSTATUS(code) == 127) continue; /* no such program */
+    result = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
+    if (result != 77) break;
+  }
+  if (result == 77) skip();
+  assert_int_equal(result, 0);
+}
+
+/* ---- Refusals -------------------------------------------------------------------------------- */
+
+/* The same file twice: once with every mistake in between. */
+static void write_small(const char *path, void (*mistakes)(pendres_store *store, int id))
+{
+  const double values[2] = { 1, 2 };
+  pendres_store *store = NULL;
+  int id = -1;
+
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_dimension(store, "a", "x", 2, values, "x", "1"));
+  OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "a", .name = "y",
+       .dimensions = { "x" }, .long_name = "y" }, &id));
+  if (mistakes) mistakes(store, id);
+  OK(pendres_store_write(store, id, values, 2));
+  OK(pendres_store_close(store));
+  pendres_store_free(store);
+}
+
+static void wrong_definitions(pendres_store *store, int id)
+{
+  const double values[4] = { 0 };
+  const char *const odd[] = { "two words" };
+  int made = 7, error_made = 7;
+  pendres_store_spec spec = { .group = "a", .name = "z", .dimensions = { "x" },
+                              .long_name = "z" };
+
+#define SPEC(change, words)                                                                       \
+  do {                                                                                            \
+    pendres_store_spec kept = spec;                                                               \
+    change;                                                                                       \
+    REFUSED(pendres_store_variable(store, &spec, &made), words);                                  \
+    assert_int_equal(made, -1);                                                                   \
+    spec = kept;                                                                                  \
+  } while (0)
+  SPEC(spec.name = "y", "exists already");
+  SPEC(spec.name = "x", "exists already");
+  SPEC(spec.name = NULL, "not a name");
+  SPEC(spec.name = "", "not a name");
+  SPEC(spec.name = "a/b", "not a name");
+  SPEC(spec.name = "2z", "not a name");
+  SPEC(spec.name = "\xc3\xa9", "not a name");
+  SPEC(spec.long_name = NULL, "long_name");
+  SPEC(spec.long_name = "", "long_name");
+  SPEC(spec.dimensions[1] = "nowhere", "no dimension 'nowhere'");
+  SPEC(spec.dimensions[1] = "x", "twice");
+  SPEC(spec.dimensions[0] = "y", "no dimension 'y'");
+  SPEC(spec.group = NULL, "no dimension 'x'"); /* that of another group does not count */
+  SPEC(spec.group = "new", "no dimension 'x'");
+  SPEC(spec.group = "a/y", "is a variable");
+  SPEC(spec.group = "a/y/b", "is a variable");
+  SPEC(spec.group = "a//b", "not a path");
+  SPEC(spec.group = "a b", "not a path");
+  SPEC(spec.type = PENDRES_STORE_TYPE_COUNT, "type");
+  SPEC(spec.deflate = 10, "deflate");
+  SPEC(spec.deflate = -2, "deflate");
+  SPEC((spec.flag_count = 1, spec.flag_meanings = odd), "int8");
+  spec.type = PENDRES_STORE_INT8;
+  SPEC((spec.flag_count = 1, spec.flag_meanings = odd), "two words");
+  SPEC(spec.flag_count = 1, "meaning");
+  SPEC(spec.flag_count = 129, "flags");
+#undef SPEC
+  REFUSED(pendres_store_variable(store, NULL, &made), "no specification");
+  spec.type = PENDRES_STORE_STRING;
+  REFUSED(pendres_store_result(store, &spec, &made, &error_made), "no error estimate");
+  assert_int_equal(error_made, -1);
+  REFUSED(pendres_store_put(store, &(pendres_store_spec){ .group = "a", .name = "y",
+            .dimensions = { "x" }, .long_name = "y" }, values, 2), "exists already");
+  REFUSED(pendres_store_dimension(store, "a", "x", 3, NULL, "x", "1"), "exists already");
+  REFUSED(pendres_store_dimension(store, "a", "y", 3, NULL, "x", "1"), "exists already");
+  REFUSED(pendres_store_dimension(store, "", "a", 3, NULL, "x", "1"), "exists already");
+  REFUSED(pendres_store_dimension(store, "a", "w", UINT64_MAX / 2, NULL, "w", "1"), "too large");
+  REFUSED(pendres_store_dimension(store, "a", "w", 3, NULL, NULL, "1"), "long_name");
+  REFUSED(pendres_store_dimension_text(store, "a", "w", 3, NULL, "w"), "no names");
+  REFUSED(pendres_store_group(store, "a/x"), "is a variable");
+  REFUSED(pendres_store_group(store, "a/."), "not a path");
+  (void)id;
+}
+
+static void wrong_values(pendres_store *store, int id)
+{
+  const double values[4] = { 0 };
+
+  REFUSED(pendres_store_write(store, id, values, 1), "2 elements are wanted, 1");
+  REFUSED(pendres_store_write(store, id, values, 4), "2 elements are wanted, 4");
+  REFUSED(pendres_store_write(store, id, NULL, 2), "no data");
+  REFUSED(pendres_store_write(store, -1, values, 2), "no variable number -1");
+  REFUSED(pendres_store_write(store, 1000, values, 2), "no variable number 1000");
+  REFUSED(pendres_store_write(store, 0, values, 0), "no variable number 0"); /* the root */
+  REFUSED(pendres_store_write_rows(store, id, 1, 2, values, 2), "2 rows");
+  REFUSED(pendres_store_write_rows(store, id, 3, 0, values, 0), "2 rows");
+  REFUSED(pendres_store_write_rows(store, id, 1, UINT64_MAX, values, 0), "2 rows");
+  REFUSED(pendres_store_write_rows(store, id, 0, 1, values, 2), "1 elements are wanted, 2");
+  REFUSED(pendres_store_attribute_text(store, "a", "y", "two words", "x"), "not a name");
+  REFUSED(pendres_store_attribute_text(store, "a", "y", "note", NULL), "needs a text");
+  REFUSED(pendres_store_attribute_double(store, "a", "nothing", "note", 1), "no variable");
+  REFUSED(pendres_store_attribute_integer(store, "a", "y", NULL, 1), "not a name");
+}
+
+static void mistakes_leave_no_trace(void **state)
+{
+  char clean[PATH_ROOM], mistaken[PATH_ROOM];
+
+  (void)state;
+  write_small(in_folder(clean, "clean.h5"), NULL);
+  write_small(in_folder(mistaken, "definitions.h5"), wrong_definitions);
+  check_same_bytes(clean, mistaken);
+  write_small(in_folder(mistaken, "values.h5"), wrong_values);
+  check_same_bytes(clean, mistaken);
+}
+
+/* Half a result is no result: the name of its error was taken. */
+static void result_is_made_whole_or_not(void **state)
+{
+  char path[PATH_ROOM];
+  pendres_store *store = NULL;
+  const pendres_store_spec taken = { .name = "power_error", .long_name = "taken" };
+  const pendres_store_spec power = { .name = "power", .long_name = "power" };
+  const double value = 1;
+  int id = -1;
+
+  (void)state;
+  OK(pendres_store_create(in_folder(path, "half.h5"), NULL, &store));
+  OK(pendres_store_put(store, &taken, &value, 1));
+  REFUSED(pendres_store_result(store, &power, &id, NULL), "power_error");
+  assert_int_equal(pendres_store_has(store, NULL, "power"), 0);
+  OK(pendres_store_put(store, &power, &value, 1));
+  pendres_store_free(store);
+}
+
+static void wrong_handles(void **state)
+{
+  char path[PATH_ROOM], *text = NULL;
+  pendres_store *store = NULL;
+  double value = 0;
+
+  (void)state;
+  assert_int_equal(pendres_store_create("x.h5", NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_open("x.h5", NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_group(NULL, "a"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_write(NULL, 0, &value, 1), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_close(NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_abandon(NULL, 0), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_store_has(NULL, "a", NULL), 0);
+  assert_non_null(pendres_store_message(NULL));
+  pendres_store_free(NULL);
+  REFUSED(pendres_store_create(NULL, NULL, &store), "path");
+  pendres_store_free(store);
+  REFUSED(pendres_store_create("", NULL, &store), "path");
+  REFUSED(pendres_store_group(store, "a"), "path"); /* the first failure stays */
+  pendres_store_free(store);
+
+  OK(pendres_store_create(in_folder(path, "closed.h5"), NULL, &store));
+  OK(pendres_store_close(store));
+  REFUSED(pendres_store_close(store), "closed");
+  REFUSED(pendres_store_group(store, "a"), "closed");
+  REFUSED(pendres_store_write(store, 0, &value, 1), "closed");
+  OK(pendres_store_abandon(store, 0));
+  pendres_store_free(store);
+  assert_true(exists(path));
+
+  OK(pendres_store_open(path, &store));
+  REFUSED(pendres_store_group(store, "a"), "reading only");
+  REFUSED(pendres_store_close(store), "reading only");
+  MISSING(pendres_store_read(store, "", "y", PENDRES_STORE_DOUBLE, &value, 1), "no 'y'");
+  MISSING(pendres_store_read(store, "a/b", "y", PENDRES_STORE_DOUBLE, &value, 1), "a/b/y");
+  REFUSED(pendres_store_read(store, "", "y", PENDRES_STORE_STRING, &value, 1), "numbers");
+  MISSING(pendres_store_read_attribute_text(store, "", NULL, "title", &text), "title");
+  assert_null(text);
+  pendres_store_free(store);
+
+  write_small(in_folder(path, "small.h5"), NULL);
+  OK(pendres_store_open(path, &store));
+  REFUSED(pendres_store_read(store, "a", "y", PENDRES_STORE_DOUBLE, &value, 1), "2 elements");
+  REFUSED(pendres_store_read_rows(store, "a", "y", PENDRES_STORE_DOUBLE, 2, 1, &value, 1), "rows");
+  REFUSED(pendres_store_read_text(store, "a", "y", 2, &text), "no text number 2");
+  /* A number is not a text, nor a group a variable. */
+  assert_int_equal(pendres_store_read_text(store, "a", "y", 0, &text), PENDRES_IO);
+  assert_int_equal(pendres_store_read(store, "", "a", PENDRES_STORE_DOUBLE, &value, 1),
+                   PENDRES_IO);
+  assert_int_equal(pendres_store_read_attribute_double(store, "a", "y", "units", &value),
+                   PENDRES_IO);
+  OK(pendres_store_read_rows(store, "a", "y", PENDRES_STORE_DOUBLE, 1, 1, &value, 1));
+  pendres_store_free(store);
+}
+
+/* ---- Files that cannot be written, and files that must not be ------------------------------- */
+
+static void check_no_create(const char *path, const char *words)
+{
+  pendres_store *store = NULL;
+  const pendres_status status = pendres_store_create(path, NULL, &store);
+
+  check_refused_at(status, PENDRES_IO, store, words, path, __FILE__, __LINE__);
+  assert_int_equal(pendres_store_group(store, "a"), PENDRES_IO);
+  assert_int_equal(pendres_store_close(store), PENDRES_IO);
+  assert_non_null(strstr(pendres_store_message(store), words));
+  pendres_store_free(store);
+}
+
+static void bad_folders_are_told_at_once(void **state)
+{
+  char path[PATH_ROOM], inside[PATH_ROOM];
+  pendres_store *store = NULL;
+
+  (void)state;
+  check_no_create(in_folder(path, "missing/run.h5"), strerror(ENOENT));
+  write_file(in_folder(path, "plain"), "text");
+  check_no_create(in_folder(path, "plain/run.h5"), strerror(ENOTDIR));
+  check_contents(in_folder(path, "plain"), "text");
+  check_no_create(folder, "not a regular file");
+
+  /* A link as part file would be renamed instead of what it points to. */
+  assert_int_equal(symlink("plain", in_folder(path, "link.h5.part")), 0);
+  check_no_create(in_folder(path, "link.h5"), strerror(ELOOP));
+  check_contents(in_folder(path, "plain"), "text");
+  assert_int_equal(unlink(in_folder(path, "link.h5.part")), 0);
+
+  /* Root may write everywhere, so it becomes somebody else. */
+  in_folder(path, "locked");
+  assert_int_equal(mkdir(path, 0555), 0);
+  in_folder(inside, "locked/run.h5");
+  if (!geteuid()) {
+    assert_int_equal(chmod(folder, 0755), 0);
+    assert_int_equal(seteuid(65534), 0);
+    check_no_create(inside, strerror(EACCES));
+    assert_int_equal(seteuid(0), 0);
+  } else {
+    check_no_create(inside, strerror(EACCES));
+  }
+  assert_int_equal(rmdir(path), 0);
+
+  assert_int_equal(pendres_store_open(in_folder(path, "missing.h5"), &store), PENDRES_IO);
+  assert_non_null(strstr(pendres_store_message(store), "missing.h5"));
+  pendres_store_free(store);
+  assert_int_equal(pendres_store_open(in_folder(path, "plain"), &store), PENDRES_IO);
+  pendres_store_free(store);
+}
+
+static void abandoned_run_leaves_the_old_file(void **state)
+{
+  char path[PATH_ROOM], part[PATH_ROOM];
+  const double value = 3;
+  double read = 0;
+  const pendres_store_spec spec = { .name = "y", .long_name = "y" };
+  pendres_store *store = NULL;
+
+  (void)state;
+  write_file(in_folder(path, "old.h5"), "old");
+  in_folder(part, "old.h5.part");
+  write_file(part, "left by a run that was killed");
+
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_put(store, &spec, &value, 1));
+  assert_true(exists(part));
+  check_contents(path, "old");
+  OK(pendres_store_abandon(store, 0));
+  REFUSED(pendres_store_group(store, "a"), "closed");
+  pendres_store_free(store);
+  assert_false(exists(part));
+  check_contents(path, "old");
+
+  OK(pendres_store_create(path, NULL, &store));
+  pendres_store_free(store); /* without a word */
+  assert_false(exists(part));
+  check_contents(path, "old");
+
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_put(store, &spec, &value, 1));
+  OK(pendres_store_abandon(store, 1));
+  pendres_store_free(store);
+  check_contents(path, "old");
+  OK(pendres_store_open(part, &store));
+  OK(pendres_store_read(store, "", "y", PENDRES_STORE_DOUBLE, &read, 1));
+  assert_true(read == 3);
+  pendres_store_free(store);
+
+  /* And a finished one replaces it. */
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_close(store));
+  pendres_store_free(store);
+  assert_false(exists(part));
+  OK(pendres_store_open(path, &store));
+  assert_int_equal(pendres_store_has(store, "", "y"), 0);
+  pendres_store_free(store);
+}
+
+/* The target became a folder meanwhile: the whole results stay under the name of the part. */
+static void failed_rename_keeps_the_results(void **state)
+{
+  char path[PATH_ROOM], part[PATH_ROOM];
+  const double value = 3;
+  double read = 0;
+  pendres_store *store = NULL;
+
+  (void)state;
+  in_folder(path, "taken.h5");
+  in_folder(part, "taken.h5.part");
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "y", .long_name = "y" }, &value, 1));
+  assert_int_equal(mkdir(path, 0777), 0);
+  assert_int_equal(pendres_store_close(store), PENDRES_IO);
+  assert_non_null(strstr(pendres_store_message(store), "whole"));
+  pendres_store_free(store);
+  assert_int_equal(rmdir(path), 0);
+  OK(pendres_store_open(part, &store));
+  OK(pendres_store_read(store, "", "y", PENDRES_STORE_DOUBLE, &read, 1));
+  assert_true(read == 3);
+  pendres_store_free(store);
+}
+
+static void two_writers_do_not_mix(void **state)
+{
+  char path[PATH_ROOM];
+  pendres_store *store = NULL, *second = NULL;
+
+  (void)state;
+  OK(pendres_store_create(in_folder(path, "shared.h5"), NULL, &store));
+  OK(pendres_store_group(store, "first"));
+  check_no_create(path, "another process");
+  assert_int_equal(setenv("HDF5_USE_FILE_LOCKING", "BEST_EFFORT", 1), 0);
+  check_no_create(path, "another process");
+  OK(pendres_store_close(store));
+  pendres_store_free(store);
+  OK(pendres_store_open(path, &store));
+  assert_int_equal(pendres_store_has(store, "first", NULL), 1);
+  pendres_store_free(store);
+
+  /* Without locks both may try, and the first to go does not take the other's part along. */
+  assert_int_equal(setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1), 0);
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_create(path, NULL, &second));
+  assert_int_equal(unsetenv("HDF5_USE_FILE_LOCKING"), 0);
+  pendres_store_free(store);
+  pendres_store_free(second);
+}
+
+/* ---- A full disk ----------------------------------------------------------------------------- */
+
+/* How far a run came. The first failure is what counts; then everything must fail the same way. */
+static pendres_status run_until_full(const char *path, int *step)
+{
+  enum { ROWS = 40, ROW = 4096 };
+  pendres_store *store = NULL;
+  double row[ROW];
+  unsigned random = 1;
+  int id = -1;
+  pendres_status status = pendres_store_create(path, NULL, &store);
+
+  *step = 0;
+  if (!status) ++*step, status = pendres_store_dimension(store, "", "r", ROWS, NULL, "r", NULL);
+  if (!status) status = pendres_store_dimension(store, "", "c", ROW, NULL, "c", NULL);
+  if (!status)
+    status = pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
+               .dimensions = { "r", "c" } }, &id);
+  for (uint64_t r = 0; r < ROWS && !status; r++) {
+    /* Numbers that do not compress. */
+    for (int i = 0; i < ROW; i++) row[i] = (random = random * 1664525u + 1013904223u) / 3.0;
+    status = pendres_store_write_rows(store, id, r, 1, row, ROW);
+    if (!status && r % 3 == 2) status = pendres_store_flush(store);
+    if (!status) ++*step;
+  }
+  if (!status)
+    status = pendres_store_provenance(store, &(pendres_store_entry){ .key = "k", .number = 1 }, 1);
+  if (!status) status = pendres_store_close(store);
+  if (status) {
+    assert_non_null(strstr(pendres_store_message(store), strerror(EFBIG)));
+    assert_int_equal(pendres_store_group(store, "more"), status);
+    assert_int_equal(pendres_store_flush(store), status);
+    assert_int_equal(pendres_store_close(store), status);
+    assert_non_null(strstr(pendres_store_message(store), strerror(EFBIG)));
+  }
+  pendres_store_free(store);
+  return status;
+}
+
+static void full_disk_is_an_error_and_no_more(void **state)
+{
+  enum { LIMITS = 40 };
+  char path[PATH_ROOM], part[PATH_ROOM];
+  struct rlimit before, limit;
+  struct stat whole;
+  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+  int step = 0, steps = 0, last = -1;
+
+  (void)state;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  in_folder(path, "full.h5");
+  in_folder(part, "full.h5.part");
+  assert_int_equal(run_until_full(path, &step), PENDRES_OK);
+  assert_int_equal(stat(path, &whole), 0);
+  write_file(path, "old");
+
+  /* From no room at all to a byte too little: failures in create, writes, flushes and close. */
+  for (int k = 0; k <= LIMITS; k++) {
+    const double share = (double)k / LIMITS;
+    pendres_status status;
+
+    limit = before;
+    limit.rlim_cur = (rlim_t)((double)(whole.st_size - 1) * share * share);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    status = run_until_full(path, &step);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+    assert_int_equal(status, PENDRES_IO);
+    assert_false(exists(part));
+    check_contents(path, "old");
+    if (step != last) steps++;
+    last = step;
+  }
+  assert_true(steps > 10); /* the failures came in many places */
+  assert_int_equal(run_until_full(path, &step), PENDRES_OK);
+  signal(SIGXFSZ, handler);
+}
+
+/* ---- A killed run ---------------------------------------------------------------------------- */
+
+static void flushed_rows_survive_a_kill(void **state)
+{
+  enum { ROWS = 50, ROW = 1000, FLUSHED = 30 };
+  char path[PATH_ROOM], part[PATH_ROOM];
+  double row[ROW];
+  int code = 0;
+  pid_t child;
+  pendres_store *store = NULL;
+
+  (void)state;
+  in_folder(path, "killed.h5");
+  in_folder(part, "killed.h5.part");
+  child = fork();
+  assert_true(child >= 0);
+  if (!child) {
+    int id = -1, bad = pendres_store_create(path, NULL, &store) ||
+      pendres_store_dimension(store, "", "r", ROWS, NULL, "r", NULL) ||
+      pendres_store_dimension(store, "", "c", ROW, NULL, "c", NULL) ||
+      pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
+        .dimensions = { "r", "c" } }, &id);
+
+    for (uint64_t r = 0; r < FLUSHED + 5 && !bad; r++) {
+      for (int i = 0; i < ROW; i++) row[i] = (double)r + 1e-3 * i;
+      bad = pendres_store_write_rows(store, id, r, 1, row, ROW) ||
+            (r < FLUSHED && pendres_store_flush(store));
+    }
+    if (bad) _exit(1);
+    kill(getpid(), SIGKILL);
+  }
+  assert_int_equal(waitpid(child, &code, 0), child);
+  assert_true(WIFSIGNALED(code));
+  assert_false(exists(path));
+  OK(pendres_store_open(part, &store));
+  for (uint64_t r = 0; r < FLUSHED; r++) {
+    OK(pendres_store_read_rows(store, "", "y", PENDRES_STORE_DOUBLE, r, 1, row, ROW));
+    for (int i = 0; i < ROW; i++) assert_true(row[i] == (double)r + 1e-3 * i);
+  }
+  /* What never was written is not a number. */
+  OK(pendres_store_read_rows(store, "", "y", PENDRES_STORE_DOUBLE, ROWS - 1, 1, row, ROW));
+  for (int i = 0; i < ROW; i++) assert_true(isnan(row[i]));
+  pendres_store_free(store);
+}
+
+/* ---- Manners --------------------------------------------------------------------------------- */
+
+static herr_t count_calls(hid_t stack, void *count)
+{
+  (void)stack;
+  ++*(int *)count;
+  return 0;
+}
+
+static void callers_error_handler_is_left_alone(void **state)
+{
+  char path[PATH_ROOM];
+  H5E_auto2_t before = NULL, after = NULL;
+  void *before_data = NULL, *after_data = NULL;
+  int calls = 0;
+  pendres_store *store = NULL;
+
+  (void)state;
+  assert_true(H5Eget_auto2(H5E_DEFAULT, &before, &before_data) >= 0);
+  assert_true(H5Eset_auto2(H5E_DEFAULT, count_calls, &calls) >= 0);
+  assert_int_equal(pendres_store_open(in_folder(path, "none.h5"), &store), PENDRES_IO);
+  /* HDF5's own innermost words: that the file cannot be opened. */
+  assert_non_null(strstr(pendres_store_message(store), "open"));
+  pendres_store_free(store);
+  check_no_create(in_folder(path, "none/run.h5"), "none");
+  write_small(in_folder(path, "mistakes.h5"), wrong_definitions);
+  assert_int_equal(calls, 0);
+  assert_true(H5Eget_auto2(H5E_DEFAULT, &after, &after_data) >= 0);
+  assert_true(after == count_calls && after_data == &calls);
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+  {
+    H5E_auto1_t old = NULL;
+
+    assert_true(H5Eset_auto1(NULL, &calls) >= 0);
+    write_small(path, wrong_values);
+    assert_true(H5Eget_auto1(&old, &after_data) >= 0);
+    assert_true(!old && after_data == &calls);
+  }
+#endif
+  assert_true(H5Eset_auto2(H5E_DEFAULT, before, before_data) >= 0);
+}
+
+static void version_is_that_of_the_library(void **state)
+{
+  unsigned major = 0, minor = 0, release = 0;
+
+  (void)state;
+  pendres_store_hdf5_version(&major, &minor, &release);
+  assert_int_equal(major, H5_VERS_MAJOR);
+  assert_int_equal(minor, H5_VERS_MINOR);
+  pendres_store_hdf5_version(NULL, NULL, NULL);
+  (void)release;
+}
+
+#define TEST(function) cmocka_unit_test_teardown(function, nothing_open)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    TEST(what_is_written_is_read),
+    TEST(large_arrays_are_read_and_compressed),
+    TEST(equal_runs_give_equal_bytes),
+    TEST(python_opens_every_group),
+    TEST(mistakes_leave_no_trace),
+    TEST(result_is_made_whole_or_not),
+    TEST(wrong_handles),
+    TEST(bad_folders_are_told_at_once),
+    TEST(abandoned_run_leaves_the_old_file),
+    TEST(failed_rename_keeps_the_results),
+    TEST(two_writers_do_not_mix),
+    TEST(full_disk_is_an_error_and_no_more),
+    TEST(flushed_rows_survive_a_kill),
+    TEST(callers_error_handler_is_left_alone),
+    TEST(version_is_that_of_the_library),
+  };
+
+  return cmocka_run_group_tests_name("store", tests, make_folder, remove_folder);
+}
