@@ -1,0 +1,59 @@
+/*
+ * scene.h -- a scene: a list of pendulums and a question about them.
+ *
+ * Owns: the face that every scene shows to the driver. One file a kind: scene_NAME.c, which
+ * defines `const scene_kind scene_NAME` and is listed in scene.c. A scene takes a checked deck,
+ * hands tasks to the farm, and defines and writes its results; it never reads text, prints
+ * progress or handles signals.
+ */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include <stdio.h>
+
+#include <pendres/pendres.h>
+#include <pendres/store.h>
+
+#include "deck.h"
+#include "farm.h"
+
+typedef struct scene_run {
+  const deck *deck;
+  farm *farm;
+  pendres_store *store;
+  FILE *table;          /* where the short table of results goes; NULL: nowhere */
+  size_t failed_points; /* points without a result (marked in the file): exit code 3 */
+  char message[512];    /* why run() failed */
+} scene_run;
+
+typedef struct scene_kind {
+  deck_kind kind;
+  const char *references; /* root attribute of the file: what the scene reproduces, and methods */
+  /* What would be computed, in a few lines (--dry-run). */
+  void (*plan)(const deck *d, FILE *out);
+  /* Compute and write everything but the provenance. */
+  pendres_status (*run)(scene_run *run);
+} scene_kind;
+
+/* The scene of a kind; NULL if this build has none. */
+const scene_kind *scene_find(deck_kind kind);
+
+/* Record why a scene failed; returns the status. */
+pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The same with the store's own words. */
+pendres_status scene_store_failed(scene_run *run, pendres_status status);
+
+/* The deck's ensemble: members at x_first + (x_last - x_first) k / members, k = 1..members. */
+double scene_member_x(const deck *d, size_t k);
+
+/* The group `paper`: printed values beside computed ones. */
+typedef struct scene_printed {
+  const char *name;      /* of the quantity, e.g. "resonance_period_gamma_0.24" */
+  double printed;        /* by the paper */
+  double computed, error;
+} scene_printed;
+pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values);
+
+#endif
