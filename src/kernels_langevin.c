@@ -155,40 +155,43 @@ static void drift(size_t stride, const double *restrict reach, const double *res
   }
 }
 
-/* Force and noise bear the same correction: see langevin.c. */
-#define KICK                                                                                 \
-  double sin_y, cos_y;                                                                       \
-  const double v = w[i] * decay[i], x = FMA(reach[i], w[i], u[i]);                           \
-  const double y = x + FMA(pivot_cos[i], cosine, pivot_sin[i] * sine);                       \
-  pendres_kernels_sincos(y, &sin_y, &cos_y);                                                 \
-  const double bare = FMA(spread[i], noise[i], -(push[i] * sin_y));                          \
-  u[i] = x;                                                                                  \
-  w[i] = FMA(FMA(-bend[i], cos_y, 1.0), bare, v)
-
+/* Force and noise bear the same correction: see langevin_block.c. */
 static void kick(size_t stride, const pendres_langevin_rows *rows, const double *restrict reach,
                  const double *restrict decay, double cosine, double sine,
                  const double *restrict noise)
 {
   double *restrict u = rows->u, *restrict w = rows->w;
-  double *restrict sum_cos = rows->sum_cos, *restrict sum_sin = rows->sum_sin;
   const double *restrict pivot_cos = rows->pivot_cos, *restrict pivot_sin = rows->pivot_sin;
   const double *restrict push = rows->push, *restrict spread = rows->spread,
                *restrict bend = rows->bend;
 
-  if (sum_cos == NULL) {
-#pragma omp simd
-    for (size_t i = 0; i < stride; i++) {
-      KICK;
-    }
-    return;
-  }
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
-    KICK;
+    double sin_y, cos_y;
+    const double v = w[i] * decay[i], x = FMA(reach[i], w[i], u[i]);
+    const double y = x + FMA(pivot_cos[i], cosine, pivot_sin[i] * sine);
+    pendres_kernels_sincos(y, &sin_y, &cos_y);
+    const double bare = FMA(spread[i], noise[i], -(push[i] * sin_y));
+    u[i] = x;
+    w[i] = FMA(FMA(-bend[i], cos_y, 1.0), bare, v);
+  }
+}
+
+static void sample(size_t stride, const pendres_langevin_rows *rows,
+                   const double *restrict reach, double cosine, double sine,
+                   double *restrict sum_cos, double *restrict sum_sin)
+{
+  const double *restrict u = rows->u, *restrict w = rows->w;
+  const double *restrict pivot_cos = rows->pivot_cos, *restrict pivot_sin = rows->pivot_sin;
+
+#pragma omp simd
+  for (size_t i = 0; i < stride; i++) {
+    const double pivot = FMA(pivot_cos[i], cosine, pivot_sin[i] * sine);
+    const double y = FMA(reach[i], w[i], u[i]) + pivot;
     sum_cos[i] = FMA(y, cosine, sum_cos[i]);
     sum_sin[i] = FMA(y, sine, sum_sin[i]);
   }
 }
 
 const pendres_kernels_langevin JOIN(pendres_kernels_langevin, PENDRES_KERNELS) = {
-  TEXT(PENDRES_KERNELS), words, gauss, drift, kick};
+  TEXT(PENDRES_KERNELS), words, gauss, drift, kick, sample};

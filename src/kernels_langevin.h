@@ -28,7 +28,6 @@ typedef struct pendres_langevin_rows {
   const double *push;   /* duration of a kick */
   const double *spread; /* standard deviation of a kick's noise */
   const double *bend;   /* of the fourth-order correction */
-  double *sum_cos, *sum_sin; /* sums of y cos theta and y sin theta over kicks, or NULL */
 } pendres_langevin_rows;
 
 typedef struct pendres_kernels_langevin {
@@ -44,6 +43,10 @@ typedef struct pendres_kernels_langevin {
   /* Free motion, then a kick at the drive phase whose cosine and sine are given. */
   void (*kick)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
                const double *decay, double cosine, double sine, const double *gauss);
+  /* Add y cos theta and y sin theta to sums, where free motion of the given reach has brought
+   * u at the phase whose cosine and sine are given; the state stays. */
+  void (*sample)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
+                 double cosine, double sine, double *sum_cos, double *sum_sin);
 } pendres_kernels_langevin;
 
 extern const pendres_kernels_langevin pendres_kernels_langevin_base;
