@@ -77,11 +77,9 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
 
 static double phase_lag_of(const pendres_orbit_measures *m, double drive)
 {
-  const double r = hypot(m->first_cosine, m->first_sine);
-  if (r == 0.0 || drive == 0.0) return NAN;
+  if (hypot(m->cosine[0], m->sine[0]) == 0.0 || drive == 0.0) return NAN;
   /* The drive is F0 cos theta: with F0 < 0 it leads by half a turn. */
-  return drive > 0.0 ? atan2(m->first_sine, m->first_cosine)
-                     : atan2(-m->first_sine, -m->first_cosine);
+  return drive > 0.0 ? atan2(m->sine[0], m->cosine[0]) : atan2(-m->sine[0], -m->cosine[0]);
 }
 
 /* Multipliers from the trace; their product is known exactly (Liouville). */
@@ -165,11 +163,11 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->mean_power_error = o->loop_area_error * omega / two_pi;
   o->amplitude = b->amplitude;
   o->amplitude_error = error_of(a->amplitude, b->amplitude, point, floor);
-  o->first_cosine = b->first_cosine;
-  o->first_sine = b->first_sine;
-  o->first_harmonic_amplitude = hypot(b->first_cosine, b->first_sine);
+  memcpy(o->cosine, b->cosine, sizeof o->cosine);
+  memcpy(o->sine, b->sine, sizeof o->sine);
+  o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
   o->first_harmonic_amplitude_error =
-    error_of(hypot(a->first_cosine, a->first_sine), o->first_harmonic_amplitude, point, floor);
+    error_of(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, point, floor);
   o->phase_lag = phase_lag_of(b, p->drive_amplitude);
   o->phase_lag_error = error_of(phase_lag_of(a, p->drive_amplitude), o->phase_lag,
                                 point / o->first_harmonic_amplitude,

@@ -70,6 +70,25 @@ static double extreme_near(const double *c, size_t n, size_t k)
   return f[0];
 }
 
+double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],
+                                       const double sine[PENDRES_ORBIT_HARMONICS])
+{
+  enum { POINTS = 2 * PENDRES_ORBIT_HARMONICS + 2 };
+  double c[POINTS] = {0.0}, value[3];
+  size_t top = 0, bottom = 0;
+  double highest = -INFINITY, lowest = INFINITY;
+  for (int m = 1; m <= PENDRES_ORBIT_HARMONICS; m++) {
+    c[2 * m - 1] = 0.5 * POINTS * cosine[m - 1];
+    c[2 * m] = -0.5 * POINTS * sine[m - 1];
+  }
+  for (size_t k = 0; k < POINTS; k++) {
+    evaluate(c, POINTS, two_pi * (double)k / POINTS, value);
+    if (value[0] > highest) highest = value[0], top = k;
+    if (value[0] < lowest) lowest = value[0], bottom = k;
+  }
+  return 0.5 * (extreme_near(c, POINTS, top) - extreme_near(c, POINTS, bottom));
+}
+
 pendres_status pendres_orbit_half_range(const double *y, size_t n, double *work, double *out)
 {
   size_t top = 0, bottom = 0;
@@ -118,24 +137,28 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
   const size_t n = s->n;
   const double spacing = two_pi * s->period / (double)n;
   double *periodic = work, *coefficients = work + n;
-  double cos_w = 0.0, w_w = 0.0, y_cos = 0.0, y_sin = 0.0, mean = 0.0;
+  double cos_w = 0.0, w_w = 0.0, mean = 0.0;
 
   for (size_t k = 0; k < n; k++) {
-    const double theta = spacing * (double)k, c = cos(theta);
+    const double theta = spacing * (double)k;
     periodic[k] = s->y[k] - s->winding * theta / s->period;
     mean += periodic[k];
-    cos_w += c * s->w[k];
+    cos_w += cos(theta) * s->w[k];
     w_w += s->w[k] * s->w[k];
-    y_cos += periodic[k] * c;
-    y_sin += periodic[k] * sin(theta);
   }
   out->loop_area = p->drive_amplitude * two_pi * cos_w / (double)n;
   out->dissipation = p->damping * p->drive_frequency * two_pi * w_w / (double)n;
-  out->first_cosine = 2.0 * y_cos / (double)n;
-  out->first_sine = 2.0 * y_sin / (double)n;
   out->mean_angle = mean / (double)n;
   const pendres_status status =
     pendres_orbit_half_range(periodic, n, coefficients, &out->amplitude);
-  if (status == PENDRES_OK) out->symmetry_defect = symmetry_defect(coefficients, n, s->period);
-  return status;
+  if (status != PENDRES_OK) return status;
+  out->symmetry_defect = symmetry_defect(coefficients, n, s->period);
+  for (int m = 1; m <= PENDRES_ORBIT_HARMONICS; m++) {
+    /* Harmonic m of the drive is number m q of the whole orbit. */
+    const size_t i = 2 * (size_t)m * (size_t)s->period;
+    const int there = i < n;
+    out->cosine[m - 1] = there ? 2.0 / (double)n * coefficients[i - 1] : 0.0;
+    out->sine[m - 1] = there ? -2.0 / (double)n * coefficients[i] : 0.0;
+  }
+  return PENDRES_OK;
 }

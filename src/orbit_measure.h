@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#include <pendres/pendulum.h>
+#include <pendres/orbit.h>
 #include <pendres/status.h>
 
 /* Samples k = 0..n-1 at theta = 2 pi q k / n of a closed orbit: angle y, slope w = dy/dtheta. */
@@ -19,13 +19,18 @@ typedef struct pendres_orbit_samples {
 } pendres_orbit_samples;
 
 typedef struct pendres_orbit_measures {
-  double loop_area, dissipation, amplitude, first_cosine, first_sine, mean_angle;
+  double loop_area, dissipation, amplitude, mean_angle;
+  double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS]; /* see orbit.h */
   double symmetry_defect; /* largest |even harmonic| of the angle about its mean */
 } pendres_orbit_measures;
 
 /* work: 2 n doubles. */
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out);
+
+/* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
+double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],
+                                       const double sine[PENDRES_ORBIT_HARMONICS]);
 
 /* Half the peak-to-peak of the trigonometric interpolant of n equally spaced values; work: n. */
 pendres_status pendres_orbit_half_range(const double *y, size_t n, double *work, double *out);

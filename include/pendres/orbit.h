@@ -34,6 +34,8 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
+enum { PENDRES_ORBIT_HARMONICS = 24 /**< harmonics of an orbit that are kept */ };
+
 /** A periodic orbit with its measures. Plain data, nothing to free. */
 typedef struct pendres_orbit {
   pendres_pendulum pendulum;
@@ -55,7 +57,8 @@ typedef struct pendres_orbit {
   double first_harmonic_amplitude, first_harmonic_amplitude_error;
   double phase_lag, phase_lag_error;
   double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi] */
-  double first_cosine, first_sine; /**< a and b */
+  double cosine[PENDRES_ORBIT_HARMONICS]; /**< cosine[m-1], sine[m-1]: harmonic m of the angle, */
+  double sine[PENDRES_ORBIT_HARMONICS];   /**< averaged over the orbit's q drive cycles */
   double frequency_derivative[2];  /**< d(x, v)/d omega of the Poincaré point, NaN if not asked for */
   double loop_area_slope;          /**< dA/d omega along the branch, NaN if not asked for */
   double loop_area_slope_error;

@@ -11,5 +11,6 @@
 #include <pendres/strobe.h>
 #include <pendres/orbit.h>
 #include <pendres/attractor.h>
+#include <pendres/response.h>
 
 #endif

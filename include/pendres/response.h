@@ -1,0 +1,69 @@
+/*
+ * response.h -- the mean response of an ensemble of pendulums to its drive.
+ *
+ * Owns: averages over the members of an ensemble, each on the attractor that it settles on and
+ * shifted to its own well.
+ *
+ * mean_loop_area is the mean of the members' loop areas (paper, section II);
+ * mean_loop_amplitude is the amplitude of the loop averaged over the members, mean_amplitude the
+ * mean of the members' own amplitudes; the phase lag is that of the averaged loop. An orbit of
+ * several drive periods counts with its mean cycle. Running and chaotic members have no closed
+ * loop: they count in the mean area and power (if closed but for whole turns), not in the loop.
+ */
+#ifndef PENDRES_RESPONSE_H
+#define PENDRES_RESPONSE_H
+
+#include <pendres/attractor.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** Members k = 1..members start at x_first + (x_last - x_first) k / members with velocity v. */
+typedef struct pendres_ensemble {
+  size_t members;
+  double x_first, x_last;
+  double v;
+} pendres_ensemble;
+
+/** The paper's: 200 members at rest over -pi/2 < x <= 3 pi/2. */
+pendres_ensemble pendres_ensemble_default(void);
+
+/** Start of member k = 1..members. */
+double pendres_ensemble_x(const pendres_ensemble *e, size_t k);
+
+enum { PENDRES_RESPONSE_STATES = 8 /**< attractors of one parameter set that are listed */ };
+
+/** An ensemble's response at one parameter set. */
+typedef struct pendres_response {
+  pendres_pendulum pendulum;
+  double mean_loop_area, mean_loop_area_error;
+  double mean_loop_amplitude, mean_loop_amplitude_error;
+  double mean_amplitude, mean_amplitude_error;
+  double phase_lag, phase_lag_error;
+  double mean_power, mean_power_error;
+  double sa_fraction, sa_fraction_error; /**< error: the share of unresolved members */
+  double la_fraction, la_fraction_error;
+  size_t unresolved;                     /**< members without an attractor; left out of means */
+  size_t states;                         /**< attractors that members settled on */
+  pendres_attractor state[PENDRES_RESPONSE_STATES];
+  size_t state_members[PENDRES_RESPONSE_STATES];
+} pendres_response;
+
+/**
+ * The response of the same ensemble at each of n parameter sets; out[n] is written. Parameter
+ * sets are worked on side by side, and do not influence each other's results.
+ */
+pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
+                                        const pendres_pendulum *pendulums,
+                                        const pendres_ensemble *ensemble, pendres_response *out);
+
+/** The means of a response whose state[], state_members[] and unresolved are set. */
+void pendres_response_average(pendres_response *r);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif
