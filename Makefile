@@ -6,6 +6,7 @@
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make doc        reference manual from the public headers, with doxygen
+#   make style      where lines or files are too long
 #   make clean
 #
 # Yours to set: CC CFLAGS CPPFLAGS LDFLAGS PREFIX DESTDIR SUNDIALS_DIR HDF5_DIR GSL_DIR BUILD,
@@ -35,6 +36,7 @@ endif
 AR ?= ar
 PKG_CONFIG ?= pkg-config
 INSTALL ?= install
+LDCONFIG ?= ldconfig
 BUILD ?= build$(if $(SANITIZE),/sanitize-$(subst $(comma),-,$(SANITIZE)))
 PREFIX ?= /usr/local
 BINDIR ?= $(PREFIX)/bin
@@ -59,7 +61,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-plots clean uninstall doc help,$(GOALS))
+BUILDING := $(filter-out deps deps-plots clean uninstall doc style help,$(GOALS))
 
 ifneq ($(BUILDING),)
 have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
@@ -143,7 +145,7 @@ SCRIPT_NAMES := $(if $(SANITIZE),,$(patsubst tests/%.sh,%,$(wildcard tests/*_che
 CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all check check-run bench install uninstall deps deps-plots doc clean help FORCE
+.PHONY: all check check-run bench install uninstall deps deps-plots doc style clean help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
@@ -269,7 +271,7 @@ ifneq ($(PROGRAM),)
 	  $(INSTALL) -d $(DESTDIR)$(MANDIR)/man1; \
 	  $(INSTALL) -m 644 $(BUILD)/resonance.1 $(DESTDIR)$(MANDIR)/man1; fi
 endif
-	@test -n '$(DESTDIR)' || ldconfig 2>/dev/null || true
+	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 uninstall:
 	rm -f $(DESTDIR)$(LIBDIR)/libpendres.a $(DESTDIR)$(LIBDIR)/libpendres.so \
@@ -279,7 +281,11 @@ uninstall:
 	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres
 
 doc:
+	@mkdir -p build
 	doxygen Doxyfile
+
+style:
+	@tests/style.sh
 
 # Another build directory loses what was made here, and is kept if it holds anything else.
 clean:

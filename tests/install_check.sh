@@ -1,0 +1,105 @@
+#!/bin/sh
+# install_check.sh -- what a stranger gets: installs into a scratch folder and builds a program
+# with `pkg-config --cflags --libs pendres` alone, against the shared and the static library.
+# Run by make check, which sets BUILD, CC, MAKE and PKG_CONFIG.
+set -u
+CC=${CC:-gcc}
+MAKE=${MAKE:-make}
+PKG_CONFIG=${PKG_CONFIG:-pkg-config}
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+unset DESTDIR PREFIX LIBDIR BINDIR INCLUDEDIR MANDIR
+
+fail()
+{
+  echo "install_check: $*"
+  exit 1
+}
+
+quiet()
+{
+  "$@" >"$scratch/log" 2>&1 || {
+    cat "$scratch/log"
+    fail "failed: $*"
+  }
+}
+
+stage=$scratch/stage
+# The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
+quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
+for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0 lib/pkgconfig/pendres.pc \
+  include/pendres/pendres.h; do
+  [ -e "$stage/opt/pendres/$file" ] || fail "$file was not installed"
+done
+for header in include/pendres/*.h; do
+  cmp -s "$header" "$stage/opt/pendres/$header" || fail "$header was not installed"
+done
+[ "$(ls "$stage")" = opt ] && [ "$(ls "$stage/opt")" = pendres ] || fail "files outside PREFIX"
+grep -rlF "$stage" "$stage/opt/pendres/lib/pkgconfig" && fail "DESTDIR got into pendres.pc"
+quiet $MAKE uninstall DESTDIR="$stage" PREFIX=/opt/pendres
+[ -z "$(find "$stage" ! -type d)" ] || fail "make uninstall left" $(find "$stage" ! -type d)
+
+prefix=$scratch/prefix
+quiet $MAKE install DESTDIR= PREFIX="$prefix" LDCONFIG=:
+PKG_CONFIG_PATH=$prefix/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}
+export PKG_CONFIG_PATH
+export LD_LIBRARY_PATH="$prefix/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+
+cat >"$scratch/stranger.c" <<'TEXT'
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+
+int main(void)
+{
+  pendres_context *ctx = NULL;
+  const pendres_pendulum p = {.damping = 0.24, .drive_amplitude = 0.2, .drive_frequency = 0.9};
+  const pendres_options options = {.tolerance = 1e-9};
+  double x[2] = {1.0, 2.0}, v[2] = {0.0, 0.0};
+  const pendres_pendulum both[2] = {p, p};
+
+  if (strcmp(pendres_version(), PENDRES_VERSION) != 0) return 2;
+  if (pendres_context_create(&options, &ctx)) return 3;
+  if (pendres_strobe_advance(ctx, 2, both, x, v, 50, NULL)) {
+    fprintf(stderr, "%s\n", pendres_context_message(ctx));
+    return 4;
+  }
+  pendres_context_free(ctx);
+  if (!isfinite(x[0]) || !isfinite(x[1]) || pendres_free_frequency(0.0) != 1.0) return 5;
+  printf("%s; %s\n", pendres_version(), pendres_build_info());
+  return 0;
+}
+TEXT
+version=$(sed -n 's/^#define PENDRES_VERSION "\(.*\)"/\1/p' include/pendres/version.h)
+[ "$($PKG_CONFIG --modversion pendres)" = "$version" ] || fail "pendres.pc has another version"
+
+cd "$scratch" || exit 1
+strict="-std=c11 -Wall -Wextra -Wpedantic -Werror"
+quiet $CC $strict stranger.c $($PKG_CONFIG --cflags --libs pendres) -o shared
+quiet ./shared
+readelf -d shared | grep -q 'NEEDED.*\[libpendres\.so\.[0-9]*\]' || fail "shared: no soname"
+for other in hdf5 sundials gsl; do
+  readelf -d shared | grep -q "NEEDED.*$other" && fail "shared: must not name $other itself"
+done
+
+mkdir static_only
+cp "$prefix/lib/libpendres.a" static_only
+static=$($PKG_CONFIG --define-variable=libdir="$scratch/static_only" --static --cflags --libs pendres)
+quiet $CC $strict stranger.c $static -o static
+quiet ./static
+readelf -d static | grep -q 'NEEDED.*pendres' && fail "static: still wants the shared library"
+# Everything in the archive at once: pendres.pc names all that it needs.
+quiet $CC $strict stranger.c -Wl,--whole-archive static_only/libpendres.a -Wl,--no-whole-archive \
+  $static -o whole
+quiet ./whole
+
+if [ -x "$prefix/bin/resonance" ]; then
+  "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"
+  grep -qF "$version" "$scratch/log" || fail "resonance --version does not say $version"
+fi
+nm -D --defined-only "$prefix/lib/libpendres.so" | awk '$NF !~ /^pendres_/' | grep . &&
+  fail "exported without the prefix"
+cat "$scratch/log"
+exit 0
