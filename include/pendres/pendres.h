@@ -12,5 +12,6 @@
 #include <pendres/orbit.h>
 #include <pendres/attractor.h>
 #include <pendres/response.h>
+#include <pendres/resonance.h>
 
 #endif

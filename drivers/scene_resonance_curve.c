@@ -1,0 +1,302 @@
+/*
+ * scene_resonance_curve.c -- resonance frequency against amplitude, a point a damping.
+ *
+ * The paper's Fig. 2 and its inset. One task a damping: pendres_resonance_find.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+typedef struct curve {
+  const deck *d;
+  pendres_ensemble ensemble;
+  pendres_resonance *points; /* one a damping */
+  pendres_status *outcome;
+} curve;
+
+static void plan(const deck *d, FILE *out)
+{
+  fprintf(out,
+          "resonances at %zu dampings %g to %g, drive amplitude %g: the largest mean loop area of\n"
+          "%lld members over drive frequencies %g to %g\n",
+          d->axis[DECK_AXIS_DAMPING].count, d->axis[DECK_AXIS_DAMPING].value[0],
+          d->axis[DECK_AXIS_DAMPING].value[d->axis[DECK_AXIS_DAMPING].count - 1],
+          d->pendulum.drive_amplitude, (long long)d->ensemble.members, d->search[0], d->search[1]);
+}
+
+static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+{
+  curve *c = arg;
+  const pendres_pendulum p = {.damping = c->d->axis[DECK_AXIS_DAMPING].value[task],
+                              .drive_amplitude = c->d->pendulum.drive_amplitude,
+                              .drive_frequency = c->d->search[0]};
+  c->outcome[task] = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
+                                                     &c->ensemble, &c->points[task]);
+  /* A damping whose area has no peak in the range is a point without a result, not a failure. */
+  const int missing =
+    c->outcome[task] == PENDRES_NOT_FOUND || c->outcome[task] == PENDRES_NOT_CONVERGED;
+  return missing ? PENDRES_OK : c->outcome[task];
+}
+
+/* ---- results ---- */
+
+typedef struct value {
+  double result, error;
+} value;
+
+static value frequency(const pendres_resonance *r)
+{
+  return (value){r->frequency, r->frequency_error};
+}
+
+static value period(const pendres_resonance *r)
+{
+  return (value){two_pi / r->frequency, two_pi * r->frequency_error / (r->frequency * r->frequency)};
+}
+
+static value area(const pendres_resonance *r)
+{
+  return (value){r->loop_area, r->loop_area_error};
+}
+
+static value loop_amplitude(const pendres_resonance *r)
+{
+  return (value){r->response.mean_loop_amplitude, r->response.mean_loop_amplitude_error};
+}
+
+static value amplitude(const pendres_resonance *r)
+{
+  return (value){r->response.mean_amplitude, r->response.mean_amplitude_error};
+}
+
+static value phase_lag(const pendres_resonance *r)
+{
+  return (value){r->response.phase_lag, r->response.phase_lag_error};
+}
+
+static value power(const pendres_resonance *r)
+{
+  return (value){r->response.mean_power, r->response.mean_power_error};
+}
+
+static value sa_fraction(const pendres_resonance *r)
+{
+  return (value){r->response.sa_fraction, r->response.sa_fraction_error};
+}
+
+static value free_frequency(const pendres_resonance *r)
+{
+  const double a = r->response.mean_loop_amplitude, e = r->response.mean_loop_amplitude_error;
+  const double f = pendres_free_frequency(a);
+  return (value){f, fabs(pendres_free_frequency(a + e) - f) + 4e-16};
+}
+
+static value fold(const pendres_resonance *r)
+{
+  return (value){r->fold_frequency, r->fold_frequency_error};
+}
+
+static const struct {
+  const char *name, *long_name, *units;
+  value (*of)(const pendres_resonance *r);
+} results[] = {
+  {"resonance_frequency", "drive frequency of the largest mean loop area", "1", frequency},
+  {"resonance_period", "drive period of the largest mean loop area", "1", period},
+  {"mean_loop_area", "mean loop area of the ensemble at resonance", "1", area},
+  {"mean_loop_amplitude", "amplitude of the ensemble-averaged loop", "rad", loop_amplitude},
+  {"mean_amplitude", "mean of the members' amplitudes", "rad", amplitude},
+  {"phase_lag", "phase lag of the ensemble-averaged loop", "rad", phase_lag},
+  {"mean_power", "mean power taken up from the drive", "1", power},
+  {"sa_fraction", "share of the members on the small-amplitude state", "1", sa_fraction},
+  {"free_frequency", "frequency of the free undamped pendulum of that loop amplitude", "1",
+   free_frequency},
+  {"fold_frequency", "drive frequency of the fold that makes the edge", "1", fold},
+};
+
+enum { RESULTS = sizeof results / sizeof results[0] };
+
+static pendres_status write_results(scene_run *run, const curve *c)
+{
+  const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  const size_t n = axis->count;
+  double *value_of = malloc(n * sizeof *value_of), *error = malloc(n * sizeof *error);
+  int8_t *peak = malloc(n * sizeof *peak);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (value_of == NULL || error == NULL || peak == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu results", n);
+    goto done;
+  }
+  status = pendres_store_dimension(run->store, "", "damping", n, axis->value, "damping", "1");
+  for (int k = 0; k < RESULTS && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = results[k].name, .dimensions = {"damping"},
+                                     .long_name = results[k].long_name, .units = results[k].units};
+    for (size_t i = 0; i < n; i++) {
+      const value v =
+        c->outcome[i] == PENDRES_OK ? results[k].of(&c->points[i]) : (value){NAN, NAN};
+      value_of[i] = v.result;
+      error[i] = v.error;
+    }
+    status = pendres_store_put_result(run->store, &spec, value_of, error, n);
+  }
+  static const char *const meanings[] = {"smooth", "edge", "none"};
+  const pendres_store_spec spec = {.name = "peak", .type = PENDRES_STORE_INT8,
+                                   .dimensions = {"damping"}, .flag_count = 3,
+                                   .flag_meanings = meanings,
+                                   .long_name = "a smooth maximum, or the largest value at a jump"};
+  for (size_t i = 0; i < n; i++)
+    peak[i] = c->outcome[i] == PENDRES_OK ? (int8_t)c->points[i].peak : 2;
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, peak, n);
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+done:
+  free(value_of);
+  free(error);
+  free(peak);
+  return status;
+}
+
+/* ---- the paper's figures ---- */
+
+/* Printed resonant periods (paper, Figs. 3 and 4) at F0 = 0.2. */
+static const struct {
+  double damping, period;
+  const char *name;
+} printed_periods[] = {
+  {0.24, 6.66, "resonance_period_damping_0_24"},
+  {0.32, 6.542, "resonance_period_damping_0_32"},
+  {0.80, 6.865, "resonance_period_damping_0_80"},
+  {0.90, 7.02, "resonance_period_damping_0_90"},
+};
+
+/* Printed dampings of the largest resonance frequency, and below which the curve breaks off. */
+static const struct {
+  double drive_amplitude, top, break_off;
+} printed_turns[] = {{0.2, 0.38, 0.165}, {0.1, 0.28, 0.099}};
+
+/* Index of a damping of the axis; -1 if it is not there. */
+static int index_of(const deck_axis *axis, double damping)
+{
+  for (size_t i = 0; i < axis->count; i++)
+    if (fabs(axis->value[i] - damping) < 1e-12) return (int)i;
+  return -1;
+}
+
+/*
+ * Damping of the largest smooth resonance frequency: the vertex of the parabola through the
+ * largest value and its neighbours; off by no more than the axis is coarse.
+ */
+static int turning_point(const curve *c, double *damping, double *error)
+{
+  const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  size_t top = 0;
+  for (size_t i = 1; i + 1 < axis->count; i++)
+    if (c->outcome[i] == PENDRES_OK &&
+        (top == 0 || c->points[i].frequency > c->points[top].frequency))
+      top = i;
+  if (top == 0 || top + 1 >= axis->count || c->outcome[top - 1] != PENDRES_OK ||
+      c->outcome[top + 1] != PENDRES_OK)
+    return 0;
+  const double x0 = axis->value[top - 1], x1 = axis->value[top], x2 = axis->value[top + 1];
+  const double y0 = c->points[top - 1].frequency, y1 = c->points[top].frequency,
+               y2 = c->points[top + 1].frequency;
+  const double left = (y1 - y0) / (x1 - x0), right = (y2 - y1) / (x2 - x1);
+  const double bend = (right - left) / (x2 - x0);
+  if (!(bend < 0.0)) return 0;
+  *damping = 0.5 * (x0 + x1) - left / (2.0 * bend);
+  *error = 0.25 * (x2 - x0); /* the cubic term of the curve, generously */
+  return 1;
+}
+
+/* Middle of the gap in damping where the peak turns from an edge to smooth. */
+static int break_off(const curve *c, double *damping, double *error)
+{
+  const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  for (size_t i = 0; i + 1 < axis->count; i++)
+    if (c->outcome[i] == PENDRES_OK && c->outcome[i + 1] == PENDRES_OK &&
+        c->points[i].peak == PENDRES_PEAK_EDGE && c->points[i + 1].peak == PENDRES_PEAK_SMOOTH) {
+      *damping = 0.5 * (axis->value[i] + axis->value[i + 1]);
+      *error = 0.5 * (axis->value[i + 1] - axis->value[i]);
+      return 1;
+    }
+  return 0;
+}
+
+static pendres_status write_paper(scene_run *run, const curve *c)
+{
+  enum { MOST = sizeof printed_periods / sizeof printed_periods[0] + 2 };
+  scene_printed values[MOST];
+  size_t n = 0;
+  const double f0 = c->d->pendulum.drive_amplitude;
+  for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
+    double damping, error;
+    if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
+    if (turning_point(c, &damping, &error))
+      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top, damping, error};
+    if (break_off(c, &damping, &error))
+      values[n++] = (scene_printed){"damping_of_break", printed_turns[k].break_off, damping, error};
+  }
+  for (size_t k = 0; k < sizeof printed_periods / sizeof printed_periods[0]; k++) {
+    const int i = index_of(&c->d->axis[DECK_AXIS_DAMPING], printed_periods[k].damping);
+    if (i < 0 || fabs(f0 - 0.2) > 1e-12 || c->outcome[i] != PENDRES_OK) continue;
+    const value v = period(&c->points[i]);
+    values[n++] = (scene_printed){printed_periods[k].name, printed_periods[k].period, v.result, v.error};
+  }
+  return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
+}
+
+static void print_table(FILE *out, const curve *c)
+{
+  const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
+  fprintf(out, "damping   frequency     +-       period       amplitude  area         peak\n");
+  for (size_t i = 0; i < axis->count; i++) {
+    const pendres_resonance *r = &c->points[i];
+    /* Some twenty lines show the curve. */
+    if (axis->count > 24 && i % (axis->count / 20 + 1) != 0 && i + 1 != axis->count) continue;
+    if (c->outcome[i] != PENDRES_OK)
+      fprintf(out, "%-9.4g no peak in the range\n", axis->value[i]);
+    else
+      fprintf(out, "%-9.4g %.10f  %.0e  %.9f  %.6f   %.8f   %s\n", axis->value[i], r->frequency,
+              r->frequency_error, two_pi / r->frequency, r->response.mean_loop_amplitude,
+              r->loop_area, r->peak == PENDRES_PEAK_EDGE ? "edge" : "smooth");
+  }
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  curve c = {.d = run->deck,
+             .ensemble = {.members = (size_t)run->deck->ensemble.members,
+                          .x_first = run->deck->ensemble.x_first,
+                          .x_last = run->deck->ensemble.x_last,
+                          .v = run->deck->ensemble.v}};
+  const size_t n = run->deck->axis[DECK_AXIS_DAMPING].count;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  c.points = calloc(n, sizeof *c.points);
+  c.outcome = calloc(n, sizeof *c.outcome);
+  if (c.points == NULL || c.outcome == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu dampings", n);
+    goto done;
+  }
+  status = farm_run(run->farm, "dampings", n, compute, NULL, &c);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(run, status, "%s", farm_message(run->farm));
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) run->failed_points += c.outcome[i] != PENDRES_OK;
+  status = write_results(run, &c);
+  if (status == PENDRES_OK) status = write_paper(run, &c);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &c);
+done:
+  free(c.points);
+  free(c.outcome);
+  return status;
+}
+
+const scene_kind scene_resonance_curve = {
+  .kind = DECK_RESONANCE_CURVE,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
+                "(1999) 2067",
+  .plan = plan,
+  .run = run_scene};

@@ -1,0 +1,57 @@
+/*
+ * resonance.h -- the drive frequency at which an ensemble dissipates most in a cycle.
+ *
+ * Owns: the search for the largest mean loop area over drive frequency at given damping and
+ * drive amplitude (the paper's definition of resonance).
+ *
+ * The mean loop area is smooth in omega where the members keep their attractors, and jumps where
+ * an attractor ends in a fold or a member changes its basin. The largest value is either a smooth
+ * peak (a zero of dA/domega along the branch, from the variational equation) or an edge (the
+ * largest value at a jump). Both are looked for in the whole range and compete.
+ */
+#ifndef PENDRES_RESONANCE_H
+#define PENDRES_RESONANCE_H
+
+#include <pendres/response.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+typedef enum pendres_peak {
+  PENDRES_PEAK_SMOOTH = 0, /**< a maximum with a vanishing slope */
+  PENDRES_PEAK_EDGE = 1    /**< the largest mean area where it jumps */
+} pendres_peak;
+
+/** A resonance. */
+typedef struct pendres_resonance {
+  pendres_peak peak;
+  double frequency, frequency_error; /**< omega; period is 2 pi / frequency */
+  double loop_area, loop_area_error; /**< mean loop area there: the largest in the range */
+  pendres_response response;         /**< everything else there; at an edge, on its upper side */
+  double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
+                                          at an edge made by basins alone */
+  double fold_frequency_error;
+} pendres_resonance;
+
+/**
+ * The resonance of pendulums with p's damping and drive amplitude for frequencies in [lowest,
+ * highest] (p's own frequency is not read), with the paper's ensemble of 200.
+ *
+ * PENDRES_NOT_FOUND: the mean loop area is largest at an end of the range (message says which).
+ */
+pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
+                                      double lowest, double highest, pendres_resonance *out);
+
+/** The same with an ensemble of the caller's. */
+pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
+                                               double lowest, double highest,
+                                               const pendres_ensemble *ensemble,
+                                               pendres_resonance *out);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,207 @@
+/* resonance.c -- the search for the largest mean loop area; see resonance.h. */
+#include <pendres/resonance.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "context_internal.h"
+#include "resonance_refine.h"
+
+enum {
+  SCAN_POINTS = 19,   /* over the range at first: 0.04 apart in the default range */
+  MOST_POINTS = 400,  /* of one search; a range that needs more is not resolved */
+  SECTIONS = 4        /* an interval with a jump is cut into */
+};
+
+/* An interval with a jump is cut until it is this narrow; then its fold is located. */
+static const double narrow = 2e-5;
+
+/* What happens between two neighbouring points of the scan. */
+typedef enum gap_kind { GAP_PLAIN, GAP_PEAK, GAP_JUMP } gap_kind;
+
+typedef struct search {
+  pendres_context *ctx;
+  pendres_pendulum pendulum;
+  const pendres_ensemble *ensemble;
+  size_t count;
+  pendres_scan_point *points; /* ascending in omega */
+} search;
+
+static int by_frequency(const void *a, const void *b)
+{
+  const pendres_scan_point *p = a, *q = b;
+  return p->response.pendulum.drive_frequency < q->response.pendulum.drive_frequency ? -1 : 1;
+}
+
+/* Evaluate n more frequencies and sort them in. */
+static pendres_status add_points(search *s, size_t n, const double *omega)
+{
+  pendres_status status = PENDRES_OK;
+  if (s->count + n > MOST_POINTS)
+    return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
+                                "damping %g: the resonance needs more than %d frequencies",
+                                s->pendulum.damping, MOST_POINTS);
+  status = pendres_scan_evaluate(s->ctx, &s->pendulum, s->ensemble, n, omega, s->points + s->count);
+  if (status != PENDRES_OK) return status;
+  s->count += n;
+  qsort(s->points, s->count, sizeof *s->points, by_frequency);
+  return PENDRES_OK;
+}
+
+static double frequency_of(const pendres_scan_point *p)
+{
+  return p->response.pendulum.drive_frequency;
+}
+
+/* The members are on the same states at both points: nothing jumped in between. */
+static int same_states(const pendres_response *a, const pendres_response *b)
+{
+  if (a->states != b->states || a->unresolved != b->unresolved) return 0;
+  for (size_t i = 0; i < a->states; i++)
+    if (a->state_members[i] != b->state_members[i]) return 0;
+  return 1;
+}
+
+static gap_kind kind_of(const pendres_scan_point *a, const pendres_scan_point *b)
+{
+  if (a->jump_to_next || !same_states(&a->response, &b->response)) return GAP_JUMP;
+  return a->slope > 0.0 && b->slope < 0.0 ? GAP_PEAK : GAP_PLAIN;
+}
+
+/* Share of the members on the state of the largest area, that area, and the next smaller one. */
+static double top_share(const pendres_response *r, double *first, double *second)
+{
+  size_t top = 0, members = 0;
+  for (size_t i = 0; i < r->states; i++) {
+    members += r->state_members[i];
+    if (r->state[i].orbit.loop_area > r->state[top].orbit.loop_area) top = i;
+  }
+  if (r->states == 0) return 0.0;
+  for (size_t i = 0; i < r->states; i++) {
+    const double area = r->state[i].orbit.loop_area;
+    if (i != top) *second = fmax(*second, isfinite(area) ? area : 0.0);
+  }
+  *first = fmax(*first, r->state[top].orbit.loop_area);
+  return (double)r->state_members[top] / (double)members;
+}
+
+/*
+ * No mean area between two points exceeds this: areas of states grow at most by their slope, and
+ * the share of the largest one is at most that at either end plus a tenth of the members (a
+ * fiftieth in narrow gaps), for members that come and go in between.
+ */
+static double bound_of(const pendres_scan_point *a, const pendres_scan_point *b)
+{
+  const double width = frequency_of(b) - frequency_of(a);
+  const double growth = width * fmax(a->steepest, b->steepest);
+  double first = 0.0, second = 0.0;
+  if (kind_of(a, b) != GAP_JUMP)
+    return fmax(a->response.mean_loop_area, b->response.mean_loop_area) + 0.5 * growth;
+  const double share = fmin(1.0, fmax(top_share(&a->response, &first, &second),
+                                      top_share(&b->response, &first, &second)) +
+                                   (width > 0.01 ? 0.1 : 0.02));
+  return share * first + (1.0 - share) * second + growth;
+}
+
+static double best_area(const search *s)
+{
+  double best = -INFINITY;
+  for (size_t i = 0; i < s->count; i++) best = fmax(best, s->points[i].response.mean_loop_area);
+  return best;
+}
+
+/* Cut every gap that jumps and may hold more than the best value known, until all are narrow. */
+static pendres_status resolve_jumps(search *s)
+{
+  for (;;) {
+    double omega[MOST_POINTS];
+    size_t n = 0;
+    const double best = best_area(s);
+    for (size_t i = 0; i + 1 < s->count; i++) {
+      const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+      const double width = frequency_of(b) - frequency_of(a);
+      if (kind_of(a, b) != GAP_JUMP || width <= narrow || bound_of(a, b) <= best) continue;
+      for (int k = 1; k < SECTIONS && n < MOST_POINTS; k++)
+        omega[n++] = frequency_of(a) + width * k / SECTIONS;
+    }
+    if (n == 0) return PENDRES_OK;
+    const pendres_status status = add_points(s, n, omega);
+    if (status != PENDRES_OK) return status;
+  }
+}
+
+/* The best of all smooth peaks and edges. *again: a jump turned up that has to be resolved first. */
+static pendres_status choose(search *s, pendres_resonance *out, int *again)
+{
+  pendres_status status = PENDRES_OK;
+  int found = 0;
+  *again = 0;
+  out->loop_area = -INFINITY;
+  for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK; i++) {
+    pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+    const gap_kind kind = kind_of(a, b);
+    pendres_resonance one;
+    if (kind == GAP_PLAIN || bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
+    status = kind == GAP_PEAK
+               ? pendres_resonance_refine_peak(s->ctx, a, b, &one)
+               : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
+    if (status == PENDRES_NOT_FOUND) {
+      /* The slope changes its sign without a zero: there is a jump in between after all. */
+      a->jump_to_next = 1;
+      *again = 1;
+      return PENDRES_OK;
+    }
+    if (status == PENDRES_OK && one.loop_area > out->loop_area) {
+      *out = one;
+      found = 1;
+    }
+  }
+  if (status != PENDRES_OK) return status;
+  const pendres_scan_point *first = &s->points[0], *last = &s->points[s->count - 1];
+  const double ends =
+    fmax(first->response.mean_loop_area, last->response.mean_loop_area);
+  if (!found || ends > out->loop_area) {
+    const int low = first->response.mean_loop_area >= last->response.mean_loop_area;
+    return pendres_context_fail(
+      s->ctx, PENDRES_NOT_FOUND,
+      "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
+      "drive frequency %g", s->pendulum.damping, s->pendulum.drive_amplitude,
+      low ? "lower" : "upper", frequency_of(low ? first : last));
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
+                                               double lowest, double highest,
+                                               const pendres_ensemble *ensemble,
+                                               pendres_resonance *out)
+{
+  if (ctx == NULL || p == NULL || ensemble == NULL || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "the range of frequencies must be positive and ascending");
+  search s = {.ctx = ctx, .pendulum = *p, .ensemble = ensemble};
+  s.points = malloc(MOST_POINTS * sizeof *s.points);
+  if (s.points == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
+
+  double omega[SCAN_POINTS];
+  for (int i = 0; i < SCAN_POINTS; i++)
+    omega[i] = lowest + (highest - lowest) * i / (SCAN_POINTS - 1);
+  memset(out, 0, sizeof *out);
+  pendres_status status = add_points(&s, SCAN_POINTS, omega);
+  for (int again = 1; again && status == PENDRES_OK;) {
+    status = resolve_jumps(&s);
+    if (status == PENDRES_OK) status = choose(&s, out, &again);
+  }
+  free(s.points);
+  return status;
+}
+
+pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
+                                      double lowest, double highest, pendres_resonance *out)
+{
+  const pendres_ensemble e = pendres_ensemble_default();
+  return pendres_resonance_find_ensemble(ctx, p, lowest, highest, &e, out);
+}

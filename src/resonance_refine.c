@@ -1,0 +1,356 @@
+/* resonance_refine.c -- from a bracket to a resonance with its error; see resonance_refine.h. */
+#include "resonance_refine.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <pendres/continuation.h>
+
+#include "context_internal.h"
+
+/* ---- evaluating frequencies ---- */
+
+/* Slopes of all states of n responses, refined side by side. */
+static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_point *points)
+{
+  size_t count = 0, k = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n; i++) count += points[i].response.states;
+  pendres_orbit_guess *guess = calloc(count + 1, sizeof *guess);
+  pendres_orbit *orbit = malloc((count + 1) * sizeof *orbit);
+  pendres_status *outcome = malloc((count + 1) * sizeof *outcome);
+  if (guess == NULL || orbit == NULL || outcome == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for slopes");
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = 0; j < points[i].response.states; j++) {
+      const pendres_orbit *o = &points[i].response.state[j].orbit;
+      if (isfinite(o->loop_area))
+        guess[k++] = (pendres_orbit_guess){
+          .pendulum = o->pendulum, .x = o->x, .v = o->v, .period = o->period, .winding = o->winding};
+    }
+  status = pendres_orbit_refine(ctx, k, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome);
+  k = 0;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    for (size_t j = 0; j < points[i].response.states; j++) {
+      pendres_orbit *o = &points[i].response.state[j].orbit;
+      if (!isfinite(o->loop_area)) continue;
+      if (outcome[k] != PENDRES_NOT_CONVERGED) *o = orbit[k];
+      k++;
+    }
+done:
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+static void average_slope(pendres_scan_point *p)
+{
+  size_t members = 0;
+  p->slope = p->steepest = 0.0;
+  for (size_t j = 0; j < p->response.states; j++) members += p->response.state_members[j];
+  for (size_t j = 0; j < p->response.states; j++) {
+    const double slope = p->response.state[j].orbit.loop_area_slope;
+    if (!isfinite(slope)) continue;
+    p->slope += slope * (double)p->response.state_members[j] / (double)members;
+    p->steepest = fmax(p->steepest, fabs(slope));
+  }
+}
+
+pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
+                                     const pendres_ensemble *ensemble, size_t n,
+                                     const double *omega, pendres_scan_point *out)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_pendulum *pendulums = calloc(n, sizeof *pendulums);
+  pendres_response *responses = malloc(n * sizeof *responses);
+  if (pendulums == NULL || responses == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a scan");
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    pendulums[i] = *p;
+    pendulums[i].drive_frequency = omega[i];
+  }
+  status = pendres_response_compute(ctx, n, pendulums, ensemble, responses);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0; i < n; i++) out[i] = (pendres_scan_point){.response = responses[i]};
+  status = add_slopes(ctx, n, out);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) average_slope(&out[i]);
+done:
+  free(pendulums);
+  free(responses);
+  return status;
+}
+
+/* ---- following states to another frequency ---- */
+
+/* A point's states, with the same members, at a nearby frequency. */
+static pendres_status follow(pendres_context *ctx, const pendres_scan_point *from, double omega,
+                             pendres_scan_point *to)
+{
+  *to = *from;
+  to->response.pendulum.drive_frequency = omega;
+  for (size_t j = 0; j < to->response.states; j++) {
+    pendres_orbit *o = &to->response.state[j].orbit;
+    const double step = omega - o->pendulum.drive_frequency;
+    if (!isfinite(o->loop_area)) continue;
+    if (isfinite(o->frequency_derivative[0])) {
+      o->x += step * o->frequency_derivative[0];
+      o->v += step * o->frequency_derivative[1];
+    }
+    o->pendulum.drive_frequency = omega;
+  }
+  const pendres_status status = add_slopes(ctx, 1, to);
+  if (status == PENDRES_OK) {
+    average_slope(to);
+    pendres_response_average(&to->response);
+  }
+  return status;
+}
+
+/* ---- smooth peaks ---- */
+
+typedef struct peak_search {
+  pendres_context *ctx;
+  const pendres_scan_point *a, *b; /* the bracket */
+  pendres_scan_point latest, before;
+  pendres_status status;
+} peak_search;
+
+/* The slope at a frequency, following the states from the nearest frequency known. */
+static double slope_at(double omega, void *arg)
+{
+  peak_search *s = arg;
+  const pendres_scan_point *from = s->a;
+  const pendres_scan_point *const known[] = {s->b, &s->latest, &s->before};
+  pendres_scan_point now;
+  for (int i = 0; i < 3; i++)
+    if (fabs(known[i]->response.pendulum.drive_frequency - omega) <
+        fabs(from->response.pendulum.drive_frequency - omega))
+      from = known[i];
+  if (s->status == PENDRES_OK) s->status = follow(s->ctx, from, omega, &now);
+  if (s->status != PENDRES_OK) return 0.0;
+  s->before = s->latest;
+  s->latest = now;
+  return now.slope;
+}
+
+/* Slope's error: of the states, weighted by members. */
+static double slope_error(const pendres_scan_point *p)
+{
+  double error = 0.0, members = 0.0;
+  for (size_t j = 0; j < p->response.states; j++) {
+    members += (double)p->response.state_members[j];
+    error += (double)p->response.state_members[j] * p->response.state[j].orbit.loop_area_slope_error;
+  }
+  return members > 0.0 ? error / members : NAN;
+}
+
+/* What changes along the branch within the error of the frequency. */
+static void add_frequency_error(pendres_resonance *r, const pendres_scan_point *near)
+{
+  pendres_response *a = &r->response;
+  const pendres_response *b = &near->response;
+  const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
+  if (step == 0.0) return;
+  const double share = r->frequency_error / fabs(step);
+  a->mean_loop_amplitude_error += share * fabs(b->mean_loop_amplitude - a->mean_loop_amplitude);
+  a->mean_amplitude_error += share * fabs(b->mean_amplitude - a->mean_amplitude);
+  a->phase_lag_error += share * fabs(b->phase_lag - a->phase_lag);
+  a->mean_power_error += share * fabs(b->mean_power - a->mean_power);
+  a->mean_loop_area_error += share * fabs(b->mean_loop_area - a->mean_loop_area);
+}
+
+static void finish(pendres_resonance *r, const pendres_scan_point *at)
+{
+  r->response = at->response;
+  r->frequency = at->response.pendulum.drive_frequency;
+  r->loop_area = at->response.mean_loop_area;
+  r->loop_area_error = at->response.mean_loop_area_error;
+}
+
+pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out)
+{
+  enum { MOST_STEPS = 60 };
+  peak_search s = {.ctx = ctx, .a = a, .b = b, .latest = *a, .before = *b};
+  gsl_function f = {.function = slope_at, .params = &s};
+  gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+  const double lower = a->response.pendulum.drive_frequency;
+  const double upper = b->response.pendulum.drive_frequency;
+  if (solver == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a root");
+
+  int gsl = gsl_root_fsolver_set(solver, &f, lower, upper);
+  for (int i = 0; i < MOST_STEPS && gsl == GSL_SUCCESS && s.status == PENDRES_OK; i++) {
+    gsl = gsl_root_fsolver_iterate(solver);
+    if (gsl == GSL_SUCCESS && fabs(s.latest.slope) <= slope_error(&s.latest)) break;
+    if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver),
+                               0.0, 4e-16) == GSL_SUCCESS)
+      break;
+  }
+  const double root = gsl_root_fsolver_root(solver);
+  gsl_root_fsolver_free(solver);
+  if (s.status != PENDRES_OK) return s.status;
+  if (gsl != GSL_SUCCESS)
+    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the slope of the loop area has no "
+                                "bracket between drive frequencies %g and %g", lower, upper);
+
+  /* The curvature from two points astride, wide enough for the slopes' own errors. */
+  pendres_scan_point at, beside;
+  const double width = fmin(1e-4, 0.25 * (upper - lower));
+  pendres_status status = follow(ctx, &s.latest, root, &at);
+  if (status == PENDRES_OK) status = follow(ctx, &at, root + width, &beside);
+  if (status != PENDRES_OK) return status;
+  const double curvature = (beside.slope - at.slope) / width;
+  /* A zero of the slope, or a jump through zero? */
+  if (!(curvature < 0.0) ||
+      fabs(at.slope) > 1e-3 * fmin(a->slope, -b->slope) + slope_error(&at))
+    return PENDRES_NOT_FOUND;
+  memset(out, 0, sizeof *out);
+  out->peak = PENDRES_PEAK_SMOOTH;
+  finish(out, &at);
+  out->fold_frequency = out->fold_frequency_error = NAN;
+  out->frequency_error =
+    (fabs(at.slope) + slope_error(&at)) / fabs(curvature) + 4e-16 * out->frequency;
+  add_frequency_error(out, &beside);
+  out->loop_area_error = out->response.mean_loop_area_error;
+  return PENDRES_OK;
+}
+
+/* ---- edges ---- */
+
+/*
+ * A state of `here` that has no counterpart in `there`: it ends in between. NULL if all go on (then
+ * members change their basins).
+ */
+static const pendres_attractor *ending_state(const pendres_response *here,
+                                             const pendres_response *there)
+{
+  for (size_t i = 0; i < here->states; i++) {
+    int goes_on = 0;
+    const pendres_orbit *o = &here->state[i].orbit;
+    for (size_t j = 0; j < there->states; j++) {
+      const pendres_orbit *p = &there->state[j].orbit;
+      const double distance = hypot(o->x - p->x, o->v - p->v);
+      /* Gaps are narrow: an orbit moves by far less than it differs from another, but for the
+         square-root rush into its fold. */
+      goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
+    }
+    if (!goes_on && isfinite(o->loop_area)) return &here->state[i];
+  }
+  return NULL;
+}
+
+/* Members on the states that `other` does not have. */
+static size_t members_ending(const pendres_response *here, const pendres_response *other)
+{
+  const pendres_attractor *state = ending_state(here, other);
+  return state != NULL ? here->state_members[state - here->state] : 0;
+}
+
+/* Halve the gap between two different points until it is narrower than `width`. */
+static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
+                             pendres_scan_point *a, pendres_scan_point *b)
+{
+  for (;;) {
+    const double lower = a->response.pendulum.drive_frequency;
+    const double upper = b->response.pendulum.drive_frequency;
+    const double middle = 0.5 * (lower + upper);
+    if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
+    pendres_scan_point m;
+    const pendres_status status =
+      pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, &m);
+    if (status != PENDRES_OK) return status;
+    /* Keep the larger jump: that is where the largest value is. */
+    const double left = fabs(m.response.mean_loop_area - a->response.mean_loop_area);
+    const double right = fabs(b->response.mean_loop_area - m.response.mean_loop_area);
+    if (left > right)
+      *b = m;
+    else
+      *a = m;
+  }
+}
+
+/*
+ * Whether the fold alone makes the edge: just before it the state still has about as many members
+ * as at the far end of the gap, so its basin is born with them inside, not entered later.
+ */
+static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                   double fold, const pendres_scan_point *with,
+                                   const pendres_scan_point *without, int *decides)
+{
+  const double side = with->response.pendulum.drive_frequency < fold ? -1.0 : 1.0;
+  const double omega = fold + side * 1e-6;
+  pendres_scan_point p;
+  const pendres_status status =
+    pendres_scan_evaluate(ctx, &with->response.pendulum, ensemble, 1, &omega, &p);
+  if (status == PENDRES_OK) {
+    const size_t near = members_ending(&p.response, &without->response);
+    const size_t far = members_ending(&with->response, &without->response);
+    *decides = near > 0 && 2 * near >= far;
+  }
+  return status;
+}
+
+/* The fold in the gap that makes its jump, if there is one. */
+static pendres_status find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                const pendres_scan_point *a, const pendres_scan_point *b,
+                                pendres_fold *fold, int *found)
+{
+  const pendres_attractor *left = ending_state(&a->response, &b->response);
+  const pendres_attractor *right = ending_state(&b->response, &a->response);
+  const pendres_attractor *state = left != NULL ? left : right;
+  *found = 0;
+  if (state == NULL || (left != NULL && right != NULL)) return PENDRES_OK;
+  const pendres_status status = pendres_fold_find(ctx, &state->orbit, fold);
+  if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
+  if (status != PENDRES_OK) return status;
+  if (!(fold->value >= a->response.pendulum.drive_frequency - 1e-12 &&
+        fold->value <= b->response.pendulum.drive_frequency + 1e-12))
+    return PENDRES_OK;
+  return fold_decides(ctx, ensemble, fold->value, left != NULL ? a : b, left != NULL ? b : a,
+                      found);
+}
+
+pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out)
+{
+  pendres_scan_point lower = *a, upper = *b, at;
+  pendres_fold fold;
+  int by_fold = 0;
+  pendres_status status = find_fold(ctx, ensemble, a, b, &fold, &by_fold);
+  if (status == PENDRES_OK && !by_fold)
+    status = bisect(ctx, ensemble, 0.25 * pendres_context_options(ctx)->tolerance, &lower, &upper);
+  if (status != PENDRES_OK) return status;
+
+  const pendres_scan_point *better =
+    lower.response.mean_loop_area > upper.response.mean_loop_area ? &lower : &upper;
+  const double low = lower.response.pendulum.drive_frequency;
+  const double high = upper.response.pendulum.drive_frequency;
+  const double omega = by_fold ? fold.value : better == &lower ? low : high;
+  status = follow(ctx, better, omega, &at);
+  if (status != PENDRES_OK) return status;
+
+  memset(out, 0, sizeof *out);
+  out->peak = PENDRES_PEAK_EDGE;
+  finish(out, &at);
+  out->fold_frequency = by_fold ? fold.value : NAN;
+  out->fold_frequency_error = by_fold ? fold.value_error : NAN;
+  out->frequency_error = by_fold ? fold.value_error : high - low;
+  pendres_scan_point beside;
+  const double step = better == &lower ? -1e-6 : 1e-6;
+  status = follow(ctx, &at, omega + step, &beside);
+  if (status != PENDRES_OK) return status;
+  add_frequency_error(out, &beside);
+  out->loop_area_error = out->response.mean_loop_area_error;
+  return PENDRES_OK;
+}

@@ -1,0 +1,31 @@
+/*
+ * resonance_refine.h -- from a bracket to a resonance with its error.
+ */
+#ifndef PENDRES_RESONANCE_REFINE_H
+#define PENDRES_RESONANCE_REFINE_H
+
+#include <pendres/resonance.h>
+
+/* A frequency that was looked at. */
+typedef struct pendres_scan_point {
+  pendres_response response; /* its states have their slopes by frequency */
+  double slope;              /* d(mean loop area)/domega with the members' states held */
+  double steepest;           /* largest |slope| of any state's own area */
+  int jump_to_next;          /* there is a jump before the next point, whatever the states say */
+} pendres_scan_point;
+
+/* Responses with slopes at n frequencies. */
+pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
+                                     const pendres_ensemble *ensemble, size_t n,
+                                     const double *omega, pendres_scan_point *out);
+
+/* The zero of the slope between a (rising) and b (falling). PENDRES_NOT_FOUND: there is none. */
+pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out);
+
+/* The jump between a and b, and the larger of the values at it. */
+pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out);
+
+#endif
