@@ -339,7 +339,8 @@ static void skip_non_assignment(reader *r)
     const int c = lex_peek(r);
     if (c == '!') lex_skip_line(r);
     if (c == '/' || c == '&' || c == '$') return;
-    if (!lex_is_name(lex_at(r, r->at - 1)) && lex_assignment_starts(r, r->at)) return;
+    const int before = lex_at(r, r->at - 1);
+    if (!lex_is_name(before) && before != '%' && lex_assignment_starts(r, r->at)) return;
     if (lex_is_quote(c)) {
       const size_t close = lex_string_close(r, r->at);
       if (close != 0) lex_advance_to(r, close);

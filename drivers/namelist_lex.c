@@ -64,7 +64,7 @@ int lex_assignment_starts(const reader *r, size_t at)
   if (lex_at(r, end) == '(') {
     const size_t open = end;
     while (lex_at(r, end) != ')') {
-      if (lex_at(r, end) == LEX_END || lex_at(r, end) == '\n' || end - open > 200) return 0;
+      if (lex_at(r, end) == LEX_END || lex_at(r, end) == '\n' || end - open > 60) return 0;
       end++;
     }
     end = lex_blanks_end(r, end + 1);
@@ -104,11 +104,13 @@ int lex_is_value_end(int c)
 /* Where an undelimited value ends; what stands in parentheses belongs to it. */
 size_t lex_bare_end(const reader *r, size_t at)
 {
+  int look = 1; /* parentheses that stay open are looked for once: a line may hold many */
   while (!lex_is_value_end(lex_at(r, at)) && !lex_is_quote(lex_at(r, at))) {
-    if (lex_at(r, at) == '(') {
+    if (look && lex_at(r, at) == '(') {
       size_t close = at;
       while (lex_at(r, close) != ')' && lex_at(r, close) != LEX_END && lex_at(r, close) != '\n') close++;
-      if (lex_at(r, close) == ')') at = close;
+      look = lex_at(r, close) == ')';
+      if (look) at = close;
     }
     at++;
   }
