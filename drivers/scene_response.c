@@ -1,0 +1,260 @@
+/*
+ * scene_response.c -- amplitude and phase lag of the mean loop against the drive period.
+ *
+ * The paper's Figs. 3 and 4. One task a damping and handful of drive periods, and one a damping
+ * for its resonance.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { CHUNK = 16 /* drive periods a task */ };
+
+typedef struct grid {
+  const deck *d;
+  pendres_ensemble ensemble;
+  size_t dampings, drives;    /* sizes of the axes */
+  size_t chunks;              /* tasks a damping */
+  pendres_response *points;   /* [damping][drive] */
+  pendres_resonance *peaks;   /* [damping] */
+  pendres_status *outcome;    /* of the peaks */
+} grid;
+
+/* The scene's second axis: the drive period, or the frequency where the deck says so. */
+static deck_axis_id drive_axis(const deck *d)
+{
+  return d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
+                                                   : DECK_AXIS_DRIVE_FREQUENCY;
+}
+
+static void plan(const deck *d, FILE *out)
+{
+  const deck_axis *drive = &d->axis[drive_axis(d)];
+  fprintf(out,
+          "mean response of %lld members at %zu dampings and %zu values of %s, %g to %g,\n"
+          "drive amplitude %g; and the resonance of each damping\n",
+          (long long)d->ensemble.members, d->axis[DECK_AXIS_DAMPING].count, drive->count,
+          deck_axis_name(drive_axis(d)), drive->value[0], drive->value[drive->count - 1],
+          d->pendulum.drive_amplitude);
+}
+
+static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
+{
+  const deck_axis_id axis = drive_axis(g->d);
+  const double value = g->d->axis[axis].value[drive];
+  return (pendres_pendulum){
+    .damping = g->d->axis[DECK_AXIS_DAMPING].value[damping],
+    .drive_amplitude = g->d->pendulum.drive_amplitude,
+    .drive_frequency = axis == DECK_AXIS_DRIVE_PERIOD ? two_pi / value : value};
+}
+
+static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+{
+  grid *g = arg;
+  if (task >= g->dampings * g->chunks) {
+    const size_t i = task - g->dampings * g->chunks;
+    const pendres_pendulum p = pendulum_at(g, i, 0);
+    g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
+                                                    &g->ensemble, &g->peaks[i]);
+    const int missing =
+      g->outcome[i] == PENDRES_NOT_FOUND || g->outcome[i] == PENDRES_NOT_CONVERGED;
+    return missing ? PENDRES_OK : g->outcome[i];
+  }
+  const size_t damping = task / g->chunks, first = task % g->chunks * CHUNK;
+  const size_t n = g->drives - first < CHUNK ? g->drives - first : CHUNK;
+  pendres_pendulum pendulums[CHUNK];
+  for (size_t k = 0; k < n; k++) pendulums[k] = pendulum_at(g, damping, first + k);
+  return pendres_response_compute(ctx, n, pendulums, &g->ensemble,
+                                  g->points + damping * g->drives + first);
+}
+
+/* Results of a point: a value and its error by their offsets in pendres_response. */
+#define FIELD(name, text, unit)                                                              \
+  {#name, text, unit, offsetof(pendres_response, name), offsetof(pendres_response, name##_error)}
+
+static const struct {
+  const char *name, *long_name, *units;
+  size_t value, error;
+} fields[] = {
+  FIELD(mean_loop_area, "mean loop area of the ensemble", "1"),
+  FIELD(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
+  FIELD(mean_amplitude, "mean of the members' amplitudes", "rad"),
+  FIELD(phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  FIELD(mean_power, "mean power taken up from the drive", "1"),
+  FIELD(sa_fraction, "share of the members on the small-amplitude state", "1"),
+  FIELD(la_fraction, "share of the members on the large-amplitude state", "1"),
+};
+
+static double field(const pendres_response *r, size_t offset)
+{
+  double value;
+  memcpy(&value, (const char *)r + offset, sizeof value);
+  return value;
+}
+
+static pendres_status write_points(scene_run *run, const grid *g, double *value, double *error)
+{
+  const char *drive = deck_axis_name(drive_axis(g->d));
+  const size_t n = g->dampings * g->drives;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < sizeof fields / sizeof fields[0] && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = fields[k].name, .dimensions = {"damping", drive},
+                                     .long_name = fields[k].long_name, .units = fields[k].units};
+    for (size_t i = 0; i < n; i++) {
+      value[i] = field(&g->points[i], fields[k].value);
+      error[i] = field(&g->points[i], fields[k].error);
+    }
+    status = pendres_store_put_result(run->store, &spec, value, error, n);
+  }
+  return status;
+}
+
+static void peak_value(const pendres_resonance *r, int which, double *value, double *error)
+{
+  const pendres_response *a = &r->response;
+  switch (which) {
+  case 0:
+    *value = two_pi / r->frequency;
+    *error = *value * r->frequency_error / r->frequency;
+    break;
+  case 1: *value = r->loop_area, *error = r->loop_area_error; break;
+  case 2: *value = a->mean_loop_amplitude, *error = a->mean_loop_amplitude_error; break;
+  default: *value = a->phase_lag, *error = a->phase_lag_error; break;
+  }
+}
+
+static pendres_status write_peaks(scene_run *run, const grid *g, double *value, double *error)
+{
+  static const struct {
+    const char *name, *long_name, *units;
+  } results[] = {
+    {"resonance_period", "drive period of the largest mean loop area", "1"},
+    {"resonance_loop_area", "mean loop area at resonance", "1"},
+    {"resonance_amplitude", "amplitude of the ensemble-averaged loop at resonance", "rad"},
+    {"resonance_phase_lag", "phase lag of the ensemble-averaged loop at resonance", "rad"},
+  };
+  pendres_status status = PENDRES_OK;
+  for (int k = 0; k < 4 && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = results[k].name, .dimensions = {"damping"},
+                                     .long_name = results[k].long_name, .units = results[k].units};
+    for (size_t i = 0; i < g->dampings; i++) {
+      value[i] = error[i] = NAN;
+      if (g->outcome[i] == PENDRES_OK) peak_value(&g->peaks[i], k, &value[i], &error[i]);
+    }
+    status = pendres_store_put_result(run->store, &spec, value, error, g->dampings);
+  }
+  return status;
+}
+
+static pendres_status write_results(scene_run *run, const grid *g)
+{
+  const deck_axis *damping = &g->d->axis[DECK_AXIS_DAMPING];
+  const deck_axis_id axis = drive_axis(g->d);
+  const size_t n = g->dampings * g->drives;
+  double *value = malloc(n * sizeof *value), *error = malloc(n * sizeof *error);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (value == NULL || error == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu results", n);
+    goto done;
+  }
+  status = pendres_store_dimension(run->store, "", "damping", g->dampings, damping->value,
+                                   "damping", "1");
+  if (status == PENDRES_OK)
+    status = pendres_store_dimension(run->store, "", deck_axis_name(axis), g->drives,
+                                     g->d->axis[axis].value,
+                                     axis == DECK_AXIS_DRIVE_PERIOD ? "drive period" : "drive frequency",
+                                     "1");
+  if (status == PENDRES_OK) status = write_points(run, g, value, error);
+  if (status == PENDRES_OK) status = write_peaks(run, g, value, error);
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+done:
+  free(value);
+  free(error);
+  return status;
+}
+
+/* Resonant periods that the paper prints in the captions of Figs. 3 and 4, F0 = 0.2. */
+static pendres_status write_paper(scene_run *run, const grid *g)
+{
+  static const struct {
+    double damping, period;
+    const char *name;
+  } printed[] = {
+    {0.24, 6.66, "resonance_period_damping_0_24"},
+    {0.32, 6.542, "resonance_period_damping_0_32"},
+    {0.80, 6.865, "resonance_period_damping_0_80"},
+    {0.90, 7.02, "resonance_period_damping_0_90"},
+  };
+  scene_printed values[4];
+  size_t n = 0;
+  if (fabs(g->d->pendulum.drive_amplitude - 0.2) > 1e-12) return PENDRES_OK;
+  for (size_t k = 0; k < 4; k++)
+    for (size_t i = 0; i < g->dampings; i++) {
+      const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
+      if (fabs(damping - printed[k].damping) > 1e-12 || g->outcome[i] != PENDRES_OK) continue;
+      values[n] = (scene_printed){.name = printed[k].name, .printed = printed[k].period};
+      peak_value(&g->peaks[i], 0, &values[n].computed, &values[n].error);
+      n++;
+    }
+  return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
+}
+
+static void print_table(FILE *out, const grid *g)
+{
+  fprintf(out, "damping   resonant period  amplitude  phase lag  loop area\n");
+  for (size_t i = 0; i < g->dampings; i++) {
+    const pendres_resonance *r = &g->peaks[i];
+    const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
+    if (g->outcome[i] == PENDRES_OK)
+      fprintf(out, "%-9.4g %.9f      %.6f   %.6f   %.8f\n", damping, two_pi / r->frequency,
+              r->response.mean_loop_amplitude, r->response.phase_lag, r->loop_area);
+    else
+      fprintf(out, "%-9.4g no peak in the range\n", damping);
+  }
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  grid g = {.d = d,
+            .ensemble = {.members = (size_t)d->ensemble.members, .x_first = d->ensemble.x_first,
+                         .x_last = d->ensemble.x_last, .v = d->ensemble.v},
+            .dampings = d->axis[DECK_AXIS_DAMPING].count,
+            .drives = d->axis[drive_axis(d)].count};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  g.chunks = (g.drives + CHUNK - 1) / CHUNK;
+  g.points = calloc(g.dampings * g.drives, sizeof *g.points);
+  g.peaks = calloc(g.dampings, sizeof *g.peaks);
+  g.outcome = calloc(g.dampings, sizeof *g.outcome);
+  if (g.points == NULL || g.peaks == NULL || g.outcome == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu points", g.dampings * g.drives);
+    goto done;
+  }
+  status = farm_run(run->farm, "chunks", g.dampings * (g.chunks + 1), compute, NULL, &g);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(run, status, "%s", farm_message(run->farm));
+    goto done;
+  }
+  for (size_t i = 0; i < g.dampings; i++) run->failed_points += g.outcome[i] != PENDRES_OK;
+  for (size_t i = 0; i < g.dampings * g.drives; i++)
+    run->failed_points += g.points[i].unresolved > 0;
+  status = write_results(run, &g);
+  if (status == PENDRES_OK) status = write_paper(run, &g);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
+done:
+  free(g.points);
+  free(g.peaks);
+  free(g.outcome);
+  return status;
+}
+
+const scene_kind scene_response = {
+  .kind = DECK_RESPONSE,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Figs. 3 and 4",
+  .plan = plan,
+  .run = run_scene};
