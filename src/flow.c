@@ -265,21 +265,32 @@ double *pendres_flow_state(pendres_flow *flow)
 }
 
 /* Put the clock back to phase 0, with the block's present state. */
-static pendres_status start_period(pendres_flow *flow)
+static pendres_status start_period(pendres_flow *flow, double end)
 {
   flow->memo.next = 0;
   flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
-  if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, two_pi);
+  if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, end);
   return flow->failure == 0 ? PENDRES_OK : PENDRES_INTEGRATION_FAILED;
+}
+
+static pendres_status advance_to(pendres_flow *flow, double end)
+{
+  sunrealtype reached = 0.0;
+  const pendres_status status = start_period(flow, end);
+  if (status != PENDRES_OK) return status;
+  flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
+  return flow->failure < 0 ? PENDRES_INTEGRATION_FAILED : PENDRES_OK;
 }
 
 pendres_status pendres_flow_period(pendres_flow *flow)
 {
-  sunrealtype reached = 0.0;
-  const pendres_status status = start_period(flow);
-  if (status != PENDRES_OK) return status;
-  flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_NORMAL);
-  return flow->failure < 0 ? PENDRES_INTEGRATION_FAILED : PENDRES_OK;
+  return advance_to(flow, two_pi);
+}
+
+pendres_status pendres_flow_half_period(pendres_flow *flow)
+{
+  if (flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
+  return advance_to(flow, 0.5 * two_pi);
 }
 
 pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
@@ -287,7 +298,7 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
 {
   sunrealtype reached = 0.0;
   if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
-  const pendres_status status = start_period(flow);
+  const pendres_status status = start_period(flow, two_pi);
   if (status != PENDRES_OK) return status;
   for (int step = 1; step <= flow->steps; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_ONE_STEP);

@@ -62,7 +62,13 @@ double *pendres_flow_state(pendres_flow *flow);
 pendres_status pendres_flow_period(pendres_flow *flow);
 
 /*
- * The same, and call sample(arg, step, theta, stride, state) after each step 1..n; fixed steps
+ * Advance all lanes from drive phase 0 to pi: fixed steps, an even number a period. Orbits that are
+ * their own mirror image close after half a period and a reflection.
+ */
+pendres_status pendres_flow_half_period(pendres_flow *flow);
+
+/*
+ * Like pendres_flow_period, and call sample(arg, step, theta, stride, state) after each step 1..n; fixed steps
  * only, so the samples are equally spaced and the last one is the period's end.
  */
 typedef void pendres_flow_sample(void *arg, int step, double theta, size_t stride,

@@ -1,0 +1,109 @@
+/*
+ * continuation_map.h -- the map whose fixed points are followed, and systems of equations on it.
+ *
+ * Owns: evaluating, side by side in lanes, the stroboscopic map with its derivatives by state and
+ * parameters, and Newton's method on the equations of fixed points, folds, flips and cusps.
+ *
+ * An unknown point is u = (y, w, omega, gamma, F0), y = x - pi/2 and w = v/omega at drive
+ * phase 0. The map G is
+ *
+ *   the q-th iterate of the strobe map, less 2 pi p (winding p), or
+ *   for an orbit that is its own mirror image, half a period followed by the reflection
+ *   (y, w) -> (2 pi p - y, -w), whose second iterate is the strobe map.
+ *
+ * N = DG has the known determinant exp(-gamma time) (Liouville). A fold has det(N - I) = 0, a flip
+ * det(N + I) = 0: of the first map a flip is a period doubling, of the second the loss of mirror
+ * symmetry. So a symmetric orbit's folds and symmetry breakings, both a Floquet multiplier +1, are
+ * told apart by different equations. A cusp is a fold at which det(N - I) is stationary along
+ * the null vector of N - I.
+ *
+ * Source: Kuznetsov, Elements of Applied Bifurcation Theory, sections 9.2, 10.1, 10.2;
+ * Swift and Wiesenfeld, Physical Review Letters 52 (1984) 705, for the half map.
+ */
+#ifndef PENDRES_CONTINUATION_MAP_H
+#define PENDRES_CONTINUATION_MAP_H
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
+
+/* Places in a point. */
+enum { PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA, PENDRES_U_GAMMA, PENDRES_U_DRIVE, PENDRES_U_COUNT };
+
+typedef struct pendres_continuation_map {
+  int mirror;  /* half a period and the reflection; period is then 1 */
+  int period;  /* q */
+  int winding; /* p */
+} pendres_continuation_map;
+
+/* What one evaluation of the map finds. */
+typedef struct pendres_continuation_image {
+  double f[2];                  /* G(z) - z */
+  double j[2][PENDRES_U_COUNT]; /* its derivatives by u */
+  double n[2][2];               /* DG */
+  double trace, determinant;    /* of DG; the latter from Liouville's formula */
+} pendres_continuation_image;
+
+/* Equations beside G(z) = z. */
+typedef enum pendres_continuation_condition {
+  PENDRES_CONDITION_NONE,
+  PENDRES_CONDITION_FOLD, /* det(N - I) = 0 */
+  PENDRES_CONDITION_FLIP, /* det(N + I) = 0 */
+  PENDRES_CONDITION_CUSP  /* fold, and its quadratic term is 0 */
+} pendres_continuation_condition;
+
+enum { PENDRES_EQUATIONS_MOST = 4 };
+
+/* The equations at a point: r[i] = 0, i < equations. */
+typedef struct pendres_continuation_equations {
+  int equations;
+  double r[PENDRES_EQUATIONS_MOST];
+  double j[PENDRES_EQUATIONS_MOST][PENDRES_U_COUNT];
+  pendres_continuation_image image;
+} pendres_continuation_equations;
+
+pendres_pendulum pendres_continuation_map_pendulum(const double u[PENDRES_U_COUNT]);
+
+/* The map that an orbit is a fixed point of, and the point. */
+pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *orbit,
+                                                     double u[PENDRES_U_COUNT]);
+
+/* Steps a period at a point, for an error of about `tolerance` a period. Always even. */
+pendres_status pendres_continuation_map_steps(pendres_context *ctx,
+                                              const double u[PENDRES_U_COUNT], double tolerance,
+                                              int *steps);
+
+/* The map at n points of any parameters, all of the given kind, period and steps. */
+pendres_status pendres_continuation_map_images(pendres_context *ctx,
+                                               const pendres_continuation_map *map, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_image *out);
+
+/* The equations of a condition at n points. Only the derivatives by unknowns listed in
+   `unknown[unknowns]` are computed. */
+pendres_status pendres_continuation_map_equations(pendres_context *ctx,
+                                                  const pendres_continuation_map *map,
+                                                  pendres_continuation_condition condition,
+                                                  int steps, int unknowns, const int *unknown,
+                                                  size_t n, const double (*u)[PENDRES_U_COUNT],
+                                                  pendres_continuation_equations *out);
+
+/* det(N -+ I). */
+double pendres_continuation_map_fold(const pendres_continuation_image *image);
+double pendres_continuation_map_flip(const pendres_continuation_image *image);
+
+/*
+ * Solve as many equations for as many unknowns (2 + those of the condition) from u on, by Newton's
+ * method; u is replaced. *reach (may be NULL) gets the length of the last step. Steps
+ * are cut at `longest`. PENDRES_NOT_CONVERGED without a message if there is no solution near.
+ */
+pendres_status pendres_continuation_map_solve(pendres_context *ctx,
+                                              const pendres_continuation_map *map,
+                                              pendres_continuation_condition condition, int steps,
+                                              const int *unknown, double longest,
+                                              double u[PENDRES_U_COUNT],
+                                              pendres_continuation_equations *at);
+
+/* a x = b for n <= 5, by GSL's LU decomposition; a and b are overwritten, b by x. 0 if singular. */
+int pendres_continuation_map_linear(int n, double a[][PENDRES_U_COUNT], double *b);
+
+#endif

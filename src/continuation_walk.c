@@ -1,0 +1,236 @@
+/* continuation_walk.c -- following a curve of solutions by pseudo-arclength. */
+#include "continuation_walk.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "context_internal.h"
+
+const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1};
+
+enum { MOST_ITERATIONS = 6 };
+/* A Newton step below this leaves an error of its square. */
+static const double last_step = 1e-8;
+/* Points ahead may not turn by more than this cosine from one to the next, nor lie further from
+   their prediction than this share of the way. */
+static const double sharpest_turn = 0.92;
+static const double farthest_miss = 0.25;
+static const double shortest_step = 1e-10;
+
+/* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
+static int tangent_of(const pendres_walk *w, const pendres_continuation_equations *e,
+                      const double *along, double *tangent)
+{
+  const int n = w->unknowns;
+  double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
+  for (int k = 0; k < n; k++) {
+    for (int r = 0; r < n - 1; r++)
+      a[r][k] = e->j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
+    a[n - 1][k] = along[k];
+  }
+  t[n - 1] = 1.0;
+  if (!pendres_continuation_map_linear(n, a, t)) return 0;
+  for (int k = 0; k < n; k++) length = hypot(length, t[k]);
+  for (int k = 0; k < n; k++) tangent[k] = t[k] / length;
+  return 1;
+}
+
+pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
+                                  const double u[PENDRES_U_COUNT], double direction)
+{
+  pendres_continuation_equations e;
+  double along[PENDRES_WALK_UNKNOWNS] = {0.0};
+  int steps = 0;
+  memcpy(w->here.u, u, sizeof w->here.u);
+  w->stuck = w->found = 0;
+  w->here.arclength = 0.0;
+  w->step = 0.1 * w->longest;
+  memset(w->bend, 0, sizeof w->bend);
+  pendres_status status = pendres_continuation_map_steps(ctx, u, w->tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_solve(ctx, &w->map, w->condition, steps, w->unknown, 0.3,
+                                            w->here.u, &e);
+  /* The equations were last evaluated one tiny step before: do it again, for all unknowns. */
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_equations(ctx, &w->map, w->condition, steps, w->unknowns,
+                                                w->unknown, 1,
+                                                (const double (*)[PENDRES_U_COUNT])w->here.u, &e);
+  if (status != PENDRES_OK) return status;
+  w->here.image = e.image;
+  along[w->unknowns - 1] = direction;
+  if (!tangent_of(w, &e, along, w->here.tangent)) return PENDRES_NOT_CONVERGED;
+  return PENDRES_OK;
+}
+
+/* ---- advancing ---- */
+
+/* A point ahead on its way to the curve. */
+typedef struct candidate {
+  pendres_walk *walk;
+  int steps, rank;
+  enum { ACTIVE, CONVERGED, FAILED } state;
+  double u[PENDRES_U_COUNT], predicted[PENDRES_U_COUNT];
+  pendres_continuation_equations at;
+} candidate;
+
+static void predict(candidate *c)
+{
+  const pendres_walk *w = c->walk;
+  const double s = w->step * (c->rank + 1);
+  memcpy(c->u, w->here.u, sizeof c->u);
+  for (int k = 0; k < w->unknowns; k++)
+    c->u[w->unknown[k]] +=
+      pendres_walk_scale[w->unknown[k]] * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
+  memcpy(c->predicted, c->u, sizeof c->u);
+  const pendres_pendulum p = pendres_continuation_map_pendulum(c->u);
+  c->state = pendres_pendulum_check(&p, NULL) == PENDRES_OK ? ACTIVE : FAILED;
+}
+
+/* One Newton step within the plane across the walk's tangent. */
+static void correct(candidate *c)
+{
+  const pendres_walk *w = c->walk;
+  const int n = w->unknowns;
+  double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
+  for (int k = 0; k < n; k++) {
+    for (int r = 0; r < n - 1; r++)
+      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
+    a[n - 1][k] = w->here.tangent[k];
+  }
+  for (int r = 0; r < n - 1; r++) d[r] = -c->at.r[r];
+  c->state = FAILED;
+  if (!pendres_continuation_map_linear(n, a, d)) return;
+  for (int k = 0; k < n; k++) length = hypot(length, d[k]);
+  if (!(length < 1.0)) return;
+  for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_walk_scale[w->unknown[k]] * d[k];
+  const pendres_pendulum p = pendres_continuation_map_pendulum(c->u);
+  if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return;
+  c->state = length < last_step ? CONVERGED : ACTIVE;
+}
+
+static int same_block(const candidate *a, const candidate *b)
+{
+  return a->steps == b->steps && a->walk->condition == b->walk->condition &&
+         a->walk->map.mirror == b->walk->map.mirror &&
+         a->walk->map.period == b->walk->map.period &&
+         a->walk->map.winding == b->walk->map.winding && a->walk->unknowns == b->walk->unknowns &&
+         memcmp(a->walk->unknown, b->walk->unknown,
+                (size_t)a->walk->unknowns * sizeof *a->walk->unknown) == 0;
+}
+
+/* Evaluate all active candidates, those of equal maps and steps together. */
+static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, size_t *index,
+                               double (*u)[PENDRES_U_COUNT], pendres_continuation_equations *at)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
+    if (c[first].state != ACTIVE) continue;
+    size_t count = 0;
+    /* Blocks are begun by their first member: what was in an earlier one is not taken again. */
+    int begun = 0;
+    for (size_t i = 0; i < first && !begun; i++)
+      begun = c[i].state == ACTIVE && same_block(&c[i], &c[first]);
+    if (begun) continue;
+    for (size_t i = first; i < n; i++) {
+      if (c[i].state != ACTIVE || !same_block(&c[i], &c[first])) continue;
+      memcpy(u[count], c[i].u, sizeof u[0]);
+      index[count++] = i;
+    }
+    const pendres_walk *w = c[first].walk;
+    status = pendres_continuation_map_equations(ctx, &w->map, w->condition, c[first].steps,
+                                                w->unknowns, w->unknown, count,
+                                                (const double (*)[PENDRES_U_COUNT])u, at);
+    for (size_t i = 0; i < count && status == PENDRES_OK; i++) c[index[i]].at = at[i];
+  }
+  return status;
+}
+
+/* Whether a converged point follows upon `last` in order; its tangent and arclength are set. */
+static int follows(const pendres_walk *w, const pendres_walk_point *last, const candidate *c,
+                   pendres_walk_point *point)
+{
+  double way = 0.0, miss = 0.0, turn = 0.0;
+  if (!tangent_of(w, &c->at, last->tangent, point->tangent)) return 0;
+  for (int k = 0; k < w->unknowns; k++) {
+    const int i = w->unknown[k];
+    way = hypot(way, (c->u[i] - last->u[i]) / pendres_walk_scale[i]);
+    miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_walk_scale[i]);
+    turn += last->tangent[k] * point->tangent[k];
+  }
+  if (turn < sharpest_turn || way > 2.0 * w->step || miss > farthest_miss * w->step * (c->rank + 1))
+    return 0;
+  memcpy(point->u, c->u, sizeof point->u);
+  point->image = c->at.image;
+  point->arclength = last->arclength + way;
+  return 1;
+}
+
+/* Keep the points that converged, up to the first that did not, and choose the next step. */
+static void accept(pendres_walk *w, const candidate *c)
+{
+  const pendres_walk_point start = w->here;
+  const pendres_walk_point *last = &start;
+  w->found = 0;
+  while (w->found < PENDRES_WALK_AHEAD && c[w->found].state == CONVERGED &&
+         follows(w, last, &c[w->found], &w->ahead[w->found]))
+    last = &w->ahead[w->found++];
+  if (w->found == 0) {
+    w->step /= PENDRES_WALK_AHEAD;
+    /* With a shorter step the bend may be the wrong one of a longer past. */
+    memset(w->bend, 0, sizeof w->bend);
+    w->stuck = w->step < shortest_step;
+    return;
+  }
+  const pendres_walk_point *before = w->found > 1 ? &w->ahead[w->found - 2] : &start;
+  for (int k = 0; k < w->unknowns; k++)
+    w->bend[k] = (last->tangent[k] - before->tangent[k]) / (last->arclength - before->arclength);
+  w->here = *last;
+  if (w->found == PENDRES_WALK_AHEAD)
+    w->step = fmin(1.6 * w->step, w->longest);
+  else if (w->found < PENDRES_WALK_AHEAD / 2)
+    w->step *= 0.5;
+}
+
+pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk *walks)
+{
+  const size_t most = n * PENDRES_WALK_AHEAD;
+  pendres_status status = PENDRES_OK;
+  candidate *c = malloc((most + 1) * sizeof *c);
+  size_t *index = malloc((most + 1) * sizeof *index), count = 0;
+  double(*u)[PENDRES_U_COUNT] = malloc((most + 1) * sizeof *u);
+  pendres_continuation_equations *at = malloc((most + 1) * sizeof *at);
+  if (c == NULL || index == NULL || u == NULL || at == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    int steps = 0;
+    walks[i].found = 0;
+    if (walks[i].stuck) continue;
+    status = pendres_continuation_map_steps(ctx, walks[i].here.u, walks[i].tolerance, &steps);
+    if (status == PENDRES_NOT_CONVERGED) {
+      walks[i].stuck = 1;
+      status = PENDRES_OK;
+      continue;
+    }
+    if (status != PENDRES_OK) goto done;
+    for (int k = 0; k < PENDRES_WALK_AHEAD; k++) {
+      c[count] = (candidate){.walk = &walks[i], .steps = steps, .rank = k};
+      predict(&c[count++]);
+    }
+  }
+  for (int iteration = 0; iteration < MOST_ITERATIONS && status == PENDRES_OK; iteration++) {
+    status = evaluate(ctx, count, c, index, u, at);
+    for (size_t i = 0; i < count && status == PENDRES_OK; i++)
+      if (c[i].state == ACTIVE) correct(&c[i]);
+  }
+  for (size_t i = 0; i < count && status == PENDRES_OK; i += PENDRES_WALK_AHEAD)
+    accept(c[i].walk, &c[i]);
+done:
+  free(c);
+  free(index);
+  free(u);
+  free(at);
+  return status;
+}

@@ -1,0 +1,55 @@
+/*
+ * continuation_walk.h -- following a curve of solutions by pseudo-arclength.
+ *
+ * Owns: predictor, corrector and step length. A walk predicts several points ahead of its place at
+ * once, in lanes side by side, corrects all of them by Newton's method, and keeps
+ * those that converged and lie in order; several walks share the same blocks. What a walk finds
+ * depends on itself alone.
+ *
+ * Source: Keller, in Applications of Bifurcation Theory (1977); Kuznetsov, section 10.2.
+ */
+#ifndef PENDRES_CONTINUATION_WALK_H
+#define PENDRES_CONTINUATION_WALK_H
+
+#include "continuation_map.h"
+
+enum { PENDRES_WALK_AHEAD = 8, PENDRES_WALK_UNKNOWNS = 4 };
+
+/* A place on the curve. */
+typedef struct pendres_walk_point {
+  double u[PENDRES_U_COUNT];
+  double tangent[PENDRES_WALK_UNKNOWNS]; /* unit vector of the scaled unknowns */
+  double arclength;                      /* from the walk's start, of the scaled unknowns */
+  pendres_continuation_image image;
+} pendres_walk_point;
+
+typedef struct pendres_walk {
+  pendres_continuation_map map;
+  pendres_continuation_condition condition;
+  int unknowns, unknown[PENDRES_WALK_UNKNOWNS]; /* one more than equations */
+  double tolerance;                             /* of a period: decides the steps */
+  double longest;                               /* spacing of points at most, scaled arclength */
+  /* The walk's own: */
+  int stuck;
+  double step; /* spacing of the points ahead */
+  pendres_walk_point here;
+  double bend[PENDRES_WALK_UNKNOWNS]; /* derivative of the tangent by arclength */
+  pendres_walk_point ahead[PENDRES_WALK_AHEAD]; /* what the latest advance found, in order */
+  int found;
+} pendres_walk;
+
+/* Lengths that count as one in arclength: y, w, omega, gamma, F0. */
+extern const double pendres_walk_scale[PENDRES_U_COUNT];
+
+/*
+ * Start a walk at u, corrected to the curve with its last unknown held, towards growing
+ * (direction > 0) or falling values of the last unknown. The fields above `stuck` are set by the
+ * caller. PENDRES_NOT_CONVERGED if there is no curve at u.
+ */
+pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *walk,
+                                  const double u[PENDRES_U_COUNT], double direction);
+
+/* Advance n walks; each ends with its `ahead` filled, or stuck. Stuck ones are left alone. */
+pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk *walks);
+
+#endif
