@@ -3,8 +3,7 @@
  *
  * Angles y = x - pi/2; definitions: pendres/reference.h. Parameters written without L
  * are doubles, the others are results and are rounded when used as doubles. All digits
- * of a 64 bit significand are given; their errors are some 1e-18 relative unless growth,
- * a multiplier near 1 or a residual says more.
+ * of a 64 bit significand are given; how many are right is said in make_golden.c.
  */
 #ifndef GOLDEN_H
 #define GOLDEN_H

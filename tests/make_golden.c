@@ -8,8 +8,13 @@
  *     gcc -std=c11 -O2 -Iinclude tests/make_golden.c src/reference*.c \
  *         src/pendulum.c -lgsl -lgslcblas -lm -o make_golden && ./make_golden > tests/golden.h
  *
- * (about half a minute). The output is the same on every run. Numbers are kept although
+ * (some ten seconds). The output is the same on every run. Numbers are kept although
  * they could be computed anew in a test, so that a mistake made later in reference.c shows.
+ *
+ * How many digits are right: the same code in 113 bit arithmetic gave, as largest differences,
+ * relative, 1e-15 (states after 100 periods where growth is largest), 1e-18 (measures of orbits,
+ * their points 2e-17), 1e-19 (frequencies of resonances and folds), 3e-19 (frequencies and
+ * dampings of cusps and symmetry breakings; points and measures of cusps 2e-16), 3e-15 (slopes).
  */
 #include <pendres/reference.h>
 
@@ -367,7 +372,8 @@ static void print_shares(void)
       cycle c;
       need(pendres_reference_advance(&p, &y, &v, &turns, 60), "share");
       need(pendres_reference_orbit(&p, y, v, 1, 0, &c), "share");
-      if (hypotl(c.multiplier_re[0], c.multiplier_im[0]) > 1.0L || hypotl(c.y - y, c.v - v) > 0.1L) {
+      if (hypotl(c.multiplier_re[0], c.multiplier_im[0]) > 1.0L ||
+          hypotl(c.y - y, c.v - v) > 0.1L) {
         fprintf(stderr, "make_golden: member %d has not settled\n", k);
         exit(1);
       }
@@ -394,10 +400,10 @@ int main(void)
          " *\n"
          " * Angles y = x - pi/2; definitions: pendres/reference.h. Parameters written without L\n"
          " * are doubles, the others are results and are rounded when used as doubles. All digits\n"
-         " * of a 64 bit significand are given; their errors are some 1e-18 relative unless growth,\n"
-         " * a multiplier near 1 or a residual says more.\n"
+         " * of a 64 bit significand are given; how many are right is said in make_golden.c.\n"
          " */\n"
-         "#ifndef GOLDEN_H\n#define GOLDEN_H\n\n#include <math.h>\n\n#include <pendres/reference.h>\n\n");
+         "#ifndef GOLDEN_H\n#define GOLDEN_H\n\n#include <math.h>\n\n"
+         "#include <pendres/reference.h>\n\n");
   print_states();
   print_orbits();
   print_resonances();

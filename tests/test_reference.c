@@ -110,6 +110,19 @@ static void test_free_oscillation(void **state)
   }
 }
 
+/* The energy of a long free oscillation does not wander: no error of a step has a sign. */
+static void test_long_energy(void **state)
+{
+  (void)state;
+  const pendres_pendulum p = make(0.0, 0.0, 0.78539816339744828);
+  long double y = 1.0L, v = 0.0L;
+  check_ok(pendres_reference_advance(&p, &y, &v, NULL, 1000));
+  const long double s = sinl(0.5L * y), s0 = sinl(0.5L);
+  /* 30000 steps, each with a rounding of its increment, a sixth of the state or less, to
+     either side: 170/6. One of the same sign each period would be seen. */
+  check_long(0.5L * v * v + 2.0L * s * s, 2.0L * s0 * s0, 30.0L * epsilon());
+}
+
 static void test_free_rotation(void **state)
 {
   (void)state;
@@ -216,7 +229,8 @@ static void test_derivatives(void **state)
       long double more[2], less[2];
       moved_end(which, h * i, more);
       moved_end(which, -h * i, less);
-      for (int j = 0; j < 2; j++) difference[j] += weight[i - 1] * (more[j] - less[j]) / (60.0L * h);
+      for (int j = 0; j < 2; j++)
+        difference[j] += weight[i - 1] * (more[j] - less[j]) / (60.0L * h);
     }
     for (int j = 0; j < 2; j++)
       want[j] = which < 2 ? m.monodromy[j][which]
@@ -256,6 +270,9 @@ static void test_order(void **state)
   /* Far more steps than needed, and no choice of steps: the same to rounding. */
   check_long(fixed_end(PENDRES_REFERENCE_ORDER, 100), exact, 20.0L * epsilon());
   check_long(fixed_end(PENDRES_REFERENCE_ORDER * 2 / 3, 150), exact, 20.0L * epsilon());
+  /* Sums in two words do not mind many steps; in one, 200000 roundings of up to half a unit
+     make a walk of some tens (22 when it was tried). */
+  check_long(fixed_end(PENDRES_REFERENCE_ORDER / 2, 200000), exact, 4.0L * epsilon());
 }
 
 static void test_mirror(void **state)
@@ -349,6 +366,15 @@ static void test_orbit_measures(void **state)
     check_long(area, c.loop_area, 30.0L * unit);
     check_long(c.energy_residual, 0.0L, 30.0L * unit);
     check_long(c.closure, 0.0L, 20.0L * unit);
+    /* Two numbers with the trace and the determinant of the matrix, or a conjugate pair. */
+    const long double trace = c.monodromy[0][0] + c.monodromy[1][1];
+    const long double product = c.multiplier_re[0] * c.multiplier_re[1] -
+                                c.multiplier_im[0] * c.multiplier_im[1];
+    check_long(c.multiplier_re[0] + c.multiplier_re[1], trace, 100.0L * unit);
+    check_long(product, expl(-c.damping * 2.0L * pi * (long double)c.period / c.drive_frequency),
+               100.0L * unit);
+    check_long(c.multiplier_im[0] + c.multiplier_im[1], 0.0L, 0.0L);
+    check_long(c.liouville_residual * product, 0.0L, 100.0L * unit);
   }
 }
 
@@ -607,6 +633,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_free_oscillation),
+    cmocka_unit_test(test_long_energy),
     cmocka_unit_test(test_free_rotation),
     cmocka_unit_test(test_linear_response),
     cmocka_unit_test(test_liouville),

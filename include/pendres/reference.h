@@ -42,7 +42,7 @@ extern "C" {
  * that the angle is *y + 2 pi *turns.
  *
  * Errors: PENDRES_INVALID_ARGUMENT (also for |y| > 1e9), PENDRES_INTEGRATION_FAILED (steps
- * became too small, as for absurd velocities).
+ * below 1e-6 rad of drive phase, as for absurd velocities or drive frequencies).
  */
 pendres_status pendres_reference_advance(const pendres_pendulum *p, long double *y,
                                          long double *v, long *turns, long periods);
