@@ -174,6 +174,8 @@ pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
   int error;
 
   *whole = 0;
+  if (!is_same_file(file->fd, file->part))
+    return file_fail(file, "'%s' was taken away or replaced during the run", file->part);
   if (file->error) return file_failed(file, "write", file->part, file->error);
   if (fsync(file->fd) && errno != EINVAL)
     return file_failed(file, "write", file->part, file->error = errno);

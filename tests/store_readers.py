@@ -57,6 +57,7 @@ def check_h5py(name):
         for attribute in ATTRIBUTES:
             if not isinstance(f.attrs.get(attribute), str):
                 wrong.append(f"/: no text '{attribute}'")
+        look("/", f[b"/"])  # as a group: as a file it knows nothing of its links
         f.visititems(look)
     return wrong
 
