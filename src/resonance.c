@@ -34,14 +34,19 @@ static int by_frequency(const void *a, const void *b)
   return p->response.pendulum.drive_frequency < q->response.pendulum.drive_frequency ? -1 : 1;
 }
 
+static pendres_status check_room(const search *s, size_t n)
+{
+  if (s->count + n <= MOST_POINTS) return PENDRES_OK;
+  return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
+                              "damping %g: the resonance needs more than %d frequencies",
+                              s->pendulum.damping, MOST_POINTS);
+}
+
 /* Evaluate n more frequencies and sort them in. */
 static pendres_status add_points(search *s, size_t n, const double *omega)
 {
-  pendres_status status = PENDRES_OK;
-  if (s->count + n > MOST_POINTS)
-    return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
-                                "damping %g: the resonance needs more than %d frequencies",
-                                s->pendulum.damping, MOST_POINTS);
+  pendres_status status = check_room(s, n);
+  if (status != PENDRES_OK) return status;
   status = pendres_scan_evaluate(s->ctx, &s->pendulum, s->ensemble, n, omega, s->points + s->count);
   if (status != PENDRES_OK) return status;
   s->count += n;
@@ -98,9 +103,12 @@ static double bound_of(const pendres_scan_point *a, const pendres_scan_point *b)
   double first = 0.0, second = 0.0;
   if (kind_of(a, b) != GAP_JUMP)
     return fmax(a->response.mean_loop_area, b->response.mean_loop_area) + 0.5 * growth;
-  const double share = fmin(1.0, fmax(top_share(&a->response, &first, &second),
-                                      top_share(&b->response, &first, &second)) +
-                                   (width > 0.01 ? 0.1 : 0.02));
+  double share_a = top_share(&a->response, &first, &second);
+  double share_b = top_share(&b->response, &first, &second);
+  /* A fold's own point is on the far side of the jump: inside the gap its shares do not hold. */
+  if (a->at_fold > 0) share_a = share_b;
+  if (b->at_fold < 0) share_b = share_a;
+  const double share = fmin(1.0, fmax(share_a, share_b) + (width > 0.01 ? 0.1 : 0.02));
   return share * first + (1.0 - share) * second + growth;
 }
 
@@ -111,12 +119,38 @@ static double best_area(const search *s)
   return best;
 }
 
+/*
+ * Look for folds in the gaps that jump and may hold more than the best value known: a fold takes
+ * the place of the many frequencies close to it where a ghost slows everything down.
+ */
+static pendres_status add_folds(search *s)
+{
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1], in[2];
+    int found = 0;
+    if (a->fold_sought || a->at_fold || b->at_fold || kind_of(a, b) != GAP_JUMP ||
+        bound_of(a, b) <= best_area(s))
+      continue;
+    a->fold_sought = 1;
+    pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, in, &found);
+    if (status == PENDRES_OK && found) status = check_room(s, 2);
+    if (status != PENDRES_OK) return status;
+    if (!found) continue;
+    s->points[s->count++] = in[0];
+    s->points[s->count++] = in[1];
+    qsort(s->points, s->count, sizeof *s->points, by_frequency);
+  }
+  return PENDRES_OK;
+}
+
 /* Cut every gap that jumps and may hold more than the best value known, until all are narrow. */
 static pendres_status resolve_jumps(search *s)
 {
   for (;;) {
     double omega[MOST_POINTS];
     size_t n = 0;
+    pendres_status status = add_folds(s);
+    if (status != PENDRES_OK) return status;
     const double best = best_area(s);
     for (size_t i = 0; i + 1 < s->count; i++) {
       const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
@@ -126,7 +160,7 @@ static pendres_status resolve_jumps(search *s)
         omega[n++] = frequency_of(a) + width * k / SECTIONS;
     }
     if (n == 0) return PENDRES_OK;
-    const pendres_status status = add_points(s, n, omega);
+    status = add_points(s, n, omega);
     if (status != PENDRES_OK) return status;
   }
 }
@@ -136,13 +170,21 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
 {
   pendres_status status = PENDRES_OK;
   int found = 0;
+
   *again = 0;
   out->loop_area = -INFINITY;
   for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK; i++) {
     pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
     const gap_kind kind = kind_of(a, b);
     pendres_resonance one;
-    if (kind == GAP_PLAIN || bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
+    if (a->at_fold && a->response.mean_loop_area >= best_area(s)) {
+      status = pendres_resonance_at_fold(s->ctx, a, &one);
+      if (status == PENDRES_OK && one.loop_area > out->loop_area) {
+        *out = one;
+        found = 1;
+      }
+    }
+    if (status != PENDRES_OK || kind == GAP_PLAIN || bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
     status = kind == GAP_PEAK
                ? pendres_resonance_refine_peak(s->ctx, a, b, &one)
                : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);

@@ -214,10 +214,10 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   if (!(curvature < 0.0) ||
       fabs(at.slope) > 1e-3 * fmin(a->slope, -b->slope) + slope_error(&at))
     return PENDRES_NOT_FOUND;
-  memset(out, 0, sizeof *out);
-  out->peak = PENDRES_PEAK_SMOOTH;
+  *out = (pendres_resonance){.peak = PENDRES_PEAK_SMOOTH,
+                             .fold_frequency = NAN,
+                             .fold_frequency_error = NAN};
   finish(out, &at);
-  out->fold_frequency = out->fold_frequency_error = NAN;
   out->frequency_error =
     (fabs(at.slope) + slope_error(&at)) / fabs(curvature) + 4e-16 * out->frequency;
   add_frequency_error(out, &beside);
@@ -249,13 +249,6 @@ static const pendres_attractor *ending_state(const pendres_response *here,
   return NULL;
 }
 
-/* Members on the states that `other` does not have. */
-static size_t members_ending(const pendres_response *here, const pendres_response *other)
-{
-  const pendres_attractor *state = ending_state(here, other);
-  return state != NULL ? here->state_members[state - here->state] : 0;
-}
-
 /* Halve the gap between two different points until it is narrower than `width`. */
 static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
                              pendres_scan_point *a, pendres_scan_point *b)
@@ -279,78 +272,153 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
   }
 }
 
-/*
- * Whether the fold alone makes the edge: just before it the state still has about as many members
- * as at the far end of the gap, so its basin is born with them inside, not entered later.
- */
-static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *ensemble,
-                                   double fold, const pendres_scan_point *with,
-                                   const pendres_scan_point *without, int *decides)
+enum { DECIDERS = 8 /* members that are followed up to a fold */ };
+
+/* Starts of the members that settle on an orbit's state at a frequency, at most `most` of n. */
+static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+                                 const double *x, double v, double amplitude, size_t most,
+                                 double *found_x, size_t *found)
 {
-  const double side = with->response.pendulum.drive_frequency < fold ? -1.0 : 1.0;
-  const double omega = fold + side * 1e-6;
-  pendres_scan_point p;
-  const pendres_status status =
-    pendres_scan_evaluate(ctx, &with->response.pendulum, ensemble, 1, &omega, &p);
-  if (status == PENDRES_OK) {
-    const size_t near = members_ending(&p.response, &without->response);
-    const size_t far = members_ending(&with->response, &without->response);
-    *decides = near > 0 && 2 * near >= far;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
+  double *velocity = malloc(n * sizeof *velocity);
+  pendres_outcome *outcome = malloc(n * sizeof *outcome);
+  pendres_attractors *set = NULL;
+  *found = 0;
+  if (pendulums == NULL || velocity == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu members", n);
+    goto done;
   }
+  for (size_t i = 0; i < n; i++) {
+    pendulums[i] = *p;
+    velocity[i] = v;
+  }
+  status = pendres_settle(ctx, n, pendulums, x, velocity, outcome, &set);
+  if (status != PENDRES_OK) goto done;
+  size_t on = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    /* First count them, then take them evenly from all. */
+    const size_t all = on;
+    on = 0;
+    for (size_t i = 0; i < n; i++) {
+      const pendres_attractor *a =
+        outcome[i].attractor >= 0 ? pendres_attractors_get(set, (size_t)outcome[i].attractor) : NULL;
+      /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
+      if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
+      if (pass == 1 && *found < most && on * most >= *found * all) found_x[(*found)++] = x[i];
+      on++;
+    }
+  }
+done:
+  pendres_attractors_free(set);
+  free(pendulums);
+  free(velocity);
+  free(outcome);
   return status;
 }
 
-/* The fold in the gap that makes its jump, if there is one. */
-static pendres_status find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
-                                const pendres_scan_point *a, const pendres_scan_point *b,
-                                pendres_fold *fold, int *found)
+/*
+ * Whether the fold makes a jump of the ensemble's mean: the state that is born there has members
+ * at once. Members on it a thousandth off the fold are followed to a hundred-thousandth: one that
+ * is on it still was inside its basin when that was born.
+ */
+static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
+                                   const pendres_fold *fold, double side, int *decides)
 {
+  double x[DECIDERS], *all = malloc(e->members * sizeof *all);
+  size_t n = e->members, found = 0;
+  const double *from = all;
+  pendres_status status = PENDRES_OK;
+  if (all == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
+  for (size_t k = 1; k <= n; k++) all[k - 1] = pendres_ensemble_x(e, k);
+  *decides = 0;
+  for (double off = 1e-3; off > 5e-6 && status == PENDRES_OK; off *= 0.1) {
+    pendres_pendulum p = fold->orbit.pendulum;
+    double next[DECIDERS];
+    p.drive_frequency = fold->value + side * off;
+    status = members_on(ctx, &p, n, from, e->v, fold->orbit.amplitude, DECIDERS, next, &found);
+    for (size_t i = 0; i < found; i++) x[i] = next[i];
+    from = x;
+    n = found;
+    if (found == 0) break;
+  }
+  *decides = found > 0;
+  free(all);
+  return status;
+}
+
+pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                           const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_point in[2],
+                                           int *found)
+{
+  pendres_fold fold;
+  const double lower = a->response.pendulum.drive_frequency;
+  const double upper = b->response.pendulum.drive_frequency;
   const pendres_attractor *left = ending_state(&a->response, &b->response);
   const pendres_attractor *right = ending_state(&b->response, &a->response);
   const pendres_attractor *state = left != NULL ? left : right;
+  const pendres_scan_point *without = left != NULL ? b : a;
+  const double side = left != NULL ? -1.0 : 1.0; /* where the state exists */
   *found = 0;
-  if (state == NULL || (left != NULL && right != NULL)) return PENDRES_OK;
-  const pendres_status status = pendres_fold_find(ctx, &state->orbit, fold);
-  if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
-  if (status != PENDRES_OK) return status;
-  if (!(fold->value >= a->response.pendulum.drive_frequency - 1e-12 &&
-        fold->value <= b->response.pendulum.drive_frequency + 1e-12))
+  if (state == NULL || (left != NULL && right != NULL) || without->response.states == 0)
     return PENDRES_OK;
-  return fold_decides(ctx, ensemble, fold->value, left != NULL ? a : b, left != NULL ? b : a,
-                      found);
+  pendres_status status = pendres_fold_find(ctx, &state->orbit, &fold);
+  if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
+  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  if (!(fold.value > lower && fold.value < upper)) return PENDRES_OK;
+  int decides = 0;
+  status = fold_decides(ctx, ensemble, &fold, side, &decides);
+  if (status != PENDRES_OK || !decides) return status;
+
+  status = follow(ctx, without, fold.value, &in[0]);
+  if (status != PENDRES_OK) return status;
+  in[0].at_fold = side < 0.0 ? -1 : 1;
+  in[0].fold = fold.value;
+  in[0].fold_error = fold.value_error;
+  const double beside = fold.value + side * fmin(1e-3, 0.5 * fabs(fold.value - (side < 0 ? lower : upper)));
+  status = pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &beside, &in[1]);
+  *found = status == PENDRES_OK;
+  return status;
+}
+
+/* The resonance at a point, with what follows from the error of its frequency. */
+static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *at, double step,
+                               pendres_resonance *out)
+{
+  pendres_scan_point beside;
+  const pendres_status status = follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
+  if (status != PENDRES_OK) return status;
+  finish(out, at);
+  add_frequency_error(out, &beside);
+  out->loop_area_error = out->response.mean_loop_area_error;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,
+                                         pendres_resonance *out)
+{
+  *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
+                             .frequency_error = at->fold_error,
+                             .fold_frequency = at->fold,
+                             .fold_frequency_error = at->fold_error};
+  return conclude(ctx, at, -1e-6 * at->at_fold, out);
 }
 
 pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
                                              const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out)
 {
-  pendres_scan_point lower = *a, upper = *b, at;
-  pendres_fold fold;
-  int by_fold = 0;
-  pendres_status status = find_fold(ctx, ensemble, a, b, &fold, &by_fold);
-  if (status == PENDRES_OK && !by_fold)
-    status = bisect(ctx, ensemble, 0.25 * pendres_context_options(ctx)->tolerance, &lower, &upper);
+  pendres_scan_point lower = *a, upper = *b;
+  const double width = 0.25 * pendres_context_options(ctx)->tolerance;
+  const pendres_status status = bisect(ctx, ensemble, width, &lower, &upper);
   if (status != PENDRES_OK) return status;
-
-  const pendres_scan_point *better =
-    lower.response.mean_loop_area > upper.response.mean_loop_area ? &lower : &upper;
-  const double low = lower.response.pendulum.drive_frequency;
-  const double high = upper.response.pendulum.drive_frequency;
-  const double omega = by_fold ? fold.value : better == &lower ? low : high;
-  status = follow(ctx, better, omega, &at);
-  if (status != PENDRES_OK) return status;
-
-  memset(out, 0, sizeof *out);
-  out->peak = PENDRES_PEAK_EDGE;
-  finish(out, &at);
-  out->fold_frequency = by_fold ? fold.value : NAN;
-  out->fold_frequency_error = by_fold ? fold.value_error : NAN;
-  out->frequency_error = by_fold ? fold.value_error : high - low;
-  pendres_scan_point beside;
-  const double step = better == &lower ? -1e-6 : 1e-6;
-  status = follow(ctx, &at, omega + step, &beside);
-  if (status != PENDRES_OK) return status;
-  add_frequency_error(out, &beside);
-  out->loop_area_error = out->response.mean_loop_area_error;
-  return PENDRES_OK;
+  const int low = lower.response.mean_loop_area > upper.response.mean_loop_area;
+  *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
+                             .frequency_error = upper.response.pendulum.drive_frequency -
+                                                lower.response.pendulum.drive_frequency,
+                             .fold_frequency = NAN,
+                             .fold_frequency_error = NAN};
+  return conclude(ctx, low ? &lower : &upper, low ? -1e-6 : 1e-6, out);
 }

@@ -12,6 +12,10 @@ typedef struct pendres_scan_point {
   double slope;              /* d(mean loop area)/domega with the members' states held */
   double steepest;           /* largest |slope| of any state's own area */
   int jump_to_next;          /* there is a jump before the next point, whatever the states say */
+  int fold_sought;           /* the gap to the next point was searched for a fold already */
+  int at_fold;               /* not 0: the point is at a fold, on the side without the state that
+                                ends there, which exists at lower (-1) or higher (1) omega */
+  double fold, fold_error;
 } pendres_scan_point;
 
 /* Responses with slopes at n frequencies. */
@@ -23,7 +27,20 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulu
 pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out);
 
-/* The jump between a and b, and the larger of the values at it. */
+/*
+ * The fold that ends a state between a and b, if one does and if it makes a jump: in[0] is then
+ * the point at the fold without that state, in[1] one on the side with it, close by. *found tells.
+ */
+pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                           const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_point in[2],
+                                           int *found);
+
+/* The resonance at a point at a fold. */
+pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,
+                                         pendres_resonance *out);
+
+/* The jump between a and b, by halving, and the larger of the values at it. */
 pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
                                              const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out);
