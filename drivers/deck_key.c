@@ -27,7 +27,7 @@ static void describe_range(const deck_key *key, double x, char *text, size_t siz
   else if (key->low == 0.0 && x < 0.0) snprintf(text, size, "must not be negative");
   else if (key->low > 0.0 && x <= 0.0) snprintf(text, size, "must be positive");
   else
-    snprintf(text, size, "must lie between %.6g and %.6g%s", key->low, key->high,
+    snprintf(text, size, "must lie between %.7g and %.7g%s", key->low, key->high,
              key->open ? " (both excluded)" : "");
 }
 
