@@ -12,7 +12,22 @@
 
 #include <pendres/pendres.h>
 
+#include "progress.h"
+
 typedef struct farm farm;
+
+typedef struct farm_options {
+  pendres_options library; /* of every context */
+  int threads;             /* 0: OMP_NUM_THREADS, or all cores */
+  int (*stop)(void *arg);  /* asked now and then; nonzero: stop. May be NULL */
+  void *stop_arg;
+  progress *progress;      /* told of finished tasks; may be NULL. Not owned */
+} farm_options;
+
+/* On failure *out is NULL. */
+pendres_status farm_create(const farm_options *options, farm **out);
+/* NULL is allowed. */
+void farm_free(farm *f);
 
 /* Compute task number `task` with this thread's context; results go to places of its own. */
 typedef pendres_status farm_task(void *arg, size_t task, pendres_context *ctx);
@@ -32,7 +47,7 @@ pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task
 /* The message of the failure that farm_run returned. */
 const char *farm_message(const farm *f);
 
-/* A context for work outside of tasks, on the calling thread. */
+/* A context for work outside of tasks, on the calling thread. NULL: out of memory. */
 pendres_context *farm_context(farm *f);
 
 int farm_threads(const farm *f);

@@ -38,12 +38,23 @@ typedef struct scene_kind {
 /* The scene of a kind; NULL if this build has none. */
 const scene_kind *scene_find(deck_kind kind);
 
-/* Record why a scene failed; returns the status. */
+/* The library's options that a deck's &precision asks for; *why is a static sentence if it is
+   more than the library can do. */
+pendres_status scene_precision(const deck *d, pendres_options *out, const char **why);
+
+/* Record why a scene failed, unless an earlier failure is on record; returns the status. Not for
+   tasks on threads: what they report comes from their context. */
 pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
 /* The same with the store's own words. */
 pendres_status scene_store_failed(scene_run *run, pendres_status status);
+
+/* The same with the farm's words, after a farm_run that failed. */
+pendres_status scene_farm_failed(scene_run *run, pendres_status status);
+
+/* An axis of the deck as a dimension of a group, with its usual name, words and units. */
+pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
 
 /* The deck's ensemble: members at x_first + (x_last - x_first) k / members, k = 1..members. */
 double scene_member_x(const deck *d, size_t k);

@@ -11,6 +11,7 @@
 #include <pendres/strobe.h>
 #include <pendres/orbit.h>
 #include <pendres/attractor.h>
+#include <pendres/free.h>
 #include <pendres/response.h>
 #include <pendres/resonance.h>
 

@@ -1,0 +1,238 @@
+/*
+ * main.c -- the program `resonance`: a deck in, a file of results and a short table out.
+ *
+ * Exit codes: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they are
+ * marked in the file); 75 interrupted.
+ */
+#define _POSIX_C_SOURCE 200809L /* open_memstream, access */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "options.h"
+#include "provenance.h"
+#include "scene.h"
+#include "signals.h"
+
+enum { DONE = 0, FAILED = 1, BAD_USAGE = 2, SOME_POINTS_FAILED = 3, STOPPED = 75 };
+
+/* All that a run holds; zero at first, so that it can be let go of half-built. */
+typedef struct job {
+  options options;
+  progress progress;
+  provenance provenance;
+  deck deck;
+  const scene_kind *scene;
+  pendres_options precision;
+  farm *farm;
+  scene_run run;
+  char *table;
+  size_t table_size;
+} job;
+
+static int read_deck(job *j)
+{
+  namelist_errors errors = { 0 };
+  const char *why = NULL;
+  const pendres_status status = deck_read(j->options.deck, &j->deck, &errors);
+  namelist_errors_print(&errors, stderr);
+  namelist_errors_free(&errors);
+  if (status == PENDRES_OUT_OF_MEMORY) {
+    progress_error(&j->progress, "out of memory for the deck");
+    return FAILED;
+  }
+  if (status != PENDRES_OK) return BAD_USAGE;
+  if (j->options.output != NULL) {
+    if (strlen(j->options.output) >= sizeof j->deck.output) {
+      progress_error(&j->progress, "the name of the output is too long");
+      return BAD_USAGE;
+    }
+    strcpy(j->deck.output, j->options.output);
+  }
+  if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) {
+    progress_error(&j->progress, "%s: &precision: %s", j->deck.name, why);
+    return BAD_USAGE;
+  }
+  return DONE;
+}
+
+static int find_scene(job *j)
+{
+  j->scene = scene_find(j->deck.kind);
+  if (j->scene != NULL) return DONE;
+  progress_error(&j->progress, "%s: this build has no scene '%s'", j->deck.name,
+                 deck_kind_name(j->deck.kind));
+  return FAILED;
+}
+
+static int check_stdout(job *j)
+{
+  if (fflush(stdout) == 0 && !ferror(stdout)) return DONE;
+  progress_error(&j->progress, "standard output: %s", strerror(errno));
+  return FAILED;
+}
+
+static int dump(job *j)
+{
+  if (deck_dump(&j->deck, stdout) == PENDRES_OUT_OF_MEMORY) return FAILED;
+  return check_stdout(j);
+}
+
+/* The folder that the output would go to. */
+static int output_writable(job *j)
+{
+  char folder[DECK_PATH];
+  strcpy(folder, j->deck.output);
+  char *slash = strrchr(folder, '/');
+  if (slash == NULL) strcpy(folder, ".");
+  else slash[slash == folder ? 1 : 0] = '\0';
+  if (access(folder, W_OK | X_OK) == 0) return DONE;
+  progress_error(&j->progress, "nothing can be written to the folder '%s': %s", folder,
+                 strerror(errno));
+  return FAILED;
+}
+
+static int dry_run(job *j)
+{
+  const deck *d = &j->deck;
+  printf("deck      %s\n", d->name);
+  if (d->title[0] != '\0') printf("title     %s\n", d->title);
+  printf("scene     %s\n", deck_kind_name(d->kind));
+  printf("output    %s\n", d->output);
+  printf("tolerance %g\n", d->precision.tolerance);
+  printf("threads   %d\n\n", farm_threads(j->farm));
+  j->scene->plan(d, stdout);
+  const int code = check_stdout(j);
+  return code != DONE ? code : output_writable(j);
+}
+
+static int open_log(job *j)
+{
+  if (j->options.log == NULL) return DONE;
+  j->progress.log = fopen(j->options.log, "a");
+  if (j->progress.log != NULL) return DONE;
+  progress_error(&j->progress, "%s: %s", j->options.log, strerror(errno));
+  return FAILED;
+}
+
+static int start_farm(job *j)
+{
+  const farm_options options = { .library = j->precision,
+                                 .threads = j->options.threads,
+                                 .stop = signals_stop,
+                                 .progress = &j->progress };
+  if (farm_create(&options, &j->farm) == PENDRES_OK) return DONE;
+  progress_error(&j->progress, "out of memory for threads");
+  return FAILED;
+}
+
+/* The output is found unwritable before anything is computed. */
+static int open_output(job *j)
+{
+  char title[DECK_TITLE + 32], history[DECK_PATH + 64], source[64];
+  const deck *d = &j->deck;
+  const char *slash = strrchr(d->name, '/');
+  snprintf(title, sizeof title, "%s", d->title[0] != '\0' ? d->title : deck_kind_name(d->kind));
+  snprintf(history, sizeof history, "computed by resonance from the deck %.900s",
+           slash != NULL ? slash + 1 : d->name);
+  snprintf(source, sizeof source, "resonance, libpendres %s", pendres_version());
+  const pendres_store_options options = { .title = title, .history = history, .source = source,
+                                          .references = j->scene->references };
+  j->run = (scene_run){ .deck = d, .farm = j->farm };
+  if (pendres_store_create(d->output, &options, &j->run.store) != PENDRES_OK) {
+    progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
+    return FAILED;
+  }
+  j->run.table = open_memstream(&j->table, &j->table_size);
+  if (j->run.table != NULL) return DONE;
+  progress_error(&j->progress, "out of memory for the table of results");
+  return FAILED;
+}
+
+static int compute(job *j)
+{
+  progress_note(&j->progress, "%s: %s on %d thread%s", j->deck.name, deck_kind_name(j->deck.kind),
+                farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
+  const pendres_status status = j->scene->run(&j->run);
+  if (status == PENDRES_OK) return DONE;
+  if (status == PENDRES_INTERRUPTED) {
+    const char *signal = signals_name();
+    progress_error(&j->progress, "stopped by %s; nothing was written",
+                   signal != NULL ? signal : "request");
+    return STOPPED;
+  }
+  progress_error(&j->progress, "%s",
+                 j->run.message[0] != '\0' ? j->run.message : pendres_status_message(status));
+  return FAILED;
+}
+
+static int finish_output(job *j)
+{
+  pendres_store *store = j->run.store;
+  pendres_status status =
+    provenance_write(&j->provenance, &j->deck, j->farm, j->run.failed_points, store);
+  if (status == PENDRES_OK) status = pendres_store_close(store);
+  if (status == PENDRES_OK) return DONE;
+  progress_error(&j->progress, "%s", pendres_store_message(store));
+  return FAILED;
+}
+
+static int report(job *j)
+{
+  if (fflush(j->run.table) != 0 || ferror(j->run.table)) {
+    progress_error(&j->progress, "out of memory for the table of results");
+    return FAILED;
+  }
+  if (j->table_size > 0) (void)fwrite(j->table, 1, j->table_size, stdout);
+  progress_note(&j->progress, "%s written after %.2f s", j->deck.output,
+                provenance_wall(&j->provenance));
+  if (check_stdout(j) != DONE) return FAILED;
+  if (j->run.failed_points == 0) return DONE;
+  progress_error(&j->progress, "%zu points failed; they are marked in %s", j->run.failed_points,
+                 j->deck.output);
+  return SOME_POINTS_FAILED;
+}
+
+/* A store that is not closed by now is given up, without a trace. */
+static void let_go(job *j)
+{
+  pendres_store_free(j->run.store);
+  if (j->run.table != NULL) (void)fclose(j->run.table);
+  free(j->table);
+  farm_free(j->farm);
+  deck_free(&j->deck);
+  if (j->progress.log != NULL) (void)fclose(j->progress.log);
+}
+
+int main(int argc, char **argv)
+{
+  job j = { 0 };
+  int code = options_parse(argc, argv, &j.options);                  /* 1 the command line */
+  if (code != DONE) return code;
+  if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);
+  if (j.options.action == OPTIONS_VERSION) return options_print_version(stdout);
+  provenance_start(&j.provenance);
+  progress_init(&j.progress, stderr, j.options.quiet);
+
+  code = read_deck(&j);                                              /* 2 the deck */
+  if (code == DONE && j.options.action == OPTIONS_DUMP_NAMELIST) {
+    code = dump(&j);
+    goto done;
+  }
+  if (code == DONE) code = find_scene(&j);                           /* 3 its scene */
+  if (code == DONE) code = start_farm(&j);                           /* 4 threads */
+  if (code == DONE && j.options.action == OPTIONS_DRY_RUN) {
+    code = dry_run(&j);
+    goto done;
+  }
+  if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
+  if (code == DONE) code = open_log(&j);                             /* 6 the log */
+  if (code == DONE) code = open_output(&j);                          /* 7 the file */
+  if (code == DONE) code = compute(&j);                              /* 8 all the work */
+  if (code == DONE) code = finish_output(&j);                        /* 9 whole, in its place */
+  if (code == DONE) code = report(&j);                               /* 10 the table */
+done:
+  let_go(&j);
+  return code;
+}

@@ -1,0 +1,141 @@
+/* options.c -- the command line; see options.h. */
+#define _GNU_SOURCE /* getopt_long */
+#include "options.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <stdlib.h>
+
+#include <pendres/pendres.h>
+
+enum { MOST_THREADS = 4096 };
+
+static const char help[] =
+  "Usage: resonance [OPTION]... DECK\n"
+  "Compute the scene that a deck describes, a file in Fortran namelist syntax, for driven, damped\n"
+  "and noisy pendulums, and write its results to an HDF5 file (default: the deck's name with .h5,\n"
+  "in the working directory). A short table goes to standard output, all else to standard error.\n"
+  "\n"
+  "  -n, --dry-run         check the deck and say what would be computed\n"
+  "      --dump-namelist   print the deck with all defaults resolved\n"
+  "  -o, --output=FILE     write the results to FILE\n"
+  "  -t, --threads=N       use N threads (default: OMP_NUM_THREADS, or all cores)\n"
+  "  -q, --quiet           no progress and no notes; errors are still reported\n"
+  "      --log=FILE        append progress, notes and errors to FILE, with the time\n"
+  "  -h, --help            this text\n"
+  "  -V, --version         versions of the program and of its libraries\n"
+  "\n"
+  "Exit status: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they\n"
+  "are marked in the file); 75 interrupted by TERM, INT, USR1, USR2 or XCPU.\n"
+  "A file of results is whole or absent: it is written as FILE.part and renamed at the end.\n"
+  "\n"
+  "Example: resonance input/f02.nml\n";
+
+static int complain(const char *name)
+{
+  fprintf(stderr, "Try '%s --help'.\n", name);
+  return 2;
+}
+
+/* A whole number from 1 to MOST_THREADS; 0 if it is none. */
+static int threads_of(const char *text)
+{
+  char *end = NULL;
+  errno = 0;
+  const long n = strtol(text, &end, 10);
+  return errno != 0 || end == text || *end != '\0' || n < 1 || n > MOST_THREADS ? 0 : (int)n;
+}
+
+/* One option; 0, or 2 after a message. */
+static int apply(int option, const char *value, const char *name, options *out)
+{
+  switch (option) {
+  case 'n':
+    /* The deck's namelist is asked for by programs: nothing may stand beside it. */
+    if (out->action == OPTIONS_RUN) out->action = OPTIONS_DRY_RUN;
+    return 0;
+  case 'd':
+    if (out->action <= OPTIONS_DRY_RUN) out->action = OPTIONS_DUMP_NAMELIST;
+    return 0;
+  case 'h':
+  case 'V':
+    if (out->action <= OPTIONS_DUMP_NAMELIST)
+      out->action = option == 'h' ? OPTIONS_HELP : OPTIONS_VERSION;
+    return 0;
+  case 'o':
+    out->output = value;
+    if (*value != '\0') return 0;
+    fprintf(stderr, "%s: --output needs the name of a file\n", name);
+    return complain(name);
+  case 'l':
+    out->log = value;
+    return 0;
+  case 'q':
+    out->quiet = 1;
+    return 0;
+  case 't':
+    out->threads = threads_of(value);
+    if (out->threads > 0) return 0;
+    fprintf(stderr, "%s: --threads takes a number from 1 to %d, not '%s'\n", name, MOST_THREADS,
+            value);
+    return complain(name);
+  default:
+    return complain(name); /* getopt has said why */
+  }
+}
+
+int options_parse(int argc, char **argv, options *out)
+{
+  static const struct option table[] = {
+    { "dry-run", no_argument, NULL, 'n' },       { "dump-namelist", no_argument, NULL, 'd' },
+    { "output", required_argument, NULL, 'o' },  { "threads", required_argument, NULL, 't' },
+    { "quiet", no_argument, NULL, 'q' },         { "log", required_argument, NULL, 'l' },
+    { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
+    { NULL, 0, NULL, 0 },
+  };
+  const char *name = argc > 0 ? argv[0] : "resonance";
+  int option = 0;
+
+  *out = (options){ .action = OPTIONS_RUN };
+  optind = 0; /* start anew, also the second time */
+  while ((option = getopt_long(argc, argv, "no:t:qhV", table, NULL)) != -1) {
+    const int code = apply(option, optarg, name, out);
+    if (code != 0) return code;
+  }
+  if (out->action >= OPTIONS_HELP) return 0;
+  if (optind >= argc) {
+    fprintf(stderr, "%s: no deck was given\n", name);
+    return complain(name);
+  }
+  if (optind + 1 < argc) {
+    fprintf(stderr, "%s: one deck at a time, please: '%s' comes after '%s'\n", name,
+            argv[optind + 1], argv[optind]);
+    return complain(name);
+  }
+  out->deck = argv[optind];
+  return 0;
+}
+
+static int written(FILE *out)
+{
+  if (fflush(out) == 0 && !ferror(out)) return 0;
+  perror("resonance: standard output");
+  return 1;
+}
+
+int options_print_help(FILE *out)
+{
+  fputs(help, out);
+  return written(out);
+}
+
+int options_print_version(FILE *out)
+{
+  fprintf(out,
+          "resonance %s\n"
+          "libpendres %s; %s\n"
+          "License GPL-3.0-or-later: you are free to change and redistribute it; there is no\n"
+          "warranty, to the extent permitted by law.\n",
+          PENDRES_VERSION, pendres_version(), pendres_build_info());
+  return written(out);
+}

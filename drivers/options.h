@@ -1,0 +1,37 @@
+/*
+ * options.h -- the command line.
+ *
+ * Owns: names and checks of options. What is computed stands in the deck alone; options say how,
+ * and where the result goes.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include <stdio.h>
+
+typedef enum options_action {
+  OPTIONS_RUN,
+  OPTIONS_DRY_RUN,       /* check the deck and say what would be computed */
+  OPTIONS_DUMP_NAMELIST, /* print the resolved deck */
+  OPTIONS_HELP,
+  OPTIONS_VERSION
+} options_action;
+
+/* Texts are argv's own. */
+typedef struct options {
+  options_action action;
+  const char *deck;   /* NULL for help and version */
+  const char *output; /* instead of the deck's; NULL: not given */
+  const char *log;    /* NULL: none */
+  int threads;        /* 0: OMP_NUM_THREADS, or all cores */
+  int quiet;
+} options;
+
+/* 0, or 2 after a message on stderr. Not thread safe (getopt). */
+int options_parse(int argc, char **argv, options *out);
+
+/* What --help and --version print; 0, or 1 if that could not be written. */
+int options_print_help(FILE *out);
+int options_print_version(FILE *out);
+
+#endif

@@ -1,0 +1,39 @@
+/*
+ * progress.h -- what a user sees of a run under way: stderr and the log.
+ *
+ * Owns: a bar where stderr is a terminal, else a line each 10 %; notes and errors; the log file
+ * with the time before each line. --quiet leaves errors alone, the log gets everything.
+ *
+ * Thread safety: one thread at a time; the farm takes care of that.
+ */
+#ifndef PROGRESS_H
+#define PROGRESS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef struct progress {
+  FILE *stream;      /* usually stderr */
+  FILE *log;         /* NULL: none. Not owned */
+  int quiet;
+  int terminal;      /* nonzero: draw a bar */
+  char what[48];     /* are counted */
+  size_t total;      /* 0: nothing under way */
+  int percent;       /* shown last */
+  int width;         /* of the bar's line as it stands; 0: none */
+  double start, drawn; /* seconds */
+} progress;
+
+/* A progress without a log; the stream decides between bar and lines. */
+void progress_init(progress *p, FILE *stream, int quiet);
+
+/* `total` things called `what` are to be done; `done` of them are; no more follow. */
+void progress_start(progress *p, const char *what, size_t total);
+void progress_step(progress *p, size_t done);
+void progress_end(progress *p);
+
+/* A line on the run; an error. A line break is added. */
+void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void progress_error(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,131 @@
+/* provenance.c -- see provenance.h. */
+#define _XOPEN_SOURCE 700 /* open_memstream, getrusage */
+#include "provenance.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/utsname.h>
+#include <time.h>
+
+static double wall_clock(void)
+{
+  struct timespec t = { 0 };
+  (void)clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Of all threads, in the program and in the system on its behalf. */
+static double processor_clock(void)
+{
+  struct rusage r = { 0 };
+  if (getrusage(RUSAGE_SELF, &r) != 0) return NAN;
+  return (double)(r.ru_utime.tv_sec + r.ru_stime.tv_sec) +
+         1e-6 * (double)(r.ru_utime.tv_usec + r.ru_stime.tv_usec);
+}
+
+void provenance_start(provenance *p)
+{
+  const time_t t = time(NULL);
+  struct tm utc;
+  *p = (provenance){ .wall = wall_clock(), .processor = processor_clock() };
+  if (gmtime_r(&t, &utc) != NULL) (void)strftime(p->date, sizeof p->date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+}
+
+double provenance_wall(const provenance *p)
+{
+  return wall_clock() - p->wall;
+}
+
+/* The resolved deck as text, to be freed. */
+static pendres_status resolved(const deck *d, char **text)
+{
+  size_t size = 0;
+  FILE *out = open_memstream(text, &size);
+  if (out == NULL) return PENDRES_OUT_OF_MEMORY;
+  const pendres_status status = deck_dump(d, out);
+  if (fclose(out) == 0) return status;
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+static pendres_status write_deck(const deck *d, pendres_store *store)
+{
+  char *text = NULL;
+  pendres_status status = resolved(d, &text);
+  if (status == PENDRES_OK) {
+    const pendres_store_entry entries[] = {
+      { .key = "deck_name", .text = d->name, .long_name = "file that the deck was read from" },
+      { .key = "deck", .text = d->text, .long_name = "the deck, verbatim" },
+      { .key = "deck_resolved", .text = text, .long_name = "the deck with all defaults" },
+    };
+    status = pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);
+  }
+  free(text);
+  return status;
+}
+
+static pendres_status write_origin(const provenance *p, const deck *d, const farm *f,
+                                   pendres_store *store)
+{
+  struct utsname host;
+  char hdf5[64], system[2 * sizeof host.sysname + 2] = "";
+  unsigned version[3] = { 0 };
+  const int noise = deck_has_noise(d);
+  const int64_t seed = d->kind == DECK_BASINS ? d->basins.seed : d->noise.seed;
+
+  if (uname(&host) != 0) memset(&host, 0, sizeof host);
+  snprintf(system, sizeof system, "%s %s", host.sysname, host.machine);
+  pendres_store_hdf5_version(&version[0], &version[1], &version[2]);
+  snprintf(hdf5, sizeof hdf5, "%u.%u.%u", version[0], version[1], version[2]);
+  const pendres_store_entry entries[] = {
+    { .key = "version", .text = pendres_version(), .long_name = "version of resonance and libpendres" },
+    { .key = "build", .text = pendres_build_info(), .long_name = "libraries and compiler" },
+    { .key = "hdf5_version", .text = hdf5, .long_name = "HDF5 library in use" },
+    { .key = "host", .text = host.nodename, .long_name = "name of the machine" },
+    { .key = "system", .text = system, .long_name = "operating system and processor" },
+    { .key = "date", .text = p->date, .long_name = "start of the run, UTC" },
+    { .key = "threads", .integer = farm_threads(f), .is_integer = 1, .long_name = "threads" },
+    { .key = "tolerance", .number = d->precision.tolerance, .long_name = "tolerance of the results" },
+    { .key = "seed", .integer = noise ? seed : 0, .is_integer = 1,
+      .long_name = noise ? "seed of the random numbers" : "no random numbers were used" },
+  };
+  return pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);
+}
+
+static pendres_status write_cost(const provenance *p, const farm *f, size_t failed_points,
+                                 pendres_store *store)
+{
+  pendres_cost cost;
+  farm_cost(f, &cost);
+  const pendres_store_entry entries[] = {
+    { .key = "wall_time", .number = wall_clock() - p->wall, .units = "s",
+      .long_name = "duration of the run" },
+    { .key = "processor_time", .number = processor_clock() - p->processor, .units = "s",
+      .long_name = "processor time of all threads" },
+    { .key = "pendulum_periods", .number = cost.pendulum_periods,
+      .long_name = "drive periods, summed over pendulums" },
+    { .key = "rhs_evaluations", .number = cost.rhs_evaluations,
+      .long_name = "right-hand sides, one a pendulum, stage and step" },
+    { .key = "newton_steps", .number = cost.newton_steps,
+      .long_name = "Newton iterations on the stroboscopic map" },
+    { .key = "settled_pendulums", .number = cost.settled_pendulums,
+      .long_name = "pendulums that were asked what they settle on" },
+    { .key = "periods_per_settled_pendulum",
+      .number = cost.settled_pendulums > 0.0 ? cost.pendulum_periods / cost.settled_pendulums : NAN,
+      .long_name = "drive periods of the whole run for each settled pendulum" },
+    { .key = "failed_points", .integer = (int64_t)failed_points, .is_integer = 1,
+      .long_name = "points without a result" },
+  };
+  return pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);
+}
+
+pendres_status provenance_write(const provenance *p, const deck *d, const farm *f,
+                                size_t failed_points, pendres_store *store)
+{
+  pendres_status status = write_deck(d, store);
+  if (status == PENDRES_OK) status = write_origin(p, d, f, store);
+  if (status == PENDRES_OK) status = write_cost(p, f, failed_points, store);
+  return status;
+}

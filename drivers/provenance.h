@@ -1,0 +1,30 @@
+/*
+ * provenance.h -- where a file of results comes from and what it cost.
+ *
+ * Owns: the group `provenance`: the deck verbatim and as resolved, versions, host, threads, seed,
+ * times and counts. All that changes from run to run is here and nowhere else in the file.
+ */
+#ifndef PROVENANCE_H
+#define PROVENANCE_H
+
+#include <pendres/store.h>
+
+#include "deck.h"
+#include "farm.h"
+
+/* When a run began. */
+typedef struct provenance {
+  double wall, processor; /* seconds */
+  char date[32];          /* UTC */
+} provenance;
+
+void provenance_start(provenance *p);
+
+/* Seconds since the start. */
+double provenance_wall(const provenance *p);
+
+/* Write the group. failed_points as in scene_run. */
+pendres_status provenance_write(const provenance *p, const deck *d, const farm *f,
+                                size_t failed_points, pendres_store *store);
+
+#endif

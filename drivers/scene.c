@@ -1,0 +1,151 @@
+/* scene.c -- the list of scenes, and what several of them need; see scene.h. */
+#include "scene.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One line here and one in the list for each scene_NAME.c. */
+extern const scene_kind scene_free_oscillation;
+extern const scene_kind scene_resonance_curve;
+extern const scene_kind scene_response;
+
+static const scene_kind *const scenes[] = {
+  &scene_free_oscillation,
+  &scene_resonance_curve,
+  &scene_response,
+};
+
+const scene_kind *scene_find(deck_kind kind)
+{
+  for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+    if (scenes[i]->kind == kind) return scenes[i];
+  return NULL;
+}
+
+/* ---- options ------------------------------------------------------------------------------- */
+
+static pendres_method method_named(const char *name)
+{
+  int i = 0;
+  while (i < PENDRES_METHOD_COUNT && strcmp(name, pendres_method_name((pendres_method)i)) != 0) i++;
+  return (pendres_method)i;
+}
+
+static pendres_table table_named(const char *name)
+{
+  int i = PENDRES_TABLE_DEFAULT + 1;
+  while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
+  return (pendres_table)i;
+}
+
+pendres_status scene_precision(const deck *d, pendres_options *out, const char **why)
+{
+  *out = (pendres_options){ .tolerance = d->precision.tolerance,
+                            .steps_per_period = (int)d->precision.steps_per_period,
+                            .block_lanes = (int)d->precision.block_lanes,
+                            .period_budget = (long)d->precision.period_budget };
+  if (d->precision.method[0] != '\0') out->method = method_named(d->precision.method);
+  if (d->precision.table[0] != '\0') out->table = table_named(d->precision.table);
+  *why = pendres_options_check(out);
+  return *why == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
+}
+
+/* ---- failures ------------------------------------------------------------------------------ */
+
+pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
+{
+  va_list args;
+  if (run->message[0] != '\0') return status;
+  va_start(args, format);
+  (void)vsnprintf(run->message, sizeof run->message, format, args);
+  va_end(args);
+  return status;
+}
+
+pendres_status scene_store_failed(scene_run *run, pendres_status status)
+{
+  return scene_fail(run, status, "%s", pendres_store_message(run->store));
+}
+
+pendres_status scene_farm_failed(scene_run *run, pendres_status status)
+{
+  return scene_fail(run, status, "%s", farm_message(run->farm));
+}
+
+/* ---- axes and ensembles -------------------------------------------------------------------- */
+
+pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
+{
+  static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
+    [DECK_AXIS_AMPLITUDE] = { "amplitude of the angle", "rad" },
+    [DECK_AXIS_DAMPING] = { "friction coefficient gamma", "1" },
+    [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
+    [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
+    [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
+    [DECK_AXIS_X] = { "initial position", "rad" },
+    [DECK_AXIS_V] = { "initial velocity", "1" },
+    [DECK_AXIS_TEMPERATURE] = { "temperature in units of the depth of the potential", "1" },
+    [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
+  };
+  const deck_axis *a = &run->deck->axis[axis];
+  const pendres_status status =
+    pendres_store_dimension(run->store, group, deck_axis_name(axis), a->count, a->value,
+                            about[axis].words, about[axis].units);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+double scene_member_x(const deck *d, size_t k)
+{
+  const double n = (double)d->ensemble.members;
+  /* The last member is at x_last to the last bit. */
+  return (d->ensemble.x_first * (n - (double)k) + d->ensemble.x_last * (double)k) / n;
+}
+
+/* ---- the group `paper` --------------------------------------------------------------------- */
+
+enum { PAPER_PRINTED, PAPER_COMPUTED, PAPER_DIFFERENCE, PAPER_COUNT };
+
+static double paper_value(const scene_printed *v, int which)
+{
+  return which == PAPER_PRINTED    ? v->printed
+         : which == PAPER_COMPUTED ? v->computed
+                                   : v->computed - v->printed;
+}
+
+static pendres_status put_paper(pendres_store *store, size_t n, const scene_printed *values,
+                                int which, double *number, double *error)
+{
+  static const char *const names[PAPER_COUNT] = { "printed", "computed", "difference" };
+  static const char *const words[PAPER_COUNT] = { "value printed in the paper", "value of this run",
+                                                  "computed less printed" };
+  const pendres_store_spec spec = { .group = "paper", .name = names[which],
+                                    .dimensions = { "quantity" }, .long_name = words[which] };
+  for (size_t i = 0; i < n; i++) {
+    number[i] = paper_value(&values[i], which);
+    error[i] = values[i].error;
+  }
+  return which == PAPER_PRINTED ? pendres_store_put(store, &spec, number, n)
+                                : pendres_store_put_result(store, &spec, number, error, n);
+}
+
+pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  const char **name = malloc(n * sizeof *name);
+  double *number = malloc(2 * n * sizeof *number);
+  if (name == NULL || number == NULL) {
+    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu printed values", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) name[i] = values[i].name;
+  status = pendres_store_dimension_text(run->store, "paper", "quantity", n, name, "quantity");
+  for (int which = 0; which < PAPER_COUNT && status == PENDRES_OK; which++)
+    status = put_paper(run->store, n, values, which, number, number + n);
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+done:
+  free(name);
+  free(number);
+  return status;
+}

@@ -1,0 +1,21 @@
+/*
+ * signals.h -- how a run is stopped from outside.
+ *
+ * Owns: the handlers of TERM, INT, USR1, USR2 and XCPU, which batch systems send before they kill,
+ * and the flag that they set. PIPE and XFSZ are ignored, so that a closed pipe and a limit on file
+ * sizes become errors of writing, which are reported. The flag is the only state of the program
+ * that is not passed around: a handler has no arguments.
+ */
+#ifndef SIGNALS_H
+#define SIGNALS_H
+
+/* Install the handlers; what was ignored when the program started stays ignored. 0, or -1. */
+int signals_install(void);
+
+/* Nonzero once a signal has come; any thread may ask. arg is not used. */
+int signals_stop(void *arg);
+
+/* "SIGTERM" etc. of the first that came, or NULL. */
+const char *signals_name(void);
+
+#endif
