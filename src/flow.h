@@ -41,7 +41,7 @@ void pendres_flow_free(pendres_flow *flow);
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
 
 /*
- * Use `lanes` lanes from now on; the states of lanes below are kept. The stride
+ * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept. The stride
  * (distance between rows) becomes lanes rounded up to a multiple of 8.
  */
 void pendres_flow_resize(pendres_flow *flow, size_t lanes);

@@ -94,28 +94,36 @@ static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *
   *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
 }
 
-static void load_probes(pendres_flow *flow, const pendres_pendulum *p, double speed)
+static void load_probe(pendres_flow *flow, size_t lane, int i, const pendres_pendulum *p,
+                       double speed)
 {
   /* Half start at rest over the well, half at the largest speed either way. */
-  for (int i = 0; i < PROBES; i++) {
-    const int half = PROBES / 2, k = i % half;
-    const double y = -2.75 + 5.5 * k / (half - 1);
-    const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
-    pendres_flow_set_lane(flow, (size_t)i, p, y, v / p->drive_frequency);
-  }
+  const int half = PROBES / 2, k = i % half;
+  const double y = -2.75 + 5.5 * k / (half - 1);
+  const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
+  pendres_flow_set_lane(flow, lane, p, y, v / p->drive_frequency);
 }
 
+/* All probes over one period; end[2 i], end[2 i + 1] are y and w of probe i. */
 static pendres_status run_probes(pendres_context *ctx, pendres_flow *flow,
                                  const pendres_pendulum *p, double speed, int steps,
                                  double end[2 * PROBES])
 {
+  const size_t capacity = pendres_flow_capacity(flow);
   pendres_status status = pendres_flow_set_steps(flow, steps);
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  pendres_flow_resize(flow, PROBES);
-  load_probes(flow, p, speed);
-  status = pendres_flow_period(flow);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  memcpy(end, pendres_flow_state(flow), 2 * PROBES * sizeof *end);
+  for (size_t first = 0; first < PROBES; first += capacity) {
+    const size_t lanes = PROBES - first < capacity ? PROBES - first : capacity;
+    pendres_flow_resize(flow, lanes);
+    for (size_t i = 0; i < lanes; i++) load_probe(flow, i, (int)(first + i), p, speed);
+    status = pendres_flow_period(flow);
+    if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+    const double *state = pendres_flow_state(flow);
+    for (size_t i = 0; i < lanes; i++) {
+      end[2 * (first + i)] = state[i];
+      end[2 * (first + i) + 1] = state[pendres_flow_stride(flow) + i];
+    }
+  }
   ctx->cost.pendulum_periods += PROBES;
   return PENDRES_OK;
 }

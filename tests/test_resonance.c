@@ -1,0 +1,207 @@
+/*
+ * test_resonance.c -- resonances against the extended-precision reference, the linear limit, and
+ * each other.
+ *
+ * Tolerances: a result may differ from the exact value by ten times its own error estimate (the
+ * promise: an estimate is never smaller than a tenth of the true error), and the default run must
+ * be within 1e-8 in frequency, the tolerance asked for.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+#include "golden.h"
+
+static pendres_context *context_with(double tolerance, int lanes)
+{
+  pendres_context *ctx = NULL;
+  const pendres_options o = {.tolerance = tolerance, .block_lanes = lanes};
+  check_ok(pendres_context_create(&o, &ctx));
+  return ctx;
+}
+
+static pendres_resonance find(pendres_context *ctx, double damping, double drive)
+{
+  pendres_resonance r;
+  const pendres_pendulum p = {.damping = damping, .drive_amplitude = drive};
+  const pendres_status status = pendres_resonance_find(ctx, &p, 0.5, 1.2, &r);
+  if (status != PENDRES_OK) print_error("%s\n", pendres_context_message(ctx));
+  check_ok(status);
+  return r;
+}
+
+/* Honest, and useful: at least a tenth of the true error, and below the tolerance asked for. */
+static void check_honest(double got, double error, double exact, double tolerance)
+{
+  assert_true(isfinite(error) && error >= 0.0);
+  check_near(got, exact, 10.0 * error);
+  assert_true(error <= tolerance);
+}
+
+/* Only the dampings above the cusp have one branch, so that the golden peak is the resonance. */
+static int single_branch(const pendres_reference_cycle *g)
+{
+  return g->damping > (g->drive_amplitude > 0.15L ? 0.164L : 0.099L);
+}
+
+static void smooth_peaks(void **state)
+{
+  static const double tolerances[] = {1e-6, 1e-8, 1e-10};
+  (void)state;
+  for (size_t t = 0; t < 3; t++) {
+    pendres_context *ctx = context_with(tolerances[t], 0);
+    int seen = 0;
+    for (size_t i = 0; i < sizeof golden_resonances / sizeof golden_resonances[0]; i++) {
+      const pendres_reference_cycle *g = &golden_resonances[i];
+      if (!single_branch(g)) continue;
+      const pendres_resonance r = find(ctx, (double)g->damping, (double)g->drive_amplitude);
+      assert_int_equal(r.peak, PENDRES_PEAK_SMOOTH);
+      check_honest(r.frequency, r.frequency_error, (double)g->drive_frequency, tolerances[t]);
+      check_honest(r.loop_area, r.loop_area_error, (double)g->loop_area, tolerances[t]);
+      check_honest(r.response.mean_loop_amplitude, r.response.mean_loop_amplitude_error,
+                   (double)g->amplitude, 10.0 * tolerances[t]);
+      check_honest(r.response.phase_lag, r.response.phase_lag_error, (double)g->phase_lag,
+                   10.0 * tolerances[t]);
+      seen++;
+    }
+    assert_true(seen >= 6);
+    pendres_context_free(ctx);
+  }
+}
+
+/* Below the cusp the resonance is where SA ends, if LA's own peak lies at lower frequency. */
+static void edges_are_folds(void **state)
+{
+  static const double dampings[] = {0.13, 0.15};
+  pendres_context *ctx = context_with(1e-8, 0);
+  (void)state;
+  for (size_t k = 0; k < 2; k++) {
+    const pendres_resonance r = find(ctx, dampings[k], 0.2);
+    double fold = NAN;
+    for (size_t i = 0; i < sizeof golden_folds / sizeof golden_folds[0]; i++) {
+      const pendres_reference_cycle *g = &golden_folds[i];
+      /* Of the two folds at a damping, SA ends at the one of higher frequency. */
+      if (fabsl(g->damping - dampings[k]) < 1e-12L && fabsl(g->drive_amplitude - 0.2L) < 1e-12L)
+        fold = fmax(isnan(fold) ? 0.0 : fold, (double)g->drive_frequency);
+    }
+    assert_int_equal(r.peak, PENDRES_PEAK_EDGE);
+    check_honest(r.frequency, r.frequency_error, fold, 1e-8);
+    check_honest(r.fold_frequency, r.fold_frequency_error, fold, 1e-8);
+    assert_true(r.response.sa_fraction == 0.0 && r.response.la_fraction == 1.0);
+  }
+  pendres_context_free(ctx);
+}
+
+/* The edge is a jump: a little below it some members are on SA and the mean area is smaller. */
+static void an_edge_is_a_jump(void **state)
+{
+  pendres_context *ctx = context_with(1e-8, 0);
+  const pendres_resonance r = find(ctx, 0.13, 0.2);
+  const pendres_ensemble e = pendres_ensemble_default();
+  pendres_pendulum p = {.damping = 0.13, .drive_amplitude = 0.2};
+  pendres_response below;
+  (void)state;
+  p.drive_frequency = r.frequency - 1e-4;
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &below));
+  assert_true(below.sa_fraction > 0.05);
+  assert_true(below.mean_loop_area < r.loop_area - 0.05);
+  pendres_context_free(ctx);
+}
+
+/*
+ * Linear limit: A is proportional to w / ((1 - w^2)^2 + g^2 w^2); its maximum solves
+ * 3 u^2 - (2 - g^2) u - 1 = 0 in u = w^2. The pendulum differs by the square of its amplitude
+ * (at F0 = 1e-4 and g = 0.5 about 4e-8 / 16); the resonance's own error comes on top.
+ */
+static void linear_limit(void **state)
+{
+  const double g = 0.5, b = 2.0 - g * g;
+  const double exact = sqrt((b + sqrt(b * b + 12.0)) / 6.0);
+  pendres_context *ctx = context_with(1e-9, 0);
+  const pendres_resonance r = find(ctx, g, 1e-4);
+  (void)state;
+  check_near(r.frequency, exact, 4e-8 / 16.0 + 10.0 * r.frequency_error);
+  pendres_context_free(ctx);
+}
+
+/* A drive of the other sign is the same drive half a period later. */
+static void sign_of_the_drive(void **state)
+{
+  pendres_context *ctx = context_with(1e-8, 0);
+  const pendres_resonance a = find(ctx, 0.3, 0.2), b = find(ctx, 0.3, -0.2);
+  (void)state;
+  check_near(a.frequency, b.frequency, a.frequency_error + b.frequency_error);
+  check_near(a.response.phase_lag, b.response.phase_lag,
+             a.response.phase_lag_error + b.response.phase_lag_error);
+  pendres_context_free(ctx);
+}
+
+/* Same bytes for every block size. */
+static void independent_of_blocks(void **state)
+{
+  static const int lanes[] = {8, 64, 256};
+  static const double dampings[] = {0.15, 0.24};
+  (void)state;
+  for (size_t k = 0; k < 2; k++) {
+    pendres_context *ctx = context_with(1e-8, 0);
+    const pendres_resonance first = find(ctx, dampings[k], 0.2);
+    pendres_context_free(ctx);
+    for (size_t i = 0; i < 3; i++) {
+      ctx = context_with(1e-8, lanes[i]);
+      const pendres_resonance r = find(ctx, dampings[k], 0.2);
+      assert_true(r.frequency == first.frequency && r.loop_area == first.loop_area &&
+                  r.frequency_error == first.frequency_error &&
+                  r.response.phase_lag == first.response.phase_lag);
+      pendres_context_free(ctx);
+    }
+  }
+}
+
+static void no_peak_is_said(void **state)
+{
+  pendres_context *ctx = context_with(1e-8, 0);
+  const pendres_pendulum p = {.damping = 0.3, .drive_amplitude = 0.2};
+  pendres_resonance r;
+  (void)state;
+  /* The peak near 0.96 is outside: the area rises all the way. */
+  assert_int_equal(pendres_resonance_find(ctx, &p, 0.5, 0.8, &r), PENDRES_NOT_FOUND);
+  assert_non_null(strstr(pendres_context_message(ctx), "upper end"));
+  assert_int_equal(pendres_resonance_find(ctx, &p, 0.8, 0.5, &r), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_resonance_find(ctx, &p, NAN, 0.5, &r), PENDRES_INVALID_ARGUMENT);
+  const pendres_pendulum bad = {.damping = -0.1, .drive_amplitude = 0.2};
+  assert_int_equal(pendres_resonance_find(ctx, &bad, 0.5, 1.2, &r), PENDRES_INVALID_ARGUMENT);
+  pendres_context_free(ctx);
+}
+
+/* Shares of the ensemble and its mean area, against long double integration of all members. */
+static void shares(void **state)
+{
+  pendres_context *ctx = context_with(1e-8, 0);
+  const pendres_ensemble e = pendres_ensemble_default();
+  (void)state;
+  for (size_t i = 0; i < sizeof golden_shares / sizeof golden_shares[0]; i++) {
+    const golden_share *g = &golden_shares[i];
+    pendres_response r;
+    check_ok(pendres_response_compute(ctx, 1, &g->pendulum, &e, &r));
+    assert_int_equal(r.unresolved, 0);
+    check_near(r.sa_fraction, g->small / 200.0, 1e-15);
+    check_near(r.la_fraction, g->large / 200.0, 1e-15);
+    check_near(r.mean_loop_area, (double)g->mean_loop_area, 10.0 * r.mean_loop_area_error);
+  }
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(smooth_peaks),         cmocka_unit_test(edges_are_folds),
+    cmocka_unit_test(an_edge_is_a_jump),    cmocka_unit_test(linear_limit),
+    cmocka_unit_test(sign_of_the_drive),    cmocka_unit_test(independent_of_blocks),
+    cmocka_unit_test(no_peak_is_said),      cmocka_unit_test(shares),
+  };
+  return cmocka_run_group_tests_name("resonance", tests, NULL, NULL);
+}
