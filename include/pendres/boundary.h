@@ -1,0 +1,80 @@
+/*
+ * boundary.h -- basin boundaries as curves: stable manifolds of unstable orbits.
+ *
+ * Owns: the unstable orbit between two attractors, and its stable manifold as a polyline. Where
+ * two basins meet in a smooth curve, that curve is the stable manifold of a saddle, and
+ * mapping it one drive period back gives more of it.
+ *
+ * The stroboscopic map backwards is the map of the same pendulum with negative damping, seen
+ * in a mirror: time -> -time turns (damping, v) into (-damping, -v) and leaves the drive, which
+ * is even in time, alone. Going back, errors across the manifold shrink.
+ *
+ * Source: You, Kostelich and Yorke, Int. J. Bifurcation Chaos 1 (1991) 605; Hobson,
+ * J. Comput. Phys. 104 (1993) 14, for the refinement by distance and angle.
+ */
+#ifndef PENDRES_BOUNDARY_H
+#define PENDRES_BOUNDARY_H
+
+#include <pendres/context.h>
+#include <pendres/orbit.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** What is wanted. Zero in a field means the default. */
+typedef struct pendres_boundary_options {
+  double x_low, x_high; /**< window, kept points lie in it; default one turn around well 0 */
+  double v_low, v_high; /**< default -2.5, 2.5 */
+  double spacing;       /**< neighbours on a piece are no further apart in x or v; default 0.05 */
+  double deviation;     /**< of the polyline from the curve between its points; default 1e-5 */
+  size_t most_points;   /**< grown before giving up; default 400000 */
+} pendres_boundary_options;
+
+/** Opaque: a curve in one or more pieces. */
+typedef struct pendres_boundary pendres_boundary;
+
+/**
+ * The orbit that separates the basin of `attractor` (period one, stable) from its neighbour's: the
+ * unstable orbit at the same parameters on the same branch, behind the fold. *out is written.
+ * PENDRES_NOT_FOUND: the branch does not come back to these parameters.
+ */
+pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
+                                   pendres_orbit *out);
+
+/**
+ * The stable manifold of `saddle` (one multiplier outside, one inside the unit circle, any
+ * period) within a window of Poincaré points at drive phase 0, all its translations by whole
+ * turns included. options may be NULL. *out is to be freed by pendres_boundary_free.
+ *
+ * A manifold that accumulates on itself (a fractal boundary) has no end: what fits into
+ * most_points is given, and pendres_boundary_complete says 0.
+ * Errors: PENDRES_INVALID_ARGUMENT (no saddle, or an empty window), those of the integration.
+ */
+pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                     const pendres_boundary_options *options,
+                                     pendres_boundary **out);
+void pendres_boundary_free(pendres_boundary *boundary);
+
+/** Number of points, and the points: piece after piece, in order along each. Owned by boundary. */
+size_t pendres_boundary_count(const pendres_boundary *boundary);
+const double *pendres_boundary_x(const pendres_boundary *boundary);
+const double *pendres_boundary_v(const pendres_boundary *boundary);
+/** Number of the piece (0, 1, ...) that each point belongs to. */
+const int *pendres_boundary_piece(const pendres_boundary *boundary);
+/**
+ * Error of each point: how far the true curve may be from the point and from the lines to its
+ * neighbours, in the (x, v) plane.
+ */
+const double *pendres_boundary_error(const pendres_boundary *boundary);
+/** The largest of these; 0 without points. */
+double pendres_boundary_bound(const pendres_boundary *boundary);
+/** 1: all of the manifold that ever enters the window; 0: it goes on. */
+int pendres_boundary_complete(const pendres_boundary *boundary);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif
