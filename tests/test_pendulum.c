@@ -17,6 +17,14 @@ static const long double pi_high = 3.14159265358979323846264338327950288L;
 /* What the long double above leaves out, from pi to 40 digits: needed close to the barrier. */
 static const long double pi_rest = LDBL_MANT_DIG == 64 ? -5.0165576126683320235e-20L : 0.0L;
 
+/* Valgrind computes long doubles as doubles: no reference there. */
+static void need_extended_precision(void)
+{
+  volatile long double sum = 1.0L;
+  sum += LDBL_EPSILON;
+  if (sum == 1.0L) skip();
+}
+
 static const pendres_pendulum some[] = {
   {.damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78},
   {.damping = 0.0, .drive_amplitude = 0.0, .drive_frequency = 1.0},
@@ -33,6 +41,7 @@ enum { STATES = sizeof states / sizeof *states };
 static void test_acceleration(void **state)
 {
   (void)state;
+  need_extended_precision();
   for (int i = 0; i < SOME; i++)
     for (int j = 0; j < STATES; j++) {
       const pendres_pendulum *p = &some[i];
@@ -159,6 +168,7 @@ static void test_harmonic(void **state)
   const double dampings[] = {1e-6, 1e-3, 0.12, 0.8, 5.0};
   const double frequencies[] = {1e-3, 0.3, 0.785398, 0.9999999, 1.0, 1.0000001, 1.3, 40.0};
   (void)state;
+  need_extended_precision();
   for (size_t i = 0; i < sizeof dampings / sizeof *dampings; i++)
     for (size_t j = 0; j < sizeof frequencies / sizeof *frequencies; j++) {
       const pendres_pendulum p = {.damping = dampings[i], .drive_amplitude = 1e-6,
@@ -214,7 +224,7 @@ static void test_harmonic_edges(void **state)
 static double frequency_by_agm(double amplitude)
 {
   long double a = 1.0L, g = sinl(((pi_high - amplitude) + pi_rest) / 2.0L);
-  while (fabsl(a - g) > 4.0L * LDBL_EPSILON * a) {
+  for (int i = 0; i < 12; i++) { /* quadratic: seven would do at the closest gap here */
     const long double next = (a + g) / 2.0L;
     g = sqrtl(a * g);
     a = next;
@@ -226,6 +236,7 @@ static void test_free_frequency(void **state)
 {
   const double gaps[] = {1.0, 0.3, 0.0415926, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
   (void)state;
+  need_extended_precision();
   check_near(pendres_free_frequency(0.0), 1.0, 2.0 * ulp);
   /* GSL's R_F is good to a few roundings; the rest is a sine and a division. */
   for (int i = 1; i <= 310; i++)
@@ -251,6 +262,7 @@ static void test_free_frequency_range(void **state)
 static void test_approximations(void **state)
 {
   (void)state;
+  need_extended_precision();
   for (int i = 1; i <= 30; i++) {
     const double a = 0.1 * i, exact = frequency_by_agm(a);
     const long double c = cosl(a / 2.0L), mean = (1.0L + c) / 2.0L;
