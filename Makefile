@@ -287,12 +287,15 @@ doc:
 style:
 	@tests/style.sh
 
-# Another build directory loses what was made here, and is kept if it holds anything else.
+# A build directory of another name is kept if it holds anything else.
 clean:
-	rm -rf build resonance
-	rm -rf $(addprefix $(BUILD)/,obj tests bench results flags pendres.pc resonance resonance.1) \
-	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags pendres.pc resonance.1) \
+	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a $(PROGRAM)
+ifeq ($(BUILD),build)
+	rm -rf build
+else
 	@rmdir $(BUILD) 2>/dev/null || true
+endif
 
 # ---- What is needed --------------------------------------------------------------------------
 
