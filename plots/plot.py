@@ -1,0 +1,286 @@
+#!/usr/bin/env python3
+"""Draw the runs of `resonance` as figures.
+
+    python3 plots/plot.py FILE.h5 ... [-o FOLDER] [-f png|pdf|svg]
+
+Each file becomes one picture of the same name. What a file holds is recognised by its variables.
+A file NAME_inset.h5 beside NAME.h5 is drawn into it as an inset. Needs h5py and matplotlib
+(Debian: python3-h5py python3-matplotlib).
+"""
+import argparse
+import os
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+
+SA, LA, FREE, EXACT = "tab:blue", "tab:red", "0.45", "black"
+
+
+class Run:
+    """The variables of a file as arrays, read when they are asked for."""
+
+    def __init__(self, file):
+        self.file, self.attrs = file, file.attrs
+
+    def __contains__(self, name):
+        return name in self.file
+
+    def __getitem__(self, name):
+        return self.file[name][()]
+
+
+def free_frequency(amplitude):
+    """Exact frequency of the free undamped pendulum, by the arithmetic-geometric mean."""
+    a, b = np.ones_like(amplitude), np.cos(amplitude / 2)
+    for _ in range(20):
+        a, b = (a + b) / 2, np.sqrt(a * b)
+    return a
+
+
+def draw_free_oscillation(h, path):
+    fig, ax = plt.subplots(figsize=(6, 4.5))
+    a = h["amplitude"]
+    ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
+    ax.plot(a, h["frequency_exact"], color=EXACT, label="exact (elliptic integral)")
+    ax.plot(a, h["frequency_kittel"], "--", color=SA, label="Kittel")
+    ax.plot(a, h["frequency_belendez"], ":", color=LA, label="Beléndez")
+    step = max(1, len(a) // 25)
+    ax.plot(a[::step], h["frequency_integrated"][::step], "o", ms=4, mfc="none", color=EXACT,
+            label="integrated")
+    ax.set(xlabel="amplitude $x_0$ (rad)", ylabel=r"frequency $\omega_1/\omega_0$")
+    ax.legend()
+    return fig
+
+
+def resonance_axes(ax, h, labels):
+    amplitude, frequency = h["mean_loop_amplitude"], h["resonance_frequency"]
+    edge, damping = h["peak"] == 1, h["damping"]
+    x = np.linspace(0, max(2.4, np.nanmax(amplitude) * 1.1), 400)
+    ax.plot(x[x < np.pi], free_frequency(x[x < np.pi]), "--", color=FREE, label="free oscillation, exact")
+    ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
+    ax.plot(amplitude[~edge], frequency[~edge], "o", ms=3, color=SA, label="smooth peak")
+    ax.plot(amplitude[edge], frequency[edge], "s", ms=3, color=LA, label="edge: SA ends")
+    for value in labels:
+        i = np.argmin(abs(damping - value))
+        if abs(damping[i] - value) < 1e-9 and np.isfinite(amplitude[i]):
+            ax.annotate(f"{value:g}", (amplitude[i], frequency[i]), textcoords="offset points",
+                        xytext=(5, 4), fontsize=7)
+
+
+def draw_resonance_curve(h, path):
+    fig, ax = plt.subplots(figsize=(7.5, 5.5))
+    resonance_axes(ax, h, [0.06, 0.1, 0.15, 0.165, 0.2, 0.24, 0.32, 0.38, 0.5, 0.8, 0.9, 1.0])
+    ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$ (rad)",
+           ylabel=r"resonance frequency $\overline{\omega_0}$", ylim=(0.72, 1.02), xlim=(0, 2.2))
+    ax.legend(loc="lower left", fontsize=8, title="numbers: damping", title_fontsize=8)
+    beside = path[:-3] + "_inset.h5"
+    if os.path.exists(beside):
+        with h5py.File(beside, "r") as other:
+            inset = ax.inset_axes([0.56, 0.62, 0.42, 0.36])
+            resonance_axes(inset, Run(other), [0.099, 0.28])
+            inset.set(xlim=(0, 1.9), ylim=(0.8, 1.02), title="$F_0 = 0.1$")
+            inset.title.set_size(8)
+            inset.tick_params(labelsize=7)
+    return fig
+
+
+def draw_response(h, path):
+    name = "drive_period" if "drive_period" in h else "drive_frequency"
+    drive, damping = h[name][:], h["damping"]
+    fig, ax = plt.subplots(figsize=(7.5, 5))
+    phase = ax.twinx()
+    for i, g in enumerate(damping):
+        colour = f"C{i}"
+        ax.plot(drive, h["mean_loop_amplitude"][i], color=colour, label=rf"$\gamma = {g:g}$")
+        phase.plot(drive, h["phase_lag"][i] / np.pi, "--", color=colour)
+        tau = h["resonance_period"][i]
+        at = tau if name == "drive_period" else 2 * np.pi / tau
+        if np.isfinite(at):
+            ax.vlines(at, 0, h["resonance_amplitude"][i], color=colour, lw=0.8)
+            ax.annotate(rf"$\tau_0 = {tau:.4f}$", (at, h["resonance_amplitude"][i]), fontsize=7,
+                        textcoords="offset points", xytext=(4, 4), color=colour)
+    ax.set(xlabel=r"drive period $\tau$" if name == "drive_period" else r"drive frequency $\omega$",
+           ylabel=r"amplitude $\langle x_0\rangle$ (rad, full lines)")
+    ax.set_ylim(bottom=0)
+    phase.set(ylabel=r"phase lag $\phi/\pi$ (broken lines)", ylim=(0, 1))
+    ax.legend(loc="center right")
+    return fig
+
+
+def draw_orbit(h, path):
+    fig, (top, bottom) = plt.subplots(2, 1, figsize=(6.5, 7))
+    theta = h["drive_phase"] / (2 * np.pi)
+    scale = 0.5 * np.ptp(h["x"]) / max(np.ptp(h["drive"]), 1e-300)
+    top.plot(theta, h["x"], color=LA, label="$x$")
+    top.plot(theta, np.mean(h["x"]) + scale * h["drive"], "--", color=FREE,
+             label=f"drive, magnified {scale:.1f} times")
+    top.set(xlabel="drive periods", ylabel="$x$ (rad)")
+    top.legend(loc="upper right")
+    bottom.plot(h["drive"], h["x"], color=LA)
+    bottom.set(xlabel="$F$", ylabel="$x$ (rad)",
+               title=rf"area {h['loop_area']:.6f}, amplitude {h['amplitude']:.4f}, "
+                     rf"phase lag {h['phase_lag'] / np.pi:.4f}$\pi$")
+    return fig
+
+
+LABEL_COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#aa3377", "#bbbbbb"]
+LABEL_NAMES = ["SA", "LA", "periodic", "running", "chaotic", "unresolved"]
+
+
+def draw_basins(h, path):
+    x, v, label = h["x"], h["v"], h["label"]
+    fig, ax = plt.subplots(figsize=(9, 5.5))
+    step = max(1, len(x) // 1500), max(1, len(v) // 1500)
+    image = label[:: step[0], :: step[1]].T
+    mesh = ax.imshow(image, origin="lower", aspect="auto", interpolation="nearest",
+                     extent=(x[0] / np.pi, x[-1] / np.pi, v[0], v[-1]),
+                     cmap=ListedColormap(LABEL_COLOURS), norm=BoundaryNorm(np.arange(-0.5, 6), 6))
+    bar = fig.colorbar(mesh, ax=ax, ticks=range(6))
+    bar.ax.set_yticklabels(LABEL_NAMES)
+    if "boundary_x" in h:
+        bx = h["boundary_x"]
+        bv = h["boundary_v"]
+        ax.plot(bx / np.pi, bv, ",", color="black")
+    if "strobe_x" in h:
+        for t, name in enumerate(h["temperature"]):
+            sx, sv = h["strobe_x"][t].ravel(), h["strobe_v"][t].ravel()
+            ax.plot(sx / np.pi, sv, ",", color=["lime", "orange", "yellow"][t % 3],
+                    label=f"T = {name:g}")
+    for i in range(len(h["attractor_x"])):
+        ax.plot(h["attractor_x"][i] / np.pi, h["attractor_v"][i], "x", ms=9, mew=2, color="white")
+        ax.annotate(LABEL_NAMES[int(h["attractor_label"][i])],
+                    (h["attractor_x"][i] / np.pi, h["attractor_v"][i]), color="white",
+                    textcoords="offset points", xytext=(6, 6))
+    ax.axhline(0, color="white", lw=0.6)
+    ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi), ylim=(v[0], v[-1]))
+    return fig
+
+
+def draw_phase_diagram(h, path):
+    damping, omega = h["damping"], h["drive_frequency"]
+    fig, (left, right) = plt.subplots(1, 2, figsize=(12, 5))
+    names = ["SA", "LA", "coexistence", "single", "other"]
+    mesh = left.imshow(h["regime"], origin="lower", aspect="auto", interpolation="nearest",
+                       extent=(omega[0], omega[-1], damping[0], damping[-1]),
+                       cmap=ListedColormap(["#4477aa", "#ee6677", "#ccbb44", "#dddddd", "#228833"]),
+                       norm=BoundaryNorm(np.arange(-0.5, 5), 5))
+    bar = fig.colorbar(mesh, ax=left, ticks=range(5))
+    bar.ax.set_yticklabels(names)
+    area = right.imshow(h["mean_loop_area"], origin="lower", aspect="auto", cmap="viridis",
+                        extent=(omega[0], omega[-1], damping[0], damping[-1]))
+    fig.colorbar(area, ax=right, label="mean loop area")
+    for ax in (left, right):
+        if "fold_frequency" in h and len(h["fold_frequency"]):
+            branch = h["fold_branch"]
+            for b in np.unique(branch):
+                ax.plot(h["fold_frequency"][branch == b], h["fold_damping"][branch == b],
+                        color="black", lw=1)
+        if "cusp_frequency" in h:
+            ax.plot(np.atleast_1d(h["cusp_frequency"]), np.atleast_1d(h["cusp_damping"]),
+                    "*", color="black", ms=9)
+        ax.set(xlabel=r"drive frequency $\omega$", ylabel=r"damping $\gamma$",
+               xlim=(omega[0], omega[-1]), ylim=(damping[0], damping[-1]))
+    return fig
+
+
+def draw_branches(h, path):
+    fig, ax = plt.subplots(figsize=(7, 6))
+    omega = h["drive_frequency"]
+    for i, g in enumerate(h["damping"]):
+        colour = f"C{i}"
+        ax.plot(h["mean_loop_amplitude"][i], omega, ".", ms=3, color=colour,
+                label=rf"$\gamma = {g:g}$, ensemble")
+        here = abs(h["branch_damping"] - g) < 1e-9
+        a, w = h["branch_amplitude"][here], h["branch_frequency"][here]
+        stable = h["branch_stable"][here] == 1
+        jump = np.r_[False, np.hypot(np.diff(a), np.diff(w)) > 0.2]
+        for mask, style in ((stable, "-"), (~stable, ":")):
+            aa, ww = np.where(mask, a, np.nan), np.where(mask, w, np.nan)
+            aa[jump] = np.nan
+            ax.plot(aa, ww, style, color=colour, lw=1)
+    if "fold_amplitude" in h:
+        branch = h["fold_branch"]
+        for b in np.unique(branch):
+            ax.plot(h["fold_amplitude"][branch == b], h["fold_frequency"][branch == b],
+                    color="black", lw=2, alpha=0.5)
+    ax.set(xlabel=r"amplitude $\langle x_0\rangle$ (rad)", ylabel=r"drive frequency $\omega$",
+           ylim=(omega[0], omega[-1]), xlim=(0, 2.6))
+    ax.legend(fontsize=8)
+    return fig
+
+
+def draw_work_precision(h, path):
+    fig, ax = plt.subplots(figsize=(7.5, 5.5))
+    names = [n.decode() if isinstance(n, bytes) else str(n) for n in
+             (h["method_name"] if "method_name" in h else h["method"])]
+    for i, name in enumerate(names):
+        error, speed = h["error_100"][i], h["throughput"][i] / 1e6
+        good = np.isfinite(error) & (error > 0) & np.isfinite(speed)
+        ax.loglog(error[good], speed[good], "o-", ms=4, label=name)
+    ax.set(xlabel="largest error after 100 periods", ylabel="million pendulum-periods a second")
+    ax.invert_xaxis()
+    ax.legend(fontsize=8)
+    ax.grid(True, which="both", alpha=0.3)
+    return fig
+
+
+def draw_switching(h, path):
+    fig, ax = plt.subplots(figsize=(6.5, 5))
+    t = h["temperature"]
+    for name, colour in (("rate_sa_la", SA), ("rate_la_sa", LA)):
+        if name in h:
+            ax.errorbar(1 / t, h[name], yerr=h[name + "_error"], fmt="o", color=colour, label=name)
+    ax.set(xlabel="1/T", ylabel="switching rate", yscale="log")
+    ax.legend()
+    return fig
+
+
+DRAWERS = [  # the first whose variable is there draws the file
+    ("frequency_kittel", draw_free_oscillation),
+    ("peak", draw_resonance_curve),
+    ("resonance_period", draw_response),
+    ("drive_phase", draw_orbit),
+    ("label", draw_basins),
+    ("regime", draw_phase_diagram),
+    ("branch_frequency", draw_branches),
+    ("throughput", draw_work_precision),
+    ("rate_sa_la", draw_switching),
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("files", nargs="+", metavar="FILE.h5")
+    parser.add_argument("-o", "--output", default=".", help="folder for the pictures")
+    parser.add_argument("-f", "--format", default="png", choices=["png", "pdf", "svg"])
+    arguments = parser.parse_args()
+    failed = 0
+    for path in arguments.files:
+        name = os.path.splitext(os.path.basename(path))[0]
+        with h5py.File(path, "r") as file:
+            h = Run(file)
+            draw = next((d for variable, d in DRAWERS if variable in h), None)
+            if draw is None:
+                print(f"{path}: nothing here that can be drawn", file=sys.stderr)
+                failed = 1
+                continue
+            figure = draw(h, path)
+            title = h.attrs.get("title", "")
+            title = title.decode() if isinstance(title, bytes) else title
+        figure.suptitle(title, fontsize=10)
+        figure.tight_layout()
+        target = os.path.join(arguments.output, f"{name}.{arguments.format}")
+        figure.savefig(target, dpi=130)
+        plt.close(figure)
+        print(target)
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main())
