@@ -28,7 +28,8 @@ static const char *resolve_group(deck_builder *b, const namelist_group *g)
   char hint[100];
   if (known != NULL) return known;
   for (size_t i = 0; i < deck_table_size; i++)
-    if (namelist_group_find(b->nl, deck_table[i].group) == NULL) deck_suggest(&s, deck_table[i].group);
+    if (namelist_group_find(b->nl, deck_table[i].group) == NULL)
+      deck_suggest(&s, deck_table[i].group);
   namelist_error_at(b->nl, g->line, g->column, (int)strlen(g->name) + 1, b->errors,
                     "&%s is not a group of decks%s", g->name,
                     deck_suggestion_text(&s, hint, sizeof hint));
@@ -77,7 +78,8 @@ static void report_unknown_key(deck_builder *b, const namelist_assignment *a, co
   size_t row = deck_table_size;
 
   for (size_t i = 0; i < deck_table_size; i++)
-    if (strcmp(deck_table[i].group, group) == 0 && (b->scene == 0 || (deck_table[i].scenes & b->scene)))
+    if (strcmp(deck_table[i].group, group) == 0 &&
+        (b->scene == 0 || (deck_table[i].scenes & b->scene)))
       offer(&s, &deck_table[i], names, i);
   if (synonym != NULL && deck_table_find(group, synonym, b->scene, &range) < deck_table_size)
     s.best = synonym;
@@ -229,7 +231,8 @@ no_memory:
   return PENDRES_OUT_OF_MEMORY;
 }
 
-static pendres_status finish(pendres_status parsed, namelist *nl, deck *out, namelist_errors *errors)
+static pendres_status finish(pendres_status parsed, namelist *nl, deck *out,
+                             namelist_errors *errors)
 {
   pendres_status status = parsed;
   *out = (deck){ 0 };

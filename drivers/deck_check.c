@@ -58,13 +58,15 @@ static void report_missing_group(deck_builder *b, size_t row)
   char list[300] = "";
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if (strcmp(key->group, group) != 0 || (key->needed & b->scene) == 0 || was_tried(b, i)) continue;
+    if (strcmp(key->group, group) != 0 || (key->needed & b->scene) == 0 || was_tried(b, i))
+      continue;
     if (i < row) return; /* said before */
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'", list[0] == '\0' ? "" : ", ",
              key->name);
   }
   namelist_error_at(b->nl, b->kind_line, b->kind_column, 1, b->errors,
-                    "scene '%s' needs a group &%s with %s", deck_kind_name(b->d->kind), group, list);
+                    "scene '%s' needs a group &%s with %s", deck_kind_name(b->d->kind), group,
+                    list);
 }
 
 static void check_missing(deck_builder *b)
@@ -76,7 +78,8 @@ static void check_missing(deck_builder *b)
     if (group == NULL) {
       report_missing_group(b, i);
     } else if (!group->broken) {
-      const char *or_range = key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE ? "_range" : "";
+      const int has_range = key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
+      const char *or_range = has_range ? "_range" : "";
       namelist_error_at(b->nl, group->line, group->column, (int)strlen(group->name) + 1, b->errors,
                         *or_range ? "scene '%s' needs '%s' or '%s%s' in &%s"
                                   : "scene '%s' needs '%s'%.0s%s in &%s",
@@ -100,7 +103,8 @@ static void check_drive(deck_builder *b, const char *group)
   const int have_period = period->given || period->broken;
   if (is_there(frequency) && is_there(period)) {
     const deck_given *later = frequency->line > period->line ||
-                              (frequency->line == period->line && frequency->column > period->column)
+                              (frequency->line == period->line &&
+                               frequency->column > period->column)
                                   ? frequency : period;
     complain(b, later, later == period ? "drive_period" : "drive_frequency",
              "give either 'drive_frequency' or 'drive_period', not both");
@@ -135,8 +139,8 @@ static void check_axis_sources(deck_builder *b)
     if (key->type != DECK_SWEEP_VALUE || (key->scenes & b->scene) == 0) continue;
     const deck_given *sweep = given(b, "sweep", key->name);
     if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
-    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name), b->errors,
-                      "'%s' is given in &sweep too (line %d)", key->name, sweep->line);
+    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+                      b->errors, "'%s' is given in &sweep too (line %d)", key->name, sweep->line);
   }
 }
 
@@ -151,15 +155,17 @@ static void check_idle_keys(deck_builder *b)
   const deck_given *x = given(b, "orbit", "x");
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD) continue;
+    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD)
+      continue;
     if (key->when == DECK_WITH_NOISE && given(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
     if (deck_key_applies(key, b->d)) continue;
-    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name), b->errors,
-                      "'%s' is not used: %s", key->name, why[key->when]);
+    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+                      b->errors, "'%s' is not used: %s", key->name, why[key->when]);
   }
-  if (in_scene(b, "orbit", "start") && b->d->orbit.start[0] == '\0' && !start->broken && !x->given &&
-      !x->broken && (x->group == NULL || !x->group->broken)) {
+  if (in_scene(b, "orbit", "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
+      !x->given && !x->broken &&
+      (x->group == NULL || !x->group->broken)) {
     const int line = x->group != NULL ? x->group->line : b->kind_line;
     const int column = x->group != NULL ? x->group->column : b->kind_column;
     namelist_error_at(b->nl, line, column, 1, b->errors,
@@ -208,7 +214,8 @@ static int expand_axis(deck_axis *axis)
   if (axis->value == NULL) return 0;
   for (size_t i = 0; i < axis->range_count; i++) {
     const double x = range_value(axis, i);
-    while (next < axis->listed_count && axis->listed[next] <= x) axis->value[n++] = axis->listed[next++];
+    while (next < axis->listed_count && axis->listed[next] <= x)
+      axis->value[n++] = axis->listed[next++];
     if (next > 0 && x - axis->listed[next - 1] <= margin) continue;
     if (next < axis->listed_count && axis->listed[next] - x <= margin) continue;
     if (n > 0 && x <= axis->value[n - 1]) continue;
@@ -253,7 +260,8 @@ static void check_output(deck_builder *b)
   const deck_given *at = given(b, "scene", "output");
   if (!at->given) return;
   if (output[0] == '\0') complain(b, at, "output", "'output' must not be empty");
-  else if (output[strlen(output) - 1] == '/') complain(b, at, "output", "'output' must be a file, not a folder");
+  else if (output[strlen(output) - 1] == '/')
+    complain(b, at, "output", "'output' must be a file, not a folder");
   else if (strcmp(output, b->nl->name) == 0)
     complain(b, at, "output", "'output' would overwrite the deck");
 }
@@ -275,5 +283,6 @@ void deck_check(deck_builder *b)
              "'x_first' must be below 'x_last'");
   }
   if (d->precision.block_lanes % 8 != 0)
-    complain(b, given(b, "precision", "block_lanes"), "block_lanes", "'block_lanes' must be a multiple of 8");
+    complain(b, given(b, "precision", "block_lanes"), "block_lanes",
+             "'block_lanes' must be a multiple of 8");
 }

@@ -79,8 +79,8 @@ static int read_choice(deck_builder *b, const deck_key *key, const namelist_valu
     }
     deck_suggest(&s, key->choices[i]);
     if (key->choices[i][0] != '\0')
-      snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'", list[0] == '\0' ? "" : ", ",
-               key->choices[i]);
+      snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'",
+               list[0] == '\0' ? "" : ", ", key->choices[i]);
   }
   namelist_error_at(b->nl, v->line, v->column, v->length > 40 ? 40 : (int)v->length, b->errors,
                     "'%s' knows no '%.40s'%s; it takes %s", key->name, text,
@@ -178,7 +178,8 @@ static int apply_bounds(deck_builder *b, const deck_key *key, const namelist_arr
     return 0;
   }
   for (size_t i = 0; i < array->count; i++) /* a null value leaves the default */
-    if (array->item[i] != NULL && !read_real(b, key, array->item[i], key->name, &bound[i])) good = 0;
+    if (array->item[i] != NULL && !read_real(b, key, array->item[i], key->name, &bound[i]))
+      good = 0;
   if (good && !(bound[0] < bound[1])) {
     complain(b, array->item[array->count - 1], key->name, "must ascend: lowest, highest");
     good = 0;
@@ -245,7 +246,8 @@ static int is_list(const deck_key *key)
 }
 
 /* Is it the name of a key of that group, so that its equals sign has probably been forgotten? */
-static int is_key_name(const deck_builder *b, const deck_key *key, const namelist_value *v, size_t *row)
+static int is_key_name(const deck_builder *b, const deck_key *key, const namelist_value *v,
+                       size_t *row)
 {
   for (size_t i = 0; v->form == NAMELIST_BARE && i < deck_table_size; i++) {
     const size_t n = strlen(deck_table[i].name);
@@ -272,8 +274,8 @@ static int check_shape(deck_builder *b, const deck_key *key, const namelist_arra
     size_t row = 0;
     if (v == NULL && (is_list(key) || range)) {
       namelist_error_at(b->nl, array->line, array->column, (int)strlen(key->name), b->errors,
-                        "'%s': value %zu is missing (a blank after 'r*', or two commas?)", key->name,
-                        i + 1);
+                        "'%s': value %zu is missing (a blank after 'r*', or two commas?)",
+                        key->name, i + 1);
       return 0;
     }
     if (v == NULL) continue;
@@ -284,9 +286,10 @@ static int check_shape(deck_builder *b, const deck_key *key, const namelist_arra
       return 0;
     }
     if (i == 0 || is_list(key) || key->type == DECK_BOUNDS) continue;
-    complain(b, v, key->name, key->type == DECK_SWEEP_VALUE ? "takes one value; a list belongs in &sweep"
-                              : is_decimal_comma(b, v) ? "takes one value (decimals have a point)"
-                                                       : "takes one value");
+    complain(b, v, key->name,
+             key->type == DECK_SWEEP_VALUE ? "takes one value; a list belongs in &sweep"
+             : is_decimal_comma(b, v)      ? "takes one value (decimals have a point)"
+                                           : "takes one value");
     return 0;
   }
   return 1;

@@ -29,7 +29,8 @@ static size_t distance(const char *a, size_t m, const char *b, size_t n)
     for (size_t j = 1; j <= n; j++) {
       const int same = lower(a[i - 1]) == lower(b[j - 1]);
       now[j] = smaller(smaller(last[j], now[j - 1]) + 1, last[j - 1] + !same);
-      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+          lower(a[i - 2]) == lower(b[j - 1]))
         now[j] = smaller(now[j], before[j - 2] + 1);
     }
   }

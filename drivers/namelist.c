@@ -70,7 +70,8 @@ static namelist_assignment *add_assignment(reader *r, const namelist_assignment 
     overflow(r, "more than a thousand names in one deck");
     return NULL;
   }
-  if (!grow(r, &array, nl->assignments, &r->assignment_capacity, sizeof *nl->assignment)) return NULL;
+  if (!grow(r, &array, nl->assignments, &r->assignment_capacity, sizeof *nl->assignment))
+    return NULL;
   nl->assignment = array;
   nl->assignment[nl->assignments] = *a;
   r->group->count++;
@@ -151,8 +152,10 @@ static int read_subscript(reader *r, namelist_assignment *a)
   lex_advance(r);
   return 1;
 bad:
-  complain(r, line, column, 1, "bad subscript: (i), (i:j) or (i:j:k) with whole numbers from 1 to 1000000 is wanted");
-  while (lex_peek(r) != ')' && lex_peek(r) != '=' && lex_peek(r) != '\n' && lex_peek(r) != LEX_END) lex_advance(r);
+  complain(r, line, column, 1,
+           "bad subscript: (i), (i:j) or (i:j:k) with whole numbers from 1 to 1000000 is wanted");
+  while (lex_peek(r) != ')' && lex_peek(r) != '=' && lex_peek(r) != '\n' && lex_peek(r) != LEX_END)
+    lex_advance(r);
   if (lex_peek(r) == ')') lex_advance(r);
   return 0;
 }
@@ -206,7 +209,8 @@ static int read_repeat(reader *r, namelist_assignment *a, namelist_value *v)
   }
   if (at == r->at || lex_at(r, at) != '*') return 1;
   if (n < 1 || n > NAMELIST_MAX_VALUES) {
-    complain(r, r->line, r->column, (int)(at - r->at), "a repeat count must lie between 1 and 1000000");
+    complain(r, r->line, r->column, (int)(at - r->at),
+             "a repeat count must lie between 1 and 1000000");
     a->broken = 1;
     lex_advance_to(r, lex_bare_end(r, r->at));
     return 0;
@@ -224,7 +228,8 @@ static void read_bare(reader *r, namelist_assignment *a, namelist_value v)
   if (first == '#') problem = "'#' starts no comment in a namelist; '!' does";
   else if (first == '*') problem = "no blank may stand before the '*' of a repeat count";
   else if (lex_is_quote(lex_at(r, end))) problem = "a separator is missing before the string";
-  else if (first >= 0x80) problem = "unexpected character (typographic quotes, dashes and blanks do not work)";
+  else if (first >= 0x80)
+    problem = "unexpected character (typographic quotes, dashes and blanks do not work)";
   if (problem != NULL) {
     complain(r, r->line, r->column, 1, problem);
     a->broken = 1;
@@ -268,8 +273,9 @@ static void read_values(reader *r, namelist_assignment *a)
       after_comma = 1;
       lex_advance(r);
     } else if (c == ';' || c == '=') {
-      complain(r, r->line, r->column, 1, c == ';' ? "';' separates nothing here; use a comma or a blank"
-                                                  : "unexpected '='");
+      complain(r, r->line, r->column, 1,
+               c == ';' ? "';' separates nothing here; use a comma or a blank"
+                        : "unexpected '='");
       a->broken = 1;
       lex_advance(r);
       after_comma = 1;
@@ -331,7 +337,8 @@ static void skip_non_assignment(reader *r)
     r->group->broken = 1;
   } else {
     complain(r, r->line, r->column, 1,
-             lex_peek(r) == '#' ? "'#' starts no comment in a namelist; '!' does" : "expected a name");
+             lex_peek(r) == '#' ? "'#' starts no comment in a namelist; '!' does"
+                                : "expected a name");
   }
   if (lex_peek(r) == '#') lex_skip_line(r);
   else lex_advance(r);
@@ -421,7 +428,9 @@ static void skip_outside_text(reader *r, const char *message)
   lex_advance(r);
   while (lex_peek(r) != LEX_END) {
     const int c = lex_peek(r);
-    if ((c == '&' || c == '$') && lex_is_letter(lex_at(r, r->at + 1)) && !lex_is_end_word(r, r->at + 1)) return;
+    if ((c == '&' || c == '$') && lex_is_letter(lex_at(r, r->at + 1)) &&
+        !lex_is_end_word(r, r->at + 1))
+      return;
     if (c == '!') lex_skip_line(r);
     else lex_advance(r);
   }
@@ -441,7 +450,8 @@ static void read_all(reader *r)
     else if (sigil)
       skip_outside_text(r, "the name of the group must follow at once, without a blank");
     else
-      skip_outside_text(r, "text outside of any group (groups are '&name ... /', comments start with '!')");
+      skip_outside_text(r, "text outside of any group (groups are '&name ... /', "
+                           "comments start with '!')");
   }
 }
 
@@ -486,7 +496,8 @@ pendres_status namelist_parse(const char *name, const char *text, size_t length,
     namelist_error_at(out, 0, 0, 0, errors, "the deck is larger than 1 MiB");
     return PENDRES_INVALID_ARGUMENT;
   }
-  if (length >= 2 && (memcmp(out->text, "\xFF\xFE", 2) == 0 || memcmp(out->text, "\xFE\xFF", 2) == 0)) {
+  if (length >= 2 &&
+      (memcmp(out->text, "\xFF\xFE", 2) == 0 || memcmp(out->text, "\xFE\xFF", 2) == 0)) {
     namelist_error_at(out, 0, 0, 0, errors, "the deck is UTF-16; save it as UTF-8");
     return PENDRES_INVALID_ARGUMENT;
   }

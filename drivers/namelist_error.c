@@ -130,7 +130,8 @@ void namelist_errors_sort(namelist_errors *errors)
     const namelist_error e = errors->item[i];
     size_t j = i;
     while (j > 0 && (errors->item[j - 1].line > e.line ||
-                     (errors->item[j - 1].line == e.line && errors->item[j - 1].column > e.column))) {
+                     (errors->item[j - 1].line == e.line &&
+                      errors->item[j - 1].column > e.column))) {
       errors->item[j] = errors->item[j - 1];
       j--;
     }

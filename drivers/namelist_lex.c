@@ -98,7 +98,8 @@ size_t lex_string_close(const reader *r, size_t at)
 
 int lex_is_value_end(int c)
 {
-  return lex_is_blank(c) || c == LEX_END || c == ',' || c == '/' || c == ';' || c == '!' || c == '=';
+  return lex_is_blank(c) || c == LEX_END || c == ',' || c == '/' || c == ';' || c == '!' ||
+         c == '=';
 }
 
 /* Where an undelimited value ends; what stands in parentheses belongs to it. */
@@ -108,7 +109,8 @@ size_t lex_bare_end(const reader *r, size_t at)
   while (!lex_is_value_end(lex_at(r, at)) && !lex_is_quote(lex_at(r, at))) {
     if (look && lex_at(r, at) == '(') {
       size_t close = at;
-      while (lex_at(r, close) != ')' && lex_at(r, close) != LEX_END && lex_at(r, close) != '\n') close++;
+      while (lex_at(r, close) != ')' && lex_at(r, close) != LEX_END && lex_at(r, close) != '\n')
+        close++;
       look = lex_at(r, close) == ')';
       if (look) at = close;
     }
@@ -149,10 +151,12 @@ int lex_check_bytes(reader *r)
   int readable = 1;
   while (lex_peek(r) != LEX_END) {
     const int c = lex_peek(r);
-    const size_t size = utf8_size((const unsigned char *)r->nl->text + r->at, r->nl->length - r->at);
+    const size_t size = utf8_size((const unsigned char *)r->nl->text + r->at,
+                                  r->nl->length - r->at);
     readable = (c >= 0x20 || lex_is_blank(c)) && c != 0x7f;
     if (!readable)
-      namelist_error_at(r->nl, r->line, r->column, 1, r->errors, "control byte 0x%02X: is this a deck?", c);
+      namelist_error_at(r->nl, r->line, r->column, 1, r->errors,
+                        "control byte 0x%02X: is this a deck?", c);
     else if (size == 0)
       namelist_error_at(r->nl, r->line, r->column, 1, r->errors,
                         "byte 0x%02X is not UTF-8; save the deck as UTF-8", c);

@@ -39,7 +39,8 @@ static int refuse(const namelist *nl, const namelist_value *v, const char *key, 
                   namelist_errors *errors)
 {
   char raw[CLIP + 4];
-  namelist_error_at(nl, v->line, v->column, width_of(v), errors, "'%s' wants %s, not %s", key, wants,
+  namelist_error_at(nl, v->line, v->column, width_of(v), errors, "'%s' wants %s, not %s", key,
+                    wants,
                     v->form == NAMELIST_NULL ? "nothing" : clip(nl, v, raw));
   return 0;
 }
@@ -262,7 +263,8 @@ static int place(const namelist *nl, const namelist_assignment *a, const namelis
       problem = "more values than the subscript selects";
     else if (*next > NAMELIST_MAX_VALUES)
       problem = "more than a million elements";
-    else if (v->form != NAMELIST_NULL && (size_t)*next <= out->count && out->item[*next - 1] != NULL)
+    else if (v->form != NAMELIST_NULL && (size_t)*next <= out->count &&
+             out->item[*next - 1] != NULL)
       problem = "an element is given twice";
     if (problem != NULL) {
       namelist_error_at(nl, v->line, v->column, width_of(v), errors, "'%s': %s", a->name, problem);
@@ -339,7 +341,8 @@ pendres_status namelist_read(const char *path, namelist *out, namelist_errors *e
     namelist named = { 0 };
     const char *why = strerror(errno);
     const pendres_status parsed = namelist_parse(path, "", 0, &named, errors);
-    if (parsed == PENDRES_OK) namelist_error_at(&named, 0, 0, 0, errors, "cannot read the deck: %s", why);
+    if (parsed == PENDRES_OK)
+      namelist_error_at(&named, 0, 0, 0, errors, "cannot read the deck: %s", why);
     *out = named;
     status = parsed == PENDRES_OK ? PENDRES_IO : parsed;
     goto done;
