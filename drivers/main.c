@@ -189,8 +189,8 @@ static int report(job *j)
                 provenance_wall(&j->provenance));
   if (check_stdout(j) != DONE) return FAILED;
   if (j->run.failed_points == 0) return DONE;
-  progress_error(&j->progress, "%zu points failed; they are marked in %s", j->run.failed_points,
-                 j->deck.output);
+  progress_error(&j->progress, "%zu point%s failed, as marked in %s", j->run.failed_points,
+                 j->run.failed_points == 1 ? "" : "s", j->deck.output);
   return SOME_POINTS_FAILED;
 }
 

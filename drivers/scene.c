@@ -9,11 +9,13 @@
 extern const scene_kind scene_free_oscillation;
 extern const scene_kind scene_resonance_curve;
 extern const scene_kind scene_response;
+extern const scene_kind scene_orbit;
 
 static const scene_kind *const scenes[] = {
   &scene_free_oscillation,
   &scene_resonance_curve,
   &scene_response,
+  &scene_orbit,
 };
 
 const scene_kind *scene_find(deck_kind kind)

@@ -117,8 +117,8 @@ static void plan(const deck *d, FILE *out)
 
 const scene_kind scene_free_oscillation = {
   .kind = DECK_FREE_OSCILLATION,
-  .references = "Kharkongor and Mahato, Resonance oscillation of a damped driven simple pendulum, "
-                "Fig. 1",
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Fig. 1",
   .plan = plan,
   .run = run,
 };

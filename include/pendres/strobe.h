@@ -40,6 +40,23 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
                                       long periods, double *error);
 
+/**
+ * Record one pendulum from position x0 and velocity v0 at drive phase 0 on: `samples` equally
+ * spaced points a drive period over `periods` periods. Point k, at drive phase
+ * 2 pi k / samples, goes to x[k] and v[k]; k = 0 is the start and k = periods * samples the end, so
+ * the arrays hold periods * samples + 1 values. x is not wrapped.
+ *
+ * x_error and v_error, of the same length, receive estimates of the errors, from a second run
+ * with more steps; both may be NULL, and it is then not made.
+ *
+ * The steps are fixed ones and end on each point, whatever the context's method: nothing is
+ * interpolated. The choice of steps and the errors returned are those of
+ * pendres_strobe_advance(). What was written before an error is to be ignored.
+ */
+pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                     double x0, double v0, long periods, int samples, double *x,
+                                     double *v, double *x_error, double *v_error);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }
