@@ -64,14 +64,17 @@ static pendres_pendulum figure7(double temperature)
                             .drive_frequency = 2.0 * PI / 8.0, .temperature = temperature};
 }
 
-/* Strobe point of Fig. 7's SA (large = 0) or LA, by waiting: 300 periods leave exp(-144). */
+/* Strobe point of Fig. 7's SA (large = 0) or LA, by waiting: a period leaves exp(-0.48) of a
+ * distance, so the 60 precise ones leave 3e-13 of what the coarse ones are wrong by. */
 static void orbit(int large, double *x, double *v)
 {
   const pendres_pendulum p = figure7(0.0);
-  pendres_langevin *lv = make(0, 2000, 8);
+  pendres_langevin *lv = make(0, 40, 8);
   *x = large ? -0.1 * PI : 0.5 * PI;
   *v = 0.0;
-  check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, 300, x, v, NULL));
+  check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, 100, x, v, NULL));
+  check_ok(pendres_langevin_set_steps(lv, 2000));
+  check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 100, 60, x, v, NULL));
   pendres_langevin_free(lv);
 }
 
@@ -539,7 +542,10 @@ static void check_equilibrium(double damping, double T)
   /* Steps such that the bias (order four, largest for strong friction: 2e-4 of <v^2> at
    * damping 5, h = 0.1) is well below the statistical error of some 1e-3 or more. */
   const pendres_langevin_request q = {.pendulum = {damping, 0.0, 1.0, T}, .x = PI / 2.0,
-                                      .trajectories = N, .settle = 60, .record = RECORD};
+                                      .trajectories = N, .record = RECORD,
+                                      /* 19 or more times the slowest relaxation: energy at
+                                       * weak friction, 1/gamma; position at strong, gamma. */
+                                      .settle = damping < 0.1 ? 60 : 15};
   double cuts[BINS] = {0}, counts[BINS] = {0}, mean = 0.0, square = 0.0, chi2 = 0.0;
   double *x = malloc(N * RECORD * sizeof *x), *v = malloc(N * RECORD * sizeof *v);
   pendres_langevin *lv = make(5, damping > 1.0 ? 64 : 14, 192);
@@ -681,16 +687,14 @@ static void harmonics_and_work(void **state)
                                         &observer));
       pendres_langevin_free(lv);
     }
-    /* On a closed orbit the work is what friction takes: a sum over equal spaces, here of
-     * strobe points of the same orbit a hundredth of a period apart, by the reference. */
-    pendres_langevin *lv = make(0, 2000, 8);
-    double s[2] = {x, v};
+    /* On a closed orbit the work is what friction takes. */
     enum { SPLIT = 4096 };
     const double h = 8.0 / SPLIT;
+    double s[2] = {x, v};
     for (int k = 0; k < SPLIT; k++) {
       dissipated += 0.12 * s[1] * s[1] * h;
       const double t = k * h;
-      /* One Runge-Kutta step of second order would do; midpoint, error h^2 = 4e-6. */
+      /* The midpoint method: its error is about h^2 = 4e-6. */
       const double a = pendres_pendulum_acceleration(&p, s[0], s[1], t);
       const double mx = s[0] + 0.5 * h * s[1], mv = s[1] + 0.5 * h * a;
       s[0] += h * mv;
@@ -700,14 +704,13 @@ static void harmonics_and_work(void **state)
     check_near(fine[2], PI * 0.2 * fine[1], 1e-9);
     /* Forty steps: order four, (h = 0.2)^4/120 of the amplitude, times ten for the orbit. */
     for (int i = 0; i < 3; i++) check_near(coarse[i], fine[i], 1.5e-4 * hypot(fine[0], fine[1]));
-    pendres_langevin_free(lv);
   }
   /* A ramp y = k theta has sine -2 k, though it does not close. At this speed the well bends
    * it by ripples of 1/v^2 = 1e-4. */
   const pendres_pendulum free_flight = {0.0, 0.0, 1.0, 0.0};
   double x = PI / 2.0, v = 100.0, out[3];
   const pendres_langevin_observer observer = {keep_strobe, out, 1};
-  pendres_langevin *lv = make(0, 1000, 8);
+  pendres_langevin *lv = make(0, 230, 8);
   check_ok(pendres_langevin_advance(lv, 1, &free_flight, NULL, 0, 1, &x, &v, &observer));
   check_near(out[1], -(x - PI / 2.0) / PI, 1e-3);
   pendres_langevin_free(lv);
@@ -924,6 +927,35 @@ static void wrong_arguments_are_refused(void **state)
   pendres_langevin_free(NULL);
 }
 
+/* Each trajectory of a block is seen where it belongs; odd blocks of eight stop early. */
+static pendres_langevin_answer look(void *arg, const pendres_langevin_strobe *strobe)
+{
+  double *seen = arg;
+  assert_true(strobe->cosine == NULL && strobe->work == NULL);
+  for (size_t i = 0; i < strobe->count; i++) seen[strobe->first + i] = strobe->x[i];
+  return strobe->first / 8 % 2 == 1 && strobe->period == 7 ? PENDRES_LANGEVIN_ENOUGH
+                                                          : PENDRES_LANGEVIN_GO_ON;
+}
+
+static void observers_see_what_happens(void **state)
+{
+  (void)state;
+  pendres_pendulum p[MANY];
+  double x[MANY], v[MANY], seen[MANY], a[MANY], b[MANY], c[MANY], d[MANY];
+  const pendres_langevin_observer observer = {look, seen, 0};
+  pendres_langevin *lv = make(2, 16, 8);
+  start(p, x, v);
+  start(p, a, b);
+  check_ok(pendres_langevin_advance(lv, MANY, p, NULL, 4, 6, x, v, &observer));
+  assert_memory_equal(seen, x, sizeof x);
+  check_ok(pendres_langevin_advance(lv, MANY, p, NULL, 4, 3, a, b, NULL));
+  memcpy(c, a, sizeof c);
+  memcpy(d, b, sizeof d);
+  check_ok(pendres_langevin_advance(lv, MANY, p, NULL, 7, 3, c, d, NULL));
+  for (int i = 0; i < MANY; i++) check_near(x[i], i / 8 % 2 == 1 ? a[i] : c[i], 0.0);
+  pendres_langevin_free(lv);
+}
+
 static int third_time(void *arg)
 {
   return ++*(int *)arg == 3;
@@ -982,6 +1014,7 @@ int main(void)
     cmocka_unit_test(same_bytes_whatever_the_run),
     cmocka_unit_test(clouds_do_not_depend_on_blocks),
     cmocka_unit_test(wrong_arguments_are_refused),
+    cmocka_unit_test(observers_see_what_happens),
     cmocka_unit_test(interruptions),
   };
   return cmocka_run_group_tests_name("langevin", tests, NULL, NULL);

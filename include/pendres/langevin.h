@@ -73,7 +73,9 @@ typedef struct pendres_langevin_strobe {
   size_t first, count;
   long period;          /**< how many periods have passed since period 0: the strobe's number */
   const double *x, *v;  /**< state at the strobe */
-  /* Over the period that has just ended; NULL unless asked for: */
+  /* Over the period that has just ended; NULL unless asked for. Sums over the ends of steps:
+   * their mean over a settled ensemble is of order four, that of a single cycle that does not
+   * close of order two. */
   const double *cosine; /**< first harmonic of the angle, (1/pi) integral of y cos theta */
   const double *sine;   /**< and (1/pi) integral of y sin theta over drive phase theta */
   const double *work;   /**< F0 integral of cos theta dx: the loop area of this cycle */
