@@ -233,7 +233,7 @@ static pendres_status add_orbit(pendres_context *ctx, pendres_catalogue *c, cons
   else
     status = all_points(ctx, o, points, &complete);
   if (status == PENDRES_OK && complete) {
-    status = pendres_trap_find(ctx, (size_t)o->period, points, 0, traps);
+    status = pendres_trap_find(ctx, (size_t)o->period, points, c->effort, traps);
     if (status == PENDRES_OK) status = append(ctx, c, points, traps);
   }
   free(points);
@@ -302,7 +302,7 @@ pendres_status pendres_catalogue_add(pendres_context *ctx, size_t sets,
   status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
   if (status != PENDRES_OK) goto done;
   count = distinct_orbits(count, orbits, set, outcome);
-  status = pendres_trap_find(ctx, count, orbits, 0, traps);
+  status = pendres_trap_find(ctx, count, orbits, PENDRES_TRAP_FEW, traps);
   for (size_t i = 0; i < count && status == PENDRES_OK; i++)
     status = add_orbit(ctx, &catalogues[set[i]], &orbits[i], &traps[i]);
   for (size_t i = 0; i < sets && status == PENDRES_OK; i++) status = renumber(ctx, &catalogues[i]);

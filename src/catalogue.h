@@ -19,6 +19,7 @@ typedef struct pendres_catalogue {
   size_t traps, trap_capacity;
   pendres_trap *trap;
   int *owner; /* attractor of each trap */
+  pendres_trap_effort effort;
 } pendres_catalogue;
 
 /* A state of a parameter set to start from, or to look for an orbit near. */

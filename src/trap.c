@@ -12,31 +12,34 @@ static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
 enum {
-  POINTS = 24,     /* of a ring */
-  RINGS = 10,      /* tried at once */
-  MOST_PASSES = 6, /* of rings, each set inside the former one */
-  MOST_LOOKS = 24  /* strobes of the q-th iterate before a ring is given up */
+  BASE_POINTS = 12, /* of a ring that only tells whether the linear map rules */
+  BASE_LOOKS = 8,   /* iterates that it may take to contract */
+  BASE_PASSES = 8,
+  FEW_POINTS = 16,  /* of a ring that comes home, by effort */
+  MANY_POINTS = 48,
+  MOST_POINTS = MANY_POINTS,
+  RINGS = 3,        /* at most tried at once */
+  FEW_LOOKS = 10,   /* strobes of the q-th iterate before a ring is given up, by effort */
+  MANY_LOOKS = 24,
+  MOST_LOOKS = MANY_LOOKS
 };
 
+/* The ring that is tried first; how much of the contraction non-linearity may take up. */
+static const double base_first = 0.25, base_departure = 0.7;
+/* Iterates are taken together until the linear map contracts to this. */
+static const double base_contraction = 0.6;
 /* Longest semi-axis of the outermost ring: well inside one turn, so that angles stay unique. */
 static const double widest = 1.6;
-static const double ring_ratio = 1.5;
-/* A point of a ring has come home when it is this much further in: inside the next smaller ring,
-   with a tenth to spare. */
-static const double home = 0.9 / 1.5;
+static const double climb_ratio = 2.5;
+/* The radius is found to this factor, by effort. */
+static const double few_ratio = 1.3, many_ratio = 1.04;
+/* A point has come home this far inside an ellipse that is shown already. */
+static const double home_share = 0.9;
 /* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
-   to say what happens between them. They start at 0.26 radii. */
+   to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
 static const double widest_gap = 1.0;
 /* A ring shown to lie in the basin counts with this share of its radius. */
 static const double margin = 0.95;
-
-double pendres_trap_norm2(const pendres_trap *t, double y, double w)
-{
-  double dy = y - t->y;
-  const double dw = w - t->w;
-  dy -= two_pi * rint(dy / two_pi);
-  return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
-}
 
 /*
  * Metric of a contracting 2x2 matrix: P = sum (M')^k M^k, summed by squaring:
@@ -70,38 +73,52 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
   return 1;
 }
 
-/* A point of the ellipse of the given radius, by the Cholesky factor of its metric. */
-static void ring_point(const pendres_trap *t, double radius, int k, double *y, double *w)
-{
-  const double angle = two_pi * k / POINTS;
-  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
-  const double l22 = sqrt(t->metric[2] - l21 * l21);
-  const double dw = radius * sin(angle) / l22;
-  *w = t->w + dw;
-  *y = t->y + (radius * cos(angle) - l21 * dw) / l11;
-}
+/* ---- rings ---- */
+
+typedef struct ring {
+  const pendres_trap *trap;
+  double radius;
+  double home;     /* points are home within this radius; 0: one look and no more */
+  int points, looks;
+  int failed;      /* a point has left: the others need not go on */
+  size_t first;    /* its first point */
+} ring;
 
 /* A lane of a ring and where it has been. */
 typedef struct point {
-  const pendres_trap *trap;
-  double radius;
-  int looks, home;             /* looks taken; whether it came home */
+  ring *of;
+  int looks, home; /* looks taken; whether it came home */
   double y[MOST_LOOKS + 1], w[MOST_LOOKS + 1];
 } point;
+
+/* A point of the ellipse of the given radius, by the Cholesky factor of its metric. */
+static void ring_point(const ring *r, int k, double *y, double *w)
+{
+  const pendres_trap *t = r->trap;
+  const double angle = two_pi * k / r->points;
+  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
+  const double l22 = sqrt(t->metric[2] - l21 * l21);
+  const double dw = r->radius * sin(angle) / l22;
+  *w = t->w + dw;
+  *y = t->y + (r->radius * cos(angle) - l21 * dw) / l11;
+}
 
 static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   point *p = (point *)arg + index;
-  if (lane->period % p->trap->period != 0) return 0;
+  ring *r = p->of;
+  if (lane->period % r->trap->period != 0) return 0;
   p->looks++;
   p->y[p->looks] = lane->y;
   p->w[p->looks] = lane->w;
-  const double norm2 = pendres_trap_norm2(p->trap, lane->y, lane->w);
-  if (norm2 <= home * home * p->radius * p->radius) {
+  if (r->home == 0.0) return p->looks >= r->looks;
+  const double norm2 = pendres_trap_norm2(r->trap, lane->y, lane->w);
+  if (norm2 <= r->home * r->home) {
     p->home = 1;
     return 1;
   }
-  return p->looks >= MOST_LOOKS || !(norm2 < 16.0 * p->radius * p->radius);
+  if (p->looks >= r->looks || !(norm2 < 16.0 * r->radius * r->radius)) r->failed = 1;
+  return r->failed;
 }
 
 static double gap2(const pendres_trap *t, const point *a, const point *b, int k)
@@ -113,108 +130,203 @@ static double gap2(const pendres_trap *t, const point *a, const point *b, int k)
 }
 
 /* Whether all points came home, side by side. */
-static int ring_holds(const point *ring)
+static int ring_holds(const ring *r, const point *points)
 {
-  for (int i = 0; i < POINTS; i++) {
-    const point *a = &ring[i], *b = &ring[(i + 1) % POINTS];
+  const double gap = widest_gap * widest_gap * r->radius * r->radius;
+  if (r->failed) return 0;
+  for (int i = 0; i < r->points; i++) {
+    const point *a = &points[i], *b = &points[(i + 1) % r->points];
     if (!a->home) return 0;
     const int both = a->looks < b->looks ? a->looks : b->looks;
     for (int k = 1; k <= both; k++)
-      if (!(gap2(a->trap, a, b, k) < widest_gap * widest_gap * a->radius * a->radius)) return 0;
+      if (!(gap2(r->trap, a, b, k) < gap)) return 0;
   }
   return 1;
 }
 
 /*
- * Whether the ring is so small that the linear map rules inside it: the largest departure of its
- * points' first image from the linear prediction is a small part of the linear contraction. The
- * departure falls with the square of the radius, so it holds for all smaller rings.
+ * How much of the linear contraction the ring's departure from the linear map takes up, at its
+ * last image. Below one the image lies inside the ring; as the departure falls with the square of
+ * the radius, all smaller ellipses then shrink, too.
  */
-static int ring_linear(const point *ring, const pendres_orbit *o)
+static double ring_departure(const ring *r, const point *points, const pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
-  const pendres_trap *t = ring[0].trap;
+  const pendres_trap *t = r->trap;
   double worst = 0.0, image = 0.0;
-  for (int i = 0; i < POINTS; i++) {
-    const double dy = ring[i].y[0] - t->y, dw = ring[i].w[0] - t->w;
+  for (int i = 0; i < r->points; i++) {
+    double dy = points[i].y[0] - t->y, dw = points[i].w[0] - t->w;
+    for (int k = 0; k < r->looks; k++) {
+      const double y = o->monodromy[0][0] * dy + o->monodromy[0][1] * omega * dw;
+      dw = o->monodromy[1][0] / omega * dy + o->monodromy[1][1] * dw;
+      dy = y;
+    }
     pendres_trap predicted = *t;
-    predicted.y = t->y + o->monodromy[0][0] * dy + o->monodromy[0][1] * omega * dw;
-    predicted.w = t->w + o->monodromy[1][0] / omega * dy + o->monodromy[1][1] * dw;
-    worst = fmax(worst, sqrt(pendres_trap_norm2(&predicted, ring[i].y[1], ring[i].w[1])));
+    predicted.y = t->y + dy;
+    predicted.w = t->w + dw;
+    worst = fmax(worst, sqrt(pendres_trap_norm2(&predicted, points[i].y[r->looks],
+                                                points[i].w[r->looks])));
     image = fmax(image, sqrt(pendres_trap_norm2(t, predicted.y, predicted.w)));
   }
-  return worst < 0.3 * (ring[0].radius - image);
+  return image < r->radius ? worst / (r->radius - image) : INFINITY;
 }
 
-static double ring_radius(int pass, int ring)
-{
-  return widest * pow(ring_ratio, -(double)(pass * RINGS + ring));
-}
+/* ---- the search for the largest ring ---- */
 
-/* The traps still looked for. */
+typedef enum stage {
+  STAGE_BASE,  /* look for a ring where the linear map rules */
+  STAGE_CLIMB, /* larger rings, each coming home into the one before */
+  STAGE_FINE,  /* between the largest that holds and the smallest that does not */
+  STAGE_DONE
+} stage;
+
 typedef struct search {
   size_t orbit;
+  stage stage;
   int pass;
-  double proven;               /* largest radius shown */
-  unsigned holds[MOST_PASSES]; /* bit r: ring r of that pass came home */
+  int base_looks;        /* iterates of a base ring */
+  double base;           /* radius of the next base ring */
+  double proven, failed; /* largest radius shown, smallest that could not be */
+  int rings;             /* of this pass */
+  ring ring[RINGS];
 } search;
 
+/* Iterates until the linear map contracts well in the trap's metric. */
+static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
+{
+  const double omega = o->pendulum.drive_frequency;
+  const ring r = {.trap = t, .radius = 1.0, .points = BASE_POINTS};
+  double dy[BASE_POINTS], dw[BASE_POINTS];
+  for (int i = 0; i < BASE_POINTS; i++) {
+    ring_point(&r, i, &dy[i], &dw[i]);
+    dy[i] -= t->y;
+    dw[i] -= t->w;
+  }
+  for (int looks = 1;; looks++) {
+    double image = 0.0;
+    for (int i = 0; i < BASE_POINTS; i++) {
+      const double y = o->monodromy[0][0] * dy[i] + o->monodromy[0][1] * omega * dw[i];
+      dw[i] = o->monodromy[1][0] / omega * dy[i] + o->monodromy[1][1] * dw[i];
+      dy[i] = y;
+      image = fmax(image, t->metric[0] * y * y + 2.0 * t->metric[1] * y * dw[i] +
+                            t->metric[2] * dw[i] * dw[i]);
+    }
+    if (image < base_contraction * base_contraction || looks == BASE_LOOKS) return looks;
+  }
+}
+
+static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
+                      int looks)
+{
+  s->ring[s->rings++] = (ring){
+    .trap = t, .radius = radius, .home = home, .points = points, .looks = looks};
+}
+
+static void plan(search *s, const pendres_trap *t, pendres_trap_effort effort)
+{
+  const int many = effort == PENDRES_TRAP_MANY;
+  s->rings = 0;
+  if (s->stage == STAGE_BASE) {
+    plan_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
+  } else if (s->stage == STAGE_CLIMB) {
+    const double radius =
+      s->failed > 0.0 ? sqrt(s->proven * s->failed) : fmin(s->proven * climb_ratio, widest);
+    plan_ring(s, t, radius, home_share * s->proven, FEW_POINTS, many ? MANY_LOOKS : FEW_LOOKS);
+  } else {
+    for (int k = 1; k <= RINGS; k++)
+      plan_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
+                home_share * s->proven, MANY_POINTS, MANY_LOOKS);
+  }
+}
+
+/* A base ring: on to a better radius, or to the climb. */
+static void judge_base(search *s, const point *points, const pendres_orbit *o)
+{
+  const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
+  s->pass++;
+  if (departure <= base_departure) {
+    /* By the square law a larger one would do: once. */
+    const int last = s->proven > 0.0 || departure > 0.5 * base_departure || s->base >= widest;
+    s->proven = s->base;
+    if (last || s->pass >= BASE_PASSES) s->stage = STAGE_CLIMB;
+    s->base = fmin(widest, s->base * fmin(0.85 * base_departure / departure, 6.0));
+  } else if (s->proven > 0.0) {
+    s->stage = STAGE_CLIMB;
+  } else {
+    s->base *= fmax(0.85 * base_departure / departure, 1e-2);
+    if (s->pass >= BASE_PASSES) s->stage = STAGE_DONE;
+  }
+}
+
+/* What this pass's rings have shown; sets the next stage. */
+static void judge(search *s, const point *points, const pendres_orbit *o,
+                  pendres_trap_effort effort)
+{
+  const int many = effort == PENDRES_TRAP_MANY;
+  if (s->stage == STAGE_BASE) {
+    judge_base(s, points, o);
+    return;
+  }
+  for (int k = 0; k < s->rings; k++) {
+    if (!ring_holds(&s->ring[k], points + s->ring[k].first)) {
+      s->failed = s->ring[k].radius;
+      break;
+    }
+    s->proven = s->ring[k].radius;
+  }
+  if (s->proven >= widest) {
+    s->stage = STAGE_DONE;
+  } else if (s->stage == STAGE_FINE) {
+    if (s->failed < many_ratio * s->proven) s->stage = STAGE_DONE;
+  } else if (s->failed > 0.0 && s->failed < few_ratio * s->proven) {
+    /* A ring too coarse for its gaps may hold with more points. */
+    s->stage = many ? STAGE_FINE : STAGE_DONE;
+    if (many) s->failed *= few_ratio;
+  }
+}
+
+/* Tolerance of rings: small against their margin, in few classes so that blocks stay full. */
+static double ring_tolerance(double radius)
+{
+  return radius >= 0.01 ? 1e-5 : radius >= 1e-4 ? 1e-8 : 1e-12;
+}
+
 /* Integrate the rings of all searches at once. */
-static pendres_status run_rings(pendres_context *ctx, size_t n, const search *s,
-                                const pendres_orbit *orbits, const pendres_trap *traps,
-                                point *points, pendres_strobe_lane *lanes)
+static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
+                                const pendres_orbit *orbits, point *points,
+                                pendres_strobe_lane *lanes)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    const pendres_trap *t = &traps[s[i].orbit];
-    int steps = 0;
     const pendres_pendulum *p = &orbits[s[i].orbit].pendulum;
-    const pendres_status status = pendres_steps_choose(
-      ctx, p, 0.0, fmax(1e-7, 10.0 * ctx->options.tolerance), &steps);
-    if (status != PENDRES_OK) return status;
-    for (int r = 0; r < RINGS; r++)
-      for (int k = 0; k < POINTS; k++, count++) {
+    for (int k = 0; k < s[i].rings; k++) {
+      ring *r = &s[i].ring[k];
+      int steps = 0;
+      const pendres_status status =
+        pendres_steps_choose(ctx, p, 0.0, ring_tolerance(r->radius), &steps);
+      if (status != PENDRES_OK) return status;
+      r->first = count;
+      for (int j = 0; j < r->points; j++, count++) {
         point *q = &points[count];
-        q->trap = t;
-        q->radius = ring_radius(s[i].pass, r);
+        q->of = r;
         q->looks = q->home = 0;
-        ring_point(t, q->radius, k, &q->y[0], &q->w[0]);
+        ring_point(r, j, &q->y[0], &q->w[0]);
         lanes[count] = (pendres_strobe_lane){
           .pendulum = p, .y = q->y[0], .w = q->w[0], .steps = steps};
       }
+    }
   }
   return pendres_strobe_run(ctx, count, lanes, look, points);
 }
 
-/* What a search's rings have shown: inwards first, each ring standing on the next smaller one. */
-static int judge(search *s, const point *rings, const pendres_orbit *o)
-{
-  int base = -1;
-  s->holds[s->pass] = 0;
-  for (int r = 0; r < RINGS && base < 0; r++) {
-    if (ring_linear(&rings[r * POINTS], o)) base = r;
-    if (ring_holds(&rings[r * POINTS])) s->holds[s->pass] |= 1u << r;
-  }
-  if (base < 0) {
-    s->pass++;
-    return s->pass < MOST_PASSES; /* look again, further in */
-  }
-  /* Every ring inside a linear one is linear; climb outwards from it, over all passes. */
-  int rung = s->pass * RINGS + base;
-  while (rung > 0 && (s->holds[(rung - 1) / RINGS] >> ((rung - 1) % RINGS) & 1u)) rung--;
-  s->proven = ring_radius(rung / RINGS, rung % RINGS);
-  return 0;
-}
-
 pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                 int effort, pendres_trap *traps)
+                                 pendres_trap_effort effort, pendres_trap *traps)
 {
   pendres_status status = PENDRES_OK;
   search *s = malloc((n + 1) * sizeof *s);
   point *points = NULL;
   pendres_strobe_lane *lanes = NULL;
   size_t left = 0;
-  (void)effort;
   if (s == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &orbits[i];
@@ -223,21 +335,24 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
                               .period = o->period,
                               .winding = o->winding};
     if (o->stable && metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
-      s[left++] = (search){.orbit = i};
+      s[left++] = (search){.orbit = i,
+                           .stage = STAGE_BASE,
+                           .base = base_first,
+                           .base_looks = contraction_looks(&traps[i], o)};
   }
-  points = malloc((left * RINGS * POINTS + 1) * sizeof *points);
-  lanes = malloc((left * RINGS * POINTS + 1) * sizeof *lanes);
+  const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
+  points = malloc((most + 1) * sizeof *points);
+  lanes = malloc((most + 1) * sizeof *lanes);
   if (points == NULL || lanes == NULL) goto no_memory;
 
   while (left > 0 && status == PENDRES_OK) {
-    status = run_rings(ctx, left, s, orbits, traps, points, lanes);
+    for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit], effort);
+    status = run_rings(ctx, left, s, orbits, points, lanes);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      search one = s[i];
-      if (judge(&one, points + i * RINGS * POINTS, &orbits[one.orbit]))
-        s[again++] = one;
-      else
-        traps[one.orbit].radius = margin * one.proven;
+      judge(&s[i], points, &orbits[s[i].orbit], effort);
+      traps[s[i].orbit].radius = margin * s[i].proven;
+      if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
     left = again;
   }

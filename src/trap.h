@@ -10,6 +10,8 @@
 #ifndef PENDRES_TRAP_H
 #define PENDRES_TRAP_H
 
+#include <math.h>
+
 #include <pendres/context.h>
 #include <pendres/orbit.h>
 
@@ -22,13 +24,26 @@ typedef struct pendres_trap {
 } pendres_trap;
 
 /* (z - centre)' P (z - centre), the angle taken modulo whole turns. */
-double pendres_trap_norm2(const pendres_trap *trap, double y, double w);
+static inline double pendres_trap_norm2(const pendres_trap *t, double y, double w)
+{
+  const double two_pi = 6.28318530717958647693;
+  double dy = y - t->y;
+  const double dw = w - t->w;
+  dy -= two_pi * rint(dy / two_pi);
+  return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
+}
+
+/* How hard to look for large traps. */
+typedef enum pendres_trap_effort {
+  PENDRES_TRAP_FEW = 0, /* for ensembles of hundreds: the radius within a factor 1.5 */
+  PENDRES_TRAP_MANY = 1 /* for grids of millions: within a few percent */
+} pendres_trap_effort;
 
 /*
  * The traps of n orbits (one trap a Poincaré point: an orbit of period q comes as q entries,
- * each refined at its own point). effort 0: coarse, 1: the radius is found to 5 %.
+ * each refined at its own point).
  */
 pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                 int effort, pendres_trap *traps);
+                                 pendres_trap_effort effort, pendres_trap *traps);
 
 #endif
