@@ -75,6 +75,7 @@ TEXT
 version=$(sed -n 's/^#define PENDRES_VERSION "\(.*\)"/\1/p' include/pendres/version.h)
 [ "$($PKG_CONFIG --modversion pendres)" = "$version" ] || fail "pendres.pc has another version"
 
+sed -n '/^```c$/,/^```$/{/^```/!p}' README.md >"$scratch/readme.c"
 cd "$scratch" || exit 1
 strict="-std=c11 -Wall -Wextra -Wpedantic -Werror"
 quiet $CC $strict stranger.c $($PKG_CONFIG --cflags --libs pendres) -o shared
@@ -83,6 +84,10 @@ readelf -d shared | grep -q 'NEEDED.*\[libpendres\.so\.[0-9]*\]' || fail "shared
 for other in hdf5 sundials gsl; do
   readelf -d shared | grep -q "NEEDED.*$other" && fail "shared: must not name $other itself"
 done
+
+# The README's own program, as it stands there.
+quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) -o readme
+quiet ./readme
 
 mkdir static_only
 cp "$prefix/lib/libpendres.a" static_only
