@@ -34,7 +34,8 @@ void pendres_catalogue_clear(pendres_catalogue *c)
   free(c->attractors);
   free(c->trap);
   free(c->owner);
-  *c = (pendres_catalogue){.pendulum = c->pendulum};
+  for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
+  *c = (pendres_catalogue){.pendulum = c->pendulum, .effort = c->effort};
 }
 
 int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane, long *well)
@@ -56,14 +57,22 @@ static int named_family(const pendres_orbit *o)
          fabs(o->pendulum.drive_amplitude) <= strongest_named_drive;
 }
 
+typedef struct numbered {
+  pendres_attractor attractor;
+  const pendres_cover *cover; /* NULL: an orbit */
+  int number;                 /* the old one */
+} numbered;
+
 /*
- * By amplitude, then by Poincaré point; amplitudes of mirror images differ by rounding alone, and
- * must not decide.
+ * Orbits first, by amplitude, then by Poincaré point; amplitudes of mirror images differ by
+ * rounding alone, and must not decide.
  */
 static int physical_order(const void *a, const void *b)
 {
-  const pendres_orbit *p = &((const pendres_attractor *)a)->orbit;
-  const pendres_orbit *q = &((const pendres_attractor *)b)->orbit;
+  const numbered *m = a, *n = b;
+  const pendres_orbit *p = &m->attractor.orbit, *q = &n->attractor.orbit;
+  if ((m->cover == NULL) != (n->cover == NULL)) return m->cover == NULL ? -1 : 1;
+  if (m->cover != NULL) return m->cover->mean_w < n->cover->mean_w ? -1 : 1;
   if (fabs(p->amplitude - q->amplitude) > 1e-7) return p->amplitude < q->amplitude ? -1 : 1;
   if (fabs(p->x - q->x) > same_point) return p->x < q->x ? -1 : 1;
   if (p->v != q->v) return p->v < q->v ? -1 : 1;
@@ -78,6 +87,7 @@ static void label_all(pendres_catalogue *c)
   for (size_t i = 0; i < c->count; i++) {
     const pendres_orbit *o = &c->attractors[i].orbit;
     pendres_label *label = &c->attractors[i].label;
+    if (*label == PENDRES_LABEL_CHAOTIC) continue;
     if (o->winding != 0)
       *label = PENDRES_LABEL_RUNNING;
     else if (!named_family(o))
@@ -89,28 +99,31 @@ static void label_all(pendres_catalogue *c)
   }
 }
 
-/* Sort attractors, and let the traps follow their owners. */
-static pendres_status renumber(pendres_context *ctx, pendres_catalogue *c)
+pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank)
 {
-  pendres_attractor *sorted = malloc((c->count + 1) * sizeof *sorted);
-  if (sorted == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  memcpy(sorted, c->attractors, c->count * sizeof *sorted);
-  qsort(sorted, c->count, sizeof *sorted, physical_order);
-  for (size_t t = 0; t < c->traps; t++) {
-    const pendres_orbit *o = &c->attractors[c->owner[t]].orbit;
-    for (size_t i = 0; i < c->count; i++)
-      if (sorted[i].orbit.x == o->x && sorted[i].orbit.v == o->v) {
-        c->owner[t] = -1 - (int)i; /* marked as done */
-        break;
-      }
+  numbered *sorted = malloc((c->count + 1) * sizeof *sorted);
+  int *moved = malloc((c->count + 1) * sizeof *moved);
+  pendres_status status = PENDRES_OK;
+  if (sorted == NULL || moved == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+    goto done;
   }
-  for (size_t t = 0; t < c->traps; t++)
-    if (c->owner[t] < 0) c->owner[t] = -1 - c->owner[t];
-  memcpy(c->attractors, sorted, c->count * sizeof *sorted);
-  free(sorted);
+  for (size_t i = 0; i < c->count; i++)
+    sorted[i] = (numbered){.attractor = c->attractors[i], .number = (int)i};
+  for (size_t i = 0; i < c->covers; i++) sorted[c->cover[i]->attractor].cover = c->cover[i];
+  qsort(sorted, c->count, sizeof *sorted, physical_order);
+  for (size_t i = 0; i < c->count; i++) {
+    c->attractors[i] = sorted[i].attractor;
+    moved[sorted[i].number] = (int)i;
+  }
+  for (size_t t = 0; t < c->traps; t++) c->owner[t] = moved[c->owner[t]];
+  for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
+  if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
-  return PENDRES_OK;
+done:
+  free(sorted);
+  free(moved);
+  return status;
 }
 
 /* ---- adding orbits ---- */
@@ -167,32 +180,34 @@ static int closes_earlier(const pendres_orbit *points, int q)
   return 0;
 }
 
-/*
- * All Poincaré points of an orbit, each refined at its own place; points[0] is the given one.
- * The one with the largest x represents it.
- */
+/* All Poincaré points of an orbit, each refined at its own place; points[0] is the given one. */
 static pendres_status all_points(pendres_context *ctx, const pendres_orbit *o,
                                  pendres_orbit *points, int *complete)
 {
-  const int q = o->period;
+  const size_t q = (size_t)o->period;
   double x = o->x, v = o->v;
-  *complete = 1;
+  pendres_orbit_guess *guess = malloc(q * sizeof *guess);
+  pendres_status *outcome = malloc(q * sizeof *outcome), status = PENDRES_OK;
+  if (guess == NULL || outcome == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an orbit");
   points[0] = *o;
-  for (int j = 1; j < q; j++) {
-    pendres_status outcome = PENDRES_OK;
-    pendres_status status =
-      pendres_strobe_advance(ctx, 1, &o->pendulum, &x, &v, 1, NULL);
-    if (status != PENDRES_OK) return status;
-    const pendres_orbit_guess g = {
-      .pendulum = o->pendulum, .x = x, .v = v, .period = q, .winding = o->winding};
-    status = pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &points[j], &outcome);
-    if (status != PENDRES_OK) return status;
-    if (outcome == PENDRES_NOT_CONVERGED) *complete = 0;
+  for (size_t j = 0; j + 1 < q && status == PENDRES_OK; j++) {
+    status = pendres_strobe_advance(ctx, 1, &o->pendulum, &x, &v, 1, NULL);
+    guess[j] = (pendres_orbit_guess){.pendulum = o->pendulum, .x = x, .v = v,
+                                     .period = o->period, .winding = o->winding};
   }
-  if (*complete && closes_earlier(points, q)) *complete = 0;
-  return PENDRES_OK;
+  if (status == PENDRES_OK)
+    status = pendres_orbit_refine(ctx, q - 1, guess, PENDRES_ORBIT_PLAIN, points + 1, outcome);
+  *complete = status == PENDRES_OK;
+  for (size_t j = 0; j + 1 < q && status == PENDRES_OK; j++)
+    if (outcome[j] == PENDRES_NOT_CONVERGED || !points[j + 1].stable) *complete = 0;
+  if (*complete && closes_earlier(points, o->period)) *complete = 0;
+  free(guess);
+  free(outcome);
+  return status;
 }
 
+/* The point with the largest x represents the orbit. */
 static pendres_status append(pendres_context *ctx, pendres_catalogue *c, const pendres_orbit *points,
                              const pendres_trap *traps)
 {
@@ -266,13 +281,14 @@ static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_c
   return count;
 }
 
-/* Keep the stable orbits, drop repetitions within a set. */
-static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set, const pendres_status *outcome)
+/* Keep the stable orbits that are not in the catalogues, drop repetitions within a set. */
+static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set, const pendres_status *outcome,
+                              const pendres_catalogue *catalogues)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     if (outcome[i] == PENDRES_NOT_CONVERGED || !o[i].stable) continue;
-    int new = 1;
+    int new = !known(&catalogues[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
       new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
             point_distance(&o[j], o[i].x, o[i].v) > same_point;
@@ -283,17 +299,35 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set, const pen
   return count;
 }
 
-pendres_status pendres_catalogue_add(pendres_context *ctx, size_t sets,
-                                     pendres_catalogue *catalogues, size_t n,
-                                     const pendres_scout *guesses)
+/* Where the mirror image of an orbit crosses drive phase 0: half a period later, reflected. */
+static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendres_orbit *o,
+                                   pendres_scout *out)
+{
+  double *x = malloc(4 * (size_t)o->period * sizeof *x), *v = x + 2 * o->period;
+  if (x == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an orbit");
+  const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
+  if (status == PENDRES_OK)
+    *out = (pendres_scout){.set = set,
+                           .y = half_pi - x[1],
+                           .w = -v[1] / o->pendulum.drive_frequency,
+                           .period = o->period,
+                           .winding = -o->winding};
+  free(x);
+  return status;
+}
+
+/* Add what guesses lead to; mirrors[0 .. *more) are guesses for the mirror images of new orbits. */
+static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
+                                  const pendres_scout *guesses, pendres_scout *mirrors, size_t *more)
 {
   pendres_status status = PENDRES_OK;
-  if (n == 0) return status;
   pendres_orbit_guess *g = calloc(n, sizeof *g);
   pendres_orbit *orbits = malloc(n * sizeof *orbits);
   pendres_status *outcome = malloc(n * sizeof *outcome);
   pendres_trap *traps = malloc(n * sizeof *traps);
   size_t *set = malloc(n * sizeof *set);
+  *more = 0;
   if (g == NULL || orbits == NULL || outcome == NULL || traps == NULL || set == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
     goto done;
@@ -301,11 +335,15 @@ pendres_status pendres_catalogue_add(pendres_context *ctx, size_t sets,
   size_t count = distinct_guesses(n, guesses, catalogues, g, set);
   status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
   if (status != PENDRES_OK) goto done;
-  count = distinct_orbits(count, orbits, set, outcome);
-  status = pendres_trap_find(ctx, count, orbits, PENDRES_TRAP_FEW, traps);
-  for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-    status = add_orbit(ctx, &catalogues[set[i]], &orbits[i], &traps[i]);
-  for (size_t i = 0; i < sets && status == PENDRES_OK; i++) status = renumber(ctx, &catalogues[i]);
+  count = distinct_orbits(count, orbits, set, outcome, catalogues);
+  status = pendres_trap_find(ctx, count, orbits, catalogues[0].effort, traps);
+  for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
+    pendres_catalogue *c = &catalogues[set[i]];
+    const size_t before = c->count;
+    status = add_orbit(ctx, c, &orbits[i], &traps[i]);
+    if (status == PENDRES_OK && c->count > before && !orbits[i].symmetric)
+      status = mirror_guess(ctx, set[i], &orbits[i], &mirrors[(*more)++]);
+  }
 done:
   free(g);
   free(orbits);
@@ -313,6 +351,57 @@ done:
   free(traps);
   free(set);
   return status;
+}
+
+pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
+                                     const pendres_scout *guesses)
+{
+  size_t more = 0, last = 0;
+  if (n == 0) return PENDRES_OK;
+  pendres_scout *mirrors = malloc(2 * n * sizeof *mirrors);
+  if (mirrors == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
+  pendres_status status = add_guesses(ctx, catalogues, n, guesses, mirrors, &more);
+  if (status == PENDRES_OK && more > 0)
+    status = add_guesses(ctx, catalogues, more, mirrors, mirrors + n, &last);
+  free(mirrors);
+  return status;
+}
+
+/* Nothing is known of an orbit that does not close: NaN, not 0. */
+static pendres_orbit no_orbit(const pendres_pendulum *p)
+{
+  pendres_orbit o = {.pendulum = *p};
+  double *const numbers[] = {
+    &o.x, &o.v, &o.x_error, &o.v_error, &o.multiplier_error, &o.loop_area, &o.loop_area_error,
+    &o.dissipation, &o.dissipation_error, &o.mean_power, &o.mean_power_error, &o.amplitude,
+    &o.amplitude_error, &o.first_harmonic_amplitude, &o.first_harmonic_amplitude_error,
+    &o.phase_lag, &o.phase_lag_error, &o.mean_angle, &o.loop_area_slope, &o.loop_area_slope_error,
+    &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0], &o.multiplier_im[1],
+    &o.frequency_derivative[0], &o.frequency_derivative[1], &o.monodromy[0][0],
+    &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) *numbers[i] = NAN;
+  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) o.cosine[m] = o.sine[m] = NAN;
+  return o;
+}
+
+pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
+                                           double lyapunov, double error, pendres_cover *cover)
+{
+  if (reserve(c, 0) != 0) {
+    free(cover);
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  }
+  pendres_attractor *a = &c->attractors[c->count];
+  *a = (pendres_attractor){.label = PENDRES_LABEL_CHAOTIC,
+                           .lyapunov = lyapunov,
+                           .lyapunov_error = error,
+                           .trap_metric = {NAN, NAN, NAN},
+                           .trap_radius = NAN};
+  a->orbit = no_orbit(&c->pendulum);
+  cover->attractor = (int)c->count++;
+  c->cover[c->covers++] = cover;
+  return PENDRES_OK;
 }
 
 /* ---- scouts ---- */
@@ -369,7 +458,7 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
   }
   scouting s = {.scouts = scouts, .periods = periods, .before = before};
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, scout_look, &s);
-  if (status == PENDRES_OK) status = pendres_catalogue_add(ctx, sets, catalogues, n, scouts);
+  if (status == PENDRES_OK) status = pendres_catalogue_add(ctx, catalogues, n, scouts);
 done:
   free(lanes);
   free(periods);

@@ -2,24 +2,30 @@
  * catalogue.h -- the attractors of parameter sets, with their traps.
  *
  * Owns: finding attractors from scouts, numbering and labelling them, and telling which
- * trap a state lies in. Works on many parameter sets at a time, so that blocks stay full.
+ * trap a state lies in. Attractors keep the order of their discovery until
+ * pendres_catalogue_order() puts them into their physical order. Works on many parameter sets at a time, so that blocks stay full.
  */
 #ifndef PENDRES_CATALOGUE_H
 #define PENDRES_CATALOGUE_H
 
 #include <pendres/attractor.h>
 
+#include "chaos.h"
 #include "strobe_run.h"
 #include "trap.h"
 
+enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
+
 typedef struct pendres_catalogue {
   pendres_pendulum pendulum;
+  pendres_trap_effort effort;
   size_t count, capacity;
-  pendres_attractor *attractors; /* in their physical order */
+  pendres_attractor *attractors;
   size_t traps, trap_capacity;
   pendres_trap *trap;
   int *owner; /* attractor of each trap */
-  pendres_trap_effort effort;
+  size_t covers;
+  pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
 } pendres_catalogue;
 
 /* A state of a parameter set to start from, or to look for an orbit near. */
@@ -36,10 +42,18 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
                                          pendres_catalogue *catalogues, size_t n,
                                          pendres_scout *scouts);
 
-/* Refine guesses to orbits, and add the stable ones that are new, with their traps. */
-pendres_status pendres_catalogue_add(pendres_context *ctx, size_t sets,
-                                     pendres_catalogue *catalogues, size_t n,
+/* Refine guesses to orbits, and add the stable ones that are new, with their traps; beside an orbit
+   that is not its own mirror image also that image. */
+pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
                                      const pendres_scout *guesses);
+
+/* Add a chaotic attractor; the cover becomes the catalogue's. */
+pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
+                                           double lyapunov, double error, pendres_cover *cover);
+
+/* Put attractors into their physical order, and label them; rank[old number] = new number, for as
+   many as there are (rank may be NULL). */
+pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);
 
 /* The trap that a lane is in: its attractor and well; -1 if in none. */
 int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,

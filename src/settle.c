@@ -1,34 +1,27 @@
-/* settle.c -- what pendulums settle on; see attractor.h. */
-#include <pendres/attractor.h>
+/* settle.c -- settling many pendulums of many parameter sets at once; see settle.h. */
+#include "settle.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "catalogue.h"
 #include "context_internal.h"
-#include "settle.h"
 #include "steps.h"
-#include "strobe_run.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
 enum {
-  SCOUTS = 12,        /* members of a parameter set sent ahead */
-  BATCH_SETS = 64,    /* parameter sets worked on at a time */
-  HISTORY = 33,       /* strobe points kept of a pendulum that does not settle */
-  LONGEST_PERIOD = 16 /* of an orbit that is looked for: half the history */
+  SCOUTS = 12,         /* members of a parameter set sent ahead */
+  HISTORY = 65,        /* strobe points kept of a pendulum that does not settle */
+  LONGEST_PERIOD = 32, /* of an orbit that is looked for: half the history */
+  MOST_GUESSES = 8,    /* orbits looked for at a time in one parameter set */
+  CHAOTIC_STREAK = 32  /* strobes in a row in a chaotic attractor's cells that make chaos */
 };
 
-struct pendres_attractors {
-  size_t sets;
-  pendres_catalogue *catalogues;
-  size_t count;
-  const pendres_attractor **attractors; /* all of them, set after set */
-};
+/* A history that comes back closer than this may be near an orbit. */
+static const double near_orbit = 0.3;
 
-/* Decades of decay from any start to the middle of a trap. */
+/* e-folding time of a small oscillation, in periods. */
 static double settling_time(const pendres_pendulum *p)
 {
   return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
@@ -48,62 +41,112 @@ static long last_budget(const pendres_context *ctx, const pendres_pendulum *p)
 
 /* ---- labelling against catalogues ---- */
 
+/* The latest strobe points of a lane, a ring buffer. */
+typedef struct history {
+  long filled;                   /* points ever recorded */
+  double y[HISTORY], w[HISTORY]; /* unwrapped angle */
+} history;
+
+/* Arrays are by the caller's numbers of lanes; origin gives these for the lanes under way. */
 typedef struct labelling {
   const pendres_catalogue *catalogues;
-  const size_t *set; /* of each lane */
-  const long *budget; /* of each set */
+  const size_t *origin;
+  const size_t *set;
+  const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
+  int *streak;              /* strobes in a row in the cells of a chaotic attractor; NULL: none */
+  history *histories;       /* NULL: not kept */
 } labelling;
 
-static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+static void record(history *h, const pendres_strobe_lane *lane)
 {
-  const labelling *l = arg;
-  pendres_outcome *o = &l->outcome[index];
-  const pendres_catalogue *c = &l->catalogues[l->set[index]];
-  o->attractor = pendres_catalogue_locate(c, lane, &o->well);
-  if (o->attractor < 0) return lane->period >= l->budget[l->set[index]];
-  o->label = c->attractors[o->attractor].label;
+  const long k = h->filled++ % HISTORY;
+  h->y[k] = lane->y + two_pi * (double)lane->turns;
+  h->w[k] = lane->w;
+}
+
+/*
+ * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
+ * transients are over.
+ */
+static int chaotic(const labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  for (size_t k = 0; k < c->covers; k++) {
+    if (!pendres_cover_holds(c->cover[k], lane->y, lane->w)) continue;
+    if (++l->streak[i] < CHAOTIC_STREAK || lane->period < first_budget(&c->pendulum)) return 0;
+    l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
+                                      .attractor = c->cover[k]->attractor,
+                                      .settling_periods = lane->period - l->streak[i] + 1};
+    return 1;
+  }
+  l->streak[i] = 0;
+  return 0;
+}
+
+static int trapped(const labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  pendres_outcome *o = &l->outcome[i];
+  const int attractor = pendres_catalogue_locate(c, lane, &o->well);
+  if (attractor < 0) return 0;
+  o->attractor = attractor;
+  o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
   return 1;
 }
 
-/* Lanes that start inside a trap are done before they begin; the others are run. */
+static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const labelling *l = arg;
+  const size_t i = l->origin[index];
+  const pendres_catalogue *c = &l->catalogues[l->set[i]];
+  if (trapped(l, i, c, lane)) return 1;
+  if (l->histories != NULL) record(&l->histories[i], lane);
+  if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
+  return lane->period >= l->budget[l->set[i]];
+}
+
+static const pendres_outcome unresolved = {
+  .label = PENDRES_LABEL_UNRESOLVED, .attractor = -1, .settling_periods = -1};
+
+/* Run the lanes that are unresolved; those inside a trap are done before they begin. */
 static pendres_status run_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                 labelling *l)
 {
   size_t left = 0;
+  int covers = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_strobe_lane *rest = malloc((n + 1) * sizeof *rest);
-  size_t *set = malloc((n + 1) * sizeof *set), *origin = malloc((n + 1) * sizeof *origin);
-  pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
-  if (rest == NULL || set == NULL || origin == NULL || outcome == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
-    goto done;
-  }
-  const pendres_outcome none = {
-    .label = PENDRES_LABEL_UNRESOLVED, .attractor = -1, .settling_periods = -1};
+  size_t *origin = malloc((n + 1) * sizeof *origin);
+  if (rest == NULL || origin == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
-    l->outcome[i] = none;
-    if (settle_look(l, i, &lanes[i])) continue;
-    l->outcome[i] = none;
-    outcome[left] = none;
-    set[left] = l->set[i];
+    const pendres_catalogue *c = &l->catalogues[l->set[i]];
+    if (l->outcome[i].attractor >= 0) continue;
+    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[l->set[i]]) continue;
+    covers |= c->covers > 0;
     origin[left] = i;
     rest[left++] = lanes[i];
   }
-  labelling some = *l;
-  some.set = set;
-  some.outcome = outcome;
-  status = pendres_strobe_run(ctx, left, rest, settle_look, &some);
-  for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-    l->outcome[origin[i]] = outcome[i];
-    lanes[origin[i]] = rest[i];
+  if (covers) {
+    l->streak = calloc(n, sizeof *l->streak);
+    if (l->streak == NULL) goto no_memory;
   }
+  l->origin = origin;
+  status = pendres_strobe_run(ctx, left, rest, settle_look, l);
+  for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+    pendres_outcome *o = &l->outcome[origin[i]];
+    lanes[origin[i]] = rest[i];
+    if (o->attractor < 0) *o = unresolved;
+  }
+  goto done;
+no_memory:
+  (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
 done:
+  free(l->streak);
+  l->streak = NULL;
   free(rest);
-  free(set);
   free(origin);
-  free(outcome);
   return status;
 }
 
@@ -118,104 +161,236 @@ static pendres_status load_lane(pendres_context *ctx, const pendres_pendulum *p,
 
 /* ---- pendulums that do not settle: look for what they are near ---- */
 
-typedef struct history {
-  size_t filled;
-  double y[HISTORY], w[HISTORY]; /* unwrapped angle, newest last */
-} history;
-
-static int record_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+/*
+ * The shortest period that a history repeats itself with about as closely as with any; rounding
+ * alone must not prefer a multiple. Returns 0 if it does not come near itself.
+ */
+static int recurrence(const history *h, pendres_scout *s)
 {
-  history *h = (history *)arg + index;
-  h->y[h->filled] = lane->y + two_pi * (double)lane->turns;
-  h->w[h->filled] = lane->w;
-  return ++h->filled == HISTORY;
+  double distance[LONGEST_PERIOD + 1], closest = near_orbit;
+  const long last = h->filled - 1;
+  const double y = h->y[last % HISTORY], w = h->w[last % HISTORY];
+  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
+    const long k = (last - q) % HISTORY;
+    const double dy = y - h->y[k];
+    distance[q] = hypot(dy - two_pi * rint(dy / two_pi), w - h->w[k]);
+    closest = fmin(closest, distance[q]);
+  }
+  s->y = y;
+  s->w = w;
+  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
+    if (distance[q] > fmax(3.0 * closest, 1e-6)) continue;
+    s->period = q;
+    s->winding = (int)rint((y - h->y[(last - q) % HISTORY]) / two_pi);
+    return closest < near_orbit;
+  }
+  return 0;
 }
 
-/* The period that a history repeats itself with most closely, the shortest if several do. */
-static void recurrence(const history *h, pendres_scout *s)
+/* Everything about the pendulums that a batch has lost so far. */
+typedef struct lost_lanes {
+  size_t count;
+  size_t *index; /* in the batch */
+  size_t *set;
+  pendres_strobe_lane *lanes;
+  pendres_outcome *outcome;
+  history *histories;
+  pendres_scout *guesses;
+  const pendres_strobe_lane **suspects;
+  size_t *known; /* attractors of each set when the hunt began */
+} lost_lanes;
+
+static void free_lost(lost_lanes *l)
 {
-  double best = INFINITY;
-  const int last = HISTORY - 1;
-  s->period = 1;
-  s->winding = 0;
-  for (int q = 1; q <= LONGEST_PERIOD; q++) {
-    const double advance = h->y[last] - h->y[last - q];
-    const double turns = rint(advance / two_pi);
-    const double distance = hypot(advance - two_pi * turns, h->w[last] - h->w[last - q]);
-    if (distance < 0.5 * best) {
-      best = distance;
-      s->period = q;
-      s->winding = (int)turns;
+  free(l->index);
+  free(l->set);
+  free(l->lanes);
+  free(l->outcome);
+  free(l->histories);
+  free(l->guesses);
+  free(l->suspects);
+  free(l->known);
+}
+
+static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
+{
+  const size_t n = l->count;
+  l->index = malloc(n * sizeof *l->index);
+  l->set = malloc(n * sizeof *l->set);
+  l->lanes = malloc(n * sizeof *l->lanes);
+  l->outcome = malloc(n * sizeof *l->outcome);
+  l->histories = calloc(n, sizeof *l->histories);
+  l->guesses = malloc(n * sizeof *l->guesses);
+  l->suspects = malloc(n * sizeof *l->suspects);
+  l->known = malloc(sets * sizeof *l->known);
+  if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
+      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+  return PENDRES_OK;
+}
+
+/* Orbits that the lost lanes are near, a few in each set. */
+static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
+                                      pendres_catalogue *catalogues)
+{
+  size_t n = 0, in_set = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
+    if (l->outcome[i].attractor >= 0 || l->histories[i].filled == 0) continue;
+    l->guesses[n].set = l->set[i];
+    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], &l->guesses[n])) {
+      n++;
+      in_set++;
     }
   }
+  return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
+}
+
+/* Chaos among the lost lanes, set by set. */
+static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
+    size_t n = 0;
+    pendres_catalogue *c = &catalogues[l->set[first]];
+    for (last = first; last < l->count && l->set[last] == l->set[first]; last++) {
+      long well;
+      if (l->outcome[last].attractor < 0 &&
+          pendres_catalogue_locate(c, &l->lanes[last], &well) < 0)
+        l->suspects[n++] = &l->lanes[last];
+    }
+    int found = 0;
+    status = pendres_chaos_find(ctx, c, n, l->suspects, &found);
+  }
+  return status;
+}
+
+/* Lanes that went to an attractor found late: again from the start, for their settling times. */
+static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const size_t *set,
+                             const pendres_strobe_lane *starts, labelling *job)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    const int attractor = l->outcome[i].attractor;
+    if (attractor < 0 || (size_t)attractor < l->known[l->set[i]]) continue;
+    l->index[n] = l->index[i];
+    l->set[n] = set[l->index[i]];
+    l->outcome[n] = unresolved;
+    l->lanes[n++] = starts[l->index[i]];
+  }
+  job->outcome = l->outcome;
+  job->set = l->set;
+  job->histories = NULL;
+  const pendres_status status = run_lanes(ctx, n, l->lanes, job);
+  l->count = status == PENDRES_OK ? n : 0;
+  return status;
+}
+
+/* Budgets of the next round; 0 when all had been spent before. */
+static int raise_budgets(const pendres_context *ctx, size_t sets,
+                         const pendres_catalogue *catalogues, int round, long *budget)
+{
+  int longer = 0;
+  for (size_t s = 0; s < sets; s++) {
+    const long most = last_budget(ctx, &catalogues[s].pendulum);
+    const long more = (first_budget(&catalogues[s].pendulum) + HISTORY) << round;
+    if (budget[s] >= most) continue;
+    longer = 1;
+    budget[s] = budget[s] < most - more ? budget[s] + more : most;
+  }
+  return longer;
 }
 
 /*
- * Pendulums without a label after the first budget: refine the orbits that they are near, add
- * those to the catalogues, and label again, with all the budget.
+ * Pendulums without a label after the first budget. Rounds, each twice as long as the one before:
+ * go on, refine the orbits that they have come near, tell chaos, label again. What has found
+ * nothing when the last budget is spent stays unresolved.
  */
 static pendres_status hunt(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
-                           size_t n, pendres_strobe_lane *lanes, const size_t *set,
-                           pendres_outcome *outcome, long *budget)
+                           size_t n, const pendres_strobe_lane *starts,
+                           const pendres_strobe_lane *lanes, const size_t *set, pendres_outcome *outcome, long *budget)
 {
-  size_t lost = 0;
+  lost_lanes l = {0};
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n; i++) lost += outcome[i].attractor < 0;
-  if (lost == 0) return status;
+  for (size_t i = 0; i < n; i++) l.count += outcome[i].attractor < 0;
+  if (l.count == 0) return status;
+  status = allocate_lost(ctx, &l, sets);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0, k = 0; i < n; i++) {
+    if (outcome[i].attractor >= 0) continue;
+    l.index[k] = i;
+    l.set[k] = set[i];
+    l.outcome[k] = unresolved;
+    l.lanes[k++] = lanes[i];
+  }
+  for (size_t s = 0; s < sets; s++) l.known[s] = catalogues[s].count;
 
-  size_t *index = malloc(lost * sizeof *index), *lost_set = malloc(lost * sizeof *lost_set);
-  history *h = calloc(lost, sizeof *h);
-  pendres_scout *guess = malloc(lost * sizeof *guess);
-  pendres_strobe_lane *rest = malloc(lost * sizeof *rest);
-  pendres_outcome *again = malloc(lost * sizeof *again);
-  if (index == NULL || lost_set == NULL || h == NULL || guess == NULL || rest == NULL ||
-      again == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", lost);
-    goto done;
+  labelling job = {.catalogues = catalogues, .set = l.set, .budget = budget,
+                   .outcome = l.outcome, .histories = l.histories};
+  for (int round = 0; status == PENDRES_OK; round++) {
+    size_t left = 0;
+    const int longer = raise_budgets(ctx, sets, catalogues, round, budget);
+    status = run_lanes(ctx, l.count, l.lanes, &job);
+    for (size_t i = 0; i < l.count; i++) left += l.outcome[i].attractor < 0;
+    if (status != PENDRES_OK || left == 0 || !longer) break;
+    status = add_recurrences(ctx, &l, catalogues);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, catalogues);
   }
-  lost = 0;
-  for (size_t i = 0; i < n; i++)
-    if (outcome[i].attractor < 0) {
-      index[lost] = i;
-      lost_set[lost] = set[i];
-      rest[lost++] = lanes[i];
-    }
-  status = pendres_strobe_run(ctx, lost, rest, record_look, h);
-  for (size_t i = 0; i < lost && status == PENDRES_OK; i++) {
-    guess[i] = (pendres_scout){.set = lost_set[i], .y = rest[i].y, .w = rest[i].w};
-    recurrence(&h[i], &guess[i]);
-  }
-  if (status == PENDRES_OK) status = pendres_catalogue_add(ctx, sets, catalogues, lost, guess);
-  for (size_t i = 0; i < sets; i++) budget[i] = last_budget(ctx, &catalogues[i].pendulum);
-  labelling l = {
-    .catalogues = catalogues, .set = lost_set, .budget = budget, .outcome = again};
-  if (status == PENDRES_OK) status = run_lanes(ctx, lost, rest, &l);
-  for (size_t i = 0; i < lost && status == PENDRES_OK; i++) {
-    outcome[index[i]] = again[i];
-    lanes[index[i]] = rest[i];
-  }
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) outcome[l.index[i]] = l.outcome[i];
+  if (status == PENDRES_OK) status = repeat(ctx, &l, set, starts, &job);
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) outcome[l.index[i]] = l.outcome[i];
 done:
-  free(index);
-  free(lost_set);
-  free(h);
-  free(guess);
-  free(rest);
-  free(again);
+  free_lost(&l);
   return status;
 }
 
 /* ---- batches ---- */
 
-/* Numbers may have changed while attractors were added: look each final state up again. */
-static void relabel(const pendres_catalogue *c, const size_t *set, size_t n,
-                    const pendres_strobe_lane *lanes, pendres_outcome *outcome)
+/* Members of a set are consecutive: every so many of them is sent ahead. */
+static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
+                                  size_t n, const size_t *set, const pendres_strobe_lane *lanes)
 {
-  for (size_t i = 0; i < n; i++) {
-    if (outcome[i].attractor < 0) continue;
-    outcome[i].attractor = pendres_catalogue_locate(&c[set[i]], &lanes[i], &outcome[i].well);
-    if (outcome[i].attractor >= 0)
-      outcome[i].label = c[set[i]].attractors[outcome[i].attractor].label;
+  size_t count = 0;
+  pendres_scout *scouts = malloc((sets * SCOUTS + 1) * sizeof *scouts);
+  if (scouts == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for scouts");
+  for (size_t first = 0, last; first < n; first = last) {
+    last = first;
+    while (last < n && set[last] == set[first]) last++;
+    const size_t members = last - first, wanted = members < SCOUTS ? members : SCOUTS;
+    for (size_t k = 0; k < wanted; k++) {
+      const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
+      scouts[count++] = (pendres_scout){.set = set[first], .y = l->y, .w = l->w};
+    }
   }
+  const pendres_status status = pendres_catalogue_explore(ctx, sets, catalogues, count, scouts);
+  free(scouts);
+  return status;
+}
+
+/* Attractors into their physical order, and outcomes after them. */
+static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
+                                size_t n, const size_t *set, pendres_outcome *outcome)
+{
+  pendres_status status = PENDRES_OK;
+  size_t most = 0;
+  for (size_t s = 0; s < sets; s++) most = catalogues[s].count > most ? catalogues[s].count : most;
+  int *rank = malloc((most + 1) * sizeof *rank);
+  if (rank == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  for (size_t s = 0, i = 0; s < sets && status == PENDRES_OK; s++) {
+    const pendres_catalogue *c = &catalogues[s];
+    status = pendres_catalogue_order(ctx, &catalogues[s], rank);
+    for (; i < n && set[i] == s && status == PENDRES_OK; i++)
+      if (outcome[i].attractor >= 0) {
+        outcome[i].attractor = rank[outcome[i].attractor];
+        outcome[i].label = c->attractors[outcome[i].attractor].label;
+      }
+  }
+  free(rank);
+  return status;
 }
 
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
@@ -224,237 +399,35 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
-  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
+  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes), *starts = NULL;
   long *budget = malloc((sets + 1) * sizeof *budget);
-  pendres_scout *scouts = malloc((sets * SCOUTS + 1) * sizeof *scouts);
-  if (lanes == NULL || budget == NULL || scouts == NULL) {
+  if (explore) starts = malloc((n + 1) * sizeof *starts);
+  if (lanes == NULL || budget == NULL || (explore && starts == NULL)) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    outcome[i] = unresolved;
     status = load_lane(ctx, &catalogues[set[i]].pendulum, x[i], v[i], &lanes[i]);
-  if (explore && status == PENDRES_OK) {
-    /* Members of a set are consecutive: every so many of them is sent ahead. */
-    size_t count = 0;
-    for (size_t first = 0, last; first < n; first = last) {
-      last = first;
-      while (last < n && set[last] == set[first]) last++;
-      const size_t members = last - first, wanted = members < SCOUTS ? members : SCOUTS;
-      for (size_t k = 0; k < wanted; k++) {
-        const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
-        scouts[count++] = (pendres_scout){.set = set[first], .y = l->y, .w = l->w};
-      }
-    }
-    status = pendres_catalogue_explore(ctx, sets, catalogues, count, scouts);
+    if (explore) starts[i] = lanes[i];
   }
-  for (size_t i = 0; i < sets; i++)
-    budget[i] = explore ? first_budget(&catalogues[i].pendulum)
-                        : last_budget(ctx, &catalogues[i].pendulum);
+  for (size_t s = 0; s < sets; s++) {
+    budget[s] = last_budget(ctx, &catalogues[s].pendulum);
+    const long first = first_budget(&catalogues[s].pendulum);
+    if (explore && first < budget[s]) budget[s] = first;
+  }
+  if (explore && status == PENDRES_OK)
+    status = send_scouts(ctx, sets, catalogues, n, set, lanes);
   labelling l = {.catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome};
   if (status == PENDRES_OK) status = run_lanes(ctx, n, lanes, &l);
-  if (explore && status == PENDRES_OK) {
-    status = hunt(ctx, sets, catalogues, n, lanes, set, outcome, budget);
-    if (status == PENDRES_OK) relabel(catalogues, set, n, lanes, outcome);
-  }
+  if (explore && status == PENDRES_OK)
+    status = hunt(ctx, sets, catalogues, n, starts, lanes, set, outcome, budget);
+  if (explore && status == PENDRES_OK)
+    status = order_all(ctx, sets, catalogues, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
+  free(starts);
   free(budget);
-  free(scouts);
-  return status;
-}
-
-/* ---- public functions ---- */
-
-static int same_parameters(const pendres_pendulum *a, const pendres_pendulum *b)
-{
-  return a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&
-         a->drive_frequency == b->drive_frequency;
-}
-
-static pendres_status check_states(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                   size_t stride, const double *x, const double *v)
-{
-  for (size_t i = 0; i < n; i++) {
-    const char *why = NULL;
-    if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK &&
-        !(isfinite(x[i]) && isfinite(v[i])))
-      why = "position and velocity must be finite";
-    if (why == NULL && p[i * stride].damping == 0.0)
-      why = "without damping nothing settles";
-    if (why != NULL)
-      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
-  }
-  return PENDRES_OK;
-}
-
-void pendres_attractors_free(pendres_attractors *set)
-{
-  if (set == NULL) return;
-  for (size_t i = 0; i < set->sets; i++) pendres_catalogue_clear(&set->catalogues[i]);
-  free(set->catalogues);
-  free(set->attractors);
-  free(set);
-}
-
-size_t pendres_attractors_count(const pendres_attractors *set)
-{
-  return set != NULL ? set->count : 0;
-}
-
-const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, size_t i)
-{
-  return set != NULL && i < set->count ? set->attractors[i] : NULL;
-}
-
-static pendres_attractors *create_sets(size_t sets)
-{
-  pendres_attractors *set = calloc(1, sizeof *set);
-  if (set == NULL) return NULL;
-  set->catalogues = calloc(sets + 1, sizeof *set->catalogues);
-  if (set->catalogues == NULL) {
-    free(set);
-    return NULL;
-  }
-  set->sets = sets;
-  return set;
-}
-
-/* The list of all attractors, after all have been found. */
-static int index_sets(pendres_attractors *set)
-{
-  size_t count = 0;
-  for (size_t i = 0; i < set->sets; i++) count += set->catalogues[i].count;
-  set->attractors = malloc((count + 1) * sizeof *set->attractors);
-  if (set->attractors == NULL) return -1;
-  for (size_t i = 0; i < set->sets; i++)
-    for (size_t j = 0; j < set->catalogues[i].count; j++)
-      set->attractors[set->count++] = &set->catalogues[i].attractors[j];
-  return 0;
-}
-
-/* Scouts that see the whole of a well, at rest and moving. */
-static size_t default_scouts(double x[64], double v[64])
-{
-  size_t n = 0;
-  for (int i = 0; i < 12; i++)
-    for (int j = -1; j <= 1; j++) {
-      x[n] = half_pi + two_pi * (i - 5.5) / 12.0;
-      v[n++] = 1.3 * j;
-    }
-  return n;
-}
-
-pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
-                                       const double *x, const double *v, pendres_attractors **out)
-{
-  double default_x[64], default_v[64];
-  if (ctx == NULL || p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
-  *out = NULL;
-  if (n == 0) {
-    n = default_scouts(default_x, default_v);
-    x = default_x;
-    v = default_v;
-  }
-  pendres_status status = check_states(ctx, n, p, 0, x, v);
-  if (status != PENDRES_OK) return status;
-
-  pendres_attractors *set = create_sets(1);
-  size_t *zero = calloc(n, sizeof *zero);
-  pendres_outcome *outcome = malloc(n * sizeof *outcome);
-  if (set == NULL || zero == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-    goto done;
-  }
-  set->catalogues[0].pendulum = *p;
-  status = pendres_settle_batch(ctx, 1, set->catalogues, 1, n, zero, x, v, outcome);
-  if (status == PENDRES_OK && index_sets(set) != 0)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  if (status == PENDRES_OK) {
-    *out = set;
-    set = NULL;
-  }
-done:
-  pendres_attractors_free(set);
-  free(zero);
-  free(outcome);
-  return status;
-}
-
-pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
-                                         size_t n, const double *x, const double *v,
-                                         pendres_outcome *outcome)
-{
-  if (ctx == NULL || set == NULL || set->sets != 1 ||
-      (n > 0 && (x == NULL || v == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
-  if (status != PENDRES_OK || n == 0) return status;
-  size_t *zero = calloc(n, sizeof *zero);
-  if (zero == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  /* Nothing is explored, so the catalogue is only read. */
-  status = pendres_settle_batch(ctx, 1, set->catalogues, 0, n, zero, x, v, outcome);
-  free(zero);
-  return status;
-}
-
-/* Number of runs of equal parameters. */
-static size_t count_sets(size_t n, const pendres_pendulum *p)
-{
-  size_t sets = n > 0;
-  for (size_t i = 1; i < n; i++) sets += !same_parameters(&p[i], &p[i - 1]);
-  return sets;
-}
-
-pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                              const double *x, const double *v, pendres_outcome *outcome,
-                              pendres_attractors **found)
-{
-  if (found != NULL) *found = NULL;
-  if (ctx == NULL ||
-      (n > 0 && (pendulums == NULL || x == NULL || v == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = check_states(ctx, n, pendulums, 1, x, v);
-  if (status != PENDRES_OK) return status;
-
-  pendres_attractors *all = create_sets(count_sets(n, pendulums));
-  size_t *set = malloc((n + 1) * sizeof *set);
-  if (all == NULL || set == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-    goto done;
-  }
-  size_t offset = 0; /* attractors of earlier sets */
-  for (size_t first = 0, last, next_set = 0; first < n && status == PENDRES_OK; first = last) {
-    const size_t base = next_set;
-    for (last = first; last < n; last++) {
-      if (last == first || !same_parameters(&pendulums[last], &pendulums[last - 1])) {
-        if (next_set - base == BATCH_SETS) break;
-        all->catalogues[next_set++].pendulum = pendulums[last];
-      }
-      set[last] = next_set - 1 - base;
-    }
-    pendres_catalogue *c = all->catalogues + base;
-    status = pendres_settle_batch(ctx, next_set - base, c, 1, last - first, set + first, x + first,
-                                  v + first, outcome + first);
-    /* Indices into the list of all attractors. */
-    size_t starts[BATCH_SETS];
-    for (size_t s = 0; s < next_set - base; s++) {
-      starts[s] = offset;
-      offset += c[s].count;
-    }
-    for (size_t i = first; i < last && status == PENDRES_OK; i++)
-      if (outcome[i].attractor >= 0) outcome[i].attractor += (int)starts[set[i]];
-  }
-  if (status == PENDRES_OK && index_sets(all) != 0)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  if (status == PENDRES_OK && found != NULL) {
-    *found = all;
-    all = NULL;
-  }
-done:
-  pendres_attractors_free(all);
-  free(set);
   return status;
 }
