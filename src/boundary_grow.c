@@ -13,6 +13,7 @@ static const double two_pi = 6.28318530717958647693;
 /* The second-order manifold is exact to the cube of this, which further maps shrink; a seed
    parameter is exact to rounding over this. */
 static const double start_distance = 2e-4;
+static const double far_before = -1e4; /* a seed parameter on the saddle */
 enum { FIRST_NODES = 5, MOST_GENERATIONS = 400, MOST_ROUNDS = 60 };
 /* Seed parameters differ by rounding, 1e-12: closer than this there is no order along the curve. */
 static const double closest_seeds = 1e-9;
@@ -416,7 +417,14 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
     place(f->seed, n->s, side, &n->y, &n->w);
     n->w = -n->w;
   }
+  /* The curve begins at the saddle itself; from the next generation on at the segment's start. */
+  f->node[0].s = far_before;
+  place(f->seed, far_before, side, &f->node[0].y, &f->node[0].w);
+  f->node[0].w = -f->node[0].w;
   status = deliver(ctx, f, curve);
+  f->node[0].s = 0.0;
+  place(f->seed, 0.0, side, &f->node[0].y, &f->node[0].w);
+  f->node[0].w = -f->node[0].w;
   for (int generation = 1; f->count > 0 && status == PENDRES_OK; generation++) {
     size_t added = 1;
     status = next_generation(ctx, f);

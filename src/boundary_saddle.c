@@ -9,7 +9,7 @@
 
 enum { MOST_ADVANCES = 300 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
-static const double wildest = 1e3;      /* trace of the map: such orbits do not come back */
+static const double wildest = 1e3;      /* growth of errors in a map: such orbits do not come back */
 
 /* Walk until the drive frequency is back where it was; *u is near the orbit there. */
 static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[PENDRES_U_COUNT])
@@ -34,7 +34,7 @@ static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[
     }
     const double omega = w->here.u[PENDRES_U_OMEGA];
     if (omega > widest_range * start || omega * widest_range < start) break;
-    if (fabs(w->here.image.trace) > wildest) break;
+    if (w->here.growth > wildest) break;
   }
   return PENDRES_NOT_FOUND;
 }

@@ -9,7 +9,7 @@
 
 enum { MOST_ADVANCES = 200 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
-static const double wildest = 1e3;      /* trace of the map: such orbits do not come back */
+static const double wildest = 1e3;      /* growth of errors in a map: such orbits do not come back */
 
 static const int by_frequency[] = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA};
 
@@ -47,7 +47,7 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
     }
     const double omega = w->here.u[PENDRES_U_OMEGA];
     if (omega > widest_range * start || omega * widest_range < start) break;
-    if (fabs(w->here.image.trace) > wildest) break;
+    if (w->here.growth > wildest) break;
   }
   return PENDRES_NOT_FOUND;
 }

@@ -15,8 +15,10 @@ static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
-   method: an error of 1e-6 of them costs no accuracy of the solution. */
-static const double nudge = 1e-6;
+   method: an error of 1e-5 of them costs no accuracy of the solution. So short since second
+   derivatives grow to 1e9 where orbits pass close to the top of the barrier; the determinant's
+   own rounding, 1e-15, does no harm yet. */
+static const double nudge = 2e-9;
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
 static const double stencil_step = 8e-3;
@@ -69,6 +71,11 @@ double pendres_continuation_map_fold(const pendres_continuation_image *i)
 double pendres_continuation_map_flip(const pendres_continuation_image *i)
 {
   return 1.0 + i->trace + i->determinant;
+}
+
+double pendres_continuation_map_growth(const pendres_continuation_image *i)
+{
+  return hypot(hypot(i->n[0][0], i->n[0][1]), hypot(i->n[1][0], i->n[1][1]));
 }
 
 /* ---- images ---- */
@@ -141,8 +148,7 @@ pendres_status pendres_continuation_map_images(pendres_context *ctx,
 
 /* ---- equations ---- */
 
-/* The null vector of N - I at a fold, of unit length; its sign is arbitrary. */
-static void null_vector(const pendres_continuation_image *image, double v[2])
+void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])
 {
   /* The larger row of N - I has more digits. */
   const double *row =
@@ -246,10 +252,10 @@ pendres_status pendres_continuation_map_equations(pendres_context *ctx,
   if (cusp) {
     for (size_t i = 0; i < n * each; i++) {
       double v[2];
-      null_vector(&w.image[i], v);
+      pendres_continuation_map_null(&w.image[i], v);
       /* One sign for all, or differences of the derivative mean nothing. */
       double first[2];
-      null_vector(&w.image[i / each * each], first);
+      pendres_continuation_map_null(&w.image[i / each * each], first);
       if (v[0] * first[0] + v[1] * first[1] < 0.0) {
         v[0] = -v[0];
         v[1] = -v[1];

@@ -91,6 +91,12 @@ pendres_status pendres_continuation_map_equations(pendres_context *ctx,
 double pendres_continuation_map_fold(const pendres_continuation_image *image);
 double pendres_continuation_map_flip(const pendres_continuation_image *image);
 
+/* Norm of DG: how much an error of the state grows in one map. */
+double pendres_continuation_map_growth(const pendres_continuation_image *image);
+
+/* The null vector of N - I at a fold, of unit length; its sign is arbitrary. */
+void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2]);
+
 /*
  * Solve as many equations for as many unknowns (2 + those of the condition) from u on, by Newton's
  * method; u is replaced. *reach (may be NULL) gets the length of the last step. Steps

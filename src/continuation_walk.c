@@ -16,7 +16,7 @@ static const double last_step = 1e-8;
    their prediction than this share of the way. */
 static const double sharpest_turn = 0.92;
 static const double farthest_miss = 0.25;
-static const double shortest_step = 1e-10;
+static const double shortest_step = 1e-6;
 
 /* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
 static int tangent_of(const pendres_walk *w, const pendres_continuation_equations *e,
@@ -34,6 +34,27 @@ static int tangent_of(const pendres_walk *w, const pendres_continuation_equation
   for (int k = 0; k < n; k++) length = hypot(length, t[k]);
   for (int k = 0; k < n; k++) tangent[k] = t[k] / length;
   return 1;
+}
+
+/* What a point is beside its place; `like` (or NULL) decides the sign of the null vector. */
+static void describe(const pendres_walk *w, const pendres_continuation_equations *e,
+                    const double *like, pendres_walk_point *point)
+{
+  double slope = 0.0;
+  point->image = e->image;
+  for (int r = 2; r < e->equations; r++)
+    for (int k = 0; k < w->unknowns; k++)
+      slope = hypot(slope, e->j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]]);
+  /* The determinant has two factors that grow as errors do, and its slope three or more. */
+  point->growth = fmax(pendres_continuation_map_growth(&e->image), sqrt(slope));
+  if (w->condition != PENDRES_CONDITION_FOLD) return;
+  double *v = point->null;
+  pendres_continuation_map_null(&e->image, v);
+  if (like != NULL && v[0] * like[0] + v[1] * like[1] < 0.0) {
+    v[0] = -v[0];
+    v[1] = -v[1];
+  }
+  point->bending = e->j[2][PENDRES_U_Y] * v[0] + e->j[2][PENDRES_U_W] * v[1];
 }
 
 pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
@@ -57,7 +78,7 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
                                                 w->unknown, 1,
                                                 (const double (*)[PENDRES_U_COUNT])w->here.u, &e);
   if (status != PENDRES_OK) return status;
-  w->here.image = e.image;
+  describe(w, &e, NULL, &w->here);
   along[w->unknowns - 1] = direction;
   if (!tangent_of(w, &e, along, w->here.tangent)) return PENDRES_NOT_CONVERGED;
   return PENDRES_OK;
@@ -65,10 +86,11 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
 
 /* ---- advancing ---- */
 
-/* A point ahead on its way to the curve. */
+/* A point on its way to the curve, within the plane across a tangent. */
 typedef struct candidate {
-  pendres_walk *walk;
-  int steps, rank;
+  const pendres_walk *walk;
+  const double *tangent;
+  int steps, rank, waiting;
   enum { ACTIVE, CONVERGED, FAILED } state;
   double u[PENDRES_U_COUNT], predicted[PENDRES_U_COUNT];
   pendres_continuation_equations at;
@@ -87,17 +109,25 @@ static void predict(candidate *c)
   c->state = pendres_pendulum_check(&p, NULL) == PENDRES_OK ? ACTIVE : FAILED;
 }
 
-/* One Newton step within the plane across the walk's tangent. */
+/* The equations and the plane, linearised. */
+static void linearise(const candidate *c, double a[][PENDRES_U_COUNT])
+{
+  const pendres_walk *w = c->walk;
+  const int n = w->unknowns;
+  for (int k = 0; k < n; k++) {
+    for (int r = 0; r < n - 1; r++)
+      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
+    a[n - 1][k] = c->tangent[k];
+  }
+}
+
+/* One Newton step within the plane. */
 static void correct(candidate *c)
 {
   const pendres_walk *w = c->walk;
   const int n = w->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
-  for (int k = 0; k < n; k++) {
-    for (int r = 0; r < n - 1; r++)
-      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
-    a[n - 1][k] = w->here.tangent[k];
-  }
+  linearise(c, a);
   for (int r = 0; r < n - 1; r++) d[r] = -c->at.r[r];
   c->state = FAILED;
   if (!pendres_continuation_map_linear(n, a, d)) return;
@@ -107,6 +137,23 @@ static void correct(candidate *c)
   const pendres_pendulum p = pendres_continuation_map_pendulum(c->u);
   if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return;
   c->state = length < last_step ? CONVERGED : ACTIVE;
+}
+
+/* How rounding moves a corrected point: the inverse of the linearised equations, by columns. */
+static double rounding_of(const candidate *c)
+{
+  const int n = c->walk->unknowns;
+  const double unit = 1.2e-16 * fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1])) *
+                      sqrt(c->steps * c->walk->map.period);
+  double sum = 0.0;
+  for (int column = 0; column + 1 < n; column++) {
+    double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
+    linearise(c, a);
+    b[column] = column < 2 ? unit : 4.0 * unit;
+    if (!pendres_continuation_map_linear(n, a, b)) return NAN;
+    for (int k = 0; k < n; k++) sum = hypot(sum, b[k]);
+  }
+  return sum;
 }
 
 static int same_block(const candidate *a, const candidate *b)
@@ -124,16 +171,13 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
                                double (*u)[PENDRES_U_COUNT], pendres_continuation_equations *at)
 {
   pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == ACTIVE;
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
-    if (c[first].state != ACTIVE) continue;
+    if (!c[first].waiting) continue;
     size_t count = 0;
-    /* Blocks are begun by their first member: what was in an earlier one is not taken again. */
-    int begun = 0;
-    for (size_t i = 0; i < first && !begun; i++)
-      begun = c[i].state == ACTIVE && same_block(&c[i], &c[first]);
-    if (begun) continue;
     for (size_t i = first; i < n; i++) {
-      if (c[i].state != ACTIVE || !same_block(&c[i], &c[first])) continue;
+      if (!c[i].waiting || !same_block(&c[i], &c[first])) continue;
+      c[i].waiting = 0;
       memcpy(u[count], c[i].u, sizeof u[0]);
       index[count++] = i;
     }
@@ -161,9 +205,56 @@ static int follows(const pendres_walk *w, const pendres_walk_point *last, const 
   if (turn < sharpest_turn || way > 2.0 * w->step || miss > farthest_miss * w->step * (c->rank + 1))
     return 0;
   memcpy(point->u, c->u, sizeof point->u);
-  point->image = c->at.image;
+  describe(w, &c->at, last->null, point);
   point->arclength = last->arclength + way;
   return 1;
+}
+
+/* Evaluate and correct until nothing is active any more. */
+static pendres_status converge(pendres_context *ctx, size_t n, candidate *c)
+{
+  pendres_status status = PENDRES_OK;
+  size_t *index = malloc((n + 1) * sizeof *index), active = n;
+  double(*u)[PENDRES_U_COUNT] = malloc((n + 1) * sizeof *u);
+  pendres_continuation_equations *at = malloc((n + 1) * sizeof *at);
+  if (index == NULL || u == NULL || at == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+    goto done;
+  }
+  for (int i = 0; i < MOST_ITERATIONS && active > 0 && status == PENDRES_OK; i++) {
+    status = evaluate(ctx, n, c, index, u, at);
+    active = 0;
+    for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+      if (c[k].state == ACTIVE) {
+        correct(&c[k]);
+        active += c[k].state == ACTIVE;
+      }
+  }
+done:
+  free(index);
+  free(u);
+  free(at);
+  return status;
+}
+
+pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *kind, size_t n,
+                                    const pendres_walk_point *points, const int *steps,
+                                    double (*u)[PENDRES_U_COUNT], double *rounding)
+{
+  candidate *c = malloc((n + 1) * sizeof *c);
+  if (c == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  for (size_t i = 0; i < n; i++) {
+    c[i] = (candidate){.walk = kind, .tangent = points[i].tangent, .steps = steps[i]};
+    memcpy(c[i].u, u[i], sizeof c[i].u);
+  }
+  const pendres_status status = converge(ctx, n, c);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    memcpy(u[i], c[i].u, sizeof c[i].u);
+    rounding[i] = c[i].state == CONVERGED ? rounding_of(&c[i]) : NAN;
+  }
+  free(c);
+  return status;
 }
 
 /* Keep the points that converged, up to the first that did not, and choose the next step. */
@@ -196,41 +287,29 @@ pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk
 {
   const size_t most = n * PENDRES_WALK_AHEAD;
   pendres_status status = PENDRES_OK;
+  size_t count = 0;
   candidate *c = malloc((most + 1) * sizeof *c);
-  size_t *index = malloc((most + 1) * sizeof *index), count = 0;
-  double(*u)[PENDRES_U_COUNT] = malloc((most + 1) * sizeof *u);
-  pendres_continuation_equations *at = malloc((most + 1) * sizeof *at);
-  if (c == NULL || index == NULL || u == NULL || at == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-    goto done;
-  }
+  if (c == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++) {
+    pendres_walk *w = &walks[i];
     int steps = 0;
-    walks[i].found = 0;
-    if (walks[i].stuck) continue;
-    status = pendres_continuation_map_steps(ctx, walks[i].here.u, walks[i].tolerance, &steps);
-    if (status == PENDRES_NOT_CONVERGED) {
-      walks[i].stuck = 1;
-      status = PENDRES_OK;
-      continue;
-    }
+    w->found = 0;
+    if (w->stuck) continue;
+    status = pendres_continuation_map_steps(ctx, w->here.u, w->tolerance, &steps);
     if (status != PENDRES_OK) goto done;
     for (int k = 0; k < PENDRES_WALK_AHEAD; k++) {
-      c[count] = (candidate){.walk = &walks[i], .steps = steps, .rank = k};
+      c[count] = (candidate){.walk = w, .tangent = w->here.tangent, .steps = steps, .rank = k};
       predict(&c[count++]);
     }
   }
-  for (int iteration = 0; iteration < MOST_ITERATIONS && status == PENDRES_OK; iteration++) {
-    status = evaluate(ctx, count, c, index, u, at);
-    for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-      if (c[i].state == ACTIVE) correct(&c[i]);
-  }
-  for (size_t i = 0; i < count && status == PENDRES_OK; i += PENDRES_WALK_AHEAD)
-    accept(c[i].walk, &c[i]);
+  status = converge(ctx, count, c);
+  for (size_t i = 0, k = 0; i < n && status == PENDRES_OK; i++)
+    if (!walks[i].stuck) {
+      accept(&walks[i], &c[k]);
+      k += PENDRES_WALK_AHEAD;
+    }
 done:
   free(c);
-  free(index);
-  free(u);
-  free(at);
   return status;
 }

@@ -21,6 +21,9 @@ typedef struct pendres_walk_point {
   double tangent[PENDRES_WALK_UNKNOWNS]; /* unit vector of the scaled unknowns */
   double arclength;                      /* from the walk's start, of the scaled unknowns */
   pendres_continuation_image image;
+  double growth;  /* how sensitive the equations are here: what walks give up at */
+  double null[2]; /* on a curve of folds: the null vector of N - I, its sign kept along the walk, */
+  double bending; /* and the derivative of det(N - I) along it, whose zero is a cusp */
 } pendres_walk_point;
 
 typedef struct pendres_walk {
@@ -48,6 +51,16 @@ extern const double pendres_walk_scale[PENDRES_U_COUNT];
  */
 pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *walk,
                                   const double u[PENDRES_U_COUNT], double direction);
+
+/*
+ * Correct n points of one kind of curve (the walk's map, condition and unknowns; its place is not
+ * read), each at its own steps and within the plane through it across its tangent. u is
+ * replaced, *rounding[i] becomes the error of the scaled unknowns by rounding, NaN where the
+ * correction failed.
+ */
+pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *kind, size_t n,
+                                    const pendres_walk_point *points, const int *steps,
+                                    double (*u)[PENDRES_U_COUNT], double *rounding);
 
 /* Advance n walks; each ends with its `ahead` filled, or stuck. Stuck ones are left alone. */
 pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk *walks);

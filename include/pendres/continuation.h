@@ -69,6 +69,141 @@ typedef pendres_bifurcation pendres_fold;
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near,
                                  pendres_fold *out);
 
+/* ---- Branches ---- */
+
+/** Along which parameter, how far and how finely. Zero in a field of the last three: default. */
+typedef struct pendres_branch_options {
+  pendres_parameter parameter;
+  double low, high;     /**< of the parameter: the branch is followed while it lies within */
+  double spacing;       /**< of points at most, in arclength; default 0.05 */
+  double wildest;       /**< growth of errors in one map at which a branch is given up; 1e3 */
+  size_t most_points;   /**< each way from the start; default 2000 */
+} pendres_branch_options;
+
+/** Why a branch ends where it does. */
+typedef enum pendres_branch_end {
+  PENDRES_END_RANGE = 0, /**< the parameter's range */
+  PENDRES_END_CLOSED,    /**< it is back at its start: an isola */
+  PENDRES_END_WILD,      /**< errors grow too much along the orbit to follow it */
+  PENDRES_END_POINTS,    /**< most_points */
+  PENDRES_END_STUCK      /**< arc steps became too short */
+} pendres_branch_end;
+
+/** A point of a branch. */
+typedef struct pendres_branch_point {
+  pendres_special kind;
+  int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
+  double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are, the
+                               drive frequency in units of 0.3, damping and drive amplitude of 0.1 */
+  double parameter_error; /**< across the branch */
+  pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
+} pendres_branch_point;
+
+/** Opaque: a branch in order, from its end at the lower parameter or a fold onwards. */
+typedef struct pendres_branch pendres_branch;
+
+/**
+ * Follow the branches of n orbits, both ways, stable and unstable parts, side by side; with
+ * their folds, period doublings and symmetry breakings located to the tolerance.
+ *
+ * starts[n] are read; out[n] is written, each to be freed by pendres_branch_free, all NULL on
+ * failure. A branch depends on its own start alone. Two starts on one branch give it twice.
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_NOT_CONVERGED (a start is no orbit), those of the
+ * integration. PENDRES_OK also where some point's error exceeds the tolerance: the errors say so.
+ */
+pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                     const pendres_branch_options *options, pendres_branch **out);
+void pendres_branch_free(pendres_branch *branch);
+
+size_t pendres_branch_count(const pendres_branch *branch);
+/** Point number i, owned by the branch; NULL out of range. */
+const pendres_branch_point *pendres_branch_get(const pendres_branch *branch, size_t i);
+size_t pendres_branch_bifurcations(const pendres_branch *branch);
+const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *branch, size_t i);
+/** How the branch ends at its first (which = 0) and its last point (1). */
+pendres_branch_end pendres_branch_end_of(const pendres_branch *branch, int which);
+
+/**
+ * All orbits of a branch at a value of its parameter, in the order of the branch; *found is their
+ * number, and the first `room` of them are written to out. Next to a fold, within the errors, an
+ * orbit may be missing.
+ */
+pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *branch,
+                                    double value, size_t room, pendres_orbit *out, size_t *found);
+
+/**
+ * An orbit on the branch that crosses at a period doubling or a symmetry breaking: one of
+ * twice the period, or one of a pair that are each other's mirror image. Its parameter differs
+ * from the bifurcation's.
+ */
+pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                     pendres_orbit *out);
+
+/* ---- Curves in two parameters ---- */
+
+/** Where two folds meet and vanish. Plain data. */
+typedef struct pendres_cusp {
+  pendres_parameter parameter[2];
+  double value[2], value_error[2];
+  pendres_orbit orbit; /**< the orbit there; slopes are NaN */
+} pendres_cusp;
+
+/** How far and how finely. Zero in one of the last three: default. */
+typedef struct pendres_curve_options {
+  pendres_parameter second;      /**< beside the one that the start was found in */
+  double low[2], high[2];        /**< of the start's parameter and of the second */
+  double spacing;                /**< of points at most, in arclength as for branches; default 0.05 */
+  double wildest;                /**< growth of errors in one map at which a curve is given up; 300 */
+  size_t most_points;            /**< each way from the start; default 2000 */
+} pendres_curve_options;
+
+/** A point of a curve. */
+typedef struct pendres_curve_point {
+  int cusp;                      /**< its number in the curve's list; -1: not a cusp */
+  double arclength;
+  double value[2], value_error[2]; /**< both parameters; the errors are those across the curve */
+  double curvature; /**< of folds, as in pendres_bifurcation; it changes its sign at a cusp */
+  pendres_orbit orbit;
+} pendres_curve_point;
+
+/** Opaque: a curve of folds, period doublings or symmetry breakings, in order. */
+typedef struct pendres_curve pendres_curve;
+
+/**
+ * Follow n curves, both ways from where they start, side by side. out[n] is written, each to be
+ * freed by pendres_curve_free, all NULL on failure. A curve depends on its own start alone.
+ * Errors as for pendres_branch_follow.
+ */
+pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *starts,
+                                    const pendres_curve_options *options, pendres_curve **out);
+void pendres_curve_free(pendres_curve *curve);
+
+pendres_special pendres_curve_kind(const pendres_curve *curve);
+size_t pendres_curve_count(const pendres_curve *curve);
+/** Point number i, owned by the curve; NULL out of range. */
+const pendres_curve_point *pendres_curve_get(const pendres_curve *curve, size_t i);
+size_t pendres_curve_cusps(const pendres_curve *curve);
+const pendres_cusp *pendres_curve_cusp(const pendres_curve *curve, size_t i);
+/** How the curve ends at its first (which = 0) and its last point (1). */
+pendres_branch_end pendres_curve_end_of(const pendres_curve *curve, int which);
+
+/**
+ * All bifurcations of a curve at a value of its second parameter, in the order of the curve; each
+ * is located to the tolerance. *found is their number, the first `room` are written.
+ */
+pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *curve, double value,
+                                   size_t room, pendres_bifurcation *out, size_t *found);
+
+/**
+ * The cusp that the curve of folds through `near` leads to, as near's parameter and `second` change:
+ * first in the direction in which its curvature falls, then in the other.
+ * Errors: PENDRES_NOT_FOUND, PENDRES_TOLERANCE_UNREACHABLE (*out is complete), those of the
+ * integration.
+ */
+pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
+                                 pendres_parameter second, pendres_cusp *out);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

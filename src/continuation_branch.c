@@ -1,0 +1,379 @@
+/* continuation_branch.c -- branches of periodic orbits in one parameter; see continuation.h. */
+#include "continuation_branch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "context_internal.h"
+#include "continuation_locate.h"
+
+enum { MOST_BIFURCATIONS = 256 };
+
+void pendres_branch_free(pendres_branch *b)
+{
+  if (b == NULL) return;
+  free(b->point);
+  free(b->bifurcation);
+  free(b);
+}
+
+size_t pendres_branch_count(const pendres_branch *b)
+{
+  return b != NULL ? b->count : 0;
+}
+
+const pendres_branch_point *pendres_branch_get(const pendres_branch *b, size_t i)
+{
+  return b != NULL && i < b->count ? &b->point[i] : NULL;
+}
+
+size_t pendres_branch_bifurcations(const pendres_branch *b)
+{
+  return b != NULL ? b->bifurcations : 0;
+}
+
+const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *b, size_t i)
+{
+  return b != NULL && i < b->bifurcations ? &b->bifurcation[i] : NULL;
+}
+
+pendres_branch_end pendres_branch_end_of(const pendres_branch *b, int which)
+{
+  return b->end[which != 0];
+}
+
+/* ---- bifurcations on the way ---- */
+
+static double test_fold(const pendres_walk_point *p)
+{
+  return pendres_continuation_map_fold(&p->image);
+}
+
+static double test_flip(const pendres_walk_point *p)
+{
+  return pendres_continuation_map_flip(&p->image);
+}
+
+/* A bifurcation and where on the trail it lies. */
+typedef struct met {
+  pendres_trail_zero at;
+  pendres_continuation_condition condition;
+  pendres_located located;
+} met;
+
+static int in_order(const void *a, const void *b)
+{
+  const met *p = a, *q = b;
+  if (p->at.i != q->at.i) return p->at.i < q->at.i ? -1 : 1;
+  return p->at.part < q->at.part ? -1 : p->at.part > q->at.part;
+}
+
+static int same_place(const pendres_walk *w, const met *a, const met *b)
+{
+  double sum = 0.0;
+  if (a->condition != b->condition) return 0;
+  for (int k = 0; k < w->unknowns; k++)
+    sum = hypot(sum, a->located.pair.fine[w->unknown[k]] - b->located.pair.fine[w->unknown[k]]);
+  return sum < 1e-8;
+}
+
+/* Locate the zeros of one test function. What does not converge was no zero. */
+static pendres_status locate_all(pendres_context *ctx, const pendres_trail *t,
+                                 pendres_continuation_condition condition, met *list, size_t *count)
+{
+  pendres_trail_zero zeros[MOST_BIFURCATIONS];
+  const size_t n = pendres_trail_zeros(
+    t, condition == PENDRES_CONDITION_FOLD ? test_fold : test_flip, MOST_BIFURCATIONS, zeros);
+  for (size_t i = 0; i < n && *count < MOST_BIFURCATIONS; i++) {
+    double u[PENDRES_U_COUNT];
+    met *m = &list[*count];
+    const double chord = pendres_trail_between(t, &zeros[i], u);
+    *m = (met){.at = zeros[i], .condition = condition};
+    const pendres_status status = pendres_continuation_locate(
+      ctx, &t->kind.map, condition, t->kind.unknown, u, 2.0 * chord, &m->located);
+    if (status == PENDRES_NOT_CONVERGED) continue;
+    if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+    int known = 0;
+    for (size_t k = 0; k < *count && !known; k++) known = same_place(&t->kind, &list[k], m);
+    if (!known) ++*count;
+  }
+  return PENDRES_OK;
+}
+
+static pendres_status finish_bifurcations(pendres_context *ctx, pendres_parameter parameter,
+                                          size_t n, const met *list, pendres_branch *b)
+{
+  b->bifurcation = malloc((n + 1) * sizeof *b->bifurcation);
+  if (b->bifurcation == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  for (size_t i = 0; i < n; i++) {
+    const pendres_status status = pendres_continuation_locate_finish(
+      ctx, list[i].condition, parameter, &list[i].located, &b->bifurcation[i]);
+    if (status != PENDRES_OK) return status;
+    b->bifurcations++;
+  }
+  return PENDRES_OK;
+}
+
+/* ---- points ---- */
+
+/* Regular points and bifurcations, merged in the order of the trail. */
+static void merge(const pendres_trail *t, const pendres_orbit *orbits, const double (*error)[2],
+                  const met *list, pendres_branch *b)
+{
+  size_t k = 0;
+  for (size_t i = 0; i < t->count; i++) {
+    b->point[b->count++] = (pendres_branch_point){.kind = PENDRES_REGULAR,
+                                                  .bifurcation = -1,
+                                                  .arclength = t->point[i].arclength,
+                                                  .parameter_error = error[i][0],
+                                                  .orbit = orbits[i]};
+    for (; k < b->bifurcations && list[k].at.i == i; k++) {
+      const pendres_bifurcation *f = &b->bifurcation[k];
+      double u[PENDRES_U_COUNT];
+      const double chord = pendres_trail_between(t, &list[k].at, u);
+      b->point[b->count++] =
+        (pendres_branch_point){.kind = f->kind,
+                               .bifurcation = (int)k,
+                               .arclength = t->point[i].arclength + list[k].at.part * chord,
+                               .parameter_error = f->value_error,
+                               .orbit = f->orbit};
+    }
+  }
+}
+
+static pendres_status build(pendres_context *ctx, const pendres_trail *t,
+                            pendres_parameter parameter, pendres_branch **out)
+{
+  size_t met_count = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_branch *b = calloc(1, sizeof *b);
+  met *list = malloc(MOST_BIFURCATIONS * sizeof *list);
+  pendres_continuation_pair *pairs = malloc((t->count + 1) * sizeof *pairs);
+  pendres_orbit *orbits = malloc((t->count + 1) * sizeof *orbits);
+  double(*error)[2] = malloc((t->count + 1) * sizeof *error);
+  if (b == NULL || list == NULL || pairs == NULL || orbits == NULL || error == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
+    goto done;
+  }
+  b->parameter = parameter;
+  b->map = t->kind.map;
+  b->end[0] = t->end[0];
+  b->end[1] = t->end[1];
+  status = locate_all(ctx, t, PENDRES_CONDITION_FOLD, list, &met_count);
+  if (status == PENDRES_OK) status = locate_all(ctx, t, PENDRES_CONDITION_FLIP, list, &met_count);
+  if (status != PENDRES_OK) goto done;
+  qsort(list, met_count, sizeof *list, in_order);
+  status = finish_bifurcations(ctx, parameter, met_count, list, b);
+  if (status == PENDRES_OK) status = pendres_trail_polish(ctx, t, pairs, error);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_orbit_measure(ctx, t->count, pairs, orbits);
+  if (status != PENDRES_OK) goto done;
+  b->point = malloc((t->count + met_count + 1) * sizeof *b->point);
+  if (b->point == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+    goto done;
+  }
+  merge(t, orbits, (const double (*)[2])error, list, b);
+  *out = b;
+  b = NULL;
+done:
+  pendres_branch_free(b);
+  free(list);
+  free(pairs);
+  free(orbits);
+  free(error);
+  return status;
+}
+
+/* ---- following ---- */
+
+static const char *check(const pendres_branch_options *o)
+{
+  if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  if (!(o->low < o->high && isfinite(o->low) && isfinite(o->high)))
+    return "the range of the parameter is empty";
+  if (o->parameter == PENDRES_DRIVE_FREQUENCY && !(o->low > 0.0))
+    return "drive frequencies must be positive";
+  if (o->parameter == PENDRES_DAMPING && !(o->low >= 0.0)) return "damping must not be negative";
+  if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
+  return NULL;
+}
+
+pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
+                                 double spacing, double u[PENDRES_U_COUNT])
+{
+  return (pendres_walk){.map = pendres_continuation_map_of(orbit, u),
+                        .condition = PENDRES_CONDITION_NONE,
+                        .unknowns = 3,
+                        .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA + (int)parameter},
+                        .tolerance = 1e-7,
+                        .longest = spacing};
+}
+
+pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                     const pendres_branch_options *options, pendres_branch **out)
+{
+  if (ctx == NULL || options == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_INVALID_ARGUMENT;
+  for (size_t i = 0; i < n; i++) out[i] = NULL;
+  if (n == 0) return PENDRES_OK;
+  const pendres_branch_options *o = options;
+  const char *why = check(o);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
+
+  size_t which = 0;
+  const pendres_trail_bounds bounds = {.low = {o->low},
+                                       .high = {o->high},
+                                       .wildest = o->wildest > 0.0 ? o->wildest : 1e3,
+                                       .most_points = o->most_points > 0 ? o->most_points : 2000};
+  pendres_status status = PENDRES_OK;
+  pendres_trail_start *begin = calloc(n, sizeof *begin);
+  pendres_trail *trails = calloc(n, sizeof *trails);
+  if (begin == NULL || trails == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu branches", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++)
+    begin[i].kind = pendres_branch_kind(&starts[i], o->parameter,
+                                        o->spacing > 0.0 ? o->spacing : 0.05, begin[i].u);
+  status = pendres_trail_follow(ctx, n, begin, &bounds, trails, &which);
+  if (status == PENDRES_NOT_CONVERGED)
+    (void)pendres_context_fail(ctx, status, "start %zu of the branches is no orbit", which);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = build(ctx, &trails[i], o->parameter, &out[i]);
+done:
+  for (size_t i = 0; i < n && trails != NULL; i++) pendres_trail_free(&trails[i]);
+  free(begin);
+  free(trails);
+  for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
+    pendres_branch_free(out[i]);
+    out[i] = NULL;
+  }
+  return status;
+}
+
+/* ---- one value of the parameter ---- */
+
+double pendres_branch_value(const pendres_branch *b, size_t i)
+{
+  const pendres_pendulum *p = &b->point[i].orbit.pendulum;
+  switch (b->parameter) {
+  case PENDRES_DAMPING: return p->damping;
+  case PENDRES_DRIVE_AMPLITUDE: return p->drive_amplitude;
+  default: return p->drive_frequency;
+  }
+}
+
+static void set_value(pendres_parameter parameter, double value, pendres_pendulum *p)
+{
+  switch (parameter) {
+  case PENDRES_DAMPING: p->damping = value; break;
+  case PENDRES_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
+  default: p->drive_frequency = value;
+  }
+}
+
+/* The Poincaré point on the chord; the well of x may differ by whole turns from end to end. */
+static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, double part,
+                                   double value)
+{
+  const double two_pi = 6.28318530717958647693;
+  const pendres_orbit *p = &b->point[i].orbit, *q = &b->point[k].orbit;
+  double dx = q->x - p->x;
+  dx -= two_pi * rint(dx / two_pi);
+  pendres_orbit_guess g = {.pendulum = p->pendulum,
+                           .x = p->x + part * dx,
+                           .v = p->v + part * (q->v - p->v),
+                           .period = p->period,
+                           .winding = p->winding};
+  set_value(b->parameter, value, &g.pendulum);
+  return g;
+}
+
+pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                    size_t room, pendres_orbit *out, size_t *found)
+{
+  if (ctx == NULL || b == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_INVALID_ARGUMENT;
+  *found = 0;
+  const int closed = b->end[0] == PENDRES_END_CLOSED;
+  const size_t chords = b->count > 1 ? (closed ? b->count : b->count - 1) : 0;
+  pendres_orbit_guess *guess = calloc(chords + 1, sizeof *guess);
+  pendres_orbit *orbit = malloc((chords + 1) * sizeof *orbit);
+  pendres_status *outcome = malloc((chords + 1) * sizeof *outcome);
+  pendres_status status = PENDRES_OK;
+  size_t n = 0;
+  if (guess == NULL || orbit == NULL || outcome == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+    goto done;
+  }
+  for (size_t i = 0; i < chords; i++) {
+    const size_t k = (i + 1) % b->count;
+    const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
+    /* A value that a point has exactly belongs to the chord that begins there. */
+    if (from == 0.0 || from * to < 0.0)
+      guess[n++] = between(b, i, k, from == 0.0 ? 0.0 : from / (from - to), value);
+    else if (to == 0.0 && k == b->count - 1 && !closed)
+      guess[n++] = between(b, i, k, 1.0, value);
+  }
+  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
+    if (*found < room) out[*found] = orbit[i];
+    ++*found;
+  }
+done:
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+/* ---- branches that cross ---- */
+
+pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                     pendres_orbit *out)
+{
+  if (ctx == NULL || at == NULL || out == NULL ||
+      (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING))
+    return PENDRES_INVALID_ARGUMENT;
+  double u[PENDRES_U_COUNT];
+  pendres_continuation_image image;
+  int steps = 0;
+  const pendres_walk one = pendres_branch_kind(&at->orbit, at->parameter, 0.05, u);
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_images(ctx, &one.map, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])u, &image);
+  if (status != PENDRES_OK) return status;
+  /* The null vector of N + I: the way in which the doubled map's orbits leave. */
+  const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
+               d = image.n[1][1] + 1.0;
+  const int upper = hypot(a, b) > hypot(c, d);
+  const double length = upper ? hypot(a, b) : hypot(c, d);
+  const double v[2] = {(upper ? -b : -d) / length, (upper ? a : c) / length};
+
+  pendres_trail twice = {.kind = one, .count = 1};
+  twice.kind.map = one.map.mirror
+                     ? (pendres_continuation_map){.period = 1}
+                     : (pendres_continuation_map){.period = 2 * one.map.period,
+                                                  .winding = 2 * one.map.winding};
+  for (double away = 0.02; away < 0.5; away *= 2.0) {
+    pendres_walk_point point = {.tangent = {v[0], v[1], 0.0, 0.0}};
+    pendres_continuation_pair pair;
+    double error[1][2];
+    memcpy(point.u, u, sizeof point.u);
+    point.u[PENDRES_U_Y] += away * v[0];
+    point.u[PENDRES_U_W] += away * v[1];
+    twice.point = &point;
+    status = pendres_trail_polish(ctx, &twice, &pair, error);
+    if (status != PENDRES_OK) return status;
+    /* Not the branch that it came from, which the plane does not meet except far away. */
+    if (error[0][0] > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - point.u[PENDRES_U_Y]) > away) continue;
+    return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
