@@ -38,7 +38,8 @@ typedef pendres_status farm_collect(void *arg, size_t task);
 
 /*
  * Run all tasks; idle threads take the next one. The first failure (in the order of tasks) stops
- * the farm and is returned, its message kept; PENDRES_INTERRUPTED after a signal. collect may be NULL.
+ * the farm and is returned, its message kept; PENDRES_INTERRUPTED after a signal. collect may be
+ * NULL.
  * `what` names the tasks in the progress line, e.g. "dampings".
  */
 pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,

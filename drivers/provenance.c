@@ -31,7 +31,8 @@ void provenance_start(provenance *p)
   const time_t t = time(NULL);
   struct tm utc;
   *p = (provenance){ .wall = wall_clock(), .processor = processor_clock() };
-  if (gmtime_r(&t, &utc) != NULL) (void)strftime(p->date, sizeof p->date, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  if (gmtime_r(&t, &utc) != NULL)
+    (void)strftime(p->date, sizeof p->date, "%Y-%m-%dT%H:%M:%SZ", &utc);
 }
 
 double provenance_wall(const provenance *p)
@@ -80,14 +81,16 @@ static pendres_status write_origin(const provenance *p, const deck *d, const far
   pendres_store_hdf5_version(&version[0], &version[1], &version[2]);
   snprintf(hdf5, sizeof hdf5, "%u.%u.%u", version[0], version[1], version[2]);
   const pendres_store_entry entries[] = {
-    { .key = "version", .text = pendres_version(), .long_name = "version of resonance and libpendres" },
+    { .key = "version", .text = pendres_version(),
+      .long_name = "version of resonance and libpendres" },
     { .key = "build", .text = pendres_build_info(), .long_name = "libraries and compiler" },
     { .key = "hdf5_version", .text = hdf5, .long_name = "HDF5 library in use" },
     { .key = "host", .text = host.nodename, .long_name = "name of the machine" },
     { .key = "system", .text = system, .long_name = "operating system and processor" },
     { .key = "date", .text = p->date, .long_name = "start of the run, UTC" },
     { .key = "threads", .integer = farm_threads(f), .is_integer = 1, .long_name = "threads" },
-    { .key = "tolerance", .number = d->precision.tolerance, .long_name = "tolerance of the results" },
+    { .key = "tolerance", .number = d->precision.tolerance,
+      .long_name = "tolerance of the results" },
     { .key = "seed", .integer = noise ? seed : 0, .is_integer = 1,
       .long_name = noise ? "seed of the random numbers" : "no random numbers were used" },
   };

@@ -183,8 +183,10 @@ static pendres_status put_samples(scene_run *run, const work *w)
     error[k] = eps * value[k];
   }
   if (status == PENDRES_OK)
-    status = put(run, "drive_phase", "sample", "phase of the drive, omega t", "rad", value, error, n);
-  if (status == PENDRES_OK) status = put(run, "x", "sample", "position", "rad", w->x, w->x_error, n);
+    status = put(run, "drive_phase", "sample", "phase of the drive, omega t", "rad", value, error,
+                 n);
+  if (status == PENDRES_OK)
+    status = put(run, "x", "sample", "position", "rad", w->x, w->x_error, n);
   if (status == PENDRES_OK) status = put(run, "v", "sample", "velocity", "1", w->v, w->v_error, n);
   for (size_t k = 0; k < n; k++) {
     const size_t within = k % (size_t)w->d->orbit.samples; /* no need for large arguments */
@@ -208,23 +210,28 @@ static pendres_status put_scalars(scene_run *run, const work *w)
   } scalars[] = {
     { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
       o->loop_area_error, 0 },
-    { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation, o->dissipation_error, 0 },
+    { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
+      o->dissipation_error, 0 },
     { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error, 0 },
     { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
       o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, 0 },
     { "phase_lag", "lag of the first harmonic behind the drive", "rad", o->phase_lag,
       o->phase_lag_error, 0 },
-    { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error, 0 },
+    { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error,
+      0 },
     { "period", "drive periods until the orbit closes", "1", o->period, 0.0, 0 },
     { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, 0 },
-    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)w->well : NAN, 0.0, 0 },
-    { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0, 1 },
+    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)w->well : NAN, 0.0,
+      0 },
+    { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
+      1 },
   };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
     const double value = w->closed || scalars[i].always ? scalars[i].value : NAN;
     const double error = isnan(value) ? NAN : scalars[i].error;
-    status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value, &error, 1);
+    status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value,
+                 &error, 1);
   }
   return status;
 }
@@ -233,7 +240,8 @@ static pendres_status put_label(scene_run *run, const work *w)
 {
   const char *meanings[PENDRES_LABEL_COUNT];
   const int8_t label = (int8_t)w->label;
-  for (int i = 0; i < PENDRES_LABEL_COUNT; i++) meanings[i] = pendres_label_name((pendres_label)i);
+  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
+    meanings[i] = pendres_label_name((pendres_label)i);
   const pendres_store_spec spec = { .name = "label", .type = PENDRES_STORE_INT8,
                                     .long_name = "kind of attractor",
                                     .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings };
@@ -261,7 +269,8 @@ static void tabulate(FILE *out, const work *w)
   const pendres_orbit *o = &w->orbit;
   if (out == NULL) return;
   fprintf(out, "%-26s %s\n", "label", pendres_label_name(w->label));
-  if (w->settling_periods >= 0) fprintf(out, "%-26s %ld\n", "settling periods", w->settling_periods);
+  if (w->settling_periods >= 0)
+    fprintf(out, "%-26s %ld\n", "settling periods", w->settling_periods);
   if (!w->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
   if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", w->well);
@@ -276,7 +285,8 @@ static void tabulate(FILE *out, const work *w)
   for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
     fprintf(out, "%-26s %.12f +- %.0e\n", rows[i].name, rows[i].value, rows[i].error);
   for (int i = 0; i < MULTIPLIERS; i++)
-    fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i], o->multiplier_im[i]);
+    fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i],
+            o->multiplier_im[i]);
 }
 
 static pendres_status write_all(scene_run *run, const work *w)
@@ -291,7 +301,8 @@ static pendres_status write_all(scene_run *run, const work *w)
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples), .settling_periods = -1,
+  work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples),
+             .settling_periods = -1,
              /* On a named attractor there is no transient. */
              .transient = d->orbit.transient && d->orbit.start[0] == '\0',
              .pendulum = { .damping = d->pendulum.damping,
@@ -326,8 +337,8 @@ static void plan(const deck *d, FILE *out)
   else
     fprintf(out, "%s x = %g, v = %g", d->orbit.transient ? "recorded from" : "that is reached from",
             d->orbit.x, d->orbit.v);
-  fprintf(out, ", %lld samples over %lld periods\n", (long long)(d->orbit.periods * d->orbit.samples),
-          (long long)d->orbit.periods);
+  fprintf(out, ", %lld samples over %lld periods\n",
+          (long long)(d->orbit.periods * d->orbit.samples), (long long)d->orbit.periods);
 }
 
 const scene_kind scene_orbit = {

@@ -99,7 +99,7 @@ static int correct(const pendres_context *ctx, swing *s, const pendres_strobe_la
   if (!isfinite(change) || s->iterations++ > MOST_ITERATIONS) return 0;
   change = fmax(-0.3, fmin(0.3, change));
   s->pendulum.drive_frequency *= 1.0 + change;
-  if (fabs(change) < last_correction) judge(ctx, s);
+  if (fabs(change) < fmax(last_correction, rounding(s))) judge(ctx, s);
   return 1;
 }
 
@@ -160,7 +160,8 @@ static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
   pendres_context_set_interrupt(tight, ctx->stop, ctx->stop_arg);
 
   status = settle_clocks(ctx, n, s, lane, which);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) s[i].coarse = s[i].pendulum.drive_frequency;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    s[i].coarse = s[i].pendulum.drive_frequency;
   if (status == PENDRES_OK) {
     status = settle_clocks(tight, n, s, lane, which);
     if (status != PENDRES_OK)
@@ -191,7 +192,8 @@ static pendres_status find_all(pendres_context *ctx, size_t n, const double *amp
   const int asked = (ctx->options.steps_per_period + 3) / 4;
 
   if (s == NULL || lane == NULL || which == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
+    status =
+      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
     goto done;
   }
   for (size_t i = 0; i < n; i++)

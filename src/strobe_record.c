@@ -1,4 +1,11 @@
-/* strobe_record.c -- a trajectory at equally spaced drive phases; see strobe.h. */
+/*
+ * strobe_record.c -- a trajectory at equally spaced drive phases; see strobe.h.
+ *
+ * Errors: discretisation from a second run with more steps; rounding from the covariance C of the
+ * state's rounding errors, carried along by the variational equation of the second run,
+ * C(t) = M C M' + (what is added on the way). A trajectory near a separatrix amplifies
+ * rounding by orders of magnitude, where two runs may agree by chance.
+ */
 #include <pendres/strobe.h>
 
 #include <limits.h>
@@ -14,97 +21,148 @@ static const double two_pi = 6.28318530717958647693;
 
 enum { MOST_SAMPLES = 1000000 };
 
-/* Where the points of a period go. */
+/* Rounding of one step: a unit in the last place of angles up to pi, as measured. */
+static const double step_rounding = 4.4e-16;
+
+/* Where the points of a period go; in the second run also their standard errors of rounding. */
 typedef struct recorder {
-  double *x, *v; /* the period's first point */
-  int stretch;   /* steps between two points */
+  double *x, *v;             /* the period's first point */
+  double *x_noise, *v_noise; /* NULL in the first run */
+  double noise[3];           /* C_yy, C_yw, C_ww at the period's start */
+  int stretch;               /* steps between two points */
   double omega, turned;
 } recorder;
+
+/* C after `step` steps: rows 2 to 5 of the state hold the columns of M. */
+static void carry(const double noise[3], int step, size_t stride, const double *state,
+                  double out[3])
+{
+  const double a = state[2 * stride], c = state[3 * stride];
+  const double b = state[4 * stride], d = state[5 * stride];
+  const double w = fmax(1.0, fabs(state[stride]));
+  const double added = step_rounding * step_rounding * step;
+  out[0] = a * a * noise[0] + 2.0 * a * b * noise[1] + b * b * noise[2] + added;
+  out[1] = a * c * noise[0] + (a * d + b * c) * noise[1] + b * d * noise[2];
+  out[2] = c * c * noise[0] + 2.0 * c * d * noise[1] + d * d * noise[2] + added * w * w;
+}
 
 static void keep(void *arg, int step, double theta, size_t stride, const double *state)
 {
   const recorder *r = arg;
+  const int k = step / r->stretch;
   (void)theta;
   if (step % r->stretch != 0) return;
-  r->x[step / r->stretch] = state[0] + half_pi + r->turned;
-  r->v[step / r->stretch] = r->omega * state[stride];
+  r->x[k] = state[0] + half_pi + r->turned;
+  r->v[k] = r->omega * state[stride];
+  if (r->x_noise != NULL) {
+    double noise[3];
+    carry(r->noise, step, stride, state, noise);
+    r->x_noise[k] = sqrt(noise[0]);
+    r->v_noise[k] = r->omega * sqrt(noise[2]);
+  }
 }
 
+/* What a run is of. */
+typedef struct record {
+  const pendres_pendulum *p;
+  double x0, v0;
+  long periods;
+  int samples;
+} record;
+
 /* The whole trajectory with `stretch` steps from one point to the next. */
-static pendres_status run(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
-                          long periods, int samples, int stretch, double *x, double *v)
+static pendres_status run(pendres_context *ctx, const record *what, int stretch, double *x,
+                          double *v, double *x_noise, double *v_noise)
 {
   pendres_flow *flow = NULL;
-  double y = x0 - half_pi;
+  const double omega = what->p->drive_frequency;
+  double y = what->x0 - half_pi, w = what->v0 / omega;
+  recorder r = { .stretch = stretch, .omega = omega };
   long turns = 0;
-  pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
+  pendres_status status = pendres_context_flow(
+    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
   if (status != PENDRES_OK) return status;
-  status = pendres_flow_set_steps(flow, samples * stretch);
+  status = pendres_flow_set_steps(flow, what->samples * stretch);
   pendres_strobe_wrap(&y, &turns);
   pendres_flow_resize(flow, 1);
-  pendres_flow_set_lane(flow, 0, p, y, v0 / p->drive_frequency);
-  x[0] = x0;
-  v[0] = v0;
-  for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-    recorder r = { .x = x + (size_t)k * (size_t)samples, .v = v + (size_t)k * (size_t)samples,
-                   .stretch = stretch, .omega = p->drive_frequency,
-                   .turned = two_pi * (double)turns };
+  x[0] = what->x0;
+  v[0] = what->v0;
+  if (x_noise != NULL) x_noise[0] = v_noise[0] = 0.0;
+  for (long k = 0; k < what->periods && status == PENDRES_OK; k++) {
+    const size_t first = (size_t)k * (size_t)what->samples;
+    r.x = x + first;
+    r.v = v + first;
+    r.x_noise = x_noise != NULL ? x_noise + first : NULL;
+    r.v_noise = v_noise != NULL ? v_noise + first : NULL;
+    r.turned = two_pi * (double)turns;
     status = pendres_context_poll(ctx);
     if (status != PENDRES_OK) return status;
+    pendres_flow_set_lane(flow, 0, what->p, y, w);
     status = pendres_flow_period_sampled(flow, keep, &r);
     ctx->cost.pendulum_periods += 1.0;
-    pendres_strobe_wrap(&pendres_flow_state(flow)[0], &turns);
+    const double *state = pendres_flow_state(flow);
+    const size_t stride = pendres_flow_stride(flow);
+    double noise[3] = { 0.0 };
+    if (x_noise != NULL) carry(r.noise, what->samples * stretch, stride, state, noise);
+    for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
+    y = state[0];
+    w = state[stride];
+    pendres_strobe_wrap(&y, &turns);
   }
   return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, flow, status);
 }
 
-static pendres_status check(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
-                            long periods, int samples)
+static pendres_status check(pendres_context *ctx, const record *what)
 {
   const char *why = NULL;
-  if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
-    if (!(isfinite(x0) && isfinite(v0))) why = "position and velocity must be finite";
-    else if (periods < 0) why = "the number of periods must not be negative";
-    else if (samples < 1 || samples > MOST_SAMPLES) why = "1 to 1000000 samples a period, please";
-    else if (periods >= LONG_MAX / (long)sizeof(double) / samples)
+  if (pendres_pendulum_check(what->p, &why) == PENDRES_OK) {
+    if (!(isfinite(what->x0) && isfinite(what->v0))) why = "position and velocity must be finite";
+    else if (what->periods < 0) why = "the number of periods must not be negative";
+    else if (what->samples < 1 || what->samples > MOST_SAMPLES)
+      why = "1 to 1000000 samples a period, please";
+    else if (what->periods >= LONG_MAX / 64 / what->samples)
       why = "there are too many samples in all";
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
 }
 
+/* The second run, and the errors: the distance to it, and twice the standard error of rounding. */
+static pendres_status estimate(pendres_context *ctx, const record *what, int stretch,
+                               const double *x, const double *v, double *x_error, double *v_error)
+{
+  const size_t n = (size_t)what->periods * (size_t)what->samples + 1;
+  double *finer = malloc(2 * n * sizeof *finer);
+  if (finer == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  const pendres_status status =
+    run(ctx, what, (14 * stretch + 9) / 10, finer, finer + n, x_error, v_error);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    x_error[k] = fabs(x[k] - finer[k]) + 2.0 * x_error[k] + 2.2e-16 * fabs(x[k]);
+    v_error[k] = fabs(v[k] - finer[n + k]) + 2.0 * v_error[k] + 2.2e-16 * fabs(v[k]);
+  }
+  free(finer);
+  return status;
+}
+
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
                                      double x0, double v0, long periods, int samples, double *x,
                                      double *v, double *x_error, double *v_error)
 {
+  const record what = { .p = pendulum, .x0 = x0, .v0 = v0, .periods = periods, .samples = samples };
   int steps = 0;
-  double *finer = NULL;
   if (ctx == NULL || pendulum == NULL || x == NULL || v == NULL ||
       (x_error == NULL) != (v_error == NULL))
     return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = check(ctx, pendulum, x0, v0, periods, samples);
+  pendres_status status = check(ctx, &what);
   if (status == PENDRES_OK)
     /* Errors of all periods may add up. */
     status = pendres_steps_choose(ctx, pendulum, fabs(v0),
                                   ctx->options.tolerance / fmax(1.0, (double)periods), &steps);
   if (status != PENDRES_OK) return status;
-
   const int stretch = (steps + samples - 1) / samples;
-  status = run(ctx, pendulum, x0, v0, periods, samples, stretch, x, v);
-  if (status != PENDRES_OK || x_error == NULL) return status;
-
-  const size_t n = (size_t)periods * (size_t)samples + 1;
-  finer = malloc(2 * n * sizeof *finer);
-  if (finer == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  const int more = (14 * stretch + 9) / 10;
-  status = run(ctx, pendulum, x0, v0, periods, samples, more, finer, finer + n);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    /* The rounding of each step's sum, at random, beside the difference of the two runs. */
-    const double walk = 8.8e-16 * sqrt((double)k * (double)stretch);
-    x_error[k] = fabs(x[k] - finer[k]) + walk + 2.2e-16 * fabs(x[k]);
-    v_error[k] = fabs(v[k] - finer[n + k]) + walk + 2.2e-16 * fabs(v[k]);
-  }
-  free(finer);
+  status = run(ctx, &what, stretch, x, v, NULL, NULL);
+  if (status == PENDRES_OK && x_error != NULL)
+    status = estimate(ctx, &what, stretch, x, v, x_error, v_error);
   return status;
 }

@@ -46,12 +46,13 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
  * 2 pi k / samples, goes to x[k] and v[k]; k = 0 is the start and k = periods * samples the end, so
  * the arrays hold periods * samples + 1 values. x is not wrapped.
  *
- * x_error and v_error, of the same length, receive estimates of the errors, from a second run
- * with more steps; both may be NULL, and it is then not made.
+ * x_error and v_error, of the same length, receive estimates of the errors: a second run with
+ * more steps is compared with the first, and rounding is carried along by the variational
+ * equation. Both may be NULL, and that run is then not made.
  *
  * The steps are fixed ones and end on each point, whatever the context's method: nothing is
- * interpolated. The choice of steps and the errors returned are those of
- * pendres_strobe_advance(). What was written before an error is to be ignored.
+ * interpolated. Their choice and the statuses returned are those of pendres_strobe_advance().
+ * What was written before a failure is to be ignored.
  */
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
                                      double x0, double v0, long periods, int samples, double *x,

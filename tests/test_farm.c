@@ -1,0 +1,195 @@
+/*
+ * test_farm.c -- tasks on threads: each once, collected in order, stopped at the first failure,
+ * by a signal, and costs added up. No tolerances: all counts and sums of integers.
+ */
+#include "check.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "farm.h"
+
+enum { TASKS = 200 };
+
+/* A scene in small: what its tasks and its collector are to do and have done. */
+typedef struct scene {
+  atomic_int runs[TASKS];
+  size_t collected[TASKS], count;
+  size_t failing, failing_too; /* tasks; TASKS: none */
+  size_t refused;              /* by the collector */
+  atomic_int stop;             /* set by task number stop_at */
+  size_t stop_at;
+  double result[TASKS];
+} scene;
+
+static scene *new_scene(void)
+{
+  scene *s = calloc(1, sizeof *s);
+  assert_non_null(s);
+  s->failing = s->failing_too = s->refused = s->stop_at = TASKS;
+  return s;
+}
+
+static pendres_status task(void *arg, size_t i, pendres_context *ctx)
+{
+  scene *s = arg;
+  const pendres_pendulum p = { 0.12, 0.2, 0.6 + 0.001 * (double)i, 0.0 };
+  const pendres_pendulum bad = { -1.0, 0.2, 1.0, 0.0 };
+  double x = 1.0, v = 0.0;
+  atomic_fetch_add(&s->runs[i], 1);
+  if (i == s->stop_at) atomic_store(&s->stop, 1);
+  if (i == s->failing || i == s->failing_too) {
+    double two[2] = { 0.0, (double)i };
+    const pendres_pendulum pair[2] = { p, bad };
+    /* The later one fails first: its message must not win. */
+    if (i == s->failing && s->failing_too < TASKS)
+      (void)pendres_strobe_advance(ctx, 1, &p, &x, &v, 1000, NULL);
+    return pendres_strobe_advance(ctx, i == s->failing ? 2 : 1, i == s->failing ? pair : &bad, two,
+                                  two, 1, NULL);
+  }
+  const pendres_status status = pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, NULL);
+  s->result[i] = x;
+  return status;
+}
+
+static pendres_status collect(void *arg, size_t i)
+{
+  scene *s = arg;
+  if (i == s->refused) return PENDRES_IO;
+  s->collected[s->count++] = i;
+  return PENDRES_OK;
+}
+
+static int stop(void *arg)
+{
+  return atomic_load(&((scene *)arg)->stop);
+}
+
+static farm *new_farm(int threads, scene *s)
+{
+  farm *f = NULL;
+  const farm_options options = { .threads = threads, .stop = stop, .stop_arg = s };
+  check_ok(farm_create(&options, &f));
+  assert_int_equal(farm_threads(f), threads);
+  return f;
+}
+
+static void check_collected(const scene *s, size_t count)
+{
+  assert_int_equal(s->count, count);
+  for (size_t i = 0; i < count; i++) assert_int_equal(s->collected[i], i);
+}
+
+static void test_all(void **state)
+{
+  double first[TASKS];
+  (void)state;
+  for (int threads = 1; threads <= 7; threads += 2) {
+    scene *s = new_scene();
+    farm *f = new_farm(threads, s);
+    pendres_cost cost;
+    check_ok(farm_run(f, "tasks", TASKS, task, collect, s));
+    check_collected(s, TASKS);
+    for (size_t i = 0; i < TASKS; i++) assert_int_equal(atomic_load(&s->runs[i]), 1);
+    if (threads == 1) memcpy(first, s->result, sizeof first);
+    assert_memory_equal(first, s->result, sizeof first);
+    farm_cost(f, &cost);
+    assert_true(cost.pendulum_periods >= 3.0 * TASKS);
+    assert_string_equal(farm_message(f), "");
+    /* Again with the same farm, and without a collector. */
+    check_ok(farm_run(f, "tasks", 3, task, NULL, s));
+    check_ok(farm_run(f, "tasks", 0, task, NULL, s));
+    farm_free(f);
+    free(s);
+  }
+}
+
+/* Of two failures the one with the lower number is reported, whichever came first. */
+static void test_failure(void **state)
+{
+  (void)state;
+  for (int threads = 1; threads <= 4; threads++) {
+    scene *s = new_scene();
+    farm *f = new_farm(threads, s);
+    s->failing = 20;
+    s->failing_too = 21;
+    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INVALID_ARGUMENT);
+    assert_non_null(strstr(farm_message(f), "pendulum 1"));
+    check_collected(s, 20);
+    int taken = 0;
+    for (size_t i = 0; i < TASKS; i++) taken += atomic_load(&s->runs[i]);
+    assert_true(taken < TASKS);
+    /* The farm can be used further. */
+    s->failing = s->failing_too = TASKS;
+    s->count = 0;
+    check_ok(farm_run(f, "tasks", TASKS, task, collect, s));
+    check_collected(s, TASKS);
+    farm_free(f);
+    free(s);
+  }
+}
+
+static void test_collector_refuses(void **state)
+{
+  (void)state;
+  for (int threads = 1; threads <= 3; threads++) {
+    scene *s = new_scene();
+    farm *f = new_farm(threads, s);
+    s->refused = 7;
+    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_IO);
+    check_collected(s, 7);
+    farm_free(f);
+    free(s);
+  }
+}
+
+/* A signal in the middle: what is collected is a beginning, and no more tasks are taken. */
+static void test_stop(void **state)
+{
+  (void)state;
+  for (int threads = 1; threads <= 3; threads++) {
+    scene *s = new_scene();
+    farm *f = new_farm(threads, s);
+    s->stop_at = 50;
+    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INTERRUPTED);
+    assert_true(s->count <= 50 + (size_t)threads);
+    check_collected(s, s->count);
+    int taken = 0;
+    for (size_t i = 0; i < TASKS; i++) taken += atomic_load(&s->runs[i]);
+    assert_true(taken <= 50 + threads);
+    /* Once stopped nothing starts. */
+    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INTERRUPTED);
+    farm_free(f);
+    free(s);
+  }
+}
+
+/* The context outside of tasks stops at a signal as well. */
+static void test_context(void **state)
+{
+  scene *s = new_scene();
+  farm *f = new_farm(2, s);
+  const pendres_pendulum p = { 0.12, 0.2, 0.8, 0.0 };
+  pendres_context *ctx = farm_context(f);
+  double x = 1.0, v = 0.0;
+  (void)state;
+  assert_non_null(ctx);
+  check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, NULL));
+  atomic_store(&s->stop, 1);
+  assert_int_equal(pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, NULL), PENDRES_INTERRUPTED);
+  farm_free(f);
+  free(s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_all),
+    cmocka_unit_test(test_failure),
+    cmocka_unit_test(test_collector_refuses),
+    cmocka_unit_test(test_stop),
+    cmocka_unit_test(test_context),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,146 @@
+/*
+ * test_strobe_record.c -- trajectories sample by sample against the long double reference, the
+ * stroboscopic map and a closed form.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+static const double pi = 3.14159265358979323846;
+
+static pendres_context *context(double tolerance)
+{
+  const pendres_options options = { .tolerance = tolerance };
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&options, &ctx));
+  return ctx;
+}
+
+/* At the strobes the reference says where the pendulum is; errors claimed are at least a tenth. */
+static void test_reference(void **state)
+{
+  static const struct { double damping, drive, frequency, x, v; } cases[] = {
+    { 0.12, 0.2, 0.785, 0.3, 0.0 },  { 0.12, 0.2, 0.785, 4.0, 1.5 },
+    { 0.5, 1.35, 2.0 / 3, 1.0, 0.0 } /* running */, { 1e-3, 0.0, 1.0, 0.0, 0.1 },
+  };
+  enum { PERIODS = 12, SAMPLES = 25, N = PERIODS * SAMPLES + 1 };
+  double x[N], v[N], x_error[N], v_error[N];
+  (void)state;
+  for (size_t c = 0; c < COUNT(cases); c++)
+    for (double tolerance = 1e-6; tolerance > 1e-13; tolerance *= 1e-2) {
+      const pendres_pendulum p = { cases[c].damping, cases[c].drive, cases[c].frequency, 0.0 };
+      pendres_context *ctx = context(tolerance);
+      check_ok(pendres_strobe_record(ctx, &p, cases[c].x, cases[c].v, PERIODS, SAMPLES, x, v,
+                                     x_error, v_error));
+      for (long k = 0; k <= PERIODS; k++) {
+        long double y = (long double)cases[c].x - 1.57079632679489661923L, w = cases[c].v;
+        long turns = 0;
+        check_ok(pendres_reference_advance(&p, &y, &w, &turns, k));
+        const double want = (double)(y + 1.57079632679489661923L + 6.28318530717958647693L * turns);
+        const size_t i = (size_t)k * SAMPLES;
+        /* Within ten times the claim; and the claim, where nothing amplifies, near the goal. */
+        check_near(x[i], want, 10.0 * x_error[i] + 1e-15);
+        check_near(v[i], (double)w, 10.0 * v_error[i] + 1e-15);
+        assert_true(x_error[i] < 100.0 * tolerance + 1e-12);
+      }
+      pendres_context_free(ctx);
+    }
+}
+
+/* Linear limit between the strobes: the closed form at every phase; the sine's cubic term is
+   y^3/6 ~ 2e-22 beside y ~ 1e-7, and rounding of x, which is near pi/2, 1e-15 or so a step. */
+static void test_phases(void **state)
+{
+  const pendres_pendulum p = { 0.3, 1e-7, 0.8, 0.0 };
+  enum { SAMPLES = 37, PERIODS = 3, N = PERIODS * SAMPLES + 1 };
+  pendres_harmonic h;
+  double x[N], v[N];
+  pendres_context *ctx = context(1e-13);
+  (void)state;
+  check_ok(pendres_harmonic_response(&p, &h));
+  check_ok(pendres_strobe_record(ctx, &p, 0.5 * pi + h.amplitude * cos(h.phase_lag),
+                                 0.8 * h.amplitude * sin(h.phase_lag), PERIODS, SAMPLES, x, v, NULL,
+                                 NULL));
+  for (int k = 0; k < N; k++) {
+    const double theta = 2.0 * pi * k / SAMPLES;
+    check_near(x[k] - 0.5 * pi, h.amplitude * cos(theta - h.phase_lag), 1e-14);
+    check_near(v[k], -0.8 * h.amplitude * sin(theta - h.phase_lag), 1e-14);
+  }
+  pendres_context_free(ctx);
+}
+
+/* One sample a period or thousands: the same trajectory within the errors. */
+static void test_densities(void **state)
+{
+  static const int samples[] = { 1, 2, 7, 64, 5000 };
+  const pendres_pendulum p = { 0.12, 0.2, 0.785, 0.0 };
+  enum { PERIODS = 5, MOST = PERIODS * 5000 + 1 };
+  double *memory = malloc(4 * MOST * sizeof *memory);
+  pendres_context *ctx = context(1e-9);
+  double x_end = -1.0, v_end = 0.4, error = 0.0;
+  (void)state;
+  assert_non_null(memory);
+  check_ok(pendres_strobe_advance(ctx, 1, &p, &x_end, &v_end, PERIODS, &error));
+  for (size_t i = 0; i < COUNT(samples); i++) {
+    const size_t n = (size_t)(PERIODS * samples[i]);
+    double *x = memory, *v = x + MOST, *x_error = v + MOST, *v_error = x_error + MOST;
+    check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, samples[i], x, v, x_error, v_error));
+    check_near(x[0], -1.0, 0.0);
+    check_near(v[0], 0.4, 0.0);
+    /* Within ten times what each of the two claims. */
+    check_near(x[n], x_end, 10.0 * (x_error[n] + error));
+    check_near(v[n], v_end, 10.0 * (v_error[n] + error));
+  }
+  free(memory);
+  pendres_context_free(ctx);
+}
+
+static int always(void *arg)
+{
+  (void)arg;
+  return 1;
+}
+
+static void test_refusals(void **state)
+{
+  const pendres_pendulum p = { 0.12, 0.2, 0.785, 0.0 }, bad = { -1.0, 0.2, 0.785, 0.0 };
+  double x[11], v[11];
+  pendres_context *ctx = context(1e-8);
+  (void)state;
+  assert_int_equal(pendres_strobe_record(ctx, &bad, 0, 0, 1, 10, x, v, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_strobe_record(ctx, &p, NAN, 0, 1, 10, x, v, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, -1, 10, x, v, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 0, x, v, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 10, x, v, x, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1L << 60, 1000, x, v, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  /* No periods: the start alone. */
+  check_ok(pendres_strobe_record(ctx, &p, 0.7, 0.1, 0, 10, x, v, NULL, NULL));
+  check_near(x[0], 0.7, 0.0);
+  pendres_context_set_interrupt(ctx, always, NULL);
+  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 10, x, v, NULL, NULL),
+                   PENDRES_INTERRUPTED);
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_reference),
+    cmocka_unit_test(test_phases),
+    cmocka_unit_test(test_densities),
+    cmocka_unit_test(test_refusals),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
