@@ -74,92 +74,150 @@ static gap_kind kind_of(const pendres_scan_point *a, const pendres_scan_point *b
   return a->slope > 0.0 && b->slope < 0.0 ? GAP_PEAK : GAP_PLAIN;
 }
 
-/* Share of the members on the state of the largest area, that area, and the next smaller one. */
-static double top_share(const pendres_response *r, double *first, double *second)
+/*
+ * A state's area, as large as it can become over `width`: by its slope, which may be steep next
+ * to a fold, but not by more than a quarter.
+ */
+static double grown_area(const pendres_orbit *o, double width)
 {
-  size_t top = 0, members = 0;
-  for (size_t i = 0; i < r->states; i++) {
-    members += r->state_members[i];
-    if (r->state[i].orbit.loop_area > r->state[top].orbit.loop_area) top = i;
-  }
-  if (r->states == 0) return 0.0;
-  for (size_t i = 0; i < r->states; i++) {
-    const double area = r->state[i].orbit.loop_area;
-    if (i != top) *second = fmax(*second, isfinite(area) ? area : 0.0);
-  }
-  *first = fmax(*first, r->state[top].orbit.loop_area);
-  return (double)r->state_members[top] / (double)members;
+  if (!isfinite(o->loop_area)) return 0.0;
+  const double slope = isfinite(o->loop_area_slope) ? fabs(o->loop_area_slope) : INFINITY;
+  return o->loop_area + fmin(width * slope, 0.25 * o->loop_area);
+}
+
+static double largest_area(const pendres_response *r, double width)
+{
+  double largest = 0.0;
+  for (size_t i = 0; i < r->states; i++)
+    largest = fmax(largest, grown_area(&r->state[i].orbit, width));
+  return largest;
 }
 
 /*
- * No mean area between two points exceeds this: areas of states grow at most by their slope, and
- * the share of the largest one is at most that at either end plus a tenth of the members (a
- * fiftieth in narrow gaps), for members that come and go in between.
+ * Share of the members that are, or for all that is known may be, on states with an area of at
+ * least `cut`; *below is raised to the largest area of the other states.
+ */
+static double share_above(const pendres_response *r, double width, double cut, double *below)
+{
+  size_t members = r->unresolved, above = r->unresolved;
+  for (size_t i = 0; i < r->states; i++) {
+    const double area = grown_area(&r->state[i].orbit, width);
+    members += r->state_members[i];
+    if (area >= cut)
+      above += r->state_members[i];
+    else
+      *below = fmax(*below, area);
+  }
+  return members > 0 ? (double)above / (double)members : 1.0;
+}
+
+/*
+ * No mean area between two points exceeds this: states change their areas by their slopes, and
+ * the share of those with a large area is at most that at either end, plus a tenth of the
+ * members (a fiftieth in narrow gaps) for those that come and go in between.
  */
 static double bound_of(const pendres_scan_point *a, const pendres_scan_point *b)
 {
   const double width = frequency_of(b) - frequency_of(a);
-  const double growth = width * fmax(a->steepest, b->steepest);
-  double first = 0.0, second = 0.0;
   if (kind_of(a, b) != GAP_JUMP)
-    return fmax(a->response.mean_loop_area, b->response.mean_loop_area) + 0.5 * growth;
-  double share_a = top_share(&a->response, &first, &second);
-  double share_b = top_share(&b->response, &first, &second);
+    return fmax(a->response.mean_loop_area, b->response.mean_loop_area) +
+           0.5 * width * fmax(fabs(a->slope), fabs(b->slope));
+  const double largest =
+    fmax(largest_area(&a->response, width), largest_area(&b->response, width));
+  double other = 0.0;
+  double left = share_above(&a->response, width, 0.7 * largest, &other);
+  double right = share_above(&b->response, width, 0.7 * largest, &other);
   /* A fold's own point is on the far side of the jump: inside the gap its shares do not hold. */
-  if (a->at_fold > 0) share_a = share_b;
-  if (b->at_fold < 0) share_b = share_a;
-  const double share = fmin(1.0, fmax(share_a, share_b) + (width > 0.01 ? 0.1 : 0.02));
-  return share * first + (1.0 - share) * second + growth;
+  if (a->at_fold > 0) left = right;
+  if (b->at_fold < 0) right = left;
+  const double share = fmin(1.0, fmax(left, right) + (width > 0.01 ? 0.1 : 0.02));
+  return share * largest + (1.0 - share) * other;
+}
+
+/* What is certain of a point's area: members that did not settle may be on any state. */
+static double certain_area(const pendres_scan_point *p)
+{
+  return p->response.mean_loop_area - p->response.mean_loop_area_error;
 }
 
 static double best_area(const search *s)
 {
   double best = -INFINITY;
-  for (size_t i = 0; i < s->count; i++) best = fmax(best, s->points[i].response.mean_loop_area);
+  for (size_t i = 0; i < s->count; i++) best = fmax(best, certain_area(&s->points[i]));
   return best;
 }
 
-/*
- * Look for folds in the gaps that jump and may hold more than the best value known: a fold takes
- * the place of the many frequencies close to it where a ghost slows everything down.
- */
-static pendres_status add_folds(search *s)
+/* Whether a gap has to be looked into further. */
+static int open_gap(const search *s, size_t i, double best)
 {
+  const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+  return kind_of(a, b) == GAP_JUMP && frequency_of(b) - frequency_of(a) > narrow &&
+         bound_of(a, b) > best;
+}
+
+/* The largest bound of all gaps that are still open; minus infinity if none is. */
+static double largest_bound(const search *s, double best)
+{
+  double largest = -INFINITY;
+  for (size_t i = 0; i + 1 < s->count; i++)
+    if (open_gap(s, i, best)) largest = fmax(largest, bound_of(&s->points[i], &s->points[i + 1]));
+  return largest;
+}
+
+/*
+ * Look for a fold in the most promising open gap that was not searched yet: it takes the place of
+ * the many frequencies close to it, where a ghost slows everything down. *found: one was added.
+ */
+static pendres_status add_fold(search *s, int *found)
+{
+  const double best = best_area(s);
+  size_t gap = s->count;
+  double largest = -INFINITY;
+  *found = 0;
   for (size_t i = 0; i + 1 < s->count; i++) {
-    pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1], in[2];
-    int found = 0;
-    if (a->fold_sought || a->at_fold || b->at_fold || kind_of(a, b) != GAP_JUMP ||
-        bound_of(a, b) <= best_area(s))
-      continue;
-    a->fold_sought = 1;
-    pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, in, &found);
-    if (status == PENDRES_OK && found) status = check_room(s, 2);
-    if (status != PENDRES_OK) return status;
-    if (!found) continue;
-    s->points[s->count++] = in[0];
-    s->points[s->count++] = in[1];
-    qsort(s->points, s->count, sizeof *s->points, by_frequency);
+    const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+    if (!open_gap(s, i, best) || a->fold_sought || a->at_fold || b->at_fold) continue;
+    if (bound_of(a, b) > largest) {
+      largest = bound_of(a, b);
+      gap = i;
+    }
   }
+  if (gap == s->count) return PENDRES_OK;
+  pendres_scan_point in[2];
+  s->points[gap].fold_sought = 1;
+  pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, &s->points[gap],
+                                                      &s->points[gap + 1], in, found);
+  if (status == PENDRES_OK && *found) status = check_room(s, 2);
+  if (status != PENDRES_OK || !*found) return status;
+  s->points[s->count++] = in[0];
+  s->points[s->count++] = in[1];
+  qsort(s->points, s->count, sizeof *s->points, by_frequency);
   return PENDRES_OK;
 }
 
-/* Cut every gap that jumps and may hold more than the best value known, until all are narrow. */
+/*
+ * Look into every gap that jumps and may hold more than the best value known, the most promising
+ * first, until none is left but narrow ones.
+ */
 static pendres_status resolve_jumps(search *s)
 {
   for (;;) {
     double omega[MOST_POINTS];
     size_t n = 0;
-    pendres_status status = add_folds(s);
+    int found = 0;
+    pendres_status status = add_fold(s, &found);
     if (status != PENDRES_OK) return status;
-    const double best = best_area(s);
+    if (found) continue;
+    const double best = best_area(s), largest = largest_bound(s, best);
+    if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
       const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
       const double width = frequency_of(b) - frequency_of(a);
-      if (kind_of(a, b) != GAP_JUMP || width <= narrow || bound_of(a, b) <= best) continue;
+      /* Those that promise little may be ruled out by what the others turn up. */
+      if (!open_gap(s, i, best) || bound_of(a, b) < 0.5 * (best + largest)) continue;
       for (int k = 1; k < SECTIONS && n < MOST_POINTS; k++)
         omega[n++] = frequency_of(a) + width * k / SECTIONS;
     }
-    if (n == 0) return PENDRES_OK;
     status = add_points(s, n, omega);
     if (status != PENDRES_OK) return status;
   }
@@ -177,7 +235,7 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
     pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
     const gap_kind kind = kind_of(a, b);
     pendres_resonance one;
-    if (a->at_fold && a->response.mean_loop_area >= best_area(s)) {
+    if (a->at_fold && certain_area(a) >= best_area(s)) {
       status = pendres_resonance_at_fold(s->ctx, a, &one);
       if (status == PENDRES_OK && one.loop_area > out->loop_area) {
         *out = one;
@@ -194,7 +252,7 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
       *again = 1;
       return PENDRES_OK;
     }
-    if (status == PENDRES_OK && one.loop_area > out->loop_area) {
+    if (status == PENDRES_OK && one.loop_area - one.loop_area_error > out->loop_area) {
       *out = one;
       found = 1;
     }

@@ -53,13 +53,12 @@ done:
 static void average_slope(pendres_scan_point *p)
 {
   size_t members = 0;
-  p->slope = p->steepest = 0.0;
+  p->slope = 0.0;
   for (size_t j = 0; j < p->response.states; j++) members += p->response.state_members[j];
   for (size_t j = 0; j < p->response.states; j++) {
     const double slope = p->response.state[j].orbit.loop_area_slope;
     if (!isfinite(slope)) continue;
     p->slope += slope * (double)p->response.state_members[j] / (double)members;
-    p->steepest = fmax(p->steepest, fabs(slope));
   }
 }
 

@@ -10,7 +10,6 @@
 typedef struct pendres_scan_point {
   pendres_response response; /* its states have their slopes by frequency */
   double slope;              /* d(mean loop area)/domega with the members' states held */
-  double steepest;           /* largest |slope| of any state's own area */
   int jump_to_next;          /* there is a jump before the next point, whatever the states say */
   int fold_sought;           /* the gap to the next point was searched for a fold already */
   int at_fold;               /* not 0: the point is at a fold, on the side without the state that

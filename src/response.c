@@ -33,7 +33,7 @@ typedef struct sums {
 
 static void add_state(sums *s, const pendres_orbit *o, double share)
 {
-  if (!isfinite(o->loop_area)) return; /* chaotic: no closed orbit */
+  if (!isfinite(o->loop_area)) return;
   s->area += share * o->loop_area;
   s->area_error += share * o->loop_area_error;
   s->power += share * o->mean_power;
@@ -64,7 +64,12 @@ void pendres_response_average(pendres_response *r)
   sums s = {0};
   size_t resolved = 0;
   double sa = 0.0, la = 0.0, largest = 0.0;
-  for (size_t i = 0; i < r->states; i++) resolved += r->state_members[i];
+  size_t all = r->unresolved;
+  for (size_t i = 0; i < r->states; i++) {
+    all += r->state_members[i];
+    /* A chaotic member has no closed loop: it is left out of the means like an unresolved one. */
+    if (isfinite(r->state[i].orbit.loop_area)) resolved += r->state_members[i];
+  }
   clear_means(r);
   if (resolved == 0) return;
 
@@ -76,8 +81,7 @@ void pendres_response_average(pendres_response *r)
     if (isfinite(r->state[i].orbit.loop_area))
       largest = fmax(largest, fabs(r->state[i].orbit.loop_area));
   }
-  const double members = (double)(resolved + r->unresolved);
-  const double lost = (double)r->unresolved / members;
+  const double members = (double)all, lost = (double)(all - resolved) / members;
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state. */
   r->mean_loop_area_error = s.area_error + lost * largest;
@@ -86,7 +90,7 @@ void pendres_response_average(pendres_response *r)
     s.power_error + lost * largest * r->pendulum.drive_frequency / two_pi;
   r->sa_fraction = sa / members;
   r->la_fraction = la / members;
-  r->sa_fraction_error = r->la_fraction_error = lost;
+  r->sa_fraction_error = r->la_fraction_error = (double)r->unresolved / members;
   if (s.loop_share == 0.0) return;
 
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {

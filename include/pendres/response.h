@@ -7,8 +7,9 @@
  * mean_loop_area is the mean of the members' loop areas (paper, section II);
  * mean_loop_amplitude is the amplitude of the loop averaged over the members, mean_amplitude the
  * mean of the members' own amplitudes; the phase lag is that of the averaged loop. An orbit of
- * several drive periods counts with its mean cycle. Running and chaotic members have no closed
- * loop: they count in the mean area and power (if closed but for whole turns), not in the loop.
+ * several drive periods counts with its mean cycle. Running members close but for whole turns: they
+ * count in the mean area and power, not in the loop. Chaotic and unresolved members count in
+ * none; the error of a mean allows for their share.
  */
 #ifndef PENDRES_RESPONSE_H
 #define PENDRES_RESPONSE_H
