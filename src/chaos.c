@@ -13,7 +13,7 @@ static const double two_pi = 6.28318530717958647693;
 
 enum {
   SUSPECTS = 16,        /* lanes that are looked at first ... */
-  SUSPECT_PERIODS = 64, /* ... for so long */
+  SUSPECT_PERIODS = 128, /* ... for so long */
   WALKERS = 64,         /* that then measure the exponent, after having lost each other */
   WARM_UP = 200,
   PERIODS = 400
@@ -23,6 +23,8 @@ enum {
 static const double significance = 5.0;
 /* Least growth of the logarithm a period: slower is not told from slow settling. */
 static const double least_growth = 0.01;
+/* A suspect's tangent vector must have grown by e to this: transients grow by a few without chaos. */
+static const double suspicious = 2.0;
 /* Walkers start this close to where lanes of the set are. */
 static const double scatter = 1e-3;
 
@@ -158,7 +160,7 @@ static pendres_status find_suspects(pendres_context *ctx, const pendres_catalogu
   const pendres_status status = walk(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
   *count = 0;
   for (size_t i = 0; i < asked && status == PENDRES_OK; i++)
-    if (!a[i].trapped && a[i].sum > least_growth * SUSPECT_PERIODS) suspects[(*count)++] = a[i];
+    if (!a[i].trapped && a[i].sum > suspicious) suspects[(*count)++] = a[i];
   return status;
 }
 

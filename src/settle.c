@@ -33,10 +33,18 @@ static long first_budget(const pendres_pendulum *p)
   return (long)ceil(fmin(20.0 + 10.0 * settling_time(p), 1e7));
 }
 
-static long last_budget(const pendres_context *ctx, const pendres_pendulum *p)
+/* Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. */
+static long last_budget(const pendres_context *ctx, const pendres_catalogue *c)
 {
   if (ctx->options.period_budget > 0) return ctx->options.period_budget;
-  return (long)ceil(fmin(2000.0 + 100.0 * settling_time(p), 1e8));
+  double slowest = 0.0;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_orbit *o = &c->attractors[i].orbit;
+    const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
+    if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
+  }
+  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4);
+  return (long)ceil(fmin(most, 1e8));
 }
 
 /* ---- labelling against catalogues ---- */
@@ -292,7 +300,7 @@ static int raise_budgets(const pendres_context *ctx, size_t sets,
 {
   int longer = 0;
   for (size_t s = 0; s < sets; s++) {
-    const long most = last_budget(ctx, &catalogues[s].pendulum);
+    const long most = last_budget(ctx, &catalogues[s]);
     const long more = (first_budget(&catalogues[s].pendulum) + HISTORY) << round;
     if (budget[s] >= most) continue;
     longer = 1;
@@ -412,7 +420,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     if (explore) starts[i] = lanes[i];
   }
   for (size_t s = 0; s < sets; s++) {
-    budget[s] = last_budget(ctx, &catalogues[s].pendulum);
+    budget[s] = last_budget(ctx, &catalogues[s]);
     const long first = first_budget(&catalogues[s].pendulum);
     if (explore && first < budget[s]) budget[s] = first;
   }

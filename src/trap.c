@@ -33,6 +33,8 @@ static const double widest = 1.6;
 static const double climb_ratio = 2.5;
 /* The radius is found to this factor, by effort. */
 static const double few_ratio = 1.3, many_ratio = 1.04;
+/* A multiplier from here on makes its direction slow. */
+static const double slow_multiplier = 0.8;
 /* A point has come home this far inside an ellipse that is shown already. */
 static const double home_share = 0.9;
 /* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
@@ -40,6 +42,33 @@ static const double home_share = 0.9;
 static const double widest_gap = 1.0;
 /* A ring shown to lie in the basin counts with this share of its radius. */
 static const double margin = 0.95;
+
+/*
+ * Close to a fold one direction is slow, and the metric below would make the ellipse short just
+ * along it. There the distance is measured along the eigenvectors instead, all lengths alike.
+ * Returns 0 where that does not apply: multipliers not real or not slow, or directions too close.
+ */
+static int slow_metric(const double m[2][2], double p[3])
+{
+  const double half = 0.5 * (m[0][0] + m[1][1]);
+  const double root2 = half * half - (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+  if (!(root2 > 0.0) || fabs(half) + sqrt(root2) < slow_multiplier) return 0;
+  double a[2], b[2]; /* unit eigenvectors (a[k], b[k]) */
+  for (int k = 0; k < 2; k++) {
+    const double mu = half + (k == 0 ? sqrt(root2) : -sqrt(root2));
+    const double row[2][2] = {{m[0][1], mu - m[0][0]}, {mu - m[1][1], m[1][0]}};
+    const int r = hypot(row[1][0], row[1][1]) > hypot(row[0][0], row[0][1]);
+    const double length = hypot(row[r][0], row[r][1]);
+    a[k] = row[r][0] / length;
+    b[k] = row[r][1] / length;
+  }
+  const double d = a[0] * b[1] - a[1] * b[0];
+  if (!(fabs(d) > 0.1)) return 0;
+  p[0] = (b[1] * b[1] + b[0] * b[0]) / (d * d);
+  p[1] = -(a[1] * b[1] + a[0] * b[0]) / (d * d);
+  p[2] = (a[1] * a[1] + a[0] * a[0]) / (d * d);
+  return 1;
+}
 
 /*
  * Metric of a contracting 2x2 matrix: P = sum (M')^k M^k, summed by squaring:
@@ -50,6 +79,7 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
   /* From (x, v) to (y, w = v/omega). */
   double m[2][2] = {{monodromy[0][0], monodromy[0][1] * omega},
                     {monodromy[1][0] / omega, monodromy[1][1]}};
+  const double once[2][2] = {{m[0][0], m[0][1]}, {m[1][0], m[1][1]}};
   p[0] = p[2] = 1.0;
   p[1] = 0.0;
   for (int k = 0; k < 60; k++) {
@@ -66,6 +96,7 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
     if (!(p[0] < 1e12 && p[2] < 1e12)) return 0;
     if (fabs(more[0]) + fabs(more[2]) < 1e-14 * (p[0] + p[2])) break;
   }
+  (void)slow_metric(once, p);
   const double mean = 0.5 * (p[0] + p[2]), spread = hypot(0.5 * (p[0] - p[2]), p[1]);
   const double least = mean - spread;
   if (!(least > 0.0)) return 0;
@@ -288,7 +319,7 @@ static void judge(search *s, const point *points, const pendres_orbit *o,
 /* Tolerance of rings: small against their margin, in few classes so that blocks stay full. */
 static double ring_tolerance(double radius)
 {
-  return radius >= 0.01 ? 1e-5 : radius >= 1e-4 ? 1e-8 : 1e-12;
+  return radius >= 0.05 ? 1e-4 : radius >= 1e-3 ? 1e-6 : radius >= 1e-5 ? 1e-8 : 1e-12;
 }
 
 /* Integrate the rings of all searches at once. */

@@ -5,7 +5,8 @@
  * edge, to lie in the orbit's basin (see attractor.h for the argument).
  *
  * Metric: P - M' P M = I with M the derivative of the q-th iterate of the map at the point, so
- * that the linear map contracts in it; scaled so that the unit ellipse's longest semi-axis is 1.
+ * that the linear map contracts in it; or, close to a fold, the distance along M's eigenvectors.
+ * Scaled so that the unit ellipse's longest semi-axis is 1.
  */
 #ifndef PENDRES_TRAP_H
 #define PENDRES_TRAP_H
