@@ -77,12 +77,12 @@ def draw_resonance_curve(h, path):
     fig, ax = plt.subplots(figsize=(7.5, 5.5))
     resonance_axes(ax, h, [0.06, 0.1, 0.15, 0.165, 0.2, 0.24, 0.32, 0.38, 0.5, 0.8, 0.9, 1.0])
     ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$ (rad)",
-           ylabel=r"resonance frequency $\overline{\omega_0}$", ylim=(0.72, 1.02), xlim=(0, 2.2))
-    ax.legend(loc="lower left", fontsize=8, title="numbers: damping", title_fontsize=8)
+           ylabel=r"resonance frequency $\overline{\omega_0}$", ylim=(0.72, 1.06), xlim=(0, 2.2))
+    ax.legend(loc="upper right", fontsize=8, title="numbers: damping", title_fontsize=8)
     beside = path[:-3] + "_inset.h5"
     if os.path.exists(beside):
         with h5py.File(beside, "r") as other:
-            inset = ax.inset_axes([0.56, 0.62, 0.42, 0.36])
+            inset = ax.inset_axes([0.06, 0.07, 0.44, 0.36])
             resonance_axes(inset, Run(other), [0.099, 0.28])
             inset.set(xlim=(0, 1.9), ylim=(0.8, 1.02), title="$F_0 = 0.1$")
             inset.title.set_size(8)
