@@ -183,29 +183,51 @@ static int index_of(const deck_axis *axis, double damping)
   return -1;
 }
 
+/* Vertex of the parabola through three points; 0 if it does not open downwards. */
+static int vertex(const double x[3], const double y[3], double *at)
+{
+  const double left = (y[1] - y[0]) / (x[1] - x[0]), right = (y[2] - y[1]) / (x[2] - x[1]);
+  const double bend = (right - left) / (x[2] - x[0]);
+  if (!(bend < 0.0)) return 0;
+  *at = 0.5 * (x[0] + x[1]) - left / (2.0 * bend);
+  return 1;
+}
+
+/* The vertex through three dampings around a middle one, computed for the purpose. */
+static int vertex_near(scene_run *run, const curve *c, double middle, double spacing, double *at)
+{
+  double x[3], y[3];
+  for (int k = 0; k < 3; k++) {
+    pendres_resonance r;
+    x[k] = middle + (k - 1) * spacing;
+    const pendres_pendulum p = {.damping = x[k],
+                                .drive_amplitude = c->d->pendulum.drive_amplitude};
+    if (pendres_resonance_find_ensemble(farm_context(run->farm), &p, c->d->search[0],
+                                        c->d->search[1], &c->ensemble, &r) != PENDRES_OK)
+      return 0;
+    y[k] = r.frequency;
+  }
+  return vertex(x, y, at);
+}
+
 /*
- * Damping of the largest smooth resonance frequency: the vertex of the parabola through the
- * largest value and its neighbours; off by no more than the axis is coarse.
+ * Damping of the largest resonance frequency on the smooth part of the curve, from three dampings
+ * ever closer together; the last change is a bound on the cubic term that is left.
  */
-static int turning_point(const curve *c, double *damping, double *error)
+static int turning_point(scene_run *run, const curve *c, double *damping, double *error)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
   size_t top = 0;
+  double coarse;
   for (size_t i = 1; i + 1 < axis->count; i++)
     if (c->outcome[i] == PENDRES_OK &&
         (top == 0 || c->points[i].frequency > c->points[top].frequency))
       top = i;
-  if (top == 0 || top + 1 >= axis->count || c->outcome[top - 1] != PENDRES_OK ||
-      c->outcome[top + 1] != PENDRES_OK)
+  if (top == 0 || c->points[top].peak != PENDRES_PEAK_SMOOTH) return 0;
+  if (!vertex_near(run, c, axis->value[top], 4e-3, &coarse) ||
+      !vertex_near(run, c, coarse, 1e-3, damping))
     return 0;
-  const double x0 = axis->value[top - 1], x1 = axis->value[top], x2 = axis->value[top + 1];
-  const double y0 = c->points[top - 1].frequency, y1 = c->points[top].frequency,
-               y2 = c->points[top + 1].frequency;
-  const double left = (y1 - y0) / (x1 - x0), right = (y2 - y1) / (x2 - x1);
-  const double bend = (right - left) / (x2 - x0);
-  if (!(bend < 0.0)) return 0;
-  *damping = 0.5 * (x0 + x1) - left / (2.0 * bend);
-  *error = 0.25 * (x2 - x0); /* the cubic term of the curve, generously */
+  *error = fabs(*damping - coarse) + 1e-7;
   return 1;
 }
 
@@ -232,8 +254,9 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
-    if (turning_point(c, &damping, &error))
-      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top, damping, error};
+    if (turning_point(run, c, &damping, &error))
+      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top, damping,
+                                    error};
     if (break_off(c, &damping, &error))
       values[n++] = (scene_printed){"damping_of_break", printed_turns[k].break_off, damping, error};
   }
@@ -241,7 +264,8 @@ static pendres_status write_paper(scene_run *run, const curve *c)
     const int i = index_of(&c->d->axis[DECK_AXIS_DAMPING], printed_periods[k].damping);
     if (i < 0 || fabs(f0 - 0.2) > 1e-12 || c->outcome[i] != PENDRES_OK) continue;
     const value v = period(&c->points[i]);
-    values[n++] = (scene_printed){printed_periods[k].name, printed_periods[k].period, v.result, v.error};
+    values[n++] =
+      (scene_printed){printed_periods[k].name, printed_periods[k].period, v.result, v.error};
   }
   return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
 }
