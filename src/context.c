@@ -16,7 +16,7 @@ enum { DEFAULT_LANES = 192, MOST_LANES = 4096, MOST_STEPS = 1000000 };
 const char *pendres_method_name(pendres_method method)
 {
   static const char *const names[PENDRES_METHOD_COUNT] = {
-    "block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf"};
+    "block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf", "naive"};
   return (unsigned)method < PENDRES_METHOD_COUNT ? names[method] : NULL;
 }
 

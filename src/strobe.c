@@ -43,22 +43,55 @@ static double share_of_a_period(const pendres_pendulum *p, double tolerance, lon
   return tolerance * fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
+/* More steps (`refinement` times as many) where steps are fixed. */
 static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                           const double *x, const double *v, long periods, double coarsening,
+                           const double *x, const double *v, long periods, double refinement,
                            pendres_strobe_lane *lanes)
 {
   for (size_t i = 0; i < n; i++) {
     pendres_strobe_lane *l = &lanes[i];
-    *l = (pendres_strobe_lane){
-      .pendulum = &p[i], .y = x[i] - half_pi, .w = v[i] / p[i].drive_frequency};
+    *l = (pendres_strobe_lane){.pendulum = &p[i], .y = x[i], .w = v[i] / p[i].drive_frequency};
+    /* Whole turns first: of a large x the digits would be lost in the difference. */
     pendres_strobe_wrap(&l->y, &l->turns);
+    l->y -= half_pi;
+    pendres_strobe_wrap(&l->y, &l->turns);
+    if (ctx->options.method != PENDRES_BLOCK_FIXED) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], fabs(v[i]),
                            share_of_a_period(&p[i], ctx->options.tolerance, periods), &l->steps);
     if (status != PENDRES_OK) return status;
-    if (coarsening != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * coarsening));
+    if (refinement != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * refinement));
   }
   return PENDRES_OK;
+}
+
+/* The block of adaptive steps has the tolerance it was made with. */
+static void forget_adaptive_block(pendres_context *ctx)
+{
+  pendres_flow **flow = &ctx->flows[PENDRES_FLOW_ADAPTIVE];
+  if (*flow != NULL) ctx->cost.rhs_evaluations += pendres_flow_evaluations(*flow);
+  pendres_flow_free(*flow);
+  *flow = NULL;
+}
+
+/* The same pendulums once more, by a better method: more steps, or a tenth of the tolerance. */
+static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                const double *x, const double *v, long periods,
+                                pendres_strobe_lane *finer)
+{
+  const double tolerance = ctx->options.tolerance;
+  pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
+  if (status != PENDRES_OK) return status;
+  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
+    ctx->options.tolerance = 0.1 * tolerance;
+    forget_adaptive_block(ctx);
+  }
+  status = pendres_strobe_run(ctx, n, finer, after_all_periods, &periods);
+  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
+    ctx->options.tolerance = tolerance;
+    forget_adaptive_block(ctx);
+  }
+  return status;
 }
 
 /* |a - b| of two final states, in x and v. */
@@ -94,9 +127,7 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
     if (finer == NULL) goto no_memory;
     /* More steps rather than fewer: below the tolerance both runs are in the regime where the
        order holds, and the difference is the error of the first run itself. */
-    status = load(ctx, n, pendulums, x, v, periods, 1.4, finer);
-    if (status == PENDRES_OK)
-      status = pendres_strobe_run(ctx, n, finer, after_all_periods, &periods);
+    status = run_finer(ctx, n, pendulums, x, v, periods, finer);
     if (status != PENDRES_OK) goto done;
   }
   for (size_t i = 0; i < n; i++) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "flow_naive.h"
 #include "flow_single.h"
 
 void pendres_strobe_wrap(double *y, long *turns)
@@ -144,5 +145,7 @@ pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe
   if (n == 0) return PENDRES_OK;
   if (ctx->options.method == PENDRES_BLOCK_FIXED || ctx->options.method == PENDRES_BLOCK_ADAPTIVE)
     return run_blocks(ctx, n, lanes, visit, arg);
+  if (ctx->options.method == PENDRES_NAIVE)
+    return pendres_flow_naive_run(ctx, n, lanes, visit, arg);
   return pendres_flow_single_run(ctx, n, lanes, visit, arg);
 }

@@ -22,13 +22,19 @@ extern "C" {
 
 typedef struct pendres_context pendres_context;
 
-/** How pendulums are advanced. The first is the default and by far the fastest. */
+/**
+ * How pendulums are advanced. The first is the default and by far the fastest, and the only one
+ * whose steps are chosen such that results meet the tolerance; with the others it is the tolerance
+ * of each step.
+ */
 typedef enum pendres_method {
   PENDRES_BLOCK_FIXED = 0, /**< blocks on ARKODE, fixed steps, reset every period */
   PENDRES_BLOCK_ADAPTIVE,  /**< blocks on ARKODE, adaptive steps */
   PENDRES_SINGLE,          /**< one adaptive ARKODE problem a pendulum */
   PENDRES_CVODE_ADAMS,     /**< one CVODE Adams problem a pendulum */
   PENDRES_CVODE_BDF,       /**< one CVODE BDF problem a pendulum, Newton with the exact Jacobian */
+  PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, all but the tolerance as it comes: what
+                                the others are measured against */
   PENDRES_METHOD_COUNT
 } pendres_method;
 
