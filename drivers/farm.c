@@ -41,9 +41,9 @@ static int farm_stop(const farm *f)
   return f->options.stop != NULL && f->options.stop(f->options.stop_arg);
 }
 
-static int farm_stop_outside(void *arg)
+int farm_stopped(void *f)
 {
-  return farm_stop(arg);
+  return farm_stop(f);
 }
 
 /* Stop at a signal, and where an earlier task has failed already. */
@@ -153,7 +153,7 @@ static void work(crew *c, int thread)
     }
     finish(c, w.task, status, pendres_context_message(ctx));
   }
-  if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stop_outside, c->farm);
+  if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
 }
 
 pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,
@@ -191,7 +191,7 @@ pendres_context *farm_context(farm *f)
 {
   pendres_context *ctx = NULL;
   if (context_of(f, 0, &ctx) == PENDRES_OK)
-    pendres_context_set_interrupt(ctx, farm_stop_outside, f);
+    pendres_context_set_interrupt(ctx, farm_stopped, f);
   return ctx;
 }
 

@@ -53,6 +53,10 @@ pendres_context *farm_context(farm *f);
 
 int farm_threads(const farm *f);
 
+/* Is the run to stop? For what a task does without its context: `farm` is a farm; the signature is
+   that of pendres_langevin_set_interrupt. */
+int farm_stopped(void *farm);
+
 /* What all contexts have spent so far. */
 void farm_cost(const farm *f, pendres_cost *cost);
 

@@ -95,7 +95,7 @@ typedef enum pendres_langevin_answer {
 typedef struct pendres_langevin_observer {
   pendres_langevin_answer (*see)(void *arg, const pendres_langevin_strobe *strobe);
   void *arg;     /**< kept by nobody */
-  int harmonics; /**< nonzero: cosine, sine and work are wanted, for about 5 % more time */
+  int harmonics; /**< nonzero: cosine, sine and work are wanted, for 20 to 30 % more time */
 } pendres_langevin_observer;
 
 /**

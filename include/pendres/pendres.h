@@ -14,5 +14,7 @@
 #include <pendres/free.h>
 #include <pendres/response.h>
 #include <pendres/resonance.h>
+#include <pendres/langevin.h>
+#include <pendres/switching.h>
 
 #endif
