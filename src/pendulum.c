@@ -43,7 +43,8 @@ double pendres_pendulum_energy(double x, double v)
 long pendres_pendulum_well(double x)
 {
   /* The well's upper end belongs to it: the paper's ensemble is half open
-     at the lower end. */
+     at the lower end. Positions beyond all reason have no well that a long can number. */
+  if (!(fabs(x) < 1e15)) return 0;
   return (long)ceil((x - 3.0 * half_pi) / two_pi);
 }
 
@@ -64,7 +65,6 @@ pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harm
   /* Undamped at resonance the response is infinite: say so with inf, not a trap. */
   out->amplitude = fabs(p->drive_amplitude) / response;
   out->phase_lag = atan2(friction, stiffness);
-  if (p->drive_amplitude < 0.0) out->phase_lag = two_pi / 2.0 - out->phase_lag;
   out->loop_area = two_pi / 2.0 * p->drive_amplitude * p->drive_amplitude * (friction / response) / response;
   return PENDRES_OK;
 }
@@ -74,7 +74,8 @@ double pendres_free_frequency(double amplitude)
   if (!(amplitude >= 0.0 && amplitude < two_pi / 2.0)) return NAN;
   /* K by the arithmetic-geometric mean form of GSL's Carlson integral
      R_F(0, cos^2(a/2), 1): unlike K(sin(a/2)) it keeps its digits up to pi. */
-  const double c = sin((two_pi / 2.0 - amplitude) / 2.0);
+  /* pi minus amplitude, with the digits of pi that a double cuts off. */
+  const double c = sin(((two_pi / 2.0 - amplitude) + 1.2246467991473532e-16) / 2.0);
   gsl_sf_result k;
   if (gsl_sf_ellint_RF_e(0.0, c * c, 1.0, GSL_PREC_DOUBLE, &k) != GSL_SUCCESS) return NAN;
   return half_pi / k.val;

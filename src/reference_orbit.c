@@ -179,7 +179,10 @@ static void fill_measures(const pendres_reference_walk *walk, pendres_reference_
   out->energy_residual = fabsl(out->loop_area - out->dissipation);
   out->amplitude = 0.5L * (walk->highest - walk->lowest);
   out->first_harmonic_amplitude = hypotl(a, b);
-  out->phase_lag = out->first_harmonic_amplitude > 0.0L ? atan2l(fabsl(b), a) : (long double)NAN;
+  /* Behind the force: with a drive of negative sign, of minus the angle. */
+  const long double sign = out->drive_amplitude < 0.0L ? -1.0L : 1.0L;
+  out->phase_lag =
+    out->first_harmonic_amplitude > 0.0L ? atan2l(sign * b, sign * a) : (long double)NAN;
   out->mean_power = out->loop_area * omega / (2.0L * pi);
 }
 

@@ -59,12 +59,27 @@ static double frequency_of(const pendres_scan_point *p)
   return p->response.pendulum.drive_frequency;
 }
 
+/*
+ * Whether an orbit goes on from one frequency to the next: its Poincaré point moves as the
+ * slopes at both ends say. On a branch that bends sharply it does not, and the gap is looked into.
+ */
+static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
+{
+  const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
+  const double dx = 0.5 * step * (a->frequency_derivative[0] + b->frequency_derivative[0]);
+  const double dv = 0.5 * step * (a->frequency_derivative[1] + b->frequency_derivative[1]);
+  const double off = hypot(b->x - a->x - dx, b->v - a->v - dv);
+  return a->period == b->period && a->winding == b->winding && off <= 0.05 + 0.25 * hypot(dx, dv);
+}
+
 /* The members are on the same states at both points: nothing jumped in between. */
 static int same_states(const pendres_response *a, const pendres_response *b)
 {
   if (a->states != b->states || a->unresolved != b->unresolved) return 0;
   for (size_t i = 0; i < a->states; i++)
-    if (a->state_members[i] != b->state_members[i]) return 0;
+    if (a->state_members[i] != b->state_members[i] ||
+        !goes_on(&a->state[i].orbit, &b->state[i].orbit))
+      return 0;
   return 1;
 }
 
@@ -244,7 +259,7 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
     }
     if (status != PENDRES_OK || kind == GAP_PLAIN || bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
     status = kind == GAP_PEAK
-               ? pendres_resonance_refine_peak(s->ctx, a, b, &one)
+               ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
                : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
     if (status == PENDRES_NOT_FOUND) {
       /* The slope changes its sign without a zero: there is a jump in between after all. */

@@ -175,7 +175,30 @@ static void finish(pendres_resonance *r, const pendres_scan_point *at)
   r->loop_area_error = at->response.mean_loop_area_error;
 }
 
-pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_scan_point *a,
+/*
+ * Whether the ensemble at the peak is on the states that were followed there, with the same
+ * members; *at takes over the labels.
+ */
+static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ensemble,
+                              pendres_scan_point *at, int *same)
+{
+  pendres_response there;
+  pendres_response *r = &at->response;
+  const pendres_status status = pendres_response_compute(ctx, 1, &r->pendulum, ensemble, &there);
+  if (status != PENDRES_OK) return status;
+  *same = there.states == r->states && there.unresolved == r->unresolved;
+  for (size_t i = 0; *same && i < r->states; i++) {
+    const pendres_orbit *o = &there.state[i].orbit;
+    *same = there.state_members[i] == r->state_members[i] &&
+            hypot(o->x - r->state[i].orbit.x, o->v - r->state[i].orbit.v) < 1e-5;
+    r->state[i].label = there.state[i].label;
+  }
+  pendres_response_average(r);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out)
 {
   enum { MOST_STEPS = 60 };
@@ -213,6 +236,10 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   if (!(curvature < 0.0) ||
       fabs(at.slope) > 1e-3 * fmin(a->slope, -b->slope) + slope_error(&at))
     return PENDRES_NOT_FOUND;
+  int same = 0;
+  status = confirm(ctx, ensemble, &at, &same);
+  if (status != PENDRES_OK) return status;
+  if (!same) return PENDRES_NOT_FOUND;
   *out = (pendres_resonance){.peak = PENDRES_PEAK_SMOOTH,
                              .fold_frequency = NAN,
                              .fold_frequency_error = NAN};

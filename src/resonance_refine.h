@@ -22,8 +22,12 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulu
                                      const pendres_ensemble *ensemble, size_t n,
                                      const double *omega, pendres_scan_point *out);
 
-/* The zero of the slope between a (rising) and b (falling). PENDRES_NOT_FOUND: there is none. */
-pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_scan_point *a,
+/*
+ * The zero of the slope between a (rising) and b (falling), with the ensemble on the same states
+ * there. PENDRES_NOT_FOUND: there is none, so there is a jump.
+ */
+pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out);
 
 /*

@@ -53,7 +53,8 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v,
 /** Energy v^2/2 - sin x; the barrier top has energy 1, a well's bottom -1. */
 double pendres_pendulum_energy(double x, double v);
 
-/** Number of the well that x lies in: n for -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n. */
+/** Number of the well that x lies in: n for -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and
+    beyond 1e15. */
 long pendres_pendulum_well(double x);
 
 /**
@@ -65,7 +66,8 @@ void pendres_pendulum_mirror(double *x, double *v);
 /** Closed form of the driven harmonic oscillator y'' + gamma y' + y = F0 cos(omega t). */
 typedef struct pendres_harmonic {
   double amplitude; /**< of y */
-  double phase_lag; /**< y = amplitude cos(omega t - phase_lag), 0 <= phase_lag <= pi */
+  double phase_lag; /**< behind the force, 0 <= phase_lag <= pi: y has the sign of F0 times
+                         amplitude cos(omega t - phase_lag) */
   double loop_area; /**< pi F0 amplitude sin(phase_lag), a drive cycle */
 } pendres_harmonic;
 

@@ -75,7 +75,7 @@ typedef struct pendres_reference_cycle {
   long double dissipation;        /**< damping times the integral of v^2 dt; equals loop_area */
   long double amplitude;          /**< half peak to peak of the angle */
   long double first_harmonic_amplitude; /**< of cos(theta - phase_lag) in the angle */
-  long double phase_lag;          /**< 0 to pi; NaN without a first harmonic */
+  long double phase_lag;          /**< behind the force, 0 to pi; NaN without a first harmonic */
   long double mean_power;         /**< loop_area drive_frequency / (2 pi) */
   long double loop_area_slope;    /**< d loop_area / d drive_frequency along the branch */
   long double state_slope[2];     /**< d(y, v) / d drive_frequency along the branch */
