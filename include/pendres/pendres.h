@@ -14,7 +14,12 @@
 #include <pendres/free.h>
 #include <pendres/response.h>
 #include <pendres/resonance.h>
+#include <pendres/continuation.h>
+#include <pendres/phase_diagram.h>
+#include <pendres/boundary.h>
 #include <pendres/langevin.h>
 #include <pendres/switching.h>
+#include <pendres/reference.h>
+#include <pendres/store.h>
 
 #endif
