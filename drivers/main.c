@@ -8,6 +8,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "options.h"
@@ -31,6 +32,25 @@ typedef struct job {
   size_t table_size;
 } job;
 
+/* --output takes the place of the deck's, but never that of the deck itself. */
+static int override_output(job *j)
+{
+  struct stat deck_file, output;
+  const char *name = j->options.output;
+  if (name == NULL) return DONE;
+  if (strlen(name) >= sizeof j->deck.output) {
+    progress_error(&j->progress, "the name of the output is too long");
+    return BAD_USAGE;
+  }
+  if (stat(j->deck.name, &deck_file) == 0 && stat(name, &output) == 0 &&
+      deck_file.st_dev == output.st_dev && deck_file.st_ino == output.st_ino) {
+    progress_error(&j->progress, "--output would overwrite the deck %s", name);
+    return BAD_USAGE;
+  }
+  strcpy(j->deck.output, name);
+  return DONE;
+}
+
 static int read_deck(job *j)
 {
   namelist_errors errors = { 0 };
@@ -43,13 +63,7 @@ static int read_deck(job *j)
     return FAILED;
   }
   if (status != PENDRES_OK) return BAD_USAGE;
-  if (j->options.output != NULL) {
-    if (strlen(j->options.output) >= sizeof j->deck.output) {
-      progress_error(&j->progress, "the name of the output is too long");
-      return BAD_USAGE;
-    }
-    strcpy(j->deck.output, j->options.output);
-  }
+  if (override_output(j) != DONE) return BAD_USAGE;
   if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) {
     progress_error(&j->progress, "%s: &precision: %s", j->deck.name, why);
     return BAD_USAGE;

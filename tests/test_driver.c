@@ -109,8 +109,8 @@ static int run_list(const char *const *arguments)
 static void check_code_at(int got, int wanted, const char *file, int line)
 {
   if (got == wanted) return;
-  print_error("%s:%d: exit code %d, wanted %d\nstdout: %s\nstderr: %s\n", file, line, got, wanted, out,
-              err);
+  print_error("%s:%d: exit code %d, wanted %d\nstdout: %s\nstderr: %s\n", file, line, got, wanted,
+              out, err);
   fail();
 }
 
@@ -124,9 +124,10 @@ static void check_says_at(const char *text, const char *words, const char *file,
 
 static const char small_deck[] = "&scene kind = 'free_oscillation' /\n"
                                  "&sweep amplitude_range = 0.1, 3.0, 500 /\n";
-static const char orbit_deck[] = "&scene kind = 'orbit' /\n"
-                                 "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
-                                 "&orbit start = 'la' /\n";
+static const char orbit_deck[] =
+  "&scene kind = 'orbit' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+  "&orbit start = 'la' /\n";
 /* Minutes of work, the results of which nobody waits for. */
 static const char long_deck[] =
   "&scene kind = 'orbit' /\n"
@@ -180,6 +181,8 @@ static void test_usage(void **state)
   }
   check_code(RUN("--output", "", "small.nml"), 2);
   check_code(RUN("--output", "small.nml/", "small.nml"), 1);
+  check_code(RUN("--output", "./small.nml", "small.nml"), 2);
+  check_says(err, "overwrite");
   assert_int_equal(count_names(".h5"), 0);
 }
 
@@ -194,7 +197,8 @@ static void test_bad_decks(void **state)
       "&orbit start='sa' /", "bad.nml:3:12: error:" },
     { "&scene kind = 'orbit' /\n&pendulum drive_amplitude = 0.2\n damping = 0.1, drive_period=0/\n"
       "&orbit start='sa' /", "must be positive" },
-    { "&scene kind = 'free_oscillation' /\n&sweep amplitude_range = 0.1, 3, 99999999999 /\n", "count" },
+    { "&scene kind = 'free_oscillation' /\n&sweep amplitude_range = 0.1, 3, 99999999999 /\n",
+      "count" },
     { "&scene kind = 'free_oscillation' /\n&sweep amplitude = 1 /\n&precision tolerance=1e-14 /",
       "beyond double precision" },
   };

@@ -20,6 +20,8 @@ typedef struct scene {
   size_t refused;              /* by the collector */
   atomic_int stop;             /* set by task number stop_at */
   size_t stop_at;
+  int deaf;                    /* tasks never look whether to go on */
+  size_t endless;              /* a task that would take hours */
   double result[TASKS];
 } scene;
 
@@ -27,7 +29,7 @@ static scene *new_scene(void)
 {
   scene *s = calloc(1, sizeof *s);
   assert_non_null(s);
-  s->failing = s->failing_too = s->refused = s->stop_at = TASKS;
+  s->failing = s->failing_too = s->refused = s->stop_at = s->endless = TASKS;
   return s;
 }
 
@@ -39,6 +41,8 @@ static pendres_status task(void *arg, size_t i, pendres_context *ctx)
   double x = 1.0, v = 0.0;
   atomic_fetch_add(&s->runs[i], 1);
   if (i == s->stop_at) atomic_store(&s->stop, 1);
+  if (s->deaf) return PENDRES_OK;
+  if (i == s->endless) return pendres_strobe_advance(ctx, 1, &p, &x, &v, 1000000000L, NULL);
   if (i == s->failing || i == s->failing_too) {
     double two[2] = { 0.0, (double)i };
     const pendres_pendulum pair[2] = { p, bad };
@@ -130,6 +134,22 @@ static void test_failure(void **state)
   }
 }
 
+/* A failure ends later tasks that are under way; without that this test would take hours. */
+static void test_failure_ends_others(void **state)
+{
+  scene *s = new_scene();
+  farm *f = new_farm(2, s);
+  (void)state;
+  s->failing = 3;
+  s->failing_too = 5; /* makes task 3 wait a little */
+  s->endless = 4;
+  assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(farm_message(f), "pendulum 1"));
+  check_collected(s, 3);
+  farm_free(f);
+  free(s);
+}
+
 static void test_collector_refuses(void **state)
 {
   (void)state;
@@ -148,10 +168,11 @@ static void test_collector_refuses(void **state)
 static void test_stop(void **state)
 {
   (void)state;
-  for (int threads = 1; threads <= 3; threads++) {
+  for (int threads = 1; threads <= 6; threads++) {
     scene *s = new_scene();
     farm *f = new_farm(threads, s);
     s->stop_at = 50;
+    s->deaf = threads > 3;
     assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INTERRUPTED);
     assert_true(s->count <= 50 + (size_t)threads);
     check_collected(s, s->count);
@@ -187,6 +208,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_all),
     cmocka_unit_test(test_failure),
+    cmocka_unit_test(test_failure_ends_others),
     cmocka_unit_test(test_collector_refuses),
     cmocka_unit_test(test_stop),
     cmocka_unit_test(test_context),

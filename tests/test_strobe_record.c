@@ -90,7 +90,8 @@ static void test_densities(void **state)
   for (size_t i = 0; i < COUNT(samples); i++) {
     const size_t n = (size_t)(PERIODS * samples[i]);
     double *x = memory, *v = x + MOST, *x_error = v + MOST, *v_error = x_error + MOST;
-    check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, samples[i], x, v, x_error, v_error));
+    check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, samples[i], x, v, x_error,
+                                   v_error));
     check_near(x[0], -1.0, 0.0);
     check_near(v[0], 0.4, 0.0);
     /* Within ten times what each of the two claims. */
