@@ -209,6 +209,7 @@ void farm_cost(const farm *f, pendres_cost *cost)
     pendres_context_cost(f->context[i], &one);
     cost->pendulum_periods += one.pendulum_periods;
     cost->rhs_evaluations += one.rhs_evaluations;
+    cost->steps += one.steps;
     cost->newton_steps += one.newton_steps;
     cost->settled_pendulums += one.settled_pendulums;
   }

@@ -105,15 +105,19 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
 {
   *cost = ctx->cost;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
-    if (ctx->flows[i] != NULL) cost->rhs_evaluations += pendres_flow_evaluations(ctx->flows[i]);
+    if (ctx->flows[i] != NULL) {
+      cost->rhs_evaluations += pendres_flow_evaluations(ctx->flows[i]);
+      cost->steps += pendres_flow_steps(ctx->flows[i]);
+    }
 }
 
 void pendres_context_cost_reset(pendres_context *ctx)
 {
   pendres_cost now;
   ctx->cost.rhs_evaluations = 0.0;
+  ctx->cost.steps = 0.0;
   pendres_context_cost(ctx, &now);
-  ctx->cost = (pendres_cost){.rhs_evaluations = -now.rhs_evaluations};
+  ctx->cost = (pendres_cost){.rhs_evaluations = -now.rhs_evaluations, .steps = -now.steps};
 }
 
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg)

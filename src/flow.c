@@ -30,7 +30,7 @@ struct pendres_flow {
   pendres_rhs_kernel *rhs;
   drive_memo memo;
   void *arkode;
-  double evaluations;
+  double evaluations, steps_taken;
   size_t lanes; /* in use */
   int failure;
 };
@@ -62,9 +62,10 @@ static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *
  */
 static int after_step(sunrealtype theta, N_Vector y, void *arg)
 {
+  pendres_flow *flow = arg;
   (void)theta;
   (void)y;
-  (void)arg;
+  flow->steps_taken += (double)flow->lanes;
   return 0;
 }
 
@@ -311,6 +312,11 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
 double pendres_flow_evaluations(const pendres_flow *flow)
 {
   return flow->evaluations;
+}
+
+double pendres_flow_steps(const pendres_flow *flow)
+{
+  return flow->steps_taken;
 }
 
 int pendres_flow_failure(const pendres_flow *flow)

@@ -78,6 +78,8 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
 
 /* Right-hand sides evaluated so far, counting each lane in use. */
 double pendres_flow_evaluations(const pendres_flow *flow);
+/* Steps taken so far, likewise; those that an adaptive block rejected do not count. */
+double pendres_flow_steps(const pendres_flow *flow);
 
 /* ARKODE's words on the last failure, its return code. */
 int pendres_flow_failure(const pendres_flow *flow);

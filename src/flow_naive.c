@@ -94,7 +94,11 @@ static pendres_status run_one(pendres_context *ctx, size_t index, pendres_strobe
     finished = visit(arg, index, lane);
   }
 done:
-  if (arkode != NULL) ERKStepFree(&arkode);
+  if (arkode != NULL) {
+    long steps = 0;
+    if (ERKStepGetNumSteps(arkode, &steps) == 0) ctx->cost.steps += (double)steps;
+    ERKStepFree(&arkode);
+  }
   if (state != NULL) N_VDestroy(state);
   return status;
 }

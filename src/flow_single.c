@@ -165,6 +165,15 @@ static pendres_status advance(problem *b, long period)
   return PENDRES_OK;
 }
 
+static void count_steps(problem *b)
+{
+  long steps = 0;
+  const int bad = b->arkode != NULL  ? ERKStepGetNumSteps(b->arkode, &steps)
+                  : b->cvode != NULL ? CVodeGetNumSteps(b->cvode, &steps)
+                                     : -1;
+  if (bad == 0) b->ctx->cost.steps += (double)steps;
+}
+
 static pendres_status run_one(problem *b, size_t index, pendres_strobe_lane *lane,
                               pendres_strobe_visit *visit, void *arg)
 {
@@ -191,6 +200,7 @@ pendres_status pendres_flow_single_run(pendres_context *ctx, size_t n, pendres_s
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     problem b = {.ctx = ctx};
     status = run_one(&b, i, &lanes[i], visit, arg);
+    count_steps(&b);
     close_problem(&b);
   }
   return status;

@@ -176,6 +176,7 @@ static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
   pendres_context_cost(tight, &cost);
   ctx->cost.pendulum_periods += cost.pendulum_periods;
   ctx->cost.rhs_evaluations += cost.rhs_evaluations;
+  ctx->cost.steps += cost.steps;
   ctx->cost.newton_steps += cost.newton_steps;
   pendres_context_free(tight);
   return status;

@@ -69,7 +69,10 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
 static void forget_adaptive_block(pendres_context *ctx)
 {
   pendres_flow **flow = &ctx->flows[PENDRES_FLOW_ADAPTIVE];
-  if (*flow != NULL) ctx->cost.rhs_evaluations += pendres_flow_evaluations(*flow);
+  if (*flow != NULL) {
+    ctx->cost.rhs_evaluations += pendres_flow_evaluations(*flow);
+    ctx->cost.steps += pendres_flow_steps(*flow);
+  }
   pendres_flow_free(*flow);
   *flow = NULL;
 }

@@ -74,6 +74,7 @@ typedef struct pendres_options {
 typedef struct pendres_cost {
   double pendulum_periods;  /**< drive periods, summed over lanes in use */
   double rhs_evaluations;   /**< right-hand sides, one a lane, stage and step */
+  double steps;             /**< steps of the integrators, summed over lanes, without rejected ones */
   double newton_steps;      /**< Newton iterations on the stroboscopic map */
   double settled_pendulums; /**< pendulums that were asked what they settle on */
 } pendres_cost;
