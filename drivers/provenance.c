@@ -111,6 +111,8 @@ static pendres_status write_cost(const provenance *p, const farm *f, size_t fail
       .long_name = "drive periods, summed over pendulums" },
     { .key = "rhs_evaluations", .number = cost.rhs_evaluations,
       .long_name = "right-hand sides, one a pendulum, stage and step" },
+    { .key = "integrator_steps", .number = cost.steps,
+      .long_name = "steps of the integrators, summed over pendulums" },
     { .key = "newton_steps", .number = cost.newton_steps,
       .long_name = "Newton iterations on the stroboscopic map" },
     { .key = "settled_pendulums", .number = cost.settled_pendulums,

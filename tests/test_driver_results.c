@@ -1,0 +1,193 @@
+/*
+ * test_driver_results.c -- what the program writes: the same bytes for any number of threads, and
+ * orbits against the long double reference.
+ */
+#include "driver_run.h"
+
+#include <hdf5.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+#include <pendres/store.h>
+
+typedef struct comparison {
+  hid_t other;
+  int datasets;
+} comparison;
+
+/* The bytes of a dataset of numbers; to be freed. */
+static void *bytes_of(hid_t file, const char *name, size_t *size)
+{
+  const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+  assert_true(set >= 0);
+  const hid_t type = H5Dget_type(set), space = H5Dget_space(set);
+  *size = H5Tget_size(type) * (size_t)H5Sget_simple_extent_npoints(space);
+  void *bytes = H5Tis_variable_str(type) > 0 || *size == 0 ? NULL : malloc(*size);
+  if (bytes != NULL) assert_true(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0);
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Dclose(set);
+  return bytes;
+}
+
+static herr_t compare(hid_t file, const char *name, const H5O_info_t *info, void *arg)
+{
+  comparison *c = arg;
+  size_t size = 0, other_size = 0;
+  if (info->type != H5O_TYPE_DATASET || strncmp(name, "provenance", 10) == 0) return 0;
+  void *bytes = bytes_of(file, name, &size), *other = bytes_of(c->other, name, &other_size);
+  assert_int_equal(size, other_size);
+  if (bytes != NULL) assert_memory_equal(bytes, other, size);
+  free(bytes);
+  free(other);
+  c->datasets++;
+  return 0;
+}
+
+/* All datasets outside of the provenance hold the same bytes. */
+static void check_same_results(const char *a, const char *b)
+{
+  const hid_t file = H5Fopen(a, H5F_ACC_RDONLY, H5P_DEFAULT);
+  comparison c = { .other = H5Fopen(b, H5F_ACC_RDONLY, H5P_DEFAULT) };
+  assert_true(file >= 0 && c.other >= 0);
+#if H5_VERSION_GE(1, 12, 0)
+  assert_true(H5Ovisit1(file, H5_INDEX_NAME, H5_ITER_INC, (H5O_iterate1_t)compare, &c) >= 0);
+#else
+  assert_true(H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, compare, &c) >= 0);
+#endif
+  assert_true(c.datasets > 3);
+  H5Fclose(file);
+  H5Fclose(c.other);
+}
+
+static void test_run(void **state)
+{
+  static const char *const decks[] = { "small.nml", "orbit.nml" };
+  char table[TEXT_ROOM];
+  (void)state;
+  for (size_t i = 0; i < 2; i++) {
+    check_code(RUN("--quiet", "--threads=1", "-o", "one.h5", decks[i]), DONE);
+    assert_string_equal(err, "");
+    assert_true(strlen(out) > 100);
+    strcpy(table, out);
+    check_code(RUN("-t", "2", "-o", "two.h5", "--log", "log.txt", decks[i]), DONE);
+    check_says(err, "two.h5 written");
+    assert_string_equal(out, table);
+    check_same_results("one.h5", "two.h5");
+    check_code(RUN("-q", decks[i]), DONE);
+  }
+  assert_true(exists("small.h5") && exists("orbit.h5"));
+  assert_int_equal(count_names(".part"), 0);
+  read_text("log.txt", table, sizeof table);
+  check_says(table, "two.h5 written");
+}
+
+static void read_all(const char *path, const char *name, double *values, size_t n)
+{
+  pendres_store *store = NULL;
+  check_ok(pendres_store_open(path, &store));
+  check_ok(pendres_store_read(store, NULL, name, PENDRES_STORE_DOUBLE, values, n));
+  pendres_store_free(store);
+}
+
+static double read_one(const char *path, const char *name)
+{
+  double value = 0.0;
+  read_all(path, name, &value, 1);
+  return value;
+}
+
+/* The orbit scene against the long double reference, within ten times the errors claimed. */
+static void test_orbit(void **state)
+{
+  enum { N = 4 * 256 };
+  const pendres_pendulum p = { 0.12, 0.2, 6.28318530717958647693 / 8, 0.0 };
+  const double half_pi = 1.57079632679489661923;
+  pendres_reference_cycle cycle;
+  double x[N], v[N], x_error[N], v_error[N];
+  (void)state;
+  check_code(RUN("-q", "orbit.nml"), DONE);
+  read_all("orbit.h5", "x", x, N);
+  read_all("orbit.h5", "v", v, N);
+  read_all("orbit.h5", "x_error", x_error, N);
+  read_all("orbit.h5", "v_error", v_error, N);
+  check_ok(pendres_reference_orbit(&p, x[0] - half_pi, v[0], 1, 0, &cycle));
+  for (int k = 0; k < N; k += 256) {
+    check_near(x[k], (double)cycle.y + half_pi, 10.0 * x_error[k]);
+    check_near(v[k], (double)cycle.v, 10.0 * v_error[k]);
+    assert_true(x_error[k] < 1e-8 && v_error[k] < 1e-8); /* the default tolerance */
+  }
+  /* Half a period later the orbit is its own mirror image. */
+  for (int k = 0; k < 128; k++) {
+    check_near(x[k] - half_pi, -(x[k + 128] - half_pi), 10.0 * x_error[k]);
+    check_near(v[k], -v[k + 128], 10.0 * v_error[k]);
+  }
+  const struct { const char *name; double want; } scalars[] = {
+    { "loop_area", (double)cycle.loop_area }, { "dissipation", (double)cycle.dissipation },
+    { "amplitude", (double)cycle.amplitude }, { "phase_lag", (double)cycle.phase_lag },
+    { "mean_power", (double)cycle.mean_power }, { "period", 1 }, { "winding", 0 }, { "well", 0 },
+    { "first_harmonic_amplitude", (double)cycle.first_harmonic_amplitude },
+  };
+  for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
+    char name[64];
+    snprintf(name, sizeof name, "%s_error", scalars[i].name);
+    check_near(read_one("orbit.h5", scalars[i].name), scalars[i].want,
+               10.0 * read_one("orbit.h5", name));
+  }
+}
+
+/* A start in the next well: the record begins there, and the orbit is the same one beside. */
+static void test_transient(void **state)
+{
+  enum { N = 20 * 8 };
+  double x[N], v[N];
+  (void)state;
+  write_text("start.nml", "&scene kind = 'orbit' /\n"
+                          "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+                          "&orbit x = 7.5, v = 0.1, transient = T, periods = 20, samples = 8 /\n");
+  check_code(RUN("-q", "start.nml"), DONE);
+  read_all("start.h5", "x", x, N);
+  read_all("start.h5", "v", v, N);
+  check_near(x[0], 7.5, 0.0);
+  check_near(v[0], 0.1, 0.0);
+  check_near(read_one("start.h5", "well"), 1.0, 0.0);
+  check_near(read_one("start.h5", "label"), PENDRES_LABEL_SA, 0.0);
+  assert_true(read_one("start.h5", "settling_periods") >= 0.0);
+}
+
+/* The decks of the repository that take no time. */
+static void test_input(void **state)
+{
+  static const char *const names[] = { "f01", "f05", "f06" };
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    char deck[PATH_ROOM + 20], result[20];
+    snprintf(deck, sizeof deck, "%s/input/%s.nml", top, names[i]);
+    snprintf(result, sizeof result, "%s.h5", names[i]);
+    check_code(RUN("-q", deck), DONE);
+    assert_true(exists(result));
+  }
+}
+
+/* A point without a result: the file is there, and says so. */
+static void test_failed_points(void **state)
+{
+  (void)state;
+  write_text("free.nml", "&scene kind = 'orbit' /\n"
+                         "&pendulum drive_amplitude = 0, damping = 0, drive_frequency = 1 /\n"
+                         "&orbit x = 1 /\n");
+  check_code(RUN("free.nml"), 3);
+  check_says(err, "1 point");
+  assert_true(isnan(read_one("free.h5", "loop_area")));
+  assert_true(isnan(read_one("free.h5", "loop_area_error")));
+  check_near(read_one("free.h5", "label"), PENDRES_LABEL_UNRESOLVED, 0.0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    TEST(test_run),   TEST(test_orbit),         TEST(test_transient),
+    TEST(test_input), TEST(test_failed_points),
+  };
+  return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
+}
