@@ -78,6 +78,63 @@ static int same_place(const pendres_walk *w, const met *a, const met *b)
   return sum < 1e-8;
 }
 
+/*
+ * The map of which a fixed point of `map` may be one twice over: half a period and a reflection
+ * for an orbit of period one, half the period of an even one. 0 if there is none.
+ */
+static int half_of(const pendres_continuation_map *map, pendres_continuation_map *half)
+{
+  if (map->mirror) return 0;
+  if (map->period == 1 && map->winding == 0) {
+    *half = (pendres_continuation_map){.mirror = 1, .period = 1};
+    return 1;
+  }
+  if (map->period % 2 != 0 || map->winding % 2 != 0) return 0;
+  *half =
+    (pendres_continuation_map){.period = map->period / 2, .winding = map->winding / 2};
+  return 1;
+}
+
+/* Whether a point of the map is one of the half map, nearly. */
+static pendres_status closes_by_half(pendres_context *ctx, const pendres_continuation_map *half,
+                                     int steps, const double u[PENDRES_U_COUNT], int *yes)
+{
+  pendres_continuation_image image;
+  const pendres_status status = pendres_continuation_map_images(
+    ctx, half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
+  *yes = hypot(image.f[0], image.f[1]) < 1e-3;
+  return status;
+}
+
+/*
+ * Locate one zero. Where a branch was born from another, of half the map, it turns round: that
+ * looks like a fold of its own map, but is the flip of the other.
+ */
+static pendres_status locate_one(pendres_context *ctx, const pendres_trail *t,
+                                 const double u[PENDRES_U_COUNT], double reach, met *m)
+{
+  pendres_continuation_map half;
+  int twice = 0;
+  pendres_status status = pendres_continuation_locate(ctx, &t->kind.map, m->condition,
+                                                      t->kind.unknown, u, reach, &m->located);
+  if (m->condition != PENDRES_CONDITION_FOLD || !half_of(&t->kind.map, &half)) return status;
+  if (status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE) {
+    const pendres_status asked = closes_by_half(ctx, &half, m->located.pair.coarse_steps,
+                                                m->located.pair.coarse, &twice);
+    if (asked != PENDRES_OK || !twice) return asked != PENDRES_OK ? asked : status;
+  } else if (status != PENDRES_NOT_CONVERGED) {
+    return status;
+  }
+  pendres_located flip;
+  status = pendres_continuation_locate(ctx, &half, PENDRES_CONDITION_FLIP, t->kind.unknown, u,
+                                       reach, &flip);
+  if (status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE) {
+    m->condition = PENDRES_CONDITION_FLIP;
+    m->located = flip;
+  }
+  return status;
+}
+
 /* Locate the zeros of one test function. What does not converge was no zero. */
 static pendres_status locate_all(pendres_context *ctx, const pendres_trail *t,
                                  pendres_continuation_condition condition, met *list, size_t *count)
@@ -90,8 +147,7 @@ static pendres_status locate_all(pendres_context *ctx, const pendres_trail *t,
     met *m = &list[*count];
     const double chord = pendres_trail_between(t, &zeros[i], u);
     *m = (met){.at = zeros[i], .condition = condition};
-    const pendres_status status = pendres_continuation_locate(
-      ctx, &t->kind.map, condition, t->kind.unknown, u, 2.0 * chord, &m->located);
+    const pendres_status status = locate_one(ctx, t, u, 2.0 * chord, m);
     if (status == PENDRES_NOT_CONVERGED) continue;
     if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
     int known = 0;

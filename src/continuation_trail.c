@@ -359,7 +359,7 @@ static int parabola_zeros(const double s[3], const double g[3], double a, double
   if (!(vertex > a && vertex < b)) return 0;
   const double least = g[0] + (vertex - s[0]) * (d1 + c * (vertex - s[1]));
   /* An extremum that only comes near is looked at too: the parabola is not exact. */
-  if (least * c > 0.0 && fabs(least) > 0.02 * fmin(fabs(g[0]), fabs(g[2]))) return 0;
+  if (least * c > 0.0 && fabs(least) > 0.2 * fmin(fabs(g[0]), fabs(g[2]))) return 0;
   const double half = sqrt(fabs(least / c));
   zero[0] = fmax(a, vertex - half);
   zero[1] = fmin(b, vertex + half);

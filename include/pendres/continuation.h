@@ -139,6 +139,38 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
 pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                      pendres_orbit *out);
 
+/** Opaque: several branches. */
+typedef struct pendres_branches pendres_branches;
+
+/**
+ * The branches that n orbits lie on, each once: an orbit that lies on a branch found already, or
+ * whose mirror image does, is passed over. So what an ensemble settles on leads to all branches
+ * that it can reach, those included that are born away from the others (isolas).
+ * The orbits may differ in the parameter alone. *out is to be freed by pendres_branches_free.
+ * An orbit that no branch can be followed from (hardly an orbit any more) is passed over and
+ * counted as skipped. Errors as for pendres_branch_follow.
+ */
+pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                     const pendres_branch_options *options, pendres_branches **out);
+void pendres_branches_free(pendres_branches *branches);
+size_t pendres_branches_count(const pendres_branches *branches);
+/** Branch number i, owned by the set; NULL out of range. */
+const pendres_branch *pendres_branches_get(const pendres_branches *branches, size_t i);
+size_t pendres_branches_skipped(const pendres_branches *branches);
+
+/**
+ * The backbone of a damped pendulum: the drive frequency at which its orbit of period one lags
+ * pi/2 behind the drive (in the first harmonic), where the drive works best against friction. For
+ * each of n pendulums, whose drive_frequency is not read: damping and drive amplitude above 0.
+ * out[n] are the orbits, outcome[n] PENDRES_OK, PENDRES_NOT_FOUND (as for weak damping, where such
+ * an orbit would have to go over the top), or PENDRES_TOLERANCE_UNREACHABLE.
+ * frequency_error[n] (may be NULL) is that of out[i].pendulum.drive_frequency.
+ * The undamped, undriven backbone is pendres_free_frequency().
+ */
+pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, pendres_orbit *out,
+                                     double *frequency_error, pendres_status *outcome);
+
 /* ---- Curves in two parameters ---- */
 
 /** Where two folds meet and vanish. Plain data. */
@@ -194,6 +226,18 @@ pendres_branch_end pendres_curve_end_of(const pendres_curve *curve, int which);
  */
 pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *curve, double value,
                                    size_t room, pendres_bifurcation *out, size_t *found);
+
+/** Opaque: several curves. */
+typedef struct pendres_curves pendres_curves;
+
+/** The curves that n bifurcations lie on, each once. Errors as for pendres_curve_follow. */
+pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
+                                   const pendres_bifurcation *bifurcations,
+                                   const pendres_curve_options *options, pendres_curves **out);
+void pendres_curves_free(pendres_curves *curves);
+size_t pendres_curves_count(const pendres_curves *curves);
+/** Curve number i, owned by the set; NULL out of range. */
+const pendres_curve *pendres_curves_get(const pendres_curves *curves, size_t i);
 
 /**
  * The cusp that the curve of folds through `near` leads to, as near's parameter and `second` change:

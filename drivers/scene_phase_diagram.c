@@ -1,0 +1,229 @@
+/*
+ * scene_phase_diagram.c -- regimes over damping and drive frequency, by scan and by curves.
+ *
+ * The paper's Fig. 8, and its loop area as a surface (section III D). One task a damping: its line
+ * of drive frequencies, the branches that the members' orbits lie on, and their bifurcations;
+ * from these the curves of folds are followed down from the cusp.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene_curves.h"
+
+/* What one task hands over. */
+typedef struct line {
+  pendres_phase_point *points;
+  pendres_branches *branches;
+} line;
+
+typedef struct diagram {
+  scene_run *run;
+  const deck *d;
+  pendres_ensemble ensemble;
+  size_t dampings, drives;
+  line *lines;        /* [damping] */
+  scene_curves curves;
+  size_t tally[PENDRES_REGIME_COUNT], differ; /* points of each regime; where scan and curves differ */
+  size_t skipped;
+} diagram;
+
+static void plan(const deck *d, FILE *out)
+{
+  const deck_axis *damping = &d->axis[DECK_AXIS_DAMPING];
+  const deck_axis *drive = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
+  fprintf(out,
+          "regimes of %lld members at %zu dampings, %g to %g, and %zu drive frequencies, %g to %g,\n"
+          "drive amplitude %g; and the curves of folds and symmetry breakings, with their cusp\n",
+          (long long)d->ensemble.members, damping->count, damping->value[0],
+          damping->value[damping->count - 1], drive->count, drive->value[0],
+          drive->value[drive->count - 1], d->pendulum.drive_amplitude);
+}
+
+static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+{
+  diagram *g = arg;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_pendulum *p = calloc(g->drives, sizeof *p);
+  pendres_phase_point *points = calloc(g->drives, sizeof *points);
+  if (p == NULL || points == NULL) goto done;
+  for (size_t k = 0; k < g->drives; k++)
+    p[k] = (pendres_pendulum){.damping = g->d->axis[DECK_AXIS_DAMPING].value[task],
+                              .drive_amplitude = g->d->pendulum.drive_amplitude,
+                              .drive_frequency = g->d->axis[DECK_AXIS_DRIVE_FREQUENCY].value[k]};
+  /* Nobody sees the branches themselves: their points may be sparse. */
+  status =
+    pendres_phase_line(ctx, g->drives, p, &g->ensemble, 0.1, points, &g->lines[task].branches);
+  if (status == PENDRES_OK) {
+    g->lines[task].points = points;
+    points = NULL;
+  }
+done:
+  free(p);
+  free(points);
+  return status;
+}
+
+/* Keep what is needed of a line's branches, which are large. */
+static pendres_status collect(void *arg, size_t task)
+{
+  diagram *g = arg;
+  line *l = &g->lines[task];
+  const pendres_status status = scene_curves_add(&g->curves, l->branches);
+  g->skipped += pendres_branches_skipped(l->branches);
+  pendres_branches_free(l->branches);
+  l->branches = NULL;
+  for (size_t k = 0; k < g->drives; k++) {
+    const pendres_phase_point *p = &l->points[k];
+    g->tally[p->regime]++;
+    g->differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
+    g->run->failed_points += p->unresolved > 0;
+  }
+  return status;
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+#define FIELD(name, text) {#name, text, offsetof(pendres_phase_point, name), \
+                           offsetof(pendres_phase_point, name##_error)}
+
+static const struct {
+  const char *name, *long_name;
+  size_t value, error;
+} fields[] = {
+  FIELD(sa_fraction, "share of the members on the small-amplitude state"),
+  FIELD(la_fraction, "share of the members on the large-amplitude state"),
+  FIELD(mean_loop_area, "mean loop area of the ensemble"),
+};
+
+static double field(const pendres_phase_point *p, size_t offset)
+{
+  return *(const double *)(const void *)((const char *)p + offset);
+}
+
+static pendres_status write_fields(scene_run *run, const diagram *g, double *value, double *error)
+{
+  const size_t n = g->dampings * g->drives;
+  pendres_status status = PENDRES_OK;
+  for (size_t f = 0; f < sizeof fields / sizeof *fields && status == PENDRES_OK; f++) {
+    const pendres_store_spec spec = {.name = fields[f].name,
+                                     .dimensions = {"damping", "drive_frequency"},
+                                     .long_name = fields[f].long_name};
+    for (size_t i = 0; i < n; i++) {
+      const pendres_phase_point *p = &g->lines[i / g->drives].points[i % g->drives];
+      value[i] = field(p, fields[f].value);
+      error[i] = field(p, fields[f].error);
+    }
+    status = pendres_store_put_result(run->store, &spec, value, error, n);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+static pendres_status write_flags(scene_run *run, const diagram *g, int8_t *flag)
+{
+  static const char *const regimes[] = {"sa", "la", "coexistence", "single", "other"};
+  static const int8_t bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_PERIODIC,
+                                PENDRES_OTHER_RUNNING, PENDRES_OTHER_CHAOTIC,
+                                PENDRES_OTHER_UNRESOLVED};
+  static const char *const meanings[] = {"none",    "asymmetric", "periodic",
+                                         "running", "chaotic",    "unresolved"};
+  static const char *const names[] = {"regime", "regime_exact", "other"};
+  static const char *const words[] = {
+    "state of motion that the members of the ensemble settle on",
+    "states of motion that exist as attractors, by the branches, whether members reach them or not",
+    "what else members settle on: sum of the flags"};
+  const size_t n = g->dampings * g->drives;
+  pendres_status status = PENDRES_OK;
+  for (int f = 0; f < 3 && status == PENDRES_OK; f++) {
+    const pendres_store_spec spec = {.name = names[f],
+                                     .type = PENDRES_STORE_INT8,
+                                     .dimensions = {"damping", "drive_frequency"},
+                                     .long_name = words[f],
+                                     .flag_count = f < 2 ? PENDRES_REGIME_COUNT : 6,
+                                     .flag_values = f < 2 ? NULL : bits,
+                                     .flag_meanings = f < 2 ? regimes : meanings};
+    for (size_t i = 0; i < n; i++) {
+      const pendres_phase_point *p = &g->lines[i / g->drives].points[i % g->drives];
+      flag[i] = (int8_t)(f == 0 ? (int)p->regime : f == 1 ? (int)p->exact : p->other);
+    }
+    status = pendres_store_put(run->store, &spec, flag, n);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+static pendres_status write_results(scene_run *run, const diagram *g)
+{
+  const size_t n = g->dampings * g->drives;
+  double *value = malloc(n * sizeof *value), *error = malloc(n * sizeof *error);
+  int8_t *flag = malloc(n);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (value == NULL || error == NULL || flag == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu results", n);
+    goto done;
+  }
+  status = scene_dimension(run, "", DECK_AXIS_DAMPING);
+  if (status == PENDRES_OK) status = scene_dimension(run, "", DECK_AXIS_DRIVE_FREQUENCY);
+  if (status == PENDRES_OK) status = write_flags(run, g, flag);
+  if (status == PENDRES_OK) status = write_fields(run, g, value, error);
+  if (status == PENDRES_OK) status = scene_curves_write(run, &g->curves);
+  if (status == PENDRES_OK) status = scene_curves_write_paper(run, &g->curves);
+done:
+  free(value);
+  free(error);
+  free(flag);
+  return status;
+}
+
+static void print_table(FILE *out, const diagram *g)
+{
+  const size_t n = g->dampings * g->drives;
+  fprintf(out, "regime        points\n");
+  for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
+    fprintf(out, "%-12s  %zu\n", pendres_regime_name((pendres_regime)r), g->tally[r]);
+  fprintf(out, "members miss a state that exists at %zu of %zu points\n", g->differ, n);
+  if (g->skipped > 0) fprintf(out, "orbits without a branch: %zu\n", g->skipped);
+  if (g->curves.has_cusp)
+    fprintf(out, "cusp: damping %.12f +- %.0e, drive frequency %.12f +- %.0e\n",
+            g->curves.cusp.value[1], g->curves.cusp.value_error[1], g->curves.cusp.value[0],
+            g->curves.cusp.value_error[0]);
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  diagram g = {.run = run,
+               .d = d,
+               .ensemble = {.members = (size_t)d->ensemble.members, .x_first = d->ensemble.x_first,
+                            .x_last = d->ensemble.x_last, .v = d->ensemble.v},
+               .dampings = d->axis[DECK_AXIS_DAMPING].count,
+               .drives = d->axis[DECK_AXIS_DRIVE_FREQUENCY].count};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  g.lines = calloc(g.dampings, sizeof *g.lines);
+  if (g.lines == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu lines", g.dampings);
+    goto done;
+  }
+  status = farm_run(run->farm, "dampings", g.dampings, compute, collect, &g);
+  if (status != PENDRES_OK) {
+    (void)scene_farm_failed(run, status);
+    goto done;
+  }
+  status = scene_curves_follow(run, &g.curves);
+  if (status == PENDRES_OK) status = write_results(run, &g);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
+done:
+  for (size_t i = 0; i < g.dampings && g.lines != NULL; i++) {
+    free(g.lines[i].points);
+    pendres_branches_free(g.lines[i].branches);
+  }
+  free(g.lines);
+  scene_curves_free(&g.curves);
+  return status;
+}
+
+const scene_kind scene_phase_diagram = {
+  .kind = DECK_PHASE_DIAGRAM,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
+                "Bifurcation Theory, chapters 9 and 10",
+  .plan = plan,
+  .run = run_scene};

@@ -1,0 +1,76 @@
+/*
+ * phase_diagram.h -- which states of motion exist where, by an ensemble and by the curves.
+ *
+ * Owns: the regimes of the paper's Fig. 8, found in two ways: from what the members of an
+ * ensemble settle on (the paper's way), and from the branches on which these orbits lie with the
+ * folds and symmetry breakings that bound them (the exact way). The two differ where a
+ * state exists but its basin misses all members.
+ *
+ * SA and LA are the orbits of period one, each its own mirror image, on the two sheets that meet in
+ * a cusp. At a given damping with a fold at which the small orbit ends, an orbit beyond that
+ * frequency is LA; below it, it is SA if its amplitude is less than the fold's, else LA. Where
+ * no such fold exists there is only one state, and no distinction.
+ */
+#ifndef PENDRES_PHASE_DIAGRAM_H
+#define PENDRES_PHASE_DIAGRAM_H
+
+#include <pendres/continuation.h>
+#include <pendres/response.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+typedef enum pendres_regime {
+  PENDRES_REGIME_SA = 0,
+  PENDRES_REGIME_LA,
+  PENDRES_REGIME_COEXISTENCE,
+  PENDRES_REGIME_SINGLE, /**< one state, neither SA nor LA: damping above the cusp's */
+  PENDRES_REGIME_OTHER,  /**< some member settles on something else, see pendres_other */
+  PENDRES_REGIME_COUNT
+} pendres_regime;
+
+/** "sa", "la", "coexistence", "single", "other"; NULL if out of range. */
+const char *pendres_regime_name(pendres_regime regime);
+
+/** What else lives there: bits, 0 for nothing. */
+typedef enum pendres_other {
+  PENDRES_OTHER_ASYMMETRIC = 1, /**< period one, but not its own mirror image */
+  PENDRES_OTHER_PERIODIC = 2,   /**< closes after several drive periods */
+  PENDRES_OTHER_RUNNING = 4,    /**< closes but for whole turns */
+  PENDRES_OTHER_CHAOTIC = 8,
+  PENDRES_OTHER_UNRESOLVED = 16 /**< some member did not settle within its budget */
+} pendres_other;
+
+/** One point of the diagram. Errors beside results; NaN where there is no such state. */
+typedef struct pendres_phase_point {
+  pendres_pendulum pendulum;
+  pendres_regime regime;  /**< by the members that settled */
+  pendres_regime exact;   /**< by the branches: which of SA and LA exist as attractors; never OTHER
+                               unless neither does */
+  int other;              /**< bits of pendres_other */
+  size_t unresolved;      /**< members */
+  double sa_fraction, sa_fraction_error; /**< shares of the members; NaN where regime is SINGLE; */
+  double la_fraction, la_fraction_error; /**< errors: the share of the unresolved */
+  double mean_loop_area, mean_loop_area_error;
+  double mean_loop_amplitude, mean_loop_amplitude_error;
+  double sa_amplitude, sa_amplitude_error; /**< of the orbits, whether members reach them or not; */
+  double la_amplitude, la_amplitude_error; /**< NaN where regime is SINGLE or it does not exist */
+} pendres_phase_point;
+
+/**
+ * A line of the diagram: n pendulums of one damping and drive amplitude, drive frequencies
+ * ascending. out[n] is written. *branches (may be NULL) receives all branches that the members'
+ * orbits lie on, to be freed by pendres_branches_free; they reach beyond the line's frequencies.
+ * spacing: of the branches' points, 0 for the default.
+ */
+pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                  const pendres_ensemble *ensemble, double spacing,
+                                  pendres_phase_point *out, pendres_branches **branches);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

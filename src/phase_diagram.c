@@ -1,0 +1,222 @@
+/* phase_diagram.c -- regimes by ensemble and by branches; see phase_diagram.h. */
+#include <pendres/phase_diagram.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "context_internal.h"
+
+enum { MOST_CROSSINGS = 16 };
+
+const char *pendres_regime_name(pendres_regime regime)
+{
+  static const char *const names[PENDRES_REGIME_COUNT] = {"sa", "la", "coexistence", "single",
+                                                          "other"};
+  return (unsigned)regime < PENDRES_REGIME_COUNT ? names[regime] : NULL;
+}
+
+/* ---- what tells SA from LA at one damping ---- */
+
+/* The fold at which SA ends; there is a distinction only if there is one. */
+typedef struct border {
+  int distinct;
+  double frequency, amplitude;
+} border;
+
+/* Orbits that can be SA or LA, whatever their stability. */
+static int named_family(const pendres_orbit *o)
+{
+  return o->period == 1 && o->winding == 0 && o->symmetric;
+}
+
+/* Among the folds below whose frequency two orbits exist, the one of the smallest amplitude. */
+static border find_border(const pendres_branches *branches)
+{
+  border b = {.distinct = 0};
+  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
+    const pendres_branch *branch = pendres_branches_get(branches, i);
+    for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
+      if (f->kind != PENDRES_FOLD || !named_family(&f->orbit) || !(f->curvature < 0.0)) continue;
+      if (b.distinct && f->orbit.amplitude >= b.amplitude) continue;
+      b = (border){.distinct = 1, .frequency = f->value, .amplitude = f->orbit.amplitude};
+    }
+  }
+  return b;
+}
+
+static int is_sa(const border *b, const pendres_orbit *o)
+{
+  return o->pendulum.drive_frequency <= b->frequency && o->amplitude < b->amplitude;
+}
+
+/* ---- by the ensemble ---- */
+
+static int other_of(const pendres_attractor *a)
+{
+  if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
+  if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
+  if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
+  return PENDRES_OTHER_ASYMMETRIC;
+}
+
+static void judge_ensemble(const border *b, const pendres_ensemble *e, const pendres_response *r,
+                           pendres_phase_point *p)
+{
+  size_t sa = 0, la = 0, others = 0;
+  const double all = (double)e->members;
+  const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
+  for (size_t i = 0; i < states; i++) {
+    const pendres_attractor *a = &r->state[i];
+    if (a->label == PENDRES_LABEL_CHAOTIC || !named_family(&a->orbit)) {
+      p->other |= other_of(a);
+      others += r->state_members[i];
+    } else if (b->distinct && is_sa(b, &a->orbit)) {
+      sa += r->state_members[i];
+    } else {
+      la += r->state_members[i];
+    }
+  }
+  if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
+  p->unresolved = r->unresolved;
+  if (others > 0 || sa + la == 0)
+    p->regime = PENDRES_REGIME_OTHER;
+  else if (!b->distinct)
+    p->regime = PENDRES_REGIME_SINGLE;
+  else
+    p->regime = sa > 0 && la > 0 ? PENDRES_REGIME_COEXISTENCE
+                : sa > 0         ? PENDRES_REGIME_SA
+                                 : PENDRES_REGIME_LA;
+  p->sa_fraction = b->distinct ? (double)sa / all : NAN;
+  p->la_fraction = b->distinct ? (double)la / all : NAN;
+  p->sa_fraction_error = p->la_fraction_error =
+    b->distinct ? (double)r->unresolved / all : NAN;
+  p->mean_loop_area = r->mean_loop_area;
+  p->mean_loop_area_error = r->mean_loop_area_error;
+  p->mean_loop_amplitude = r->mean_loop_amplitude;
+  p->mean_loop_amplitude_error = r->mean_loop_amplitude_error;
+}
+
+/* ---- by the branches ---- */
+
+/* Amplitudes of the stable named orbits at one point. */
+static void note_orbit(const border *b, const pendres_orbit *o, int *single, pendres_phase_point *p)
+{
+  if (!o->stable || !named_family(o)) return;
+  *single = 1;
+  if (!b->distinct) return;
+  if (is_sa(b, o)) {
+    p->sa_amplitude = o->amplitude;
+    p->sa_amplitude_error = o->amplitude_error;
+  } else if (!(o->amplitude <= p->la_amplitude)) {
+    p->la_amplitude = o->amplitude;
+    p->la_amplitude_error = o->amplitude_error;
+  }
+}
+
+/* All orbits at one point: those that members reach, and those of the branches. */
+static pendres_status judge_branches(pendres_context *ctx, const border *b,
+                                     const pendres_branches *branches, const pendres_response *r,
+                                     pendres_orbit *there, pendres_phase_point *p)
+{
+  pendres_status status = PENDRES_OK;
+  int single = 0;
+  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
+  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
+    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) note_orbit(b, &r->state[i].orbit, &single, p);
+  /* What members have not shown is looked up; where both are known, or only one can be, they have. */
+  const int both = !isnan(p->sa_amplitude) && !isnan(p->la_amplitude);
+  const int beyond = b->distinct && p->pendulum.drive_frequency > b->frequency;
+  const int enough = both || (beyond && !isnan(p->la_amplitude)) || (!b->distinct && single);
+  for (size_t i = 0; i < pendres_branches_count(branches) && !enough && status == PENDRES_OK; i++) {
+    size_t found = 0;
+    status = pendres_branch_cross(ctx, pendres_branches_get(branches, i),
+                                  p->pendulum.drive_frequency, MOST_CROSSINGS, there, &found);
+    for (size_t k = 0; k < found && k < MOST_CROSSINGS && status == PENDRES_OK; k++)
+      note_orbit(b, &there[k], &single, p);
+  }
+  const int sa = !isnan(p->sa_amplitude), la = !isnan(p->la_amplitude);
+  if (!b->distinct)
+    p->exact = single ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
+  else
+    p->exact = sa && la ? PENDRES_REGIME_COEXISTENCE
+               : sa     ? PENDRES_REGIME_SA
+               : la     ? PENDRES_REGIME_LA
+                        : PENDRES_REGIME_OTHER;
+  return status;
+}
+
+/* ---- lines ---- */
+
+static pendres_status check_line(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                 const pendres_ensemble *e)
+{
+  const char *why = e->members == 0 ? "an ensemble needs members" : NULL;
+  for (size_t i = 0; i < n && why == NULL; i++) {
+    if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) break;
+    if (p[i].damping != p[0].damping || p[i].drive_amplitude != p[0].drive_amplitude)
+      why = "a line has one damping and one drive amplitude";
+    else if (i > 0 && !(p[i].drive_frequency > p[i - 1].drive_frequency))
+      why = "the drive frequencies of a line must ascend";
+  }
+  if (why == NULL) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
+}
+
+/* The orbits of all responses, those of the largest number of members first at each point. */
+static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
+                                    double spacing, pendres_branches **out)
+{
+  size_t count = 0;
+  pendres_status status = PENDRES_OK;
+  const double low = r[0].pendulum.drive_frequency, high = r[n - 1].pendulum.drive_frequency;
+  /* The fold that makes the distinction lies below the small oscillations' frequency, 1. */
+  const pendres_branch_options options = {.parameter = PENDRES_DRIVE_FREQUENCY,
+                                          .low = fmin(0.8 * low, 0.7),
+                                          .high = fmax(1.1 * high, 1.1),
+                                          .spacing = spacing};
+  pendres_orbit *orbits = malloc((n * PENDRES_RESPONSE_STATES + 1) * sizeof *orbits);
+  if (orbits == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
+      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
+  status = pendres_branches_find(ctx, count, orbits, &options, out);
+  free(orbits);
+  return status;
+}
+
+pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                  const pendres_ensemble *ensemble, double spacing,
+                                  pendres_phase_point *out, pendres_branches **branches)
+{
+  if (branches != NULL) *branches = NULL;
+  if (ctx == NULL || ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = check_line(ctx, n, pendulums, ensemble);
+  if (status != PENDRES_OK || n == 0) return status;
+  pendres_branches *found = NULL;
+  pendres_response *r = malloc(n * sizeof *r);
+  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
+  if (r == NULL || there == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+    goto done;
+  }
+  status = pendres_response_compute(ctx, n, pendulums, ensemble, r);
+  if (status == PENDRES_OK) status = find_branches(ctx, n, r, spacing, &found);
+  const border b = status == PENDRES_OK ? find_border(found) : (border){.distinct = 0};
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    out[i] = (pendres_phase_point){.pendulum = pendulums[i]};
+    judge_ensemble(&b, ensemble, &r[i], &out[i]);
+    status = judge_branches(ctx, &b, found, &r[i], there, &out[i]);
+  }
+  if (status == PENDRES_OK && branches != NULL) {
+    *branches = found;
+    found = NULL;
+  }
+done:
+  pendres_branches_free(found);
+  free(r);
+  free(there);
+  return status;
+}
