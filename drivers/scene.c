@@ -10,12 +10,18 @@ extern const scene_kind scene_free_oscillation;
 extern const scene_kind scene_resonance_curve;
 extern const scene_kind scene_response;
 extern const scene_kind scene_orbit;
+extern const scene_kind scene_phase_diagram;
+extern const scene_kind scene_branches;
+extern const scene_kind scene_switching;
 
 static const scene_kind *const scenes[] = {
   &scene_free_oscillation,
   &scene_resonance_curve,
   &scene_response,
   &scene_orbit,
+  &scene_phase_diagram,
+  &scene_branches,
+  &scene_switching,
 };
 
 const scene_kind *scene_find(deck_kind kind)

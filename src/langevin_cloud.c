@@ -266,7 +266,13 @@ pendres_status pendres_langevin_measure(pendres_langevin *lv,
     status = follow(&r, b, NULL, first);
     if (status != PENDRES_OK) goto done;
   }
-  *cloud = (pendres_langevin_cloud){.exposure = r.exposure};
+  *cloud = (pendres_langevin_cloud){.exposure = r.exposure, .phase_lag = {NAN, NAN}};
+  for (int s = 0; s < STATISTICS; s++)
+    cloud->statistics[s] = (pendres_langevin_estimate){NAN, NAN};
+  for (size_t i = 0; i < r.trajectories; i++) {
+    cloud->left += r.left[i] != 0;
+    cloud->strobes += r.all[i].strobes;
+  }
   status = estimate(&r, r.all, NULL, cloud->statistics);
   if (status != PENDRES_OK) goto done;
   double value[STATISTICS];
@@ -274,10 +280,6 @@ pendres_status pendres_langevin_measure(pendres_langevin *lv,
   cloud->phase_lag = phase_lag(&r, value);
   cloud->statistics[PENDRES_LANGEVIN_MEAN_X].value += request->x;
   cloud->statistics[PENDRES_LANGEVIN_MEAN_V].value += request->v;
-  for (size_t i = 0; i < r.trajectories; i++) {
-    cloud->left += r.left[i] != 0;
-    cloud->strobes += r.all[i].strobes;
-  }
 done:
   clear_run(&r);
   return status;

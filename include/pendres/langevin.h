@@ -173,7 +173,8 @@ typedef struct pendres_langevin_cloud {
  * Follow the request's trajectories and sum up. strobe_x and strobe_v, if not NULL, receive
  * trajectories x record strobe points, those of one trajectory together; NaN where it had left.
  *
- * Errors: as advance; PENDRES_NOT_FOUND if fewer than two trajectories had a strobe that counts.
+ * Errors: as advance; PENDRES_NOT_FOUND if fewer than two trajectories had a strobe that counts:
+ * statistics are NaN then, left, exposure and strobes are right.
  */
 pendres_status pendres_langevin_measure(pendres_langevin *lv,
                                         const pendres_langevin_request *request,

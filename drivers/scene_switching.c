@@ -1,0 +1,375 @@
+/*
+ * scene_switching.c -- how often noise carries a pendulum from the small-amplitude state to the
+ * large-amplitude one and back, against temperature, and the activation energies.
+ *
+ * One task a temperature and state for the steps a period, then one a temperature, state and
+ * chunk of trajectories. Half of all trajectories start on either state and go wherever noise
+ * carries them; each stay counts for the state where it is.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene_noise.h"
+
+/* A bias of the cloud acts as a wrong temperature, and rates feel that E/T times stronger. So
+   steps are doubled after the choice: order four leaves a sixteenth of this. */
+static const double bias_of_choice = 0.01;
+static const double level = 0.95;
+
+enum { SA, LA, STARTS, WELLS = 2, KINDS = 4 };
+
+typedef struct work {
+  const deck *d;
+  farm *farm;
+  pendres_pendulum pendulum;
+  pendres_attractors *set;
+  int index[STARTS];      /* of the states in the set; -1: there is none */
+  size_t temperatures, chunks;
+  int *steps;             /* [temperature][start] */
+  pendres_switching_tally *tallies; /* [temperature][start][chunk] */
+  pendres_switching_tally *sums;    /* [temperature] */
+  pendres_switching_rate *rates;    /* [kind][temperature] */
+  pendres_switching_activation fit[KINDS];
+} work;
+
+static const struct {
+  const char *suffix, *words;
+  int from, to; /* to: WELLS for another well */
+} kinds[KINDS] = {
+  { "sa_la", "from the small- to the large-amplitude state", SA, LA },
+  { "la_sa", "from the large- to the small-amplitude state", LA, SA },
+  { "well_sa", "from the small-amplitude state to another well", SA, WELLS },
+  { "well_la", "from the large-amplitude state to another well", LA, WELLS },
+};
+
+static void plan(const deck *d, FILE *out)
+{
+  const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
+  fprintf(out,
+          "switching at damping %g, drive period %g, drive amplitude %g, at %zu temperatures\n"
+          "%g to %g: %lld trajectories of %lld periods each, %.3g pendulum-periods in all\n",
+          d->pendulum.damping, d->pendulum.drive_period, d->pendulum.drive_amplitude, t->count,
+          t->value[0], t->value[t->count - 1], (long long)d->noise.trajectories,
+          (long long)d->noise.periods,
+          (double)t->count * (double)d->noise.trajectories * (double)d->noise.periods);
+}
+
+/* ---- computing ----------------------------------------------------------------------------- */
+
+static pendres_pendulum pendulum_at(const work *w, size_t temperature)
+{
+  pendres_pendulum p = w->pendulum;
+  p.temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[temperature];
+  return p;
+}
+
+static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
+{
+  enum { TRAJECTORIES = 192, RECORD = 60 };
+  work *w = arg;
+  const int start = (int)(task % STARTS);
+  const pendres_attractor *a = pendres_attractors_get(w->set, (size_t)w->index[start]);
+  const pendres_pendulum p = pendulum_at(w, task / STARTS);
+  pendres_switching_home home = { w->set, (size_t)w->index[start], 0.0 };
+  pendres_langevin *lv = NULL;
+  pendres_langevin_bias bias;
+  (void)ctx;
+  if (w->index[start] < 0) return PENDRES_OK;
+  const pendres_langevin_request request = {
+    .pendulum = p, .x = a->orbit.x, .v = a->orbit.v, .trajectories = TRAJECTORIES,
+    .settle = scene_noise_settle(&a->orbit), .record = RECORD,
+    .first_id = scene_noise_first_id(&p, home.attractor),
+    .leave = pendres_switching_leave, .arg = &home };
+  pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
+  if (status == PENDRES_OK)
+    status = scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
+  if (status == PENDRES_OK) w->steps[task] = 2 * bias.steps_per_period;
+  pendres_langevin_free(lv);
+  return status;
+}
+
+/* The larger of the states' steps: trajectories visit both. */
+static int steps_at(const work *w, size_t temperature)
+{
+  const int *s = w->steps + temperature * STARTS;
+  const int steps = s[SA] > s[LA] ? s[SA] : s[LA];
+  return steps < 1000000 ? steps : 1000000;
+}
+
+/* Trajectories that start on a state. */
+static size_t share(const work *w, int start)
+{
+  const size_t all = (size_t)w->d->noise.trajectories;
+  if (w->index[start] < 0) return 0;
+  if (w->index[1 - start] < 0) return all;
+  return start == SA ? all - all / 2 : all / 2;
+}
+
+static pendres_status count(void *arg, size_t task, pendres_context *ctx)
+{
+  work *w = arg;
+  const size_t chunk = task % w->chunks, temperature = task / w->chunks / STARTS;
+  const int start = (int)(task / w->chunks % STARTS);
+  const size_t all = share(w, start);
+  size_t first, n;
+  pendres_langevin *lv = NULL;
+  (void)ctx;
+  if (chunk >= scene_noise_chunks(all)) return PENDRES_OK;
+  scene_noise_chunk(all, chunk, &first, &n);
+  const pendres_pendulum p = pendulum_at(w, temperature);
+  const size_t from = (size_t)w->index[start];
+  const pendres_switching_request request = {
+    .pendulum = p, .set = w->set, .from = from, .trajectories = n,
+    .periods = (long)w->d->noise.periods,
+    .first_id = scene_noise_first_id(&p, from) + first };
+  pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
+  if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_at(w, temperature));
+  if (status == PENDRES_OK) status = pendres_switching_count(lv, &request, &w->tallies[task]);
+  pendres_langevin_free(lv);
+  return status;
+}
+
+static pendres_status find_states(scene_run *run, work *w)
+{
+  pendres_context *ctx = farm_context(run->farm);
+  if (ctx == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  const pendres_status status =
+    pendres_attractors_find(ctx, &w->pendulum, 0, NULL, NULL, &w->set);
+  if (status != PENDRES_OK)
+    return scene_fail(run, status, "attractors: %s", pendres_context_message(ctx));
+  w->index[SA] = w->index[LA] = -1;
+  for (size_t i = 0; i < pendres_attractors_count(w->set); i++) {
+    const pendres_label label = pendres_attractors_get(w->set, i)->label;
+    if (label == PENDRES_LABEL_SA && w->index[SA] < 0) w->index[SA] = (int)i;
+    if (label == PENDRES_LABEL_LA && w->index[LA] < 0) w->index[LA] = (int)i;
+  }
+  if (w->index[SA] < 0 && w->index[LA] < 0)
+    return scene_fail(run, PENDRES_NOT_FOUND,
+                      "neither a small- nor a large-amplitude state exists at these parameters");
+  return PENDRES_OK;
+}
+
+static pendres_status sum_up(work *w)
+{
+  const deck_axis *t = &w->d->axis[DECK_AXIS_TEMPERATURE];
+  pendres_status status = PENDRES_OK;
+  for (size_t task = 0; task < w->temperatures * STARTS * w->chunks; task++)
+    if (w->tallies[task].states > 0)
+      pendres_switching_add(&w->sums[task / w->chunks / STARTS], &w->tallies[task]);
+  for (int k = 0; k < KINDS; k++) {
+    const int from = w->index[kinds[k].from];
+    const int to = kinds[k].to == WELLS ? PENDRES_SWITCHING_WELL : w->index[kinds[k].to];
+    pendres_switching_rate *r = w->rates + (size_t)k * w->temperatures;
+    for (size_t i = 0; i < w->temperatures && status == PENDRES_OK; i++) {
+      r[i] = (pendres_switching_rate){ NAN, NAN, NAN, NAN, NAN, NAN, NAN };
+      if (from >= 0 && to >= 0)
+        status = pendres_switching_rate_of(&w->sums[i], (size_t)from, (size_t)to, level, &r[i]);
+    }
+    if (status == PENDRES_OK)
+      status = pendres_switching_fit(w->temperatures, t->value, r, 0.0, &w->fit[k]);
+    if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* too few events: the file says so */
+  }
+  return status;
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+enum { RATE, LOWER, UPPER, EVENTS, DISPERSION, PARTS };
+
+static const struct {
+  const char *format, *words;
+} parts[PARTS] = {
+  [RATE] = { "rate_%s", "transitions a unit time" },
+  [LOWER] = { "rate_%s_lower", "lower end of the rate's confidence interval," },
+  [UPPER] = { "rate_%s_upper", "upper end of the rate's confidence interval," },
+  [EVENTS] = { "events_%s", "transitions counted" },
+  [DISPERSION] = { "dispersion_%s", "variance of the trajectories' counts by that of independent events," },
+};
+
+static double part_of(const pendres_switching_rate *r, int part)
+{
+  const double values[PARTS] = { [RATE] = r->value, [LOWER] = r->lower, [UPPER] = r->upper,
+                                 [EVENTS] = r->events, [DISPERSION] = r->dispersion };
+  return values[part];
+}
+
+static pendres_status write_rates(scene_run *run, const work *w, int kind, double *value,
+                                  double *error)
+{
+  const pendres_switching_rate *r = w->rates + (size_t)kind * w->temperatures;
+  pendres_status status = PENDRES_OK;
+  for (int part = 0; part < PARTS && status == PENDRES_OK; part++) {
+    char name[64], words[160];
+    snprintf(name, sizeof name, parts[part].format, kinds[kind].suffix);
+    snprintf(words, sizeof words, "%s %s", parts[part].words, kinds[kind].words);
+    const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
+                                      .long_name = words };
+    for (size_t i = 0; i < w->temperatures; i++) {
+      value[i] = part_of(&r[i], part);
+      error[i] = r[i].error;
+    }
+    status = part == RATE
+               ? pendres_store_put_result(run->store, &spec, value, error, w->temperatures)
+               : pendres_store_put(run->store, &spec, value, w->temperatures);
+  }
+  return status;
+}
+
+/* What became of a fit. */
+enum { FIT_STRAIGHT, FIT_BENT, FIT_UNCHECKED, FIT_TOO_FEW, FIT_OUTCOMES };
+
+static int8_t fit_outcome(const pendres_switching_activation *f)
+{
+  if (f->points < 2) return FIT_TOO_FEW;
+  if (f->points < 3) return FIT_UNCHECKED;
+  /* Three standard deviations of chi squared above its mean. */
+  const double freedom = (double)f->points - 2.0;
+  return f->chi2 > freedom + 3.0 * sqrt(2.0 * freedom) ? FIT_BENT : FIT_STRAIGHT;
+}
+
+static pendres_status write_fit(scene_run *run, const work *w, int kind)
+{
+  static const char *const meanings[FIT_OUTCOMES] = { "straight", "not_straight", "two_points",
+                                                      "too_few_events" };
+  const pendres_switching_activation *f = &w->fit[kind];
+  const int8_t outcome = fit_outcome(f);
+  const int32_t points = (int32_t)f->points;
+  char name[5][64], words[5][160];
+  static const char *const names[5] = { "activation_energy_%s", "log_prefactor_%s", "fit_%s",
+                                        "fit_chi2_%s", "fit_points_%s" };
+  static const char *const about[5] = {
+    "activation energy: minus the slope of ln rate against 1/temperature,",
+    "ln of the rate's prefactor,", "how straight ln rate is against 1/temperature,",
+    "chi squared of the fit,", "temperatures with 10 events or more," };
+  for (int i = 0; i < 5; i++) {
+    snprintf(name[i], sizeof name[i], names[i], kinds[kind].suffix);
+    snprintf(words[i], sizeof words[i], "%s %s", about[i], kinds[kind].words);
+  }
+  const pendres_store_spec energy = { .name = name[0], .long_name = words[0] };
+  const pendres_store_spec prefactor = { .name = name[1], .long_name = words[1] };
+  const pendres_store_spec flag = { .name = name[2], .long_name = words[2],
+                                    .type = PENDRES_STORE_INT8, .flag_count = FIT_OUTCOMES,
+                                    .flag_meanings = meanings };
+  const pendres_store_spec chi2 = { .name = name[3], .long_name = words[3] };
+  const pendres_store_spec used = { .name = name[4], .long_name = words[4],
+                                    .type = PENDRES_STORE_INT32 };
+  pendres_status status =
+    pendres_store_put_result(run->store, &energy, &f->energy, &f->energy_error, 1);
+  if (status == PENDRES_OK)
+    status = pendres_store_put_result(run->store, &prefactor, &f->log_prefactor,
+                                      &f->log_prefactor_error, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &flag, &outcome, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &chi2, &f->chi2, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &used, &points, 1);
+  return status;
+}
+
+/* Exposures, steps, and the interval's level. */
+static pendres_status write_circumstances(scene_run *run, const work *w, double *value)
+{
+  static const char *const names[STARTS] = { "exposure_sa", "exposure_la" };
+  static const char *const words[STARTS] = { "time spent on the small-amplitude state",
+                                             "time spent on the large-amplitude state" };
+  const pendres_store_spec confidence = { .name = "confidence_level",
+                                          .long_name = "level of the confidence intervals" };
+  const pendres_store_spec steps = { .name = "steps_per_period", .dimensions = { "temperature" },
+                                     .long_name = "steps a drive period of the noisy integrator" };
+  pendres_status status = pendres_store_put(run->store, &confidence, &level, 1);
+  for (int s = 0; s < STARTS && status == PENDRES_OK; s++) {
+    const pendres_store_spec spec = { .name = names[s], .dimensions = { "temperature" },
+                                      .long_name = words[s] };
+    for (size_t i = 0; i < w->temperatures; i++)
+      value[i] = w->index[s] >= 0 ? w->sums[i].exposure[w->index[s]] * w->sums[i].period : NAN;
+    status = pendres_store_put(run->store, &spec, value, w->temperatures);
+  }
+  for (size_t i = 0; i < w->temperatures; i++) value[i] = steps_at(w, i);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, value, w->temperatures);
+  return status;
+}
+
+static pendres_status write_results(scene_run *run, const work *w)
+{
+  double *value = malloc(2 * w->temperatures * sizeof *value);
+  if (value == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
+  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  for (int k = 0; k < KINDS && status == PENDRES_OK; k++)
+    status = write_rates(run, w, k, value, value + w->temperatures);
+  for (int k = 0; k < KINDS && status == PENDRES_OK; k++) status = write_fit(run, w, k);
+  if (status == PENDRES_OK) status = write_circumstances(run, w, value);
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+  free(value);
+  return status;
+}
+
+static void print_table(FILE *out, const work *w)
+{
+  const pendres_switching_rate *sa = w->rates, *la = w->rates + w->temperatures;
+  fprintf(out, "temperature  SA to LA      +-        events   LA to SA      +-        events\n");
+  for (size_t i = 0; i < w->temperatures; i++)
+    fprintf(out, "%-12.5g %-13.4g %-9.2g %-8.0f %-13.4g %-9.2g %.0f\n",
+            w->d->axis[DECK_AXIS_TEMPERATURE].value[i], sa[i].value, sa[i].error, sa[i].events,
+            la[i].value, la[i].error, la[i].events);
+  for (int k = 0; k < KINDS; k++) {
+    const pendres_switching_activation *f = &w->fit[k];
+    if (f->points < 2)
+      fprintf(out, "activation energy %s: too few events\n", kinds[k].words);
+    else
+      fprintf(out, "activation energy %s: %.5f +- %.5f\n", kinds[k].words, f->energy,
+              f->energy_error);
+  }
+}
+
+static pendres_status compute(scene_run *run, work *w)
+{
+  const size_t n = w->temperatures * STARTS;
+  const size_t sa = scene_noise_chunks(share(w, SA)), la = scene_noise_chunks(share(w, LA));
+  w->chunks = sa > la ? sa : la;
+  w->tallies = calloc(n * w->chunks, sizeof *w->tallies);
+  w->sums = calloc(w->temperatures, sizeof *w->sums);
+  w->rates = calloc(KINDS * w->temperatures, sizeof *w->rates);
+  w->steps = calloc(n, sizeof *w->steps);
+  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL || w->steps == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", n * w->chunks);
+  pendres_status status = farm_run(run->farm, "choices of steps", n, choose, NULL, w);
+  if (status == PENDRES_OK)
+    status = farm_run(run->farm, "chunks", n * w->chunks, count, NULL, w);
+  if (status != PENDRES_OK) return scene_farm_failed(run, status);
+  status = sum_up(w);
+  if (status != PENDRES_OK) return scene_fail(run, status, "rates cannot be computed");
+  return status;
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  work w = { .d = d, .farm = run->farm,
+             .pendulum = { .damping = d->pendulum.damping,
+                           .drive_amplitude = d->pendulum.drive_amplitude,
+                           .drive_frequency = d->pendulum.drive_frequency },
+             .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count };
+  pendres_status status = find_states(run, &w);
+  if (status == PENDRES_OK) status = compute(run, &w);
+  if (status == PENDRES_OK) status = write_results(run, &w);
+  if (status == PENDRES_OK) {
+    /* Where one state alone exists there is nothing to switch to: no results, and that is said. */
+    if (w.index[SA] < 0 || w.index[LA] < 0) run->failed_points += w.temperatures;
+    if (run->table != NULL) print_table(run->table, &w);
+  }
+  pendres_attractors_free(w.set);
+  free(w.tallies);
+  free(w.sums);
+  free(w.rates);
+  free(w.steps);
+  return status;
+}
+
+const scene_kind scene_switching = {
+  .kind = DECK_SWITCHING,
+  .references = "S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. Rev. "
+                "E 63 (2000) 016703; J. K. Salmon et al., SC11 (2011), Parallel random numbers: as "
+                "easy as 1, 2, 3; H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
+                "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
+                "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
+  .plan = plan,
+  .run = run_scene };
