@@ -72,7 +72,9 @@ static int index_sets(pendres_attractors *set)
 {
   size_t count = 0;
   for (size_t i = 0; i < set->sets; i++) count += set->catalogues[i].count;
+  free(set->attractors);
   set->attractors = malloc((count + 1) * sizeof *set->attractors);
+  set->count = 0;
   if (set->attractors == NULL) return -1;
   for (size_t i = 0; i < set->sets; i++)
     for (size_t j = 0; j < set->catalogues[i].count; j++)
@@ -140,12 +142,24 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
     return PENDRES_INVALID_ARGUMENT;
   pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
-  size_t *zero = calloc(n, sizeof *zero);
-  if (zero == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  /* Nothing is explored, so the catalogue is only read. */
-  status = pendres_settle_batch(ctx, 1, set->catalogues, 0, n, zero, x, v, outcome);
+  return pendres_settle_known(ctx, set->catalogues, n, x, v, 10.0 * ctx->options.tolerance,
+                              PENDRES_SETTLE_FULL, outcome);
+}
+
+pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractors *set, size_t n,
+                                         const double *x, const double *v)
+{
+  size_t *zero = calloc(n + 1, sizeof *zero);
+  pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (zero == NULL || outcome == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for attractors");
+  else
+    status = pendres_settle_batch(ctx, 1, set->catalogues, 1, n, zero, x, v, outcome);
+  if (status == PENDRES_OK && index_sets(set) != 0)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   free(zero);
+  free(outcome);
   return status;
 }
 

@@ -1,8 +1,11 @@
 /* settle.c -- settling many pendulums of many parameter sets at once; see settle.h. */
 #include "settle.h"
 
+#include <limits.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "context_internal.h"
 #include "steps.h"
@@ -59,7 +62,7 @@ typedef struct history {
 typedef struct labelling {
   const pendres_catalogue *catalogues;
   const size_t *origin;
-  const size_t *set;
+  const size_t *set;        /* NULL: all lanes belong to the first catalogue */
   const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
   int *streak;              /* strobes in a row in the cells of a chaotic attractor; NULL: none */
@@ -104,15 +107,20 @@ static int trapped(const labelling *l, size_t i, const pendres_catalogue *c,
   return 1;
 }
 
+static size_t set_of(const labelling *l, size_t i)
+{
+  return l->set != NULL ? l->set[i] : 0;
+}
+
 static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const labelling *l = arg;
-  const size_t i = l->origin[index];
-  const pendres_catalogue *c = &l->catalogues[l->set[i]];
+  const size_t i = l->origin[index], set = set_of(l, i);
+  const pendres_catalogue *c = &l->catalogues[set];
   if (trapped(l, i, c, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
-  return lane->period >= l->budget[l->set[i]];
+  return lane->period >= l->budget[set];
 }
 
 static const pendres_outcome unresolved = {
@@ -129,9 +137,10 @@ static pendres_status run_lanes(pendres_context *ctx, size_t n, pendres_strobe_l
   size_t *origin = malloc((n + 1) * sizeof *origin);
   if (rest == NULL || origin == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
-    const pendres_catalogue *c = &l->catalogues[l->set[i]];
+    const size_t set = set_of(l, i);
+    const pendres_catalogue *c = &l->catalogues[set];
     if (l->outcome[i].attractor >= 0) continue;
-    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[l->set[i]]) continue;
+    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
     covers |= c->covers > 0;
     origin[left] = i;
     rest[left++] = lanes[i];
@@ -437,5 +446,86 @@ done:
   free(lanes);
   free(starts);
   free(budget);
+  return status;
+}
+
+/* ---- many pendulums of one parameter set ---- */
+
+enum { SPEEDS = 4096 /* places of the table of steps, a power of 2 */ };
+
+/* Steps by speed, remembered: grids have few speeds, again and again. */
+typedef struct speed_table {
+  double speed[SPEEDS];
+  int steps[SPEEDS]; /* 0: empty */
+} speed_table;
+
+static pendres_status steps_of(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                               double accuracy, speed_table *t, int *steps)
+{
+  uint64_t bits;
+  memcpy(&bits, &speed, sizeof bits);
+  const size_t place = (size_t)((bits * UINT64_C(0x9e3779b97f4a7c15)) >> 52) % SPEEDS;
+  pendres_status status = PENDRES_OK;
+  if (t->steps[place] == 0 || t->speed[place] != speed) {
+    status = pendres_steps_choose(ctx, p, speed, accuracy, &t->steps[place]);
+    t->speed[place] = speed;
+  }
+  *steps = t->steps[place];
+  return status;
+}
+
+/* Pendulums in the order of their steps, each class in its own order; steps[n] is read. */
+static void order_by_steps(size_t n, const int *steps, size_t *order)
+{
+  size_t count = 0;
+  for (int least = 0; count < n;) {
+    int next = INT_MAX;
+    for (size_t i = 0; i < n; i++)
+      if (steps[i] > least && steps[i] < next) next = steps[i];
+    for (size_t i = 0; i < n; i++)
+      if (steps[i] == next) order[count++] = i;
+    least = next;
+  }
+}
+
+pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
+                                    size_t n, const double *x, const double *v, double accuracy,
+                                    pendres_settle_budget budget, pendres_outcome *outcome)
+{
+  const pendres_pendulum *p = &catalogue->pendulum;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  speed_table *table = calloc(1, sizeof *table);
+  int *steps = malloc((n + 1) * sizeof *steps);
+  size_t *order = malloc((n + 1) * sizeof *order);
+  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
+  pendres_outcome *found = malloc((n + 1) * sizeof *found);
+  if (table == NULL || steps == NULL || order == NULL || lanes == NULL || found == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
+    goto done;
+  }
+  status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = steps_of(ctx, p, fabs(v[i]), accuracy, table, &steps[i]);
+  if (status != PENDRES_OK) goto done;
+  order_by_steps(n, steps, order);
+  for (size_t k = 0; k < n; k++) {
+    const size_t i = order[k];
+    found[k] = unresolved;
+    lanes[k] = (pendres_strobe_lane){
+      .pendulum = p, .y = x[i] - half_pi, .w = v[i] / p->drive_frequency, .steps = steps[i]};
+    pendres_strobe_wrap(&lanes[k].y, &lanes[k].turns);
+  }
+  long most = last_budget(ctx, catalogue);
+  if (budget == PENDRES_SETTLE_SHORT && first_budget(p) < most) most = first_budget(p);
+  labelling l = {.catalogues = catalogue, .budget = &most, .outcome = found};
+  status = run_lanes(ctx, n, lanes, &l);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) outcome[order[k]] = found[k];
+  ctx->cost.settled_pendulums += (double)n;
+done:
+  free(table);
+  free(steps);
+  free(order);
+  free(lanes);
+  free(found);
   return status;
 }

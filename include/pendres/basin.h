@@ -1,0 +1,201 @@
+/*
+ * basin.h -- basins of attraction over a grid of initial states, and their statistics.
+ *
+ * Owns: labelling of grids in pieces, adaptive refinement, basin fractions, boundary basin
+ * entropy, and the uncertainty exponent of the boundary.
+ *
+ * A grid is worked on row by row (a row has one x and all v), so that memory stays bounded
+ * whatever its size, in any number of threads:
+ *
+ *   1. pendres_basin_attractors: the catalogue, from scouts spread over the grid
+ *   2. pendres_basin_rows: most states settle within a short budget; the few others are marked
+ *      as deferred, so that they do not hold up the rest
+ *   3. pendres_basin_states: the deferred ones, many at a time, with all their budget
+ *   4. what is still unresolved: pendres_basin_extend; if it finds an attractor, all again
+ *
+ * pendres_basin_compute does these steps on one thread for a grid that fits into memory.
+ * Results depend on the grid, its attractors and the tolerance alone, not on how it is cut.
+ */
+#ifndef PENDRES_BASIN_H
+#define PENDRES_BASIN_H
+
+#include <stdint.h>
+
+#include <pendres/attractor.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** States (x[i], v[j]) at drive phase 0, 0 <= i < nx, 0 <= j < nv; number i * nv + j. */
+typedef struct pendres_basin_grid {
+  size_t nx, nv;
+  const double *x, *v; /**< not owned */
+} pendres_basin_grid;
+
+/** How a state was found. */
+typedef enum pendres_basin_how {
+  PENDRES_BASIN_INTEGRATED = 0,
+  PENDRES_BASIN_FILLED = 1,  /**< taken over from its surroundings (refinement alone) */
+  PENDRES_BASIN_DEFERRED = 2 /**< not settled within the short budget of pendres_basin_rows */
+} pendres_basin_how;
+
+/** What became of a state; compact, since there are many. */
+typedef struct pendres_basin_state {
+  int32_t well;             /**< as in pendres_outcome */
+  int32_t settling_periods; /**< -1: unresolved; -2: filled */
+  int16_t attractor;        /**< index in the set; -1: unresolved or deferred */
+  int8_t label;             /**< a pendres_label */
+  int8_t how;               /**< a pendres_basin_how */
+} pendres_basin_state;
+
+/**
+ * The error a drive period that labels of a grid are computed with: a thousandth of the smallest
+ * spacing, at most 1e-5 and at least ten times the tolerance. States about this close to a basin's
+ * boundary may be on its other side.
+ */
+double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
+
+/**
+ * The attractors that the states of a grid go to, from scouts spread evenly over it. *out is to
+ * be freed by pendres_attractors_free.
+ */
+pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
+                                        const pendres_basin_grid *grid, pendres_attractors **out);
+
+/**
+ * Rows first .. first + rows - 1 of a grid; state[rows * nv] is written. *deferred, if not NULL,
+ * receives the number of states marked as deferred. Where very many do not settle soon they are
+ * given all their budget at once, and none is deferred.
+ */
+pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
+                                  const pendres_basin_grid *grid, size_t first, size_t rows,
+                                  pendres_basin_state *state, size_t *deferred);
+
+/** States number index[0 .. n) of a grid, with all their budget; state[n] is written. */
+pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n,
+                                    const size_t *index, pendres_basin_state *state);
+
+/**
+ * Look for further attractors from the states index[0 .. n) of a grid. *grown: how many were
+ * found; if any, all numbers of attractors may have changed.
+ */
+pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n,
+                                    const size_t *index, size_t *grown);
+
+/** A whole grid in memory on this thread; state[nx * nv] is written, *set may grow. */
+pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
+                                     const pendres_basin_grid *grid, pendres_basin_state *state);
+
+/* ---- Refinement ------------------------------------------------------------------------------ */
+
+/**
+ * Opaque: a plan to know rows of a grid without integrating all their states. A coarse lattice is
+ * integrated first; cells with unlike corners are halved down to single states; last, every
+ * state that was filled in and has an unlike neighbour is integrated, until there is none. So
+ * a boundary that has been met anywhere is followed all along. What can be missed are pieces of
+ * a basin that fit between the points of the coarse lattice: pendres_basin_plan_sample is
+ * there to look for them.
+ */
+typedef struct pendres_basin_plan pendres_basin_plan;
+
+/** A plan for rows first .. first + rows - 1; stride (a power of 2, 0: 16) of the coarse lattice.
+ *  grid's arrays must outlive the plan. */
+pendres_status pendres_basin_plan_create(const pendres_basin_grid *grid, size_t first,
+                                         size_t rows, int stride, pendres_basin_plan **out);
+void pendres_basin_plan_free(pendres_basin_plan *plan);
+
+/**
+ * The states to be integrated next (by pendres_basin_states, in any number of pieces): their
+ * numbers in the grid, *n of them, owned by the plan. *n = 0: all is known.
+ */
+pendres_status pendres_basin_plan_next(pendres_basin_plan *plan, size_t *n, const size_t **index);
+/** Take over what these states are. */
+pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
+                                         const pendres_basin_state *state);
+
+/**
+ * Draw up to n different states that were filled in, evenly over the rows: *drawn of them. They
+ * are integrated and handed to pendres_basin_plan_verify, which counts those that had been filled
+ * in wrongly; what is around them is looked at again if pendres_basin_plan_next is asked.
+ */
+pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
+                                         size_t *drawn, const size_t **index);
+pendres_status pendres_basin_plan_verify(pendres_basin_plan *plan,
+                                         const pendres_basin_state *state, size_t *missed);
+
+/** All states of the plan's rows, filled in or integrated; state[rows * nv] is written. */
+pendres_status pendres_basin_plan_states(const pendres_basin_plan *plan,
+                                         pendres_basin_state *state);
+/** How many of them were integrated. */
+size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
+
+/* ---- Statistics ------------------------------------------------------------------------------ */
+
+enum {
+  PENDRES_BASIN_BOX = 5,      /**< states a side of a box of the entropy */
+  PENDRES_BASIN_SCALES = 12,  /**< distances 1, 2, 4, ... grid steps at most */
+  PENDRES_BASIN_STRIPS = 16   /**< parts of a grid that errors are estimated from */
+};
+
+/** Statistics of a grid. Two states are alike when they have the same attractor. */
+typedef struct pendres_basin_statistics {
+  size_t states, unresolved;
+  double entropy, entropy_error;   /**< basin entropy: mean over boxes of 5 x 5 states of
+                                        -sum p log p, p the shares of attractors in the box */
+  double boundary_entropy, boundary_entropy_error; /**< the same over boxes with unlike states; more
+                                        than log 2: the boundary is fractal. NaN without a boundary */
+  double boundary_boxes;           /**< share of boxes with unlike states */
+  double uncertainty_exponent, uncertainty_exponent_error; /**< alpha in f ~ distance^alpha; NaN
+                                        without a boundary */
+  int scales;
+  double distance[PENDRES_BASIN_SCALES];  /**< in v */
+  double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one that far away */
+  double uncertain_error[PENDRES_BASIN_SCALES];
+} pendres_basin_statistics;
+
+/**
+ * Opaque: sums over the rows of a grid. v is to be evenly spaced for the uncertainty exponent.
+ *
+ * Errors are jackknife estimates from strips of rows: they hold for the sampling of the grid, not
+ * for a choice of another window. Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán,
+ * Scientific Reports 6 (2016) 31416; McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.
+ */
+typedef struct pendres_basin_sums pendres_basin_sums;
+
+pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
+                                         pendres_basin_sums **out);
+void pendres_basin_sums_free(pendres_basin_sums *sums);
+/** Add the next rows, in their order from row 0 on. */
+pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
+                                      const pendres_basin_state *state);
+/** fraction[attractors] and error[attractors] (either may be NULL): shares of all states. */
+pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
+                                         pendres_basin_statistics *out, double *fraction,
+                                         double *error);
+
+/** A window of initial states. */
+typedef struct pendres_basin_window {
+  double x_low, x_high, v_low, v_high;
+} pendres_basin_window;
+
+/**
+ * The uncertainty exponent from n random states of a window, each compared with its neighbours at
+ * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
+ * below the tolerance mean nothing. The states depend on seed alone. statistics' fields
+ * states, unresolved, uncertainty_exponent, distance, uncertain are set, others are NaN or 0.
+ * PENDRES_NOT_FOUND: no distance met the boundary often enough.
+ */
+pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
+                                         const pendres_basin_window *window, size_t n,
+                                         int scales, const double *distance, uint64_t seed,
+                                         pendres_basin_statistics *out);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif
