@@ -8,6 +8,10 @@ static const double two_pi = 6.28318530717958647693;
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 
+/* Relative to a cloud's width the bias is the same at all small temperatures; where it is hot, a
+   coarse and a fine trajectory part soon, and their difference tells little on steps. */
+static const double coldest = 1e-3;
+
 pendres_status scene_noise_open(farm *f, int64_t seed, pendres_langevin **out)
 {
   const pendres_langevin_options options = { .seed = (uint64_t)seed };
@@ -51,18 +55,20 @@ pendres_status scene_noise_choose_steps(pendres_langevin *lv,
                                         unsigned statistics, double tolerance,
                                         pendres_langevin_bias *bias)
 {
+  pendres_langevin_request cold = *request;
   memset(bias, 0, sizeof *bias);
-  pendres_status status =
-    pendres_langevin_choose_steps(lv, request, statistics, tolerance, bias);
+  cold.pendulum.temperature = fmin(cold.pendulum.temperature, coldest);
+  pendres_status status = pendres_langevin_choose_steps(lv, &cold, statistics, tolerance, bias);
   if (status == PENDRES_NOT_CONVERGED) /* near enough: the bias says how near */
-    return pendres_langevin_set_steps(lv, bias->steps_per_period);
+    status = pendres_langevin_set_steps(lv, bias->steps_per_period);
+  if (status != PENDRES_OK && status != PENDRES_NOT_FOUND) return status;
+  if (status == PENDRES_OK && cold.pendulum.temperature < request->pendulum.temperature)
+    status = pendres_langevin_measure_bias(lv, request, bias);
   if (status != PENDRES_NOT_FOUND) return status;
-  const pendres_pendulum *p = &request->pendulum;
-  const double period = two_pi / p->drive_frequency;
   for (int s = 0; s < STATISTICS; s++)
     bias->statistics[s].value = bias->statistics[s].error = bias->scale[s] = NAN;
-  bias->steps_per_period = (int)fmin(1e6, fmax(8.0, ceil(4.0 * period * fmax(1.0, p->damping))));
-  return pendres_langevin_set_steps(lv, bias->steps_per_period);
+  bias->steps_per_period = pendres_langevin_steps(lv);
+  return PENDRES_OK;
 }
 
 size_t scene_noise_chunks(size_t trajectories)

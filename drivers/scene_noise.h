@@ -26,8 +26,8 @@ long scene_noise_settle(const pendres_orbit *orbit);
 
 /*
  * Steps a period such that the bias of the statistics (a set of bits) is below tolerance times
- * their scale, and that bias. Where the clouds are too hot for that to be found out, the
- * handle takes a rule of thumb, and the bias is NaN.
+ * their scale; chosen at the request's temperature or, where that is hot, at a lower one. *bias is
+ * the one at the request's own temperature; NaN if nothing stays on the attractor there.
  */
 pendres_status scene_noise_choose_steps(pendres_langevin *lv,
                                         const pendres_langevin_request *request,

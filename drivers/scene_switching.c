@@ -2,8 +2,8 @@
  * scene_switching.c -- how often noise carries a pendulum from the small-amplitude state to the
  * large-amplitude one and back, against temperature, and the activation energies.
  *
- * One task a temperature and state for the steps a period, then one a temperature, state and
- * chunk of trajectories. Half of all trajectories start on either state and go wherever noise
+ * One task a state for the steps a period, then one a temperature, state and chunk of
+ * trajectories. Half of all trajectories start on either state and go wherever noise
  * carries them; each stay counts for the state where it is.
  */
 #include <math.h>
@@ -12,9 +12,10 @@
 
 #include "scene_noise.h"
 
-/* A bias of the cloud acts as a wrong temperature, and rates feel that E/T times stronger. So
-   steps are doubled after the choice: order four leaves a sixteenth of this. */
-static const double bias_of_choice = 0.01;
+/* Steps are chosen on the states' small clouds, at one temperature. A bias of the cloud acts as
+   a wrong temperature, and rates feel that E/T times stronger: so steps are doubled after the
+   choice, and order four leaves a sixteenth of this. */
+static const double bias_of_choice = 0.01, temperature_of_choice = 1e-4;
 static const double level = 0.95;
 
 enum { SA, LA, STARTS, WELLS = 2, KINDS = 4 };
@@ -26,7 +27,7 @@ typedef struct work {
   pendres_attractors *set;
   int index[STARTS];      /* of the states in the set; -1: there is none */
   size_t temperatures, chunks;
-  int *steps;             /* [temperature][start] */
+  int steps[STARTS];      /* a drive period; 0 where there is no such state */
   pendres_switching_tally *tallies; /* [temperature][start][chunk] */
   pendres_switching_tally *sums;    /* [temperature] */
   pendres_switching_rate *rates;    /* [kind][temperature] */
@@ -68,14 +69,14 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
 {
   enum { TRAJECTORIES = 192, RECORD = 60 };
   work *w = arg;
-  const int start = (int)(task % STARTS);
-  const pendres_attractor *a = pendres_attractors_get(w->set, (size_t)w->index[start]);
-  const pendres_pendulum p = pendulum_at(w, task / STARTS);
-  pendres_switching_home home = { w->set, (size_t)w->index[start], 0.0 };
+  if (w->index[task] < 0) return PENDRES_OK;
+  const pendres_attractor *a = pendres_attractors_get(w->set, (size_t)w->index[task]);
+  pendres_pendulum p = w->pendulum;
+  pendres_switching_home home = { w->set, (size_t)w->index[task], 0.0 };
   pendres_langevin *lv = NULL;
   pendres_langevin_bias bias;
   (void)ctx;
-  if (w->index[start] < 0) return PENDRES_OK;
+  p.temperature = temperature_of_choice;
   const pendres_langevin_request request = {
     .pendulum = p, .x = a->orbit.x, .v = a->orbit.v, .trajectories = TRAJECTORIES,
     .settle = scene_noise_settle(&a->orbit), .record = RECORD,
@@ -90,11 +91,9 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
 }
 
 /* The larger of the states' steps: trajectories visit both. */
-static int steps_at(const work *w, size_t temperature)
+static int steps_of(const work *w)
 {
-  const int *s = w->steps + temperature * STARTS;
-  const int steps = s[SA] > s[LA] ? s[SA] : s[LA];
-  return steps < 1000000 ? steps : 1000000;
+  return w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA];
 }
 
 /* Trajectories that start on a state. */
@@ -124,7 +123,7 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
     .periods = (long)w->d->noise.periods,
     .first_id = scene_noise_first_id(&p, from) + first };
   pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
-  if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_at(w, temperature));
+  if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_of(w));
   if (status == PENDRES_OK) status = pendres_switching_count(lv, &request, &w->tallies[task]);
   pendres_langevin_free(lv);
   return status;
@@ -273,7 +272,8 @@ static pendres_status write_circumstances(scene_run *run, const work *w, double 
                                              "time spent on the large-amplitude state" };
   const pendres_store_spec confidence = { .name = "confidence_level",
                                           .long_name = "level of the confidence intervals" };
-  const pendres_store_spec steps = { .name = "steps_per_period", .dimensions = { "temperature" },
+  const int32_t steps_per_period = steps_of(w);
+  const pendres_store_spec steps = { .name = "steps_per_period", .type = PENDRES_STORE_INT32,
                                      .long_name = "steps a drive period of the noisy integrator" };
   pendres_status status = pendres_store_put(run->store, &confidence, &level, 1);
   for (int s = 0; s < STARTS && status == PENDRES_OK; s++) {
@@ -283,8 +283,7 @@ static pendres_status write_circumstances(scene_run *run, const work *w, double 
       value[i] = w->index[s] >= 0 ? w->sums[i].exposure[w->index[s]] * w->sums[i].period : NAN;
     status = pendres_store_put(run->store, &spec, value, w->temperatures);
   }
-  for (size_t i = 0; i < w->temperatures; i++) value[i] = steps_at(w, i);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, value, w->temperatures);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, &steps_per_period, 1);
   return status;
 }
 
@@ -328,10 +327,9 @@ static pendres_status compute(scene_run *run, work *w)
   w->tallies = calloc(n * w->chunks, sizeof *w->tallies);
   w->sums = calloc(w->temperatures, sizeof *w->sums);
   w->rates = calloc(KINDS * w->temperatures, sizeof *w->rates);
-  w->steps = calloc(n, sizeof *w->steps);
-  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL || w->steps == NULL)
+  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", n * w->chunks);
-  pendres_status status = farm_run(run->farm, "choices of steps", n, choose, NULL, w);
+  pendres_status status = farm_run(run->farm, "choices of steps", STARTS, choose, NULL, w);
   if (status == PENDRES_OK)
     status = farm_run(run->farm, "chunks", n * w->chunks, count, NULL, w);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
@@ -360,15 +358,14 @@ static pendres_status run_scene(scene_run *run)
   free(w.tallies);
   free(w.sums);
   free(w.rates);
-  free(w.steps);
   return status;
 }
 
 const scene_kind scene_switching = {
   .kind = DECK_SWITCHING,
   .references = "S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. Rev. "
-                "E 63 (2000) 016703; J. K. Salmon et al., SC11 (2011), Parallel random numbers: as "
-                "easy as 1, 2, 3; H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
+                "E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, "
+                "2, 3, SC11 (2011); H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
                 "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
                 "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
   .plan = plan,
