@@ -17,7 +17,7 @@ enum {
 };
 
 /* Shares above this feel that boundaries are less far apart than the distance. */
-static const double most_uncertain = 0.25;
+static const double most_uncertain = 0.5;
 
 /* Sums of one strip of rows, or of one part of a sample. */
 typedef struct strip {
