@@ -162,6 +162,17 @@ def draw_basins(h, path):
     return fig
 
 
+def curves(h, what, x, y):
+    """Curves of folds or flips, one after the other: is it an end of SA or LA, x, y."""
+    if f"{what}_curve" not in h:
+        return
+    number = h[f"{what}_curve"]
+    for k in np.unique(number):
+        here = number == k
+        named = f"{what}_branch" in h and np.any(h[f"{what}_branch"][here] < 2)
+        yield named, h[f"{what}_{x}"][here], h[f"{what}_{y}"][here]
+
+
 def draw_phase_diagram(h, path):
     damping, omega = h["damping"], h["drive_frequency"]
     fig, (left, right) = plt.subplots(1, 2, figsize=(12, 5))
@@ -176,11 +187,10 @@ def draw_phase_diagram(h, path):
                         extent=(omega[0], omega[-1], damping[0], damping[-1]))
     fig.colorbar(area, ax=right, label="mean loop area")
     for ax in (left, right):
-        if "fold_frequency" in h and len(h["fold_frequency"]):
-            branch = h["fold_branch"]
-            for b in np.unique(branch):
-                ax.plot(h["fold_frequency"][branch == b], h["fold_damping"][branch == b],
-                        color="black", lw=1)
+        for named, omega_of, gamma_of in curves(h, "fold", "frequency", "damping"):
+            ax.plot(omega_of, gamma_of, color="black", lw=1.2 if named else 0.3)
+        for _, omega_of, gamma_of in curves(h, "flip", "frequency", "damping"):
+            ax.plot(omega_of, gamma_of, ":", color="black", lw=0.8)
         if "cusp_frequency" in h:
             ax.plot(np.atleast_1d(h["cusp_frequency"]), np.atleast_1d(h["cusp_damping"]),
                     "*", color="black", ms=9)
@@ -192,23 +202,20 @@ def draw_phase_diagram(h, path):
 def draw_branches(h, path):
     fig, ax = plt.subplots(figsize=(7, 6))
     omega = h["drive_frequency"]
+    number, damping, stable = h["branch_number"], h["branch_damping"], h["branch_stable"] == 1
     for i, g in enumerate(h["damping"]):
         colour = f"C{i}"
         ax.plot(h["mean_loop_amplitude"][i], omega, ".", ms=3, color=colour,
                 label=rf"$\gamma = {g:g}$, ensemble")
-        here = abs(h["branch_damping"] - g) < 1e-9
-        a, w = h["branch_amplitude"][here], h["branch_frequency"][here]
-        stable = h["branch_stable"][here] == 1
-        jump = np.r_[False, np.hypot(np.diff(a), np.diff(w)) > 0.2]
-        for mask, style in ((stable, "-"), (~stable, ":")):
-            aa, ww = np.where(mask, a, np.nan), np.where(mask, w, np.nan)
-            aa[jump] = np.nan
-            ax.plot(aa, ww, style, color=colour, lw=1)
-    if "fold_amplitude" in h:
-        branch = h["fold_branch"]
-        for b in np.unique(branch):
-            ax.plot(h["fold_amplitude"][branch == b], h["fold_frequency"][branch == b],
-                    color="black", lw=2, alpha=0.5)
+        for k in np.unique(number[abs(damping - g) < 1e-9]):
+            here = number == k
+            a, w = h["branch_amplitude"][here], h["branch_frequency"][here]
+            for mask, style in ((stable[here], "-"), (~stable[here], ":")):
+                ax.plot(np.where(mask, a, np.nan), w, style, color=colour, lw=1)
+    for named, amplitude, frequency in curves(h, "fold", "amplitude", "frequency"):
+        if named:
+            ax.plot(amplitude, frequency, color="black", lw=2, alpha=0.5)
+    ax.plot(h["free_amplitude"], h["free_frequency"], "--", color=FREE, lw=0.8, label="free pendulum")
     ax.set(xlabel=r"amplitude $\langle x_0\rangle$ (rad)", ylabel=r"drive frequency $\omega$",
            ylim=(omega[0], omega[-1]), xlim=(0, 2.6))
     ax.legend(fontsize=8)
@@ -247,8 +254,8 @@ DRAWERS = [  # the first whose variable is there draws the file
     ("resonance_period", draw_response),
     ("drive_phase", draw_orbit),
     ("label", draw_basins),
-    ("regime", draw_phase_diagram),
     ("branch_frequency", draw_branches),
+    ("regime", draw_phase_diagram),
     ("throughput", draw_work_precision),
     ("rate_sa_la", draw_switching),
 ]
