@@ -1,0 +1,313 @@
+/*
+ * test_scene_noise.c -- scenes with noise, run in this process: results that do not depend on
+ * threads, against linear noise theory and the deterministic limit, and decks that are wrong.
+ */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <pendres/pendres.h>
+#include <pendres/store.h>
+
+#include "scene.h"
+#include "scene_basins_noise.h"
+#include "scene_noise.h"
+
+static char folder[] = "/tmp/scene-noise-XXXXXX";
+
+static void path_of(const char *name, char path[100])
+{
+  snprintf(path, 100, "%s/%s.h5", folder, name);
+}
+
+/* Clouds alone, as scene_basins.c asks for them. */
+static pendres_status run_clouds(scene_run *run)
+{
+  const pendres_pendulum p = { .damping = run->deck->pendulum.damping,
+                               .drive_amplitude = run->deck->pendulum.drive_amplitude,
+                               .drive_frequency = run->deck->pendulum.drive_frequency };
+  pendres_attractors *set = NULL;
+  check_ok(pendres_attractors_find(farm_context(run->farm), &p, 0, NULL, NULL, &set));
+  check_ok(pendres_store_dimension(run->store, "", "attractor", pendres_attractors_count(set), NULL,
+                                   "number of the attractor", "1"));
+  const pendres_status status = scene_basins_write_clouds(run, set);
+  pendres_attractors_free(set);
+  return status;
+}
+
+/* Run a deck's scene into NAME.h5. */
+static void run_deck(const char *text, int threads, const char *name)
+{
+  char path[100];
+  const char *why = NULL;
+  deck d;
+  namelist_errors errors = { 0 };
+  farm_options options = { .threads = threads };
+  scene_run run = { .deck = &d };
+  assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors), PENDRES_OK);
+  check_ok(scene_precision(&d, &options.library, &why));
+  check_ok(farm_create(&options, &run.farm));
+  path_of(name, path);
+  check_ok(pendres_store_create(path, NULL, &run.store));
+  const pendres_status status =
+    d.kind == DECK_BASINS ? run_clouds(&run) : scene_find(d.kind)->run(&run);
+  if (status != PENDRES_OK) print_error("%s\n", run.message);
+  check_ok(status);
+  assert_int_equal(run.failed_points, 0);
+  check_ok(pendres_store_close(run.store));
+  pendres_store_free(run.store);
+  farm_free(run.farm);
+  deck_free(&d);
+  namelist_errors_free(&errors);
+}
+
+/* The whole file; its length. */
+static size_t slurp(const char *name, char **bytes)
+{
+  char path[100];
+  path_of(name, path);
+  FILE *f = fopen(path, "rb");
+  assert_non_null(f);
+  assert_int_equal(fseek(f, 0, SEEK_END), 0);
+  const size_t n = (size_t)ftell(f);
+  rewind(f);
+  *bytes = malloc(n);
+  assert_non_null(*bytes);
+  assert_int_equal(fread(*bytes, 1, n, f), n);
+  fclose(f);
+  return n;
+}
+
+static void check_same_bytes(const char *one, const char *two)
+{
+  char *a = NULL, *b = NULL;
+  const size_t n = slurp(one, &a);
+  assert_int_equal(n, slurp(two, &b));
+  assert_memory_equal(a, b, n);
+  free(a);
+  free(b);
+}
+
+/* n numbers of a variable. */
+static void get(const char *file, const char *name, double *values, size_t n)
+{
+  char path[100];
+  pendres_store *store = NULL;
+  path_of(file, path);
+  check_ok(pendres_store_open(path, &store));
+  const pendres_status status =
+    pendres_store_read(store, "", name, PENDRES_STORE_DOUBLE, values, n);
+  if (status != PENDRES_OK) print_error("%s: %s\n", name, pendres_store_message(store));
+  check_ok(status);
+  pendres_store_free(store);
+}
+
+/* 600 trajectories make four chunks. */
+static const char switching_deck[] =
+  "&scene kind = 'switching' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
+  "&sweep temperature = 0.02, 0.03 /\n&noise seed = 5, trajectories = 600, periods = 300 /\n";
+
+static void switching_counts_both_ways(void **state)
+{
+  static const char *const names[2] = { "sa_la", "la_sa" };
+  double rate[2], error[2], lower[2], upper[2], events[2], energy, energy_error, sa[2], la[2];
+  (void)state;
+  run_deck(switching_deck, 1, "one");
+  run_deck(switching_deck, 2, "two");
+  check_same_bytes("one", "two");
+  get("one", "exposure_sa", sa, 2);
+  get("one", "exposure_la", la, 2);
+  for (int i = 0; i < 2; i++) /* every trajectory is somewhere at all times */
+    check_relative(sa[i] + la[i], 600 * 300 * 7.7, 1e-12);
+  for (int k = 0; k < 2; k++) {
+    char name[40];
+    snprintf(name, sizeof name, "rate_%s", names[k]);
+    get("one", name, rate, 2);
+    snprintf(name, sizeof name, "rate_%s_error", names[k]);
+    get("one", name, error, 2);
+    snprintf(name, sizeof name, "rate_%s_lower", names[k]);
+    get("one", name, lower, 2);
+    snprintf(name, sizeof name, "rate_%s_upper", names[k]);
+    get("one", name, upper, 2);
+    snprintf(name, sizeof name, "events_%s", names[k]);
+    get("one", name, events, 2);
+    for (int i = 0; i < 2; i++) {
+      assert_true(events[i] >= 10.0);
+      check_relative(rate[i], events[i] / (k == 0 ? sa : la)[i], 1e-12);
+      assert_true(lower[i] < rate[i] && rate[i] < upper[i]);
+      /* 1.96 standard errors on either side, but for the skewness of few events. */
+      check_relative(upper[i] - lower[i], 2.0 * 1.96 * error[i], 0.15);
+    }
+    snprintf(name, sizeof name, "activation_energy_%s", names[k]);
+    get("one", name, &energy, 1);
+    snprintf(name, sizeof name, "activation_energy_%s_error", names[k]);
+    get("one", name, &energy_error, 1);
+    /* Two temperatures: the slope between them. */
+    check_relative(energy, log(rate[1] / rate[0]) / (1.0 / 0.02 - 1.0 / 0.03), 1e-9);
+    assert_true(energy_error > 0.0 && energy_error < 0.1 * energy);
+  }
+}
+
+/* Fig. 7's parameters; at T = 0.02 the clouds fill their wells. */
+static const char basins_deck[] =
+  "&scene kind = 'basins' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+  "&sweep x = 0, v = 0, temperature = 0, 0.0001, 0.02 /\n"
+  "&basins strobes = 12000, trajectories = 400, seed = 3 /\n";
+
+static void clouds_agree_with_linear_theory(void **state)
+{
+  enum { T = 3, A = 2, S = 12000 };
+  static const char *const parts[3] = { "xx", "xv", "vv" };
+  static double x[T * A * S], v[T * A * S];
+  double verdict[T * A], value[T * A], error[T * A], linear[T * A], bias[T * A], escapes[T * A];
+  (void)state;
+  run_deck(basins_deck, 1, "one");
+  run_deck(basins_deck, 2, "two");
+  check_same_bytes("one", "two");
+  get("one", "strobe_x", x, T * A * S);
+  get("one", "strobe_v", v, T * A * S);
+  get("one", "linear_theory", verdict, T * A);
+  get("one", "escapes", escapes, T * A);
+  for (int k = 0; k < 3; k++) {
+    char name[40];
+    snprintf(name, sizeof name, "strobe_cov_%s", parts[k]);
+    get("one", name, value, T * A);
+    snprintf(name, sizeof name, "strobe_cov_%s_error", parts[k]);
+    get("one", name, error, T * A);
+    snprintf(name, sizeof name, "linear_cov_%s", parts[k]);
+    get("one", name, linear, T * A);
+    snprintf(name, sizeof name, "bias_cov_%s", parts[k]);
+    get("one", name, bias, T * A);
+    for (int a = 0; a < A; a++) {
+      assert_true(value[a] == 0.0 && error[a] == 0.0 && linear[a] == 0.0);
+      check_near(value[A + a], linear[A + a], 4.0 * error[A + a] + fabs(bias[A + a]));
+      assert_true(error[A + a] > 0.0);
+    }
+    /* The file's points have the file's covariance: 400 x 30 points, all of them written. */
+    double mx = 0.0, mv = 0.0, sum = 0.0;
+    for (int i = 0; i < S; i++) mx += x[A * S + i] / S, mv += v[A * S + i] / S;
+    for (int i = 0; i < S; i++) {
+      const double dx = x[A * S + i] - mx, dv = v[A * S + i] - mv;
+      sum += (k == 0 ? dx * dx : k == 1 ? dx * dv : dv * dv) / S;
+    }
+    check_near(sum, value[A], 1e-12);
+  }
+  /* 0: agrees, 1: too hot. */
+  assert_true(verdict[0] == 0.0 && verdict[1] == 0.0 && verdict[2] == 0.0 && verdict[3] == 0.0);
+  assert_true(verdict[4] == 1.0 || verdict[5] == 1.0);
+  assert_true(escapes[0] == 0.0 && escapes[1] == 0.0 && escapes[2] == 0.0 && escapes[3] == 0.0);
+  assert_true(escapes[5] > 10.0); /* LA is left once in 120 periods */
+}
+
+/* Temperatures that are none are mistakes of the deck. */
+static void bad_temperatures_are_deck_errors(void **state)
+{
+  static const char *const bad[] = { "-0.001", "NaN", "-Inf", "Inf", "0.001, -1" };
+  static const char *const scenes[] = {
+    "&scene kind = 'switching' /\n&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8"
+    " /\n&sweep temperature = %s /\n",
+    "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n&sweep damping = 0.24, "
+    "drive_period = 7, temperature = %s /\n",
+    "&scene kind = 'basins' /\n&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+    "&sweep x = 0, v = 0, temperature = %s /\n" };
+  (void)state;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+      char text[400];
+      deck d;
+      namelist_errors errors = { 0 };
+      /* The format comes from the list above. */
+      const char *hole = strstr(scenes[k], "%s");
+      snprintf(text, sizeof text, "%.*s%s%s", (int)(hole - scenes[k]), scenes[k], bad[i], hole + 2);
+      assert_int_equal(deck_read_memory("bad.nml", text, strlen(text), &d, &errors),
+                       PENDRES_INVALID_ARGUMENT);
+      assert_true(errors.count > 0);
+      deck_free(&d);
+      namelist_errors_free(&errors);
+    }
+}
+
+/* Parts of a cloud make the statistics of the whole. */
+static void merging_parts_is_exact(void **state)
+{
+  enum { N = 37, CUT = 15, RECORD = 4 };
+  const pendres_pendulum p = { 0.3, 0.2, 0.9, 0.05 };
+  pendres_langevin_request q = { .pendulum = p, .x = 1.7, .v = 0.1, .trajectories = N, .settle = 3,
+                                 .record = RECORD, .first_id = 77 };
+  pendres_langevin_cloud whole, merged, parts[3];
+  pendres_langevin *lv = NULL;
+  (void)state;
+  check_ok(pendres_langevin_create(NULL, &lv));
+  check_ok(pendres_langevin_measure(lv, &q, &whole, NULL, NULL));
+  q.trajectories = CUT;
+  check_ok(pendres_langevin_measure(lv, &q, &parts[0], NULL, NULL));
+  q.first_id += CUT;
+  q.trajectories = N - CUT;
+  check_ok(pendres_langevin_measure(lv, &q, &parts[1], NULL, NULL));
+  /* One of which nothing is left. */
+  parts[2] = (pendres_langevin_cloud){ .left = 2, .exposure = 5.0, .phase_lag = { NAN, NAN } };
+  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)
+    parts[2].statistics[s] = (pendres_langevin_estimate){ NAN, NAN };
+  scene_noise_merge(3, parts, &merged);
+  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++) {
+    check_near(merged.statistics[s].value, whole.statistics[s].value, 1e-14);
+    /* Errors come from fewer trajectories each: their own scatter is 1/sqrt(2 N). */
+    check_relative(merged.statistics[s].error, whole.statistics[s].error, 0.25);
+  }
+  check_near(merged.phase_lag.value, whole.phase_lag.value, 1e-14);
+  check_relative(merged.phase_lag.error, whole.phase_lag.error, 0.25);
+  check_near(merged.exposure, whole.exposure + 5.0, 0.0);
+  assert_int_equal(merged.left, 2);
+  pendres_langevin_free(lv);
+}
+
+/* Chunks cover all trajectories once, none of them alone. */
+static void chunks_cover_everything(void **state)
+{
+  (void)state;
+  for (size_t n = 2; n < 2000; n += 7) {
+    size_t next = 0, first, count;
+    for (size_t c = 0; c < scene_noise_chunks(n); c++) {
+      scene_noise_chunk(n, c, &first, &count);
+      assert_int_equal(first, next);
+      assert_true(count >= 2 && count <= SCENE_NOISE_CHUNK);
+      next += count;
+    }
+    assert_int_equal(next, n);
+  }
+}
+
+static int enter(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) != NULL ? 0 : -1;
+}
+
+static int leave(void **state)
+{
+  static const char *const names[] = { "one", "two" };
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    char path[100];
+    path_of(names[i], path);
+    (void)remove(path);
+  }
+  return rmdir(folder);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(chunks_cover_everything),
+    cmocka_unit_test(merging_parts_is_exact),
+    cmocka_unit_test(bad_temperatures_are_deck_errors),
+    cmocka_unit_test(switching_counts_both_ways),
+    cmocka_unit_test(clouds_agree_with_linear_theory),
+  };
+  return cmocka_run_group_tests_name("scene_noise", tests, enter, leave);
+}
