@@ -17,6 +17,7 @@
 #include <pendres/continuation.h>
 #include <pendres/phase_diagram.h>
 #include <pendres/boundary.h>
+#include <pendres/basin.h>
 #include <pendres/langevin.h>
 #include <pendres/switching.h>
 #include <pendres/reference.h>
