@@ -222,17 +222,25 @@ def draw_branches(h, path):
     return fig
 
 
+def text(names):
+    return [n.decode() if isinstance(n, bytes) else str(n) for n in names]
+
+
 def draw_work_precision(h, path):
-    fig, ax = plt.subplots(figsize=(7.5, 5.5))
-    names = [n.decode() if isinstance(n, bytes) else str(n) for n in
-             (h["method_name"] if "method_name" in h else h["method"])]
-    for i, name in enumerate(names):
+    fig, ax = plt.subplots(figsize=(8, 6))
+    styles = [{"color": f"C{i}", "marker": "osD^v"[i // 10 % 5]} for i in range(50)]
+    for i, name in enumerate(text(h["method_name"])):
         error, speed = h["error_100"][i], h["throughput"][i] / 1e6
         good = np.isfinite(error) & (error > 0) & np.isfinite(speed)
-        ax.loglog(error[good], speed[good], "o-", ms=4, label=name)
+        ax.loglog(error[good], speed[good], "-", ms=4, label=name, **styles[i % 50])
+    if "others" in h:
+        for i, name in enumerate(text(h["others/method"])):
+            speed = h["others/throughput"][i] / 1e6
+            ax.loglog(h["others/error"], speed, "x:", color=f"{0.2 + 0.12 * i:.2f}",
+                      label=f"{name}, elsewhere")
     ax.set(xlabel="largest error after 100 periods", ylabel="million pendulum-periods a second")
     ax.invert_xaxis()
-    ax.legend(fontsize=8)
+    ax.legend(fontsize=7, ncol=2)
     ax.grid(True, which="both", alpha=0.3)
     return fig
 

@@ -26,7 +26,7 @@ only 'arkode/|cvode/|cvodes/' 'src/flow*' src/compat.h
 only 'nvector/|sunmatrix/|sunlinsol/|sunnonlinsol/' 'src/flow*'
 only 'sundials/' src/compat.h 'src/flow*' 'src/lanes*' src/version.c
 only 'compat\.h' 'src/flow*' src/context.c
-only 'gsl/' 'src/*'
+only 'gsl/' 'src/*' 'drivers/peer_gsl*'
 only 'mpi\.h' 'drivers/*_mpi.c'
 only 'omp\.h' 'drivers/*'
 set +f
