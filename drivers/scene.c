@@ -10,6 +10,7 @@ extern const scene_kind scene_free_oscillation;
 extern const scene_kind scene_resonance_curve;
 extern const scene_kind scene_response;
 extern const scene_kind scene_orbit;
+extern const scene_kind scene_basins;
 extern const scene_kind scene_work_precision;
 extern const scene_kind scene_phase_diagram;
 extern const scene_kind scene_branches;
@@ -20,6 +21,7 @@ static const scene_kind *const scenes[] = {
   &scene_resonance_curve,
   &scene_response,
   &scene_orbit,
+  &scene_basins,
   &scene_work_precision,
   &scene_phase_diagram,
   &scene_branches,

@@ -31,11 +31,26 @@ struct pendres_basin_sums {
   int scales;
   double step;        /* of v */
   size_t rows;        /* added so far */
-  double *members;    /* of each attractor; the last entry: unresolved */
+  size_t unresolved;
+  double *x_share, *v_share; /* of the window that belongs to each row and column of states */
+  double *members;    /* share of each attractor; the last entry: unresolved */
   double *crossings;  /* along v, where each attractor's basin begins or ends */
   int16_t *box_rows;  /* attractors of the rows of unfinished boxes */
   strip strips[PENDRES_BASIN_STRIPS];
 };
+
+/* Shares of the range from the first value to the last: half the way to either neighbour. */
+static double *shares_of(size_t n, const double *values)
+{
+  double *share = malloc(n * sizeof *share);
+  const double range = values[n - 1] - values[0];
+  if (share == NULL) return NULL;
+  for (size_t i = 0; i < n; i++) {
+    const double left = values[i > 0 ? i - 1 : 0], right = values[i + 1 < n ? i + 1 : n - 1];
+    share[i] = range != 0.0 ? 0.5 * (right - left) / range : 1.0 / (double)n;
+  }
+  return share;
+}
 
 pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
                                          pendres_basin_sums **out)
@@ -51,10 +66,12 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
   s->attractors = attractors;
   s->step = grid->nv > 1 ? fabs(grid->v[grid->nv - 1] - grid->v[0]) / (double)(grid->nv - 1) : 0.0;
   while (s->scales < PENDRES_BASIN_SCALES && (size_t)8 << s->scales <= grid->nv) s->scales++;
+  s->x_share = shares_of(grid->nx, grid->x);
+  s->v_share = shares_of(grid->nv, grid->v);
   s->members = calloc(attractors + 1, sizeof *s->members);
   s->crossings = calloc(attractors + 1, sizeof *s->crossings);
   s->box_rows = calloc(PENDRES_BASIN_BOX * grid->nv, sizeof *s->box_rows);
-  if (s->members == NULL || s->crossings == NULL || s->box_rows == NULL) {
+  if (s->x_share == NULL || s->v_share == NULL || s->members == NULL || s->crossings == NULL || s->box_rows == NULL) {
     pendres_basin_sums_free(s);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -65,6 +82,8 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
 void pendres_basin_sums_free(pendres_basin_sums *s)
 {
   if (s == NULL) return;
+  free(s->x_share);
+  free(s->v_share);
   free(s->members);
   free(s->crossings);
   free(s->box_rows);
@@ -116,7 +135,8 @@ static void add_row(pendres_basin_sums *s, const pendres_basin_state *state)
   for (size_t j = 0; j < s->nv; j++) {
     const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
     a[j] = known ? state[j].attractor : (int16_t)s->attractors;
-    s->members[a[j]] += 1.0;
+    s->members[a[j]] += s->x_share[row] * s->v_share[j];
+    s->unresolved += !known;
     if (j > 0 && a[j] != a[j - 1]) {
       s->crossings[a[j]] += 1.0;
       s->crossings[a[j - 1]] += 1.0;
@@ -233,13 +253,14 @@ static double jackknife(estimate *f, const strip *strips, const double *distance
 }
 
 /*
- * The exponent with its error: the jackknife's, and what the two halves of the scales disagree by,
- * since a share is a power of the distance only within limits.
+ * The exponent with its error: the jackknife's, and how far the slopes between neighbouring scales
+ * are from it, since a share is a power of the distance only within limits.
  */
 static void fit(const strip *strips, pendres_basin_statistics *out)
 {
   const strip t = total(strips, -1);
   int first, last;
+  double bend = 0.0;
   for (int k = 0; k < PENDRES_BASIN_SCALES; k++) {
     const double share = k < out->scales && t.tried[k] > 0.0 ? t.uncertain[k] / t.tried[k] : NAN;
     out->uncertain[k] = share;
@@ -249,26 +270,27 @@ static void fit(const strip *strips, pendres_basin_statistics *out)
   out->uncertainty_exponent_error = NAN;
   if (isnan(out->uncertainty_exponent)) return;
   fit_range(&t, &first, &last);
-  const int middle = (first + last) / 2;
-  const double low = slope(&t, out->distance, first, middle + 1, 2);
-  const double high = slope(&t, out->distance, middle, last, 2);
-  const double bend = isfinite(low - high) ? fabs(high - low) : 0.0;
+  for (int k = first; k + 1 < last; k++) {
+    const double local = slope(&t, out->distance, k, k + 2, 2);
+    if (isfinite(local)) bend = fmax(bend, fabs(local - out->uncertainty_exponent));
+  }
   out->uncertainty_exponent_error = hypot(jackknife(exponent, strips, out->distance), bend);
 }
 
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_basin_statistics *out,
                                          double *fraction, double *error)
 {
-  if (s == NULL || out == NULL || s->rows == 0) return PENDRES_INVALID_ARGUMENT;
+  if (s == NULL || out == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
   const double states = (double)s->rows * (double)s->nv;
-  const double lost = s->members[s->attractors] / states;
+  const double lost = s->members[s->attractors];
   for (size_t a = 0; a < s->attractors; a++) {
-    if (fraction != NULL) fraction[a] = s->members[a] / states;
-    /* A basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it. */
-    if (error != NULL) error[a] = sqrt((s->crossings[a] + 1.0) / 12.0) / states + lost;
+    if (fraction != NULL) fraction[a] = s->members[a];
+    /* A basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice
+       that, since the boundary is as uncertain between the rows. */
+    if (error != NULL) error[a] = sqrt((s->crossings[a] + 1.0) / 3.0) / states + lost;
   }
   *out = (pendres_basin_statistics){.states = s->rows * s->nv,
-                                    .unresolved = (size_t)s->members[s->attractors],
+                                    .unresolved = s->unresolved,
                                     .scales = s->scales};
   for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
     out->distance[k] = k < s->scales ? s->step * (double)((size_t)1 << k) : NAN;

@@ -172,7 +172,8 @@ void pendres_basin_sums_free(pendres_basin_sums *sums);
 /** Add the next rows, in their order from row 0 on. */
 pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
                                       const pendres_basin_state *state);
-/** fraction[attractors] and error[attractors] (either may be NULL): shares of all states. */
+/** fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
+ *  first to the last x and v, each state standing for what is nearest to it. Only after all rows. */
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
                                          pendres_basin_statistics *out, double *fraction,
                                          double *error);

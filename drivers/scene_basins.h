@@ -1,0 +1,40 @@
+/*
+ * scene_basins.h -- what the parts of scene `basins` share: computing in scene_basins.c, writing in
+ * scene_basins_write.c.
+ */
+#ifndef SCENE_BASINS_H
+#define SCENE_BASINS_H
+
+#include <pendres/basin.h>
+
+#include "scene.h"
+
+/* Variables of every state. */
+enum { BASINS_LABEL, BASINS_ATTRACTOR, BASINS_WELL, BASINS_PERIODS, BASINS_VARIABLES };
+
+typedef struct basins {
+  scene_run *run;
+  const deck *d;
+  pendres_pendulum pendulum;
+  pendres_basin_grid grid;
+  pendres_attractors *set;
+  pendres_basin_sums *sums;
+  int variable[BASINS_VARIABLES];
+  size_t unresolved;
+  /* refinement alone: */
+  size_t integrated, verified, missed;
+  /* the line v = 0: */
+  pendres_basin_state *cut;
+} basins;
+
+/* Define the variables of all states, in the group of the grid. */
+pendres_status basins_define(basins *b);
+
+/* Write whole rows; type errors and the like are the store's. */
+pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
+                                 const pendres_basin_state *state);
+
+/* Everything that is not a state of the grid. */
+pendres_status basins_write_results(basins *b);
+
+#endif

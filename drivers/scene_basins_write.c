@@ -1,0 +1,396 @@
+/* scene_basins_write.c -- the file and the table of scene `basins`; see scene_basins.h. */
+#include "scene_basins.h"
+
+#include <pendres/boundary.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+enum { QUICK = 1 /* compression of what there is most of: higher levels gain little */ };
+
+static const char *const label_names[] = {"sa", "la", "periodic", "running", "chaotic", "unresolved"};
+
+/* ---- states -------------------------------------------------------------------------------- */
+
+/* The variable number k of every state, in a group with the given dimensions. */
+static pendres_store_spec state_spec(int k, const char *group, const char *second)
+{
+  pendres_store_spec s = {.group = group, .dimensions = {"x", second}, .deflate = QUICK};
+  switch (k) {
+  case BASINS_LABEL:
+    s.name = "label";
+    s.long_name = "what the pendulum settles on";
+    s.type = PENDRES_STORE_INT8;
+    s.flag_count = PENDRES_LABEL_COUNT;
+    s.flag_meanings = label_names;
+    break;
+  case BASINS_ATTRACTOR:
+    s.name = "attractor_index";
+    s.long_name = "number of the attractor that the pendulum settles on";
+    s.comment = "-1: unresolved";
+    s.type = PENDRES_STORE_INT32;
+    break;
+  case BASINS_WELL:
+    s.name = "well";
+    s.long_name = "number of the well that the pendulum settles in";
+    s.comment = "0 for running and chaotic pendulums";
+    s.type = PENDRES_STORE_INT32;
+    break;
+  default:
+    s.name = "settling_periods";
+    s.long_name = "drive periods until the pendulum is inside its attractor's trapping region";
+    s.comment = "-1: unresolved; -2: filled in by refinement, not integrated";
+    s.type = PENDRES_STORE_INT32;
+    break;
+  }
+  return s;
+}
+
+pendres_status basins_define(basins *b)
+{
+  pendres_status status = scene_dimension(b->run, "", DECK_AXIS_X);
+  if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
+  if (status != PENDRES_OK) return status;
+  for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = state_spec(k, "", "v");
+    status = pendres_store_variable(b->run->store, &spec, &b->variable[k]);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+static int32_t state_value(const pendres_basin_state *s, int k)
+{
+  return k == BASINS_ATTRACTOR ? s->attractor : k == BASINS_WELL ? s->well : s->settling_periods;
+}
+
+/* One variable of n states as an array for the store; int8 for the label, else int32. */
+static const void *pack(size_t n, const pendres_basin_state *state, int k, int32_t *values)
+{
+  int8_t *labels = (int8_t *)values;
+  for (size_t i = 0; i < n; i++) {
+    if (k == BASINS_LABEL) labels[i] = state[i].label;
+    else values[i] = state_value(&state[i], k);
+  }
+  return values;
+}
+
+pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
+                                 const pendres_basin_state *state)
+{
+  enum { ROWS = 256 };
+  const size_t nv = b->grid.nv;
+  pendres_status status = PENDRES_OK;
+  int32_t *values = malloc((rows < ROWS ? rows : ROWS) * nv * sizeof *values);
+  if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for rows");
+  for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
+    const size_t some = rows - i < ROWS ? rows - i : ROWS;
+    for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++)
+      status =
+        pendres_store_write_rows(b->run->store, b->variable[k], first + i, some,
+                                 pack(some * nv, state + i * nv, k, values), some * nv);
+  }
+  free(values);
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+static pendres_status write_cut(basins *b)
+{
+  const size_t n = b->grid.nx;
+  pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
+  if (status != PENDRES_OK) return status;
+  int32_t *values = malloc(n * sizeof *values);
+  if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
+  for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = state_spec(k, "cut", NULL);
+    status = pendres_store_put(b->run->store, &spec, pack(n, b->cut, k, values), n);
+  }
+  if (status == PENDRES_OK)
+    status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
+                                          "the line v = 0");
+  free(values);
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+/* ---- attractors ---------------------------------------------------------------------------- */
+
+/* Results of an attractor: a value and its error by their offsets in pendres_attractor. */
+#define ORBIT(name, text, unit)                                                                 \
+  {"attractor_" #name, text, unit, offsetof(pendres_attractor, orbit.name),                     \
+   offsetof(pendres_attractor, orbit.name##_error)}
+
+static const struct {
+  const char *name, *long_name, *units;
+  size_t value, error;
+} fields[] = {
+  ORBIT(x, "position at drive phase 0, in well 0", "rad"),
+  ORBIT(v, "velocity at drive phase 0", "1"),
+  ORBIT(amplitude, "amplitude of the angle", "rad"),
+  ORBIT(phase_lag, "phase lag of the angle's first harmonic", "rad"),
+  ORBIT(loop_area, "loop area a drive cycle", "1"),
+  {"attractor_lyapunov", "largest Lyapunov exponent a unit time", "1",
+   offsetof(pendres_attractor, lyapunov), offsetof(pendres_attractor, lyapunov_error)},
+};
+
+static double field(const pendres_attractor *a, size_t offset)
+{
+  double value;
+  memcpy(&value, (const char *)a + offset, sizeof value);
+  return value;
+}
+
+static pendres_status write_fields(const basins *b, size_t n, double *value, double *error)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < sizeof fields / sizeof fields[0] && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = fields[k].name, .dimensions = {"attractor"},
+                                     .long_name = fields[k].long_name, .units = fields[k].units};
+    for (size_t i = 0; i < n; i++) {
+      const pendres_attractor *a = pendres_attractors_get(b->set, i);
+      value[i] = field(a, fields[k].value);
+      error[i] = field(a, fields[k].error);
+    }
+    status = pendres_store_put_result(b->run->store, &spec, value, error, n);
+  }
+  return status;
+}
+
+static pendres_status write_integers(const basins *b, size_t n, int32_t *value)
+{
+  static const struct { const char *name, *long_name; } names[] = {
+    {"attractor_period", "drive periods until the orbit closes; 0: it does not"},
+    {"attractor_winding", "whole turns in that time"}};
+  int8_t *label = (int8_t *)value;
+  for (size_t i = 0; i < n; i++) label[i] = (int8_t)pendres_attractors_get(b->set, i)->label;
+  const pendres_store_spec labels = {.name = "attractor_label", .dimensions = {"attractor"},
+                                     .long_name = "kind of attractor", .type = PENDRES_STORE_INT8,
+                                     .flag_count = PENDRES_LABEL_COUNT,
+                                     .flag_meanings = label_names};
+  pendres_status status = pendres_store_put(b->run->store, &labels, label, n);
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = names[k].name, .dimensions = {"attractor"},
+                                     .long_name = names[k].long_name, .type = PENDRES_STORE_INT32};
+    for (size_t i = 0; i < n; i++) {
+      const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;
+      value[i] = k == 0 ? o->period : o->winding;
+    }
+    status = pendres_store_put(b->run->store, &spec, value, n);
+  }
+  return status;
+}
+
+static pendres_status write_attractors(basins *b, const double *fraction, const double *error)
+{
+  const size_t n = pendres_attractors_count(b->set);
+  double *value = malloc((2 * n + 1) * sizeof *value);
+  pendres_status status = PENDRES_OK;
+  if (value == NULL)
+    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  status = pendres_store_dimension(b->run->store, "", "attractor", n, NULL,
+                                   "attractor, by amplitude, then by position", "1");
+  if (status == PENDRES_OK) status = write_integers(b, n, (int32_t *)value);
+  if (status == PENDRES_OK) status = write_fields(b, n, value, value + n);
+  const pendres_store_spec spec = {.name = "basin_fraction", .dimensions = {"attractor"},
+                                   .long_name = "share of the window's area", .units = "1"};
+  if (status == PENDRES_OK)
+    status = pendres_store_put_result(b->run->store, &spec, fraction, error, n);
+  free(value);
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+/* ---- statistics ---------------------------------------------------------------------------- */
+
+static pendres_status put_scalar(pendres_store *store, const char *name, const char *long_name,
+                                 double value, double error)
+{
+  const pendres_store_spec spec = {.name = name, .long_name = long_name};
+  return pendres_store_put_result(store, &spec, &value, &error, 1);
+}
+
+static pendres_status put_count(pendres_store *store, const char *name, const char *long_name,
+                                size_t count)
+{
+  const int64_t value = (int64_t)count;
+  const pendres_store_spec spec = {.name = name, .long_name = long_name,
+                                   .type = PENDRES_STORE_INT64};
+  return pendres_store_put(store, &spec, &value, 1);
+}
+
+static pendres_status write_statistics(basins *b, const pendres_basin_statistics *s)
+{
+  pendres_store *store = b->run->store;
+  pendres_status status =
+    put_scalar(store, "basin_entropy", "basin entropy over boxes of 5 x 5 states", s->entropy,
+               s->entropy_error);
+  if (status == PENDRES_OK)
+    status = put_scalar(store, "boundary_basin_entropy",
+                        "basin entropy over boxes with a boundary; above log 2 it is fractal",
+                        s->boundary_entropy, s->boundary_entropy_error);
+  if (status == PENDRES_OK)
+    status = put_scalar(store, "uncertainty_exponent",
+                        "exponent of the share of uncertain states over distance",
+                        s->uncertainty_exponent, s->uncertainty_exponent_error);
+  if (status == PENDRES_OK && s->scales > 0) {
+    const pendres_store_spec spec = {.name = "uncertain_fraction", .dimensions = {"distance"},
+                                     .long_name = "share of states with an unlike one at that distance"};
+    status = pendres_store_dimension(store, "", "distance", (uint64_t)s->scales, s->distance,
+                                     "distance in initial velocity", "1");
+    if (status == PENDRES_OK)
+      status = pendres_store_put_result(store, &spec, s->uncertain, s->uncertain_error,
+                                        (size_t)s->scales);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+static pendres_status write_counts(basins *b)
+{
+  pendres_store *store = b->run->store;
+  const size_t states = b->grid.nx * b->grid.nv;
+  pendres_status status = put_count(store, "unresolved_states", "states without an attractor",
+                                    b->unresolved);
+  if (status == PENDRES_OK && b->d->basins.refine) {
+    status = put_count(store, "integrated_states", "states that were integrated", b->integrated);
+    if (status == PENDRES_OK)
+      status = put_count(store, "filled_states", "states that were filled in",
+                         states - b->integrated);
+    if (status == PENDRES_OK)
+      status = put_count(store, "verified_states", "filled states that were integrated as a check",
+                         b->verified);
+    if (status == PENDRES_OK)
+      status = put_count(store, "verification_misses",
+                         "verified states that had been filled in wrongly", b->missed);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+}
+
+/* ---- the boundary as a curve --------------------------------------------------------------- */
+
+static pendres_status put_boundary(pendres_store *store, const pendres_boundary *curve)
+{
+  static const char *const names[] = {"boundary_x", "boundary_v"};
+  static const char *const words[] = {"position on the boundary of basins",
+                                      "velocity on the boundary of basins"};
+  const size_t n = pendres_boundary_count(curve);
+  pendres_status status = pendres_store_dimension(store, "", "boundary_point", n, NULL,
+                                                  "point of the boundary, in order along it", "1");
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = names[k], .dimensions = {"boundary_point"},
+                                     .long_name = words[k], .units = k == 0 ? "rad" : "1"};
+    status = pendres_store_put_result(
+      store, &spec, k == 0 ? pendres_boundary_x(curve) : pendres_boundary_v(curve),
+      pendres_boundary_error(curve), n);
+  }
+  int32_t *piece = malloc((n + 1) * sizeof *piece);
+  if (piece == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) piece[i] = pendres_boundary_piece(curve)[i];
+  const pendres_store_spec spec = {.name = "boundary_piece", .dimensions = {"boundary_point"},
+                                   .long_name = "piece of the boundary that the point belongs to",
+                                   .type = PENDRES_STORE_INT32};
+  if (status == PENDRES_OK) status = pendres_store_put(store, &spec, piece, n);
+  free(piece);
+  if (status == PENDRES_OK)
+    status = put_count(store, "boundary_complete", "1: all of the boundary within the window",
+                       (size_t)pendres_boundary_complete(curve));
+  return status;
+}
+
+/* The stable manifold of the orbit between the first attractor and its neighbour, if there is one. */
+static pendres_status write_boundary(basins *b)
+{
+  const deck_axis *x = &b->d->axis[DECK_AXIS_X], *v = &b->d->axis[DECK_AXIS_V];
+  const pendres_boundary_options window = {.x_low = x->value[0], .x_high = x->value[x->count - 1],
+                                           .v_low = v->value[0], .v_high = v->value[v->count - 1]};
+  pendres_boundary *curve = NULL;
+  pendres_orbit saddle;
+  pendres_context *ctx = farm_context(b->run->farm);
+  const pendres_attractor *first = pendres_attractors_get(b->set, 0);
+  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  if (first == NULL || first->orbit.period != 1 || first->orbit.winding != 0) return PENDRES_OK;
+  pendres_status status = pendres_saddle_find(ctx, &first->orbit, &saddle);
+  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* nothing beside it on its branch */
+  if (status == PENDRES_OK) status = pendres_boundary_find(ctx, &saddle, &window, &curve);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  } else {
+    status = put_boundary(b->run->store, curve);
+    if (status != PENDRES_OK) (void)scene_store_failed(b->run, status);
+  }
+  pendres_boundary_free(curve);
+  return status;
+}
+
+/* ---- what the paper says ------------------------------------------------------------------- */
+
+/* Share of the starts at rest between two positions that settle on `label` in well 0. */
+static double share_between(const basins *b, double low, double high, pendres_label label)
+{
+  size_t all = 0, there = 0;
+  for (size_t i = 0; i < b->grid.nx; i++) {
+    if (b->grid.x[i] < low || b->grid.x[i] > high) continue;
+    all++;
+    there += b->cut[i].label == (int8_t)label && (label != PENDRES_LABEL_SA || b->cut[i].well == 0);
+  }
+  return all > 0 ? (double)there / (double)all : NAN;
+}
+
+static pendres_status write_paper(basins *b)
+{
+  const pendres_pendulum *p = &b->pendulum;
+  if (fabs(p->damping - 0.12) > 1e-12 || fabs(p->drive_amplitude - 0.2) > 1e-12 ||
+      fabs(p->drive_frequency - 0.25 * pi) > 1e-12)
+    return PENDRES_OK;
+  const scene_printed values[] = {
+    {.name = "attractors", .printed = 2.0, .computed = (double)pendres_attractors_count(b->set)},
+    {.name = "share_sa_x_0.2pi_to_1.1pi", .printed = 1.0,
+     .computed = share_between(b, 0.2 * pi, 1.1 * pi, PENDRES_LABEL_SA)},
+    {.name = "share_la_x_-0.3pi_to_0", .printed = 1.0,
+     .computed = share_between(b, -0.3 * pi, 0.0, PENDRES_LABEL_LA)}};
+  return scene_write_paper(b->run, 3, values);
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static void print_table(const basins *b, const pendres_basin_statistics *s, const double *fraction,
+                        const double *error)
+{
+  FILE *out = b->run->table;
+  if (out == NULL) return;
+  fprintf(out, "attractor   period winding amplitude    phase lag    share of the area\n");
+  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
+    const pendres_attractor *a = pendres_attractors_get(b->set, i);
+    fprintf(out, "%2zu %-10s %4d %6d   %.8f   %.8f   %.6f +- %.0e\n", i,
+            pendres_label_name(a->label), a->orbit.period, a->orbit.winding, a->orbit.amplitude,
+            a->orbit.phase_lag, fraction[i], error[i]);
+  }
+  fprintf(out, "%zu states, %zu unresolved\n", s->states, b->unresolved);
+  if (b->d->basins.refine)
+    fprintf(out, "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong\n",
+            b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
+            b->missed);
+  if (b->d->basins.statistics)
+    fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent %.3f +- %.3f\n",
+            s->boundary_entropy, s->boundary_entropy_error, s->uncertainty_exponent,
+            s->uncertainty_exponent_error);
+}
+
+pendres_status basins_write_results(basins *b)
+{
+  const size_t n = pendres_attractors_count(b->set);
+  pendres_basin_statistics s;
+  double *fraction = malloc((2 * n + 1) * sizeof *fraction);
+  if (fraction == NULL)
+    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  pendres_status status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
+  if (status != PENDRES_OK) (void)scene_fail(b->run, status, "there are no states");
+  if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
+  if (status == PENDRES_OK) status = write_cut(b);
+  if (status == PENDRES_OK) status = write_counts(b);
+  if (status == PENDRES_OK && b->d->basins.statistics) status = write_statistics(b, &s);
+  if (status == PENDRES_OK && b->d->basins.boundary) status = write_boundary(b);
+  if (status == PENDRES_OK) status = write_paper(b);
+  if (status == PENDRES_OK) print_table(b, &s, fraction, fraction + n);
+  free(fraction);
+  return status;
+}
