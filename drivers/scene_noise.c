@@ -10,7 +10,7 @@ enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 
 /* Relative to a cloud's width the bias is the same at all small temperatures; where it is hot, a
    coarse and a fine trajectory part soon, and their difference tells little on steps. */
-static const double coldest = 1e-3;
+static const double coldest = 1e-4;
 
 pendres_status scene_noise_open(farm *f, int64_t seed, pendres_langevin **out)
 {

@@ -2,13 +2,15 @@
  * scene_response.c -- amplitude and phase lag of the mean loop against the drive period.
  *
  * The paper's Figs. 3 and 4. One task a damping and handful of drive periods, and one a damping
- * for its resonance.
+ * for its resonance. With temperatures in the deck the results have one more dimension: see
+ * scene_response_noise.c.
  */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scene.h"
+#include "scene_response_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -168,7 +170,12 @@ static pendres_status write_results(scene_run *run, const grid *g)
                                      g->d->axis[axis].value,
                                      axis == DECK_AXIS_DRIVE_PERIOD ? "drive period" : "drive frequency",
                                      "1");
-  if (status == PENDRES_OK) status = write_points(run, g, value, error);
+  const scene_response_grid grid = {
+    .dampings = g->dampings, .drives = g->drives, .damping = "damping",
+    .drive = deck_axis_name(axis), .points = g->points};
+  if (status == PENDRES_OK)
+    status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &grid)
+                                                         : write_points(run, g, value, error);
   if (status == PENDRES_OK) status = write_peaks(run, g, value, error);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
 done:
@@ -255,6 +262,7 @@ done:
 const scene_kind scene_response = {
   .kind = DECK_RESPONSE,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Figs. 3 and 4",
+                "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; "
+                "H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .plan = plan,
   .run = run_scene};

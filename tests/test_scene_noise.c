@@ -204,6 +204,46 @@ static void clouds_agree_with_linear_theory(void **state)
   assert_true(escapes[5] > 10.0); /* LA is left once in 120 periods */
 }
 
+#define RESPONSE_DECK                                                                              \
+  "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"                                \
+  "&sweep damping = 0.24, 0.8, drive_period = 6.5, 7.5"
+#define NOISE_GROUP "/\n&noise trajectories = 240, periods = 60, seed = 2 /\n"
+
+static void response_begins_at_the_deterministic_one(void **state)
+{
+  enum { T = 3, PLANE = 4 };
+  static const char *const names[] = { "mean_loop_area", "phase_lag", "first_harmonic_amplitude" };
+  static const char *const biases[] = { "bias_loop_area", "bias_phase_lag",
+                                        "bias_first_harmonic_amplitude" };
+  static const char *const still[] = { "mean_loop_area", "phase_lag", "mean_power",
+                                       "mean_loop_amplitude", "la_fraction" };
+  double value[T * PLANE], error[T * PLANE], bias[T * PLANE], plain[PLANE];
+  (void)state;
+  run_deck(RESPONSE_DECK ", temperature = 0, 1e-5, 0.01" NOISE_GROUP, 1, "one");
+  run_deck(RESPONSE_DECK ", temperature = 0, 1e-5, 0.01" NOISE_GROUP, 2, "two");
+  check_same_bytes("one", "two");
+  run_deck(RESPONSE_DECK "/\n", 2, "two");
+  for (size_t k = 0; k < sizeof still / sizeof *still; k++) {
+    get("one", still[k], value, T * PLANE);
+    get("two", still[k], plain, PLANE);
+    assert_memory_equal(value, plain, sizeof plain); /* to the last digit */
+  }
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    char name[60];
+    snprintf(name, sizeof name, "%s_error", names[k]);
+    get("one", names[k], value, T * PLANE);
+    get("one", name, error, T * PLANE);
+    get("one", biases[k], bias, T * PLANE);
+    for (int i = 0; i < PLANE; i++) {
+      /* Noise shifts means by something of the order of T; errors go with its square root. */
+      check_near(value[PLANE + i], value[i],
+                 4.5 * error[PLANE + i] + fabs(bias[PLANE + i]) + 10.0 * 1e-5);
+      assert_true(error[PLANE + i] > 0.0 && error[PLANE + i] < 1e-4);
+      assert_true(error[2 * PLANE + i] > 10.0 * error[PLANE + i]);
+    }
+  }
+}
+
 /* Temperatures that are none are mistakes of the deck. */
 static void bad_temperatures_are_deck_errors(void **state)
 {
@@ -308,6 +348,7 @@ int main(void)
     cmocka_unit_test(bad_temperatures_are_deck_errors),
     cmocka_unit_test(switching_counts_both_ways),
     cmocka_unit_test(clouds_agree_with_linear_theory),
+    cmocka_unit_test(response_begins_at_the_deterministic_one),
   };
-  return cmocka_run_group_tests_name("scene_noise", tests, enter, leave);
+  return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -1,0 +1,311 @@
+/*
+ * test_switching.c -- transitions by noise: against Kramers' rate, plain counting, and known fits.
+ */
+#include "langevin_fixture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/switching.h>
+
+static pendres_attractors *attractors(pendres_pendulum p)
+{
+  pendres_context *ctx = NULL;
+  pendres_attractors *set = NULL;
+  p.temperature = 0.0;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+  pendres_context_free(ctx);
+  return set;
+}
+
+/* Both states of Fig. 7's pendulum are about equally hard to leave at this drive period. */
+static pendres_pendulum balanced(double temperature)
+{
+  return (pendres_pendulum){ .damping = 0.12, .drive_amplitude = 0.2,
+                             .drive_frequency = 2.0 * PI / 7.7, .temperature = temperature };
+}
+
+static double bessel_i0(double x)
+{
+  double sum = 1.0, term = 1.0;
+  for (int k = 1; k < 60; k++) {
+    term *= 0.25 * x * x / ((double)k * k);
+    sum += term;
+  }
+  return sum;
+}
+
+/*
+ * Without drive: escapes from a well at strong friction. Smoluchowski's equation for the potential
+ * -cos y diffuses with D = T / (gamma I0(1/T)^2) (Lifson and Jackson, J. Chem. Phys. 36 (1962)
+ * 2410), hopping between neighbouring wells at the rate 2 D / (2 pi)^2. Inertia multiplies it by
+ * gamma (sqrt(gamma^2/4 + 1) - gamma/2) (Kramers 1940).
+ */
+static void wells_are_left_as_kramers_says(void **state)
+{
+  enum { N = 384 };
+  static const double temperatures[3] = { 0.33, 0.4, 0.5 };
+  const double g = 5.0, inertia = g * (sqrt(0.25 * g * g + 1.0) - 0.5 * g);
+  (void)state;
+  for (int i = 0; i < 3; i++) {
+    const double T = temperatures[i], i0 = bessel_i0(1.0 / T);
+    const pendres_pendulum p = { .damping = g, .drive_frequency = 1.0, .temperature = T };
+    const double smoluchowski = 2.0 * T / (g * i0 * i0) / (4.0 * PI * PI);
+    pendres_attractors *set = attractors(p);
+    assert_int_equal(pendres_attractors_count(set), 1);
+    const pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = N,
+                                          .periods = 600, .first_id = 1000 };
+    pendres_langevin *lv = make(11, 40, 192);
+    pendres_switching_tally tally;
+    pendres_switching_rate rate;
+    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_ok(pendres_switching_rate_of(&tally, 0, PENDRES_SWITCHING_WELL, 0.95, &rate));
+    /* All exits lead to a well. */
+    assert_true(tally.events[0][0] == tally.events[0][PENDRES_SWITCHING_WELL]);
+    check_near(rate.exposure, N * 600 * 2.0 * PI, 1e-6);
+    assert_true(rate.events > 100.0);
+    /* Between Kramers' correction and none lie 4 %: what finite barriers do to the correction is
+     * of its own order. */
+    check_near(rate.value, inertia * smoluchowski, sigmas * rate.error + 0.04 * smoluchowski);
+    assert_true(rate.error < 0.1 * rate.value);
+    /* Hops are independent: their dispersion scatters by sqrt(2/N) = 7 % around 1. */
+    check_near(rate.dispersion, 1.0, sigmas * sqrt(2.0 / N));
+    pendres_langevin_free(lv);
+    pendres_attractors_free(set);
+  }
+}
+
+/* The same count by hand: period after period, trajectory after trajectory. */
+static void counts_are_what_plain_counting_gives(void **state)
+{
+  enum { N = 24, PERIODS = 400 };
+  const pendres_pendulum p = balanced(0.03);
+  pendres_attractors *set = attractors(p);
+  pendres_langevin *lv = make(5, 24, 8);
+  double events[2][2] = { { 0.0 } }, wells[2] = { 0.0 }, exposure[2] = { 0.0 };
+  pendres_switching_tally tally;
+  (void)state;
+  assert_int_equal(pendres_attractors_count(set), 2);
+  const pendres_attractor *la = pendres_attractors_get(set, 1);
+  const pendres_switching_request q = { .pendulum = p, .set = set, .from = 1, .trajectories = N,
+                                        .periods = PERIODS, .first_id = 40 };
+  check_ok(pendres_switching_count(lv, &q, &tally));
+  for (uint64_t i = 0; i < N; i++) {
+    double x = la->orbit.x, v = la->orbit.v;
+    const uint64_t id = 40 + i;
+    int home = 1;
+    long home_well = 0;
+    for (long k = 0; k < PERIODS; k++) {
+      int at;
+      long well;
+      check_ok(pendres_langevin_advance(lv, 1, &p, &id, k, 1, &x, &v, NULL));
+      exposure[home] += 1.0;
+      pendres_switching_locate(set, 0.5, x, v, &at, &well);
+      if (at < 0 || (at == home && well == home_well)) continue;
+      events[home][at] += 1.0;
+      wells[home] += well != home_well;
+      home = at;
+      home_well = well;
+    }
+  }
+  for (int s = 0; s < 2; s++) {
+    check_near(tally.exposure[s], exposure[s], 0.0);
+    check_near(tally.events[s][PENDRES_SWITCHING_WELL], wells[s], 0.0);
+    for (int t = 0; t < 2; t++) check_near(tally.events[s][t], events[s][t], 0.0);
+  }
+  assert_true(events[1][0] > 5.0 && events[0][1] > 5.0);
+  pendres_langevin_free(lv);
+  pendres_attractors_free(set);
+}
+
+/* Chunks, in any order, make the whole; blocks do not matter. */
+static void parts_add_up(void **state)
+{
+  const pendres_pendulum p = balanced(0.03);
+  pendres_attractors *set = attractors(p);
+  pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = 100, .periods = 200,
+                                  .first_id = 7 };
+  pendres_switching_tally whole, part[2], sum = { 0 };
+  pendres_langevin *one = make(3, 20, 192), *other = make(3, 20, 16);
+  (void)state;
+  check_ok(pendres_switching_count(one, &q, &whole));
+  q.trajectories = 37;
+  check_ok(pendres_switching_count(other, &q, &part[0]));
+  q.first_id += 37;
+  q.trajectories = 63;
+  check_ok(pendres_switching_count(other, &q, &part[1]));
+  pendres_switching_add(&sum, &part[1]);
+  pendres_switching_add(&sum, &part[0]);
+  assert_true(whole.events[0][1] > 0.0);
+  assert_memory_equal(&sum, &whole, sizeof sum);
+  pendres_langevin_free(one);
+  pendres_langevin_free(other);
+  pendres_attractors_free(set);
+}
+
+/* At temperature 0 nothing leaves; what is nonsense is refused in words. */
+static void stillness_and_nonsense(void **state)
+{
+  const pendres_pendulum p = balanced(0.0);
+  pendres_attractors *set = attractors(p);
+  pendres_langevin *lv = make(1, 60, 8);
+  pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = 8, .periods = 50 };
+  pendres_switching_tally tally;
+  pendres_switching_rate rate;
+  (void)state;
+  for (size_t from = 0; from < 2; from++) {
+    q.from = from;
+    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_near(tally.exposure[from], 8 * 50, 0.0);
+    for (size_t t = 0; t <= PENDRES_SWITCHING_STATES; t++) assert_true(tally.events[from][t] == 0.0);
+    check_ok(pendres_switching_rate_of(&tally, from, 1 - from, 0.95, &rate));
+    assert_true(rate.value == 0.0 && rate.lower == 0.0 && rate.error > 0.0);
+    check_relative(rate.upper, -log(0.025) / (8 * 50 * 7.7), 1e-9); /* Poisson: exp(-mean) */
+    check_ok(pendres_switching_rate_of(&tally, 1 - from, from, 0.95, &rate));
+    assert_true(isnan(rate.value) && isnan(rate.error)); /* nobody was there */
+  }
+  static const double bad[] = { -1e-3, NAN, INFINITY };
+  for (size_t i = 0; i < 3; i++) {
+    q.pendulum.temperature = bad[i];
+    assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+    assert_true(strlen(pendres_langevin_message(lv)) > 10);
+  }
+  q.pendulum = p;
+  q.pendulum.damping = 0.13;
+  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  q.pendulum = p;
+  q.from = 2;
+  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  q.from = 0;
+  q.core = 1.5;
+  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_switching_rate_of(&tally, 0, 1, 1.0, &rate), PENDRES_INVALID_ARGUMENT);
+  pendres_langevin_free(lv);
+  pendres_attractors_free(set);
+}
+
+/* Places: points of the orbits, moved by whole turns, and one in between. */
+static void states_are_located(void **state)
+{
+  pendres_attractors *set = attractors(balanced(0.0));
+  int at;
+  long well;
+  (void)state;
+  for (int i = 0; i < 2; i++)
+    for (long turn = -3; turn <= 3; turn++) {
+      const pendres_orbit *o = &pendres_attractors_get(set, (size_t)i)->orbit;
+      pendres_switching_locate(set, 0.0, o->x + 2.0 * PI * (double)turn, o->v, &at, &well);
+      assert_int_equal(at, i);
+      assert_int_equal(well, turn);
+    }
+  pendres_switching_locate(set, 1.0, -PI / 2.0, 0.0, &at, &well); /* a barrier's top */
+  assert_int_equal(at, -1);
+  assert_int_equal(well, 0);
+  pendres_attractors_free(set);
+}
+
+/* Rates that are exactly exponential give their energy back, and the error that theory says. */
+static void fits_find_the_energy(void **state)
+{
+  enum { N = 4 };
+  const double temperature[N] = { 0.01, 0.0125, 0.016, 0.02 }, energy = 0.09, prefactor = 0.02;
+  double s = 0.0, sx = 0.0, sxx = 0.0;
+  pendres_switching_rate rates[N];
+  pendres_switching_activation fit;
+  (void)state;
+  for (int i = 0; i < N; i++) {
+    const double value = prefactor * exp(-energy / temperature[i]), events = 100.0 * (i + 1);
+    rates[i] = (pendres_switching_rate){ .events = events, .value = value,
+                                         .error = value / sqrt(events) };
+    s += events;
+    sx += events / temperature[i];
+    sxx += events / (temperature[i] * temperature[i]);
+  }
+  check_ok(pendres_switching_fit(N, temperature, rates, 0.0, &fit));
+  assert_int_equal(fit.points, N);
+  check_relative(fit.energy, energy, 1e-12);
+  check_near(fit.log_prefactor, log(prefactor), 1e-11);
+  check_near(fit.chi2, 0.0, 1e-18);
+  /* The textbook's: weights are numbers of events. */
+  check_relative(fit.energy_error, sqrt(s / (s * sxx - sx * sx)), 1e-10);
+
+  /* A scatter that events do not explain makes the error larger. */
+  rates[1].value *= 2.0;
+  rates[1].error *= 2.0;
+  pendres_switching_activation scattered;
+  check_ok(pendres_switching_fit(N, temperature, rates, 0.0, &scattered));
+  assert_true(scattered.chi2 > 10.0);
+  check_relative(scattered.energy_error, fit.energy_error * sqrt(0.5 * scattered.chi2), 1e-10);
+
+  /* Too few events: said, not guessed. */
+  for (int i = 0; i < N - 1; i++) rates[i].events = 9.0;
+  assert_int_equal(pendres_switching_fit(N, temperature, rates, 0.0, &fit), PENDRES_NOT_FOUND);
+  assert_int_equal(fit.points, 1);
+  assert_true(isnan(fit.energy) && isnan(fit.energy_error));
+  check_ok(pendres_switching_fit(N, temperature, rates, 5.0, &fit));
+}
+
+/* Events in bursts of four make intervals twice as wide. */
+static void bursts_widen_intervals(void **state)
+{
+  enum { N = 100 };
+  pendres_switching_tally t = { .states = 2, .period = 1.0, .trajectories = N };
+  pendres_switching_rate rate;
+  double lower, upper, value;
+  (void)state;
+  /* Half of the trajectories have none, the others eight in equal times: variance 16, mean 4. */
+  for (int i = 0; i < N; i++) {
+    const double events = i % 2 ? 8.0 : 0.0, time = 50.0;
+    t.exposure[0] += time;
+    t.exposure2[0] += time * time;
+    t.events[0][1] += events;
+    t.events2[0][1] += events * events;
+    t.mixed[0][1] += events * time;
+  }
+  check_ok(pendres_switching_rate_of(&t, 0, 1, 0.9, &rate));
+  const double d = 4.0 * N / (N - 1.0);
+  check_relative(rate.dispersion, d, 1e-12);
+  check_relative(rate.value, 4.0 / 50.0, 1e-12);
+  check_relative(rate.error, sqrt(4.0 * N * d) / (50.0 * N), 1e-12);
+  check_ok(pendres_langevin_rate(4.0 * N / d, 50.0 * N / d, 0.9, &value, &lower, &upper));
+  check_relative(rate.lower, lower, 1e-12);
+  check_relative(rate.upper, upper, 1e-12);
+}
+
+/* A whole ellipse's edge turns trajectories back; halves and quarters agree. */
+static void rates_do_not_depend_on_the_core(void **state)
+{
+  const pendres_pendulum p = balanced(0.02);
+  pendres_attractors *set = attractors(p);
+  pendres_langevin *lv = make(9, 32, 192);
+  pendres_switching_rate rate[2];
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    const pendres_switching_request q = { .pendulum = p, .set = set, .core = i ? 0.25 : 0.5,
+                                          .trajectories = 384, .periods = 1000,
+                                          .first_id = 10000u * (unsigned)i };
+    pendres_switching_tally tally;
+    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_ok(pendres_switching_rate_of(&tally, 0, 1, 0.95, &rate[i]));
+    assert_true(rate[i].events > 50.0);
+  }
+  check_near(rate[0].value, rate[1].value, sigmas * hypot(rate[0].error, rate[1].error));
+  pendres_langevin_free(lv);
+  pendres_attractors_free(set);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(states_are_located),
+    cmocka_unit_test(counts_are_what_plain_counting_gives),
+    cmocka_unit_test(parts_add_up),
+    cmocka_unit_test(stillness_and_nonsense),
+    cmocka_unit_test(bursts_widen_intervals),
+    cmocka_unit_test(fits_find_the_energy),
+    cmocka_unit_test(rates_do_not_depend_on_the_core),
+    cmocka_unit_test(wells_are_left_as_kramers_says),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
