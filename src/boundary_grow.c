@@ -53,7 +53,7 @@ static pendres_status second_derivative(pendres_context *ctx, const pendres_cont
     points[i][PENDRES_U_Y] += (2 * i - 1) * h * e[0];
     points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
   }
-  const pendres_status status = pendres_continuation_map_images(
+  const pendres_status status = pendres_continuation_map_states(
     ctx, map, steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     for (int k = 0; k < 2; k++)
@@ -208,7 +208,7 @@ pendres_status pendres_boundary_grow_distance(pendres_context *ctx,
     last = first;
     while (last < n && order[last]->generation == order[first]->generation) last++;
     const pendres_continuation_map map = {.period = order[first]->generation * seed->iterates};
-    status = pendres_continuation_map_images(ctx, &map, seed->steps, last - first,
+    status = pendres_continuation_map_states(ctx, &map, seed->steps, last - first,
                                              (const double (*)[PENDRES_U_COUNT])u + first,
                                              image + first);
     for (size_t i = first; i < last && status == PENDRES_OK; i++)

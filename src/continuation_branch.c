@@ -100,7 +100,7 @@ static pendres_status closes_by_half(pendres_context *ctx, const pendres_continu
                                      int steps, const double u[PENDRES_U_COUNT], int *yes)
 {
   pendres_continuation_image image;
-  const pendres_status status = pendres_continuation_map_images(
+  const pendres_status status = pendres_continuation_map_states(
     ctx, half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
   *yes = hypot(image.f[0], image.f[1]) < 1e-3;
   return status;
@@ -402,7 +402,7 @@ pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurca
   pendres_status status =
     pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
   if (status == PENDRES_OK)
-    status = pendres_continuation_map_images(ctx, &one.map, steps, 1,
+    status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, &image);
   if (status != PENDRES_OK) return status;
   /* The null vector of N + I: the way in which the doubled map's orbits leave. */

@@ -229,7 +229,13 @@ pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
       known_already = on_curve(set->curve[k], &bifurcations[i], options->second);
     if (known_already) continue;
     status = pendres_curve_follow(ctx, 1, &bifurcations[i], options, &set->curve[set->count]);
-    set->count += status == PENDRES_OK;
+    if (status == PENDRES_NOT_CONVERGED) status = PENDRES_OK;
+    /* Of a bifurcation among wild orbits nothing but itself can be followed. */
+    if (status == PENDRES_OK && pendres_curve_count(set->curve[set->count]) < 3) {
+      pendres_curve_free(set->curve[set->count]);
+      set->curve[set->count] = NULL;
+    }
+    set->count += set->curve[set->count] != NULL;
   }
   if (status == PENDRES_OK) {
     *out = set;

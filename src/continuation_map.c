@@ -82,7 +82,7 @@ double pendres_continuation_map_growth(const pendres_continuation_image *i)
 
 static void read_image(const pendres_flow *flow, const double *state, size_t lane,
                        const pendres_continuation_map *map, const double u[PENDRES_U_COUNT],
-                       pendres_continuation_image *out)
+                       int columns, pendres_continuation_image *out)
 {
   const size_t stride = pendres_flow_stride(flow);
   const double sign = map->mirror ? -1.0 : 1.0;
@@ -94,7 +94,7 @@ static void read_image(const pendres_flow *flow, const double *state, size_t lan
   out->f[1] = sign * s[stride] - u[PENDRES_U_W];
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < PENDRES_U_COUNT; k++)
-      out->j[i][k] = sign * s[(size_t)(2 + 2 * k + i) * stride];
+      out->j[i][k] = k < columns ? sign * s[(size_t)(2 + 2 * k + i) * stride] : NAN;
   for (int i = 0; i < 2; i++) {
     for (int k = 0; k < 2; k++) out->n[i][k] = out->j[i][k];
     out->j[i][i] -= 1.0;
@@ -105,7 +105,7 @@ static void read_image(const pendres_flow *flow, const double *state, size_t lan
 
 static pendres_status run_block(pendres_context *ctx, pendres_flow *flow,
                                 const pendres_continuation_map *map, size_t n,
-                                const double (*u)[PENDRES_U_COUNT],
+                                const double (*u)[PENDRES_U_COUNT], int columns,
                                 pendres_continuation_image *out)
 {
   pendres_status status = PENDRES_OK;
@@ -123,8 +123,29 @@ static pendres_status run_block(pendres_context *ctx, pendres_flow *flow,
   ctx->cost.pendulum_periods += (double)n * (map->mirror ? 0.5 : map->period);
   ctx->cost.newton_steps += (double)n;
   for (size_t i = 0; i < n; i++)
-    read_image(flow, pendres_flow_state(flow), i, map, u[i], &out[i]);
+    read_image(flow, pendres_flow_state(flow), i, map, u[i], columns, &out[i]);
   return PENDRES_OK;
+}
+
+/* The first `columns` derivatives: those by the state, or all. */
+static pendres_status images(pendres_context *ctx, const pendres_continuation_map *map, int steps,
+                             size_t n, const double (*u)[PENDRES_U_COUNT], int columns,
+                             pendres_continuation_image *out)
+{
+  pendres_flow *flow = NULL;
+  pendres_status status = pendres_context_poll(ctx);
+  if (status == PENDRES_OK)
+    status = pendres_context_flow(
+      ctx, columns > 2 ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
+  if (status != PENDRES_OK) return status;
+  status = pendres_flow_set_steps(flow, steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  const size_t capacity = pendres_flow_capacity(flow);
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
+    const size_t count = n - first < capacity ? n - first : capacity;
+    status = run_block(ctx, flow, map, count, u + first, columns, out + first);
+  }
+  return status;
 }
 
 pendres_status pendres_continuation_map_images(pendres_context *ctx,
@@ -132,18 +153,15 @@ pendres_status pendres_continuation_map_images(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  pendres_flow *flow = NULL;
-  pendres_status status = pendres_context_poll(ctx);
-  if (status == PENDRES_OK) status = pendres_context_flow(ctx, PENDRES_FLOW_SENSITIVITY, &flow);
-  if (status != PENDRES_OK) return status;
-  status = pendres_flow_set_steps(flow, steps);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  const size_t capacity = pendres_flow_capacity(flow);
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
-    const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(ctx, flow, map, count, u + first, out + first);
-  }
-  return status;
+  return images(ctx, map, steps, n, u, PENDRES_U_COUNT, out);
+}
+
+pendres_status pendres_continuation_map_states(pendres_context *ctx,
+                                               const pendres_continuation_map *map, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_image *out)
+{
+  return images(ctx, map, steps, n, u, 2, out);
 }
 
 /* ---- equations ---- */
@@ -263,7 +281,7 @@ pendres_status pendres_continuation_map_equations(pendres_context *ctx,
       stencil_points(w.u[i], v, w.around + i * STENCIL);
     }
     status =
-      pendres_continuation_map_images(ctx, map, steps, n * each * STENCIL,
+      pendres_continuation_map_states(ctx, map, steps, n * each * STENCIL,
                                       (const double (*)[PENDRES_U_COUNT])w.around, w.around_image);
     if (status != PENDRES_OK) goto done;
   }

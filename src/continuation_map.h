@@ -78,6 +78,12 @@ pendres_status pendres_continuation_map_images(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
+/* The same without the derivatives by the parameters, which become NaN. */
+pendres_status pendres_continuation_map_states(pendres_context *ctx,
+                                               const pendres_continuation_map *map, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_image *out);
+
 /* The equations of a condition at n points. Only the derivatives by unknowns listed in
    `unknown[unknowns]` are computed. */
 pendres_status pendres_continuation_map_equations(pendres_context *ctx,

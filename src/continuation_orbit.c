@@ -158,7 +158,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   /* A measure whose two values happen to agree is not known better than its point. */
   const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                              pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
-  const double floor = pair->rounding + 0.02 * point;
+  const double floor = pair->rounding + 0.5 * point;
 
   memset(o, 0, sizeof *o);
   o->pendulum = p;

@@ -82,6 +82,7 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
     return status;
   memcpy(point->u, u[0], sizeof point->u);
   point->u[place] = bound;
+  point->held = k + 1;
   point->arclength = inside->arclength + distance(w, inside->u, u[0]);
   point->bending = inside->bending + part * (outside->bending - inside->bending);
   /* What belongs to the place and not to the plane is taken from the way there. */
@@ -301,6 +302,10 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
       for (size_t i = 0; i < left; i++) {
         pendres_continuation_pair *p = &pairs[index[i]];
         point[i] = t->point[index[i]];
+        if (point[i].held > 0) {
+          memset(point[i].tangent, 0, sizeof point[i].tangent);
+          point[i].tangent[point[i].held - 1] = 1.0;
+        }
         if (fine) {
           p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
           p->fine_steps += p->fine_steps % 2;

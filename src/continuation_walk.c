@@ -143,7 +143,7 @@ static void correct(candidate *c)
 static double rounding_of(const candidate *c)
 {
   const int n = c->walk->unknowns;
-  const double unit = 1.2e-16 * fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1])) *
+  const double unit = 4e-16 * fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1])) *
                       sqrt(c->steps * c->walk->map.period);
   double sum = 0.0;
   for (int column = 0; column + 1 < n; column++) {
@@ -205,6 +205,7 @@ static int follows(const pendres_walk *w, const pendres_walk_point *last, const 
   if (turn < sharpest_turn || way > 2.0 * w->step || miss > farthest_miss * w->step * (c->rank + 1))
     return 0;
   memcpy(point->u, c->u, sizeof point->u);
+  point->held = 0;
   describe(w, &c->at, last->null, point);
   point->arclength = last->arclength + way;
   return 1;

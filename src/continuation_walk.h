@@ -19,6 +19,7 @@ enum { PENDRES_WALK_AHEAD = 8, PENDRES_WALK_UNKNOWNS = 4 };
 typedef struct pendres_walk_point {
   double u[PENDRES_U_COUNT];
   double tangent[PENDRES_WALK_UNKNOWNS]; /* unit vector of the scaled unknowns */
+  int held; /* 1 + the number of an unknown that stays as it is in corrections; 0: none */
   double arclength;                      /* from the walk's start, of the scaled unknowns */
   pendres_continuation_image image;
   double growth;  /* how sensitive the equations are here: what walks give up at */

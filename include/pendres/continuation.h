@@ -75,7 +75,7 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
 typedef struct pendres_branch_options {
   pendres_parameter parameter;
   double low, high;     /**< of the parameter: the branch is followed while it lies within */
-  double spacing;       /**< of points at most, in arclength; default 0.05 */
+  double spacing;       /**< of points in arclength, up to twice this in bends; default 0.05 */
   double wildest;       /**< growth of errors in one map at which a branch is given up; 1e3 */
   size_t most_points;   /**< each way from the start; default 2000 */
 } pendres_branch_options;
@@ -184,7 +184,7 @@ typedef struct pendres_cusp {
 typedef struct pendres_curve_options {
   pendres_parameter second;      /**< beside the one that the start was found in */
   double low[2], high[2];        /**< of the start's parameter and of the second */
-  double spacing;                /**< of points at most, in arclength as for branches; default 0.05 */
+  double spacing;                /**< of points in arclength, as for branches; default 0.05 */
   double wildest;                /**< growth of errors in one map at which a curve is given up; 300 */
   size_t most_points;            /**< each way from the start; default 2000 */
 } pendres_curve_options;
@@ -230,7 +230,10 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *cu
 /** Opaque: several curves. */
 typedef struct pendres_curves pendres_curves;
 
-/** The curves that n bifurcations lie on, each once. Errors as for pendres_curve_follow. */
+/**
+ * The curves that n bifurcations lie on, each once; those that hardly reach beyond the
+ * bifurcation itself are left out. Errors as for pendres_curve_follow.
+ */
 pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
                                    const pendres_bifurcation *bifurcations,
                                    const pendres_curve_options *options, pendres_curves **out);

@@ -1,0 +1,200 @@
+/*
+ * test_boundary.c -- the orbit between two attractors, and its stable manifold as a curve.
+ *
+ * References: reference.h for the saddle; and what a boundary is: states on either side of it go
+ * to different attractors, as close to it as its error bound says.
+ */
+#include <stdlib.h>
+
+#include <pendres/attractor.h>
+#include <pendres/boundary.h>
+#include <pendres/reference.h>
+
+#include "check.h"
+
+static const double half_pi = 1.57079632679489661923;
+
+typedef struct fixture {
+  pendres_context *ctx;
+  pendres_attractors *found;
+  pendres_orbit saddle;
+} fixture;
+
+/* Fig. 7's parameters. */
+static int setup(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.25 * 3.14159265358979323846};
+  fixture *f = calloc(1, sizeof *f);
+  if (f == NULL) return -1;
+  *state = f;
+  if (pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &f->ctx) != PENDRES_OK ||
+      pendres_attractors_find(f->ctx, &p, 0, NULL, NULL, &f->found) != PENDRES_OK)
+    return -1;
+  return pendres_saddle_find(f->ctx, &pendres_attractors_get(f->found, 0)->orbit, &f->saddle);
+}
+
+static int teardown(void **state)
+{
+  fixture *f = *state;
+  pendres_attractors_free(f->found);
+  pendres_context_free(f->ctx);
+  free(f);
+  return 0;
+}
+
+static void saddle_matches_reference(void **state)
+{
+  fixture *f = *state;
+  const pendres_orbit *s = &f->saddle;
+  pendres_reference_cycle want;
+  assert_int_equal(pendres_attractors_count(f->found), 2);
+  check_ok(pendres_reference_orbit(&s->pendulum, s->x - half_pi, s->v, 1, 0, &want));
+  check_near(s->x - half_pi, (double)want.y, 2.0 * s->x_error);
+  check_near(s->v, (double)want.v, 2.0 * s->v_error);
+  check_near(s->multiplier_re[0], (double)want.multiplier_re[0], 2.0 * s->multiplier_error);
+  assert_false(s->stable);
+  assert_true(s->multiplier_re[0] > 1.0 && s->multiplier_re[1] < 1.0);
+  /* Between the two attractors in amplitude as well. */
+  assert_true(s->amplitude > pendres_attractors_get(f->found, 0)->orbit.amplitude);
+  assert_true(s->amplitude < pendres_attractors_get(f->found, 1)->orbit.amplitude);
+}
+
+/* Points lie in the window, in order; the saddle is on the curve. */
+static void curve_is_a_curve(void **state)
+{
+  fixture *f = *state;
+  const pendres_boundary_options window = {.x_low = -1.0, .x_high = 5.0, .v_low = -1.5,
+                                           .v_high = 1.5, .spacing = 0.1, .deviation = 1e-4};
+  pendres_boundary *b = NULL;
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &window, &b));
+  const size_t n = pendres_boundary_count(b);
+  const double *x = pendres_boundary_x(b), *v = pendres_boundary_v(b);
+  const int *piece = pendres_boundary_piece(b);
+  double nearest = INFINITY;
+  assert_true(n > 50);
+  assert_int_equal(piece[0], 0);
+  for (size_t i = 0; i < n; i++) {
+    assert_true(x[i] >= -1.0 && x[i] <= 5.0 && v[i] >= -1.5 && v[i] <= 1.5);
+    nearest = fmin(nearest, hypot(x[i] - f->saddle.x, v[i] - f->saddle.v));
+    if (i == 0) continue;
+    assert_true(piece[i] == piece[i - 1] || piece[i] == piece[i - 1] + 1);
+    if (piece[i] == piece[i - 1])
+      assert_true(fabs(x[i] - x[i - 1]) <= 0.1 && fabs(v[i] - v[i - 1]) <= 0.1);
+  }
+  /* As close as the saddle itself is known. */
+  check_near(nearest, 0.0, 1e-9);
+  pendres_boundary_free(b);
+}
+
+/* Step to both sides of every point of the curve by a few times its error. */
+static void sides_go_to_different_attractors(void **state)
+{
+  fixture *f = *state;
+  const pendres_boundary_options window = {.v_low = -1.2, .v_high = 1.2, .deviation = 1e-6};
+  pendres_boundary *b = NULL;
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &window, &b));
+  const size_t n = pendres_boundary_count(b);
+  const double *x = pendres_boundary_x(b), *v = pendres_boundary_v(b);
+  const double *error = pendres_boundary_error(b);
+  const int *piece = pendres_boundary_piece(b);
+  /* Twice the deviation asked for: the estimate of the bend carries a margin of 1.5. */
+  assert_true(pendres_boundary_bound(b) <= 2e-6 && pendres_boundary_bound(b) > 0.0);
+
+  double *px = malloc(2 * n * sizeof *px), *pv = malloc(2 * n * sizeof *pv);
+  pendres_outcome *outcome = malloc(2 * n * sizeof *outcome);
+  assert_true(px != NULL && pv != NULL && outcome != NULL);
+  size_t m = 0;
+  for (size_t i = 1; i + 1 < n; i += 5) {
+    if (piece[i - 1] != piece[i] || piece[i + 1] != piece[i]) continue;
+    const double tx = x[i + 1] - x[i - 1], tv = v[i + 1] - v[i - 1], length = hypot(tx, tv);
+    if (!(length > 0.0)) continue;
+    /* 1e-8: settling itself moves a basin's boundary by about its tolerance. */
+    const double away = 3.0 * error[i] + 1e-8;
+    for (int side = -1; side <= 1; side += 2, m++) {
+      px[m] = x[i] - side * away * tv / length;
+      pv[m] = v[i] + side * away * tx / length;
+    }
+  }
+  check_ok(pendres_attractors_settle(f->ctx, f->found, m, px, pv, outcome));
+  size_t same = 0;
+  for (size_t i = 0; i < m; i += 2) {
+    assert_true(outcome[i].attractor >= 0 && outcome[i + 1].attractor >= 0);
+    same += outcome[i].attractor == outcome[i + 1].attractor && outcome[i].well == outcome[i + 1].well;
+  }
+  /* Two strands of the boundary may be so close that both are stepped over: a few in a thousand. */
+  assert_true(m > 400);
+  assert_true(same <= m / 500);
+  free(px);
+  free(pv);
+  free(outcome);
+  pendres_boundary_free(b);
+}
+
+/* A coarser curve lies on the finer one, to the sum of their bounds. */
+static void coarse_and_fine_agree(void **state)
+{
+  fixture *f = *state;
+  pendres_boundary *coarse = NULL, *fine = NULL;
+  const pendres_boundary_options rough = {.x_low = 0.0, .x_high = 3.0, .v_low = 0.2,
+                                          .v_high = 1.5, .deviation = 1e-3};
+  pendres_boundary_options smooth = rough;
+  smooth.deviation = 1e-6;
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &rough, &coarse));
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &smooth, &fine));
+  const double *cx = pendres_boundary_x(coarse), *cv = pendres_boundary_v(coarse);
+  const double *fx = pendres_boundary_x(fine), *fv = pendres_boundary_v(fine);
+  const int *piece = pendres_boundary_piece(fine);
+  assert_true(pendres_boundary_count(fine) > 2 * pendres_boundary_count(coarse));
+  for (size_t i = 0; i < pendres_boundary_count(coarse); i++) {
+    double nearest = INFINITY;
+    for (size_t k = 0; k + 1 < pendres_boundary_count(fine); k++) {
+      if (piece[k] != piece[k + 1]) continue;
+      const double dx = fx[k + 1] - fx[k], dv = fv[k + 1] - fv[k];
+      const double t = ((cx[i] - fx[k]) * dx + (cv[i] - fv[k]) * dv) / (dx * dx + dv * dv);
+      const double s = fmin(1.0, fmax(0.0, t));
+      nearest = fmin(nearest, hypot(cx[i] - fx[k] - s * dx, cv[i] - fv[k] - s * dv));
+    }
+    /* Points of the coarse curve are exact but for the integration; chords of the fine one bend by
+       1e-6. At the window's edge the last chord may be cut off: by less than its length. */
+    const int at_edge = cx[i] < 0.02 || cx[i] > 2.98 || cv[i] < 0.22 || cv[i] > 1.48;
+    check_near(nearest, 0.0, at_edge ? 0.05 : 2e-6);
+  }
+  pendres_boundary_free(coarse);
+  pendres_boundary_free(fine);
+}
+
+static void mistakes_are_told(void **state)
+{
+  fixture *f = *state;
+  pendres_boundary *b = NULL;
+  const pendres_boundary_options empty = {.x_low = 2.0, .x_high = 1.0};
+  assert_int_equal(pendres_boundary_find(f->ctx, &f->saddle, &empty, &b), PENDRES_INVALID_ARGUMENT);
+  assert_null(b);
+  /* An attractor has no stable manifold of one dimension. */
+  const pendres_orbit *sa = &pendres_attractors_get(f->found, 0)->orbit;
+  assert_int_equal(pendres_boundary_find(f->ctx, sa, NULL, &b), PENDRES_INVALID_ARGUMENT);
+  assert_null(b);
+  /* Too few points allowed: what there is, and it says so. */
+  const pendres_boundary_options few = {.most_points = 300};
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &few, &b));
+  assert_int_equal(pendres_boundary_complete(b), 0);
+  assert_true(pendres_boundary_count(b) <= 600);
+  pendres_boundary_free(b);
+  /* LA's branch does not come back here: it joins SA's at higher damping only. */
+  pendres_orbit none;
+  assert_int_equal(
+    pendres_saddle_find(f->ctx, &pendres_attractors_get(f->found, 1)->orbit, &none),
+    PENDRES_NOT_FOUND);
+  pendres_boundary_free(NULL);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(saddle_matches_reference),      cmocka_unit_test(curve_is_a_curve),
+    cmocka_unit_test(sides_go_to_different_attractors), cmocka_unit_test(coarse_and_fine_agree),
+    cmocka_unit_test(mistakes_are_told),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}
