@@ -24,10 +24,9 @@ struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
   int steps, stages;
-  N_Vector state, scratch;
+  N_Vector state;
+  double *rows;           /* the state for everybody else, row after row */
   double *coefficient[4]; /* stiffness, drive, friction, inverse */
-  pendres_coefficients kernel_coefficients;
-  pendres_rhs_kernel *rhs;
   drive_memo memo;
   void *arkode;
   double evaluations, steps_taken;
@@ -49,8 +48,7 @@ static double drive_cosine(drive_memo *m, double theta)
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
   pendres_flow *flow = arg;
-  flow->rhs(flow->shape.stride, &flow->kernel_coefficients, drive_cosine(&flow->memo, theta),
-            pendres_lanes_data(y), pendres_lanes_data(slope));
+  pendres_lanes_slope(y, slope, drive_cosine(&flow->memo, theta));
   flow->evaluations += (double)flow->lanes;
   return 0;
 }
@@ -98,14 +96,6 @@ static int memo_resize(drive_memo *m, int stages, int steps)
   return 0;
 }
 
-static pendres_rhs_kernel *kernel_for(const pendres_kernels *k, size_t rows)
-{
-  if (rows == PENDRES_ROWS_STATE) return k->state;
-  if (rows == PENDRES_ROWS_VARIATIONAL) return k->variational;
-  if (rows == PENDRES_ROWS_SENSITIVITY) return k->sensitivity;
-  return NULL;
-}
-
 static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNContext sun)
 {
   ARKodeButcherTable butcher = NULL;
@@ -142,29 +132,27 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   *out = NULL;
   if (flow == NULL) return status;
 
-  flow->shape.rows = options->rows;
-  flow->shape.capacity = (options->lanes + PENDRES_LANES_MULTIPLE - 1) / PENDRES_LANES_MULTIPLE *
-                         PENDRES_LANES_MULTIPLE;
-  flow->shape.stride = flow->shape.capacity;
-  flow->shape.kernels = pendres_kernels_select();
-  flow->shape.norm_unused = options->tolerance == 0.0;
-  flow->lanes = options->lanes;
-  flow->tolerance = options->tolerance;
-  flow->rhs = kernel_for(flow->shape.kernels, options->rows);
-  if (flow->rhs == NULL) {
+  if (options->rows != PENDRES_ROWS_STATE && options->rows != PENDRES_ROWS_VARIATIONAL &&
+      options->rows != PENDRES_ROWS_SENSITIVITY) {
     status = PENDRES_INVALID_ARGUMENT;
     goto fail;
   }
+  if (pendres_lanes_open(&flow->shape, options->rows, options->lanes,
+                         pendres_kernels_select()) != 0)
+    goto fail;
+  flow->shape.norm_unused = options->tolerance == 0.0;
+  flow->lanes = options->lanes;
+  flow->tolerance = options->tolerance;
   for (int i = 0; i < 4; i++) {
     flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
     if (flow->coefficient[i] == NULL) goto fail;
   }
-  flow->kernel_coefficients =
+  flow->shape.coefficients =
     (pendres_coefficients){.stiffness = flow->coefficient[0], .drive = flow->coefficient[1],
                            .friction = flow->coefficient[2], .inverse = flow->coefficient[3]};
   flow->state = pendres_lanes_create(&flow->shape, sun);
-  flow->scratch = pendres_lanes_create(&flow->shape, sun);
-  if (flow->state == NULL || flow->scratch == NULL) goto fail;
+  flow->rows = pendres_lanes_allocate(flow->shape.rows * flow->shape.capacity);
+  if (flow->state == NULL || flow->rows == NULL) goto fail;
   status = arkode_setup(flow, options->table, sun);
   if (status != PENDRES_OK) goto fail;
   *out = flow;
@@ -179,7 +167,8 @@ void pendres_flow_free(pendres_flow *flow)
   if (flow == NULL) return;
   if (flow->arkode != NULL) ERKStepFree(&flow->arkode);
   if (flow->state != NULL) N_VDestroy(flow->state);
-  if (flow->scratch != NULL) N_VDestroy(flow->scratch);
+  pendres_lanes_close(&flow->shape);
+  free(flow->rows);
   for (int i = 0; i < 4; i++) free(flow->coefficient[i]);
   free(flow->memo.theta);
   free(flow->memo.cosine);
@@ -200,9 +189,9 @@ pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
 void pendres_flow_resize(pendres_flow *flow, size_t lanes)
 {
   const size_t old = flow->shape.stride;
-  const size_t stride =
-    (lanes + PENDRES_LANES_MULTIPLE - 1) / PENDRES_LANES_MULTIPLE * PENDRES_LANES_MULTIPLE;
-  double *data = pendres_lanes_data(flow->state);
+  double *data = flow->rows;
+  pendres_lanes_resize(&flow->shape, lanes);
+  const size_t stride = flow->shape.stride;
 
   /* Rows move towards lower addresses when shrinking, to higher ones when growing. */
   if (stride < old)
@@ -213,7 +202,6 @@ void pendres_flow_resize(pendres_flow *flow, size_t lanes)
       memmove(data + r * stride, data + r * old, old * sizeof *data);
       memset(data + r * stride + old, 0, (stride - old) * sizeof *data);
     }
-  flow->shape.stride = stride;
   flow->lanes = lanes;
   /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
   for (size_t i = lanes; i < stride; i++) {
@@ -237,7 +225,7 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
 {
   const size_t stride = flow->shape.stride;
   const double omega = p->drive_frequency;
-  double *data = pendres_lanes_data(flow->state);
+  double *data = flow->rows;
 
   flow->coefficient[0][lane] = 1.0 / (omega * omega);
   flow->coefficient[1][lane] = p->drive_amplitude / (omega * omega);
@@ -254,7 +242,7 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
 
 void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
 {
-  double *data = pendres_lanes_data(flow->state);
+  double *data = flow->rows;
   for (size_t r = 0; r < flow->shape.rows; r++)
     data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
   for (int c = 0; c < 4; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
@@ -262,13 +250,14 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
 
 double *pendres_flow_state(pendres_flow *flow)
 {
-  return pendres_lanes_data(flow->state);
+  return flow->rows;
 }
 
 /* Put the clock back to phase 0, with the block's present state. */
 static pendres_status start_period(pendres_flow *flow, double end)
 {
   flow->memo.next = 0;
+  pendres_lanes_write(flow->state, flow->rows);
   flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
   if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, end);
   return flow->failure == 0 ? PENDRES_OK : PENDRES_INTEGRATION_FAILED;
@@ -280,6 +269,7 @@ static pendres_status advance_to(pendres_flow *flow, double end)
   const pendres_status status = start_period(flow, end);
   if (status != PENDRES_OK) return status;
   flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
+  pendres_lanes_read(flow->state, flow->rows);
   return flow->failure < 0 ? PENDRES_INTEGRATION_FAILED : PENDRES_OK;
 }
 
@@ -304,7 +294,8 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
   for (int step = 1; step <= flow->steps; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_ONE_STEP);
     if (flow->failure < 0) return PENDRES_INTEGRATION_FAILED;
-    sample(arg, step, reached, flow->shape.stride, pendres_lanes_data(flow->state));
+    pendres_lanes_read(flow->state, flow->rows);
+    sample(arg, step, reached, flow->shape.stride, flow->rows);
   }
   return PENDRES_OK;
 }

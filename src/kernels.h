@@ -2,10 +2,10 @@
  * kernels.h -- the inner loops over lanes, chosen at run time.
  *
  * Owns: linear combinations of vectors, and the right-hand sides of the
- * pendulum and of its variational and sensitivity equations, for a block of
- * pendulums side by side. kernels.c is compiled once per instruction set; all
- * variants do the same IEEE operations in the same order (every fused
- * multiply-add is written out), so they give the same bytes.
+ * pendulum and of its variational and sensitivity equations, for pendulums side
+ * by side. kernels.c is compiled once per instruction set; all variants do the
+ * same IEEE operations in the same order (every fused multiply-add is written
+ * out), so they give the same bytes.
  *
  * Equation over drive phase theta = omega t, y the angle, w = dy/dtheta:
  *
@@ -19,7 +19,7 @@
 
 #include <stddef.h>
 
-/* Coefficients of a block, one array entry a lane. */
+/* Coefficients of the equation, one array entry a lane. */
 typedef struct pendres_coefficients {
   const double *stiffness; /* 1/omega^2 */
   const double *drive;     /* F0/omega^2 */
@@ -28,7 +28,7 @@ typedef struct pendres_coefficients {
 } pendres_coefficients;
 
 /*
- * Rows of a state of lanes, each row `stride` doubles long, lanes side by side:
+ * Rows of a state of lanes, each row as long as there are lanes, lanes side by side:
  *   0 y, 1 w                            the state
  *   2, 3 d(y,w)/dy0   4, 5 d(y,w)/dw0   the variational equation
  *   6, 7 d/domega  8, 9 d/dgamma  10, 11 d/dF0   parameter sensitivities, at fixed
@@ -36,16 +36,48 @@ typedef struct pendres_coefficients {
  */
 enum { PENDRES_ROWS_STATE = 2, PENDRES_ROWS_VARIATIONAL = 6, PENDRES_ROWS_SENSITIVITY = 12 };
 
-typedef void pendres_rhs_kernel(size_t stride, const pendres_coefficients *k, double cos_theta,
-                                const double *state, double *slope);
+enum { PENDRES_KERNELS_TERMS = 20 }; /* the most terms of a sum: stages of a table, plus some */
+
+/* z = sum of c x, added up in this order; z may be one of the x. At least one term. */
+typedef struct pendres_sum {
+  int terms;
+  double *z;
+  struct {
+    double c;
+    const double *x;
+  } term[PENDRES_KERNELS_TERMS];
+} pendres_sum;
+
+/*
+ * One operation on vectors; what is NULL says which:
+ *   sum, no slope     the sum
+ *   sum, slope        the sum, then slope = right-hand side at its z; unless keep is set nobody
+ *                     needs z any more, and its contents are undefined
+ *   from, slope       slope = right-hand side at from, another vector
+ *   from, to          to = from
+ *   to                to = 0
+ *   nothing           nothing
+ */
+typedef struct pendres_operation {
+  const pendres_sum *sum;
+  const double *from;
+  double *to, *slope;
+  double cos_theta;
+  int keep;
+} pendres_operation;
+
+/* A few lanes side by side: where in each vector they are, and their coefficients. */
+typedef struct pendres_strip {
+  size_t lanes; /* a multiple of 8 */
+  size_t at;    /* a vector's rows are at x + at, x + at + lanes, ... */
+  pendres_coefficients k;
+} pendres_strip;
 
 typedef struct pendres_kernels {
   const char *name;
-  /* z = sum over terms of c[i] x[i]; n a multiple of 8; z may be one of the x. */
-  void (*combine)(size_t n, int terms, const double *c, const double *const *x, double *z);
-  pendres_rhs_kernel *state;       /* rows 0..1 */
-  pendres_rhs_kernel *variational; /* rows 0..5 */
-  pendres_rhs_kernel *sensitivity; /* rows 0..11 */
+  /* Do the operations in their order. rows: one of PENDRES_ROWS_; data on 64-byte boundaries. */
+  void (*run)(size_t rows, const pendres_strip *strip, const pendres_operation *operations,
+              size_t n);
 } pendres_kernels;
 
 /* The fastest variant that this processor runs. Never NULL; static. */

@@ -21,18 +21,35 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Constants in their order of use, for the loops that write the sine out by hand as well. */
+enum {
+  PENDRES_SINE_INVERSE_PI,
+  PENDRES_SINE_SHIFT,
+  PENDRES_SINE_PI_HIGH,
+  PENDRES_SINE_PI_LOW,
+  PENDRES_SINE_FIRST, /* the polynomial from its highest power on */
+  PENDRES_SINE_COUNT = PENDRES_SINE_FIRST + 8
+};
+static const double pendres_kernels_sine[PENDRES_SINE_COUNT] = {
+  0x1.45f306dc9c883p-2,   0x1.8p52,
+  0x1.921fb54442d18p+1,   0x1.1a62633145c07p-53,
+  0x1.8829a3d973be6p-49,  -0x1.ae431da11c3a1p-41,
+  0x1.6123cb29245d9p-33,  -0x1.ae6454cb57cccp-26,
+  0x1.71de3a5287c86p-19,  -0x1.a01a01a0148bdp-13,
+  0x1.11111111110c1p-7,   -0x1.5555555555555p-3};
+
 /* r with sine(y) = sine(r), |r| <= pi/2; *flip has its top bit set where cosine changes sign. */
 static inline double pendres_kernels_reduce(double y, uint64_t *flip)
 {
-  const double shift = 0x1.8p52;
-  const double t = __builtin_fma(y, 0x1.45f306dc9c883p-2, shift); /* 1/pi */
-  const double k = t - shift;
-  double r = __builtin_fma(-k, 0x1.921fb54442d18p+1, y); /* exact */
+  const double *const c = pendres_kernels_sine;
+  const double t = __builtin_fma(y, c[PENDRES_SINE_INVERSE_PI], c[PENDRES_SINE_SHIFT]);
+  const double k = t - c[PENDRES_SINE_SHIFT];
+  double r = __builtin_fma(-k, c[PENDRES_SINE_PI_HIGH], y); /* exact */
   uint64_t bits;
 
   memcpy(&bits, &t, sizeof bits);
   *flip = bits << 63;
-  r = __builtin_fma(-k, 0x1.1a62633145c07p-53, r);
+  r = __builtin_fma(-k, c[PENDRES_SINE_PI_LOW], r);
   memcpy(&bits, &r, sizeof bits);
   bits ^= *flip;
   memcpy(&r, &bits, sizeof r);
@@ -42,14 +59,10 @@ static inline double pendres_kernels_reduce(double y, uint64_t *flip)
 /* sin r for |r| <= pi/2, s = r^2. */
 static inline double pendres_kernels_sin_reduced(double r, double s)
 {
-  double p = 0x1.8829a3d973be6p-49;
-  p = __builtin_fma(p, s, -0x1.ae431da11c3a1p-41);
-  p = __builtin_fma(p, s, 0x1.6123cb29245d9p-33);
-  p = __builtin_fma(p, s, -0x1.ae6454cb57cccp-26);
-  p = __builtin_fma(p, s, 0x1.71de3a5287c86p-19);
-  p = __builtin_fma(p, s, -0x1.a01a01a0148bdp-13);
-  p = __builtin_fma(p, s, 0x1.11111111110c1p-7);
-  p = __builtin_fma(p, s, -0x1.5555555555555p-3);
+  double p = pendres_kernels_sine[PENDRES_SINE_FIRST];
+#pragma GCC unroll 8
+  for (int i = PENDRES_SINE_FIRST + 1; i < PENDRES_SINE_COUNT; i++)
+    p = __builtin_fma(p, s, pendres_kernels_sine[i]);
   return __builtin_fma(r * s, p, r);
 }
 

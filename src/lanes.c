@@ -5,21 +5,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct content {
-  pendres_lanes_shape *shape;
-  double *data;
-} content;
+#include "lanes_tape.h"
 
-/* The most terms that ARKODE hands over at once: stages of a table, plus one. */
-enum { MOST_TERMS = 32 };
+typedef pendres_lanes_shape shape;
 
-static const content *of(N_Vector v)
+/* Vectors start at different places of the cache's sets, or they would push each other out. */
+enum { CACHE_PERIOD = 4096, STRIP_BYTES = 1280 };
+
+/*
+ * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
+ * vectors of a state than the kernels keep in registers at once.
+ */
+static size_t most_lanes(size_t rows)
 {
-  return (const content *)v->content;
+  return rows <= 2 ? 80 : rows <= 6 ? 32 : 16;
 }
 
-double *pendres_lanes_data(N_Vector v)
+static const pendres_lanes_content *of(N_Vector v)
 {
+  return pendres_lanes_of(v);
+}
+
+/* Its numbers, now. */
+static double *numbers(N_Vector v)
+{
+  pendres_lanes_tape_run(of(v)->shape);
   return of(v)->data;
 }
 
@@ -28,84 +38,143 @@ static size_t length(N_Vector v)
   return of(v)->shape->rows * of(v)->shape->stride;
 }
 
+static size_t rounded_up(size_t n, size_t multiple)
+{
+  return (n + multiple - 1) / multiple * multiple;
+}
+
 double *pendres_lanes_allocate(size_t n)
 {
-  const size_t bytes = (n * sizeof(double) + PENDRES_LANES_ALIGN - 1) / PENDRES_LANES_ALIGN *
-                       PENDRES_LANES_ALIGN;
+  const size_t bytes = rounded_up(n * sizeof(double), PENDRES_LANES_ALIGN);
   double *data = aligned_alloc(PENDRES_LANES_ALIGN, bytes > 0 ? bytes : PENDRES_LANES_ALIGN);
   if (data != NULL) memset(data, 0, bytes);
   return data;
 }
 
+int pendres_lanes_open(shape *s, size_t rows, size_t lanes, const pendres_kernels *kernels)
+{
+  *s = (shape){.rows = rows, .kernels = kernels};
+  s->capacity = rounded_up(lanes, PENDRES_LANES_MULTIPLE);
+  s->tape = pendres_lanes_tape_create();
+  if (s->tape == NULL) return -1;
+  pendres_lanes_resize(s, lanes);
+  return 0;
+}
+
+void pendres_lanes_close(shape *s)
+{
+  pendres_lanes_tape_free(s->tape);
+  s->tape = NULL;
+}
+
+void pendres_lanes_resize(shape *s, size_t lanes)
+{
+  pendres_lanes_tape_run(s);
+  s->stride = rounded_up(lanes, PENDRES_LANES_MULTIPLE);
+  /* As few strips as can be, and as equal. */
+  const size_t most = most_lanes(s->rows), unit = PENDRES_LANES_MULTIPLE;
+  const size_t strips = s->stride > 0 ? (s->stride + most - 1) / most : 1;
+  s->strip = s->stride / unit / strips * unit;
+  s->wider = s->stride / unit % strips * (s->strip + unit);
+}
+
 static void destroy(N_Vector v)
 {
   if (v == NULL) return;
-  if (v->content != NULL) free(of(v)->data);
+  if (v->content != NULL) {
+    pendres_lanes_tape_forget(of(v)->shape);
+    free(of(v)->memory);
+  }
   free(v->content);
   v->content = NULL;
   N_VFreeEmpty(v);
+}
+
+/* Give v memory of the shape. */
+static int fill(N_Vector v, shape *s)
+{
+  const size_t bytes = rounded_up(s->rows * s->capacity * sizeof(double), CACHE_PERIOD);
+  pendres_lanes_content *c = calloc(1, sizeof *c);
+  v->content = c;
+  if (c == NULL) return -1;
+  c->shape = s;
+  c->memory = aligned_alloc(CACHE_PERIOD, bytes + CACHE_PERIOD);
+  if (c->memory == NULL) return -1;
+  memset(c->memory, 0, bytes + CACHE_PERIOD);
+  c->data = (double *)((char *)c->memory + s->vectors * STRIP_BYTES % CACHE_PERIOD);
+  c->bit = s->vectors < 64 ? UINT64_C(1) << s->vectors : 0;
+  s->vectors++;
+  return 0;
 }
 
 static N_Vector clone(N_Vector v)
 {
   N_Vector w = N_VNewEmpty(v->sunctx);
   if (w == NULL) return NULL;
-  content *c = calloc(1, sizeof *c);
-  w->content = c;
-  if (c == NULL || N_VCopyOps(v, w) != 0) goto fail;
-  c->shape = of(v)->shape;
-  c->data = pendres_lanes_allocate(c->shape->rows * c->shape->capacity);
-  if (c->data == NULL) goto fail;
-  return w;
-fail:
+  if (N_VCopyOps(v, w) == 0 && fill(w, of(v)->shape) == 0) return w;
   destroy(w);
   return NULL;
 }
 
-/* z = sum c x; terms with a zero coefficient are left out: a third of a Butcher table is zero. */
+/* Where a row of a strip starts, for all of them: copy between rows and strips. */
+static void copy(N_Vector v, double *rows, int in)
+{
+  const shape *s = of(v)->shape;
+  double *data = numbers(v);
+  for (size_t lane = 0, lanes; lane < s->stride; lane += lanes) {
+    lanes = pendres_lanes_strip(s, lane);
+    for (size_t r = 0; r < s->rows; r++, data += lanes) {
+      double *row = rows + r * s->stride + lane;
+      if (in)
+        memcpy(data, row, lanes * sizeof *data);
+      else
+        memcpy(row, data, lanes * sizeof *data);
+    }
+  }
+}
+
+void pendres_lanes_write(N_Vector v, const double *rows)
+{
+  copy(v, (double *)rows, 1);
+}
+
+void pendres_lanes_read(N_Vector v, double *rows)
+{
+  copy(v, rows, 0);
+}
+
+void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta)
+{
+  pendres_lanes_tape_slope(of(y)->shape, y, slope, cos_theta);
+}
+
 static int linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
-  double factor[MOST_TERMS];
-  const double *term[MOST_TERMS];
-  int used = 0;
-
-  if (n > MOST_TERMS) return -1;
-  for (int i = 0; i < n; i++) {
-    if (c[i] == 0.0) continue;
-    factor[used] = c[i];
-    term[used++] = of(x[i])->data;
-  }
-  if (used == 0) {
-    memset(of(z)->data, 0, length(z) * sizeof(double));
-    return 0;
-  }
-  of(z)->shape->kernels->combine(length(z), used, factor, term, of(z)->data);
+  if (n > PENDRES_KERNELS_TERMS) return -1;
+  pendres_lanes_tape_sum(of(z)->shape, n, c, x, z);
   return 0;
 }
 
 static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
 {
-  const double factor[2] = {a, b};
-  const double *const term[2] = {of(x)->data, of(y)->data};
-  of(z)->shape->kernels->combine(length(z), 2, factor, term, of(z)->data);
+  const double c[2] = {a, b};
+  const N_Vector terms[2] = {x, y};
+  pendres_lanes_tape_sum(of(z)->shape, 2, c, terms, z);
 }
 
 static void scale(sunrealtype a, N_Vector x, N_Vector z)
 {
-  if (a == 1.0) {
-    if (x != z) memcpy(of(z)->data, of(x)->data, length(z) * sizeof(double));
-    return;
-  }
-  const double *const term[1] = {of(x)->data};
-  of(z)->shape->kernels->combine(length(z), 1, &a, term, of(z)->data);
+  if (a == 1.0)
+    pendres_lanes_tape_copy(of(z)->shape, x, z);
+  else
+    pendres_lanes_tape_sum(of(z)->shape, 1, &a, &x, z);
 }
 
-static double lane_sum_of_squares(const pendres_lanes_shape *s, const double *x, const double *w,
-                                  size_t lane)
+static double sum_of_squares(const double *x, const double *w, size_t rows, size_t lanes)
 {
   double sum = 0.0;
-  for (size_t r = 0; r < s->rows; r++) {
-    const double e = x[r * s->stride + lane] * w[r * s->stride + lane];
+  for (size_t r = 0; r < rows; r++) {
+    const double e = x[r * lanes] * w[r * lanes];
     sum += e * e;
   }
   return sum;
@@ -113,13 +182,19 @@ static double lane_sum_of_squares(const pendres_lanes_shape *s, const double *x,
 
 static sunrealtype wrms_norm(N_Vector x, N_Vector w)
 {
-  const pendres_lanes_shape *s = of(x)->shape;
+  const shape *s = of(x)->shape;
   if (s->norm_unused) return 0.0;
   double largest = 0.0;
-  for (size_t i = 0; i < s->stride; i++) {
-    const double sum = lane_sum_of_squares(s, of(x)->data, of(w)->data, i);
-    /* A NaN must win, or a failed lane would pass as a perfect one. */
-    if (!(sum <= largest)) largest = sum;
+  const double *px = numbers(x), *pw = numbers(w);
+  for (size_t lane = 0, lanes; lane < s->stride; lane += lanes) {
+    lanes = pendres_lanes_strip(s, lane);
+    for (size_t i = 0; i < lanes; i++) {
+      const double sum = sum_of_squares(px + i, pw + i, s->rows, lanes);
+      /* A NaN must win, or a failed lane would pass as a perfect one. */
+      if (!(sum <= largest)) largest = sum;
+    }
+    px += s->rows * lanes;
+    pw += s->rows * lanes;
   }
   return sqrt(largest / (double)s->rows);
 }
@@ -127,7 +202,9 @@ static sunrealtype wrms_norm(N_Vector x, N_Vector w)
 static void each(N_Vector x, N_Vector z, double (*map)(double, double), double argument)
 {
   const size_t n = length(z);
-  for (size_t i = 0; i < n; i++) of(z)->data[i] = map(of(x)->data[i], argument);
+  const double *from = numbers(x);
+  double *to = numbers(z);
+  for (size_t i = 0; i < n; i++) to[i] = map(from[i], argument);
 }
 
 static double map_absolute(double x, double unused)
@@ -176,30 +253,36 @@ static void constant(sunrealtype c, N_Vector z)
 static void divide(N_Vector x, N_Vector y, N_Vector z)
 {
   const size_t n = length(z);
-  for (size_t i = 0; i < n; i++) of(z)->data[i] = of(x)->data[i] / of(y)->data[i];
+  const double *a = numbers(x), *b = numbers(y);
+  double *to = numbers(z);
+  for (size_t i = 0; i < n; i++) to[i] = a[i] / b[i];
 }
 
 static void product(N_Vector x, N_Vector y, N_Vector z)
 {
   const size_t n = length(z);
-  for (size_t i = 0; i < n; i++) of(z)->data[i] = of(x)->data[i] * of(y)->data[i];
+  const double *a = numbers(x), *b = numbers(y);
+  double *to = numbers(z);
+  for (size_t i = 0; i < n; i++) to[i] = a[i] * b[i];
 }
 
 static sunrealtype max_norm(N_Vector x)
 {
   const size_t n = length(x);
+  const double *data = numbers(x);
   double largest = 0.0;
   for (size_t i = 0; i < n; i++)
-    if (!(fabs(of(x)->data[i]) <= largest)) largest = fabs(of(x)->data[i]);
+    if (!(fabs(data[i]) <= largest)) largest = fabs(data[i]);
   return largest;
 }
 
 static sunrealtype smallest(N_Vector x)
 {
   const size_t n = length(x);
+  const double *data = numbers(x);
   double least = INFINITY;
   for (size_t i = 0; i < n; i++)
-    if (!(of(x)->data[i] >= least)) least = of(x)->data[i];
+    if (!(data[i] >= least)) least = data[i];
   return least;
 }
 
@@ -214,7 +297,7 @@ static N_Vector_ID get_id(N_Vector v)
   return SUNDIALS_NVEC_CUSTOM;
 }
 
-N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun)
+N_Vector pendres_lanes_create(shape *s, SUNContext sun)
 {
   N_Vector v = N_VNewEmpty(sun);
   if (v == NULL) return NULL;
@@ -235,14 +318,7 @@ N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun)
   v->ops->nvwrmsnorm = wrms_norm;
   v->ops->nvmin = smallest;
 
-  content *c = calloc(1, sizeof *c);
-  v->content = c;
-  if (c == NULL) goto fail;
-  c->shape = shape;
-  c->data = pendres_lanes_allocate(shape->rows * shape->capacity);
-  if (c->data == NULL) goto fail;
-  return v;
-fail:
+  if (fill(v, s) == 0) return v;
   destroy(v);
   return NULL;
 }
