@@ -1,0 +1,245 @@
+/*
+ * test_trap.c -- trapping ellipses: every state inside goes to the orbit at the centre.
+ *
+ * The ellipses are shown by rings in double precision; here states inside are followed one by one,
+ * a part of them with the extended-precision reference, which shares no code with the rings.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+#include "golden.h"
+#include "trap.h"
+
+static const double pi = 3.14159265358979323846;
+
+static int setup(void **state)
+{
+  pendres_context *ctx = NULL;
+  if (pendres_context_create(NULL, &ctx) != PENDRES_OK) return -1;
+  *state = ctx;
+  return 0;
+}
+
+static int teardown(void **state)
+{
+  pendres_context_free(*state);
+  return 0;
+}
+
+static pendres_orbit orbit_near(pendres_context *ctx, const pendres_pendulum *p, double x, double v,
+                                int period, int winding)
+{
+  pendres_orbit o;
+  pendres_status outcome;
+  const pendres_orbit_guess g = {
+    .pendulum = *p, .x = x, .v = v, .period = period, .winding = winding};
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(outcome);
+  return o;
+}
+
+/* Numbers in [0, 1) that are the same everywhere. */
+static double next_random(uint64_t *z)
+{
+  *z = *z * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  return (double)(*z >> 11) * 0x1p-53;
+}
+
+/* A state of the ellipse, evenly over its area up to the share `reach` of its radius. */
+static void state_inside(const pendres_trap *t, double reach, uint64_t *z, double *y, double *w)
+{
+  const double r = reach * t->radius * sqrt(next_random(z)), a = 2.0 * pi * next_random(z);
+  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
+  const double l22 = sqrt(t->metric[2] - l21 * l21);
+  const double dw = r * sin(a) / l22;
+  *y = t->y + (r * cos(a) - l21 * dw) / l11;
+  *w = t->w + dw;
+}
+
+static double distance_to(const pendres_orbit *o, double x, double v)
+{
+  double dx = x - o->x;
+  dx -= 2.0 * pi * rint(dx / (2.0 * pi));
+  return hypot(dx, v - o->v);
+}
+
+/* States inside end on the orbit, in double precision and with the reference. */
+static void check_inside(pendres_context *ctx, const pendres_orbit *o, const pendres_trap *t,
+                         size_t n, size_t by_reference, long periods, double close)
+{
+  uint64_t z = 1;
+  pendres_pendulum *p = malloc(n * sizeof *p);
+  double *x = malloc(n * sizeof *x), *v = malloc(n * sizeof *v);
+  assert_true(p != NULL && x != NULL && v != NULL);
+  const double omega = o->pendulum.drive_frequency;
+  for (size_t i = 0; i < n; i++) {
+    double y, w;
+    state_inside(t, 1.0, &z, &y, &w);
+    p[i] = o->pendulum;
+    x[i] = y + 0.5 * pi;
+    v[i] = w * omega;
+    if (i >= by_reference) continue;
+    long double ry = y, rv = v[i];
+    check_ok(pendres_reference_advance(p, &ry, &rv, NULL, periods * o->period));
+    check_near(distance_to(o, (double)ry + 0.5 * pi, (double)rv), 0.0, close);
+  }
+  check_ok(pendres_strobe_advance(ctx, n, p, x, v, periods * o->period, NULL));
+  for (size_t i = 0; i < n; i++) check_near(distance_to(o, x[i], v[i]), 0.0, close);
+  free(p);
+  free(x);
+  free(v);
+}
+
+static const pendres_pendulum fig7 = {
+  .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
+
+static void both_states(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_orbit orbits[2] = {orbit_near(ctx, &fig7, 2.11, 0.11, 1, 0),
+                                   orbit_near(ctx, &fig7, 0.89, 1.55, 1, 0)};
+  pendres_trap few[2], many[2];
+  check_ok(pendres_trap_find(ctx, 2, orbits, PENDRES_TRAP_FEW, few));
+  check_ok(pendres_trap_find(ctx, 2, orbits, PENDRES_TRAP_MANY, many));
+  for (int i = 0; i < 2; i++) {
+    /* Known sizes: semi-axes 1.10 x 1.01 and 1.10 x 0.24. They are found to a few percent. */
+    assert_true(many[i].radius > 1.0 && many[i].radius < 1.25);
+    assert_true(few[i].radius > many[i].radius / 1.5 && few[i].radius < many[i].radius * 1.05);
+    /* After 60 periods distances have shrunk by exp(-0.06 * 480) = 3e-13 of at most one turn. */
+    check_inside(ctx, &orbits[i], &many[i], 2000, 40, 60, 1e-8);
+  }
+  const double *m = many[1].metric;
+  const double mean = 0.5 * (m[0] + m[2]), spread = hypot(0.5 * (m[0] - m[2]), m[1]);
+  /* The longest semi-axis of the unit ellipse is one by definition. */
+  check_near(mean - spread, 1.0, 1e-12);
+  check_near(1.0 / sqrt(mean + spread), 0.24 / 1.10, 0.05);
+}
+
+/* In the metric of a trap the linear map shrinks every vector. */
+static void metric_contracts(void **state)
+{
+  pendres_context *ctx = *state;
+  static const double frequencies[] = {0.6, 0.75, 0.82, 0.829, 0.82918};
+  int seen = 0;
+  for (size_t k = 0; k < 5; k++) {
+    pendres_pendulum p = {
+      .damping = 0.06, .drive_amplitude = 0.2, .drive_frequency = frequencies[k]};
+    const pendres_reference_cycle *fold = &golden_folds[0];
+    pendres_reference_cycle c;
+    /* The reference's own branch leads to the orbit: its small state below the fold. */
+    if (pendres_reference_orbit(&p, 0.5L * fold->y, 0.1L, 1, 0, &c) != PENDRES_OK &&
+        pendres_reference_orbit(&p, 0.97L * fold->y, 0.17L, 1, 0, &c) != PENDRES_OK)
+      continue;
+    const pendres_orbit o =
+      orbit_near(ctx, &p, (double)c.y + 0.5 * pi, (double)c.v, 1, 0);
+    pendres_trap t;
+    check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_FEW, &t));
+    if (!o.stable) {
+      assert_true(t.radius == 0.0);
+      continue;
+    }
+    seen++;
+    const double omega = p.drive_frequency;
+    const double m[2][2] = {{o.monodromy[0][0], o.monodromy[0][1] * omega},
+                            {o.monodromy[1][0] / omega, o.monodromy[1][1]}};
+    for (int i = 0; i < 360; i++) {
+      const double a = cos(i * pi / 180.0), b = sin(i * pi / 180.0);
+      pendres_trap at_zero = t;
+      at_zero.y = at_zero.w = 0.0;
+      assert_true(pendres_trap_norm2(&at_zero, m[0][0] * a + m[0][1] * b,
+                                     m[1][0] * a + m[1][1] * b) <
+                  pendres_trap_norm2(&at_zero, a, b));
+    }
+  }
+  assert_true(seen >= 3);
+}
+
+/* Close to a fold traps shrink with the distance to the saddle, but they do not lie. */
+static void near_a_fold(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_reference_cycle *fold = &golden_folds[0];
+  double last = 10.0;
+  int seen = 0;
+  for (double before = 1e-2; before > 1e-7; before /= 10.0) {
+    const pendres_pendulum p = {.damping = (double)fold->damping,
+                                .drive_amplitude = (double)fold->drive_amplitude,
+                                .drive_frequency = (double)fold->drive_frequency - before};
+    /* On the stable side of the square root that a fold is. */
+    const double y = (double)fold->y - 1.4 * sqrt(before), v = (double)fold->v - 0.5 * sqrt(before);
+    const pendres_orbit o = orbit_near(ctx, &p, y + 0.5 * pi, v, 1, 0);
+    pendres_trap t;
+    check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_FEW, &t));
+    if (!o.stable) continue;
+    seen++;
+    assert_true(t.radius > 0.0 && t.radius < last);
+    last = t.radius;
+    const double rate = -log(hypot(o.multiplier_re[0], o.multiplier_im[0]));
+    /* Long enough to shrink the trap a thousandfold. */
+    const double size = 4.0 * t.radius;
+    check_inside(ctx, &o, &t, 100, 2, 10 + (long)(7.0 / rate), 1e-3 * size + 1e-8);
+  }
+  assert_true(seen >= 4 && last < 0.05);
+}
+
+static void unstable_orbits_have_none(void **state)
+{
+  pendres_context *ctx = *state;
+  /* The pendulum standing upright, without a drive: a saddle. */
+  const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.0, .drive_frequency = 1.0};
+  const pendres_orbit o = orbit_near(ctx, &p, 1.5 * pi, 0.0, 1, 0);
+  pendres_trap t;
+  assert_false(o.stable);
+  check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_MANY, &t));
+  assert_true(t.radius == 0.0);
+}
+
+/* A period-two orbit: each of its points has its own trap, for the twice iterated map. */
+static void period_two(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 1.07, .drive_frequency = 2.0 / 3.0};
+  const pendres_orbit o = orbit_near(ctx, &p, -0.636898, 1.346102, 2, 0);
+  pendres_trap t;
+  assert_true(o.stable);
+  check_ok(pendres_trap_find(ctx, 1, &o, PENDRES_TRAP_MANY, &t));
+  assert_true(t.radius > 0.05);
+  /* exp(-0.04 * 2 * 9.42 * 40) = 8e-14. */
+  check_inside(ctx, &o, &t, 500, 10, 40, 1e-8);
+}
+
+/* What a trap is does not depend on the others that it is looked for with. */
+static void independent_of_company(void **state)
+{
+  pendres_context *ctx = *state;
+  enum { N = 5 };
+  pendres_orbit orbits[N];
+  pendres_trap together[N], alone;
+  for (int i = 0; i < N; i++) {
+    pendres_pendulum p = fig7;
+    p.damping = 0.12 + 0.005 * i;
+    orbits[i] = orbit_near(ctx, &p, 2.11, 0.11, 1, 0);
+  }
+  check_ok(pendres_trap_find(ctx, N, orbits, PENDRES_TRAP_FEW, together));
+  for (int i = 0; i < N; i++) {
+    check_ok(pendres_trap_find(ctx, 1, &orbits[i], PENDRES_TRAP_FEW, &alone));
+    assert_memory_equal(&alone, &together[i], sizeof alone);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(both_states, setup, teardown),
+    cmocka_unit_test_setup_teardown(metric_contracts, setup, teardown),
+    cmocka_unit_test_setup_teardown(near_a_fold, setup, teardown),
+    cmocka_unit_test_setup_teardown(unstable_orbits_have_none, setup, teardown),
+    cmocka_unit_test_setup_teardown(period_two, setup, teardown),
+    cmocka_unit_test_setup_teardown(independent_of_company, setup, teardown),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
