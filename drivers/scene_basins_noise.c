@@ -3,7 +3,8 @@
  * paper's Fig. 7, with their covariances beside those of linear noise theory, and escapes.
  *
  * One task a temperature and attractor for the steps, then one a temperature, attractor and chunk
- * of trajectories. A trajectory that has escaped (switching.h) is counted and left out from then on.
+ * of trajectories. A trajectory that has escaped (switching.h) is counted, and left out from then
+ * on.
  */
 #include "scene_basins_noise.h"
 

@@ -86,8 +86,8 @@ void scene_noise_chunk(size_t trajectories, size_t chunk, size_t *first, size_t 
 /* ---- clouds -------------------------------------------------------------------------------- */
 
 /* A mean of parts and its error; those of weight 0 may be NaN. */
-static pendres_langevin_estimate mean_of(size_t n, const pendres_langevin_cloud *parts, double total,
-                                         int statistic)
+static pendres_langevin_estimate mean_of(size_t n, const pendres_langevin_cloud *parts,
+                                         double total, int statistic)
 {
   pendres_langevin_estimate out = { 0.0, 0.0 };
   double square = 0.0;

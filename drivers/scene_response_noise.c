@@ -193,11 +193,14 @@ static const struct {
   const char *name, *bias, *long_name, *units;
   size_t of; /* where it stands in a point */
 } results[] = {
-  { "mean_loop_area", "bias_loop_area", "mean loop area of the ensemble", "1", offsetof(point, area) },
+  { "mean_loop_area", "bias_loop_area", "mean loop area of the ensemble", "1",
+    offsetof(point, area) },
   { "first_harmonic_amplitude", "bias_first_harmonic_amplitude",
     "amplitude of the mean loop's first harmonic", "rad", offsetof(point, amplitude) },
-  { "phase_lag", "bias_phase_lag", "phase lag of the ensemble-averaged loop", "rad", offsetof(point, lag) },
-  { "mean_power", "bias_mean_power", "mean power taken up from the drive", "1", offsetof(point, power) },
+  { "phase_lag", "bias_phase_lag", "phase lag of the ensemble-averaged loop", "rad",
+    offsetof(point, lag) },
+  { "mean_power", "bias_mean_power", "mean power taken up from the drive", "1",
+    offsetof(point, power) },
 };
 
 /* What is known without noise alone. */

@@ -224,7 +224,7 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
 
 /* ---- Rates --------------------------------------------------------------------------------- */
 
-/* Variance of events - rate x exposure over trajectories, by its value for Poisson's: the events. */
+/* Variance of events - rate x exposure over trajectories, by its value for independent events. */
 static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
 {
   const double events = y->events[s][t], n = y->trajectories;

@@ -253,8 +253,8 @@ static void bad_temperatures_are_deck_errors(void **state)
     " /\n&sweep temperature = %s /\n",
     "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n&sweep damping = 0.24, "
     "drive_period = 7, temperature = %s /\n",
-    "&scene kind = 'basins' /\n&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
-    "&sweep x = 0, v = 0, temperature = %s /\n" };
+    "&scene kind = 'basins' /\n&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8"
+    " /\n&sweep x = 0, v = 0, temperature = %s /\n" };
   (void)state;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
     for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {

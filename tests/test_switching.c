@@ -158,7 +158,8 @@ static void stillness_and_nonsense(void **state)
     q.from = from;
     check_ok(pendres_switching_count(lv, &q, &tally));
     check_near(tally.exposure[from], 8 * 50, 0.0);
-    for (size_t t = 0; t <= PENDRES_SWITCHING_STATES; t++) assert_true(tally.events[from][t] == 0.0);
+    for (size_t t = 0; t <= PENDRES_SWITCHING_STATES; t++)
+      assert_true(tally.events[from][t] == 0.0);
     check_ok(pendres_switching_rate_of(&tally, from, 1 - from, 0.95, &rate));
     assert_true(rate.value == 0.0 && rate.lower == 0.0 && rate.error > 0.0);
     check_relative(rate.upper, -log(0.025) / (8 * 50 * 7.7), 1e-9); /* Poisson: exp(-mean) */

@@ -90,8 +90,8 @@ typedef struct pendres_switching_rate {
   double value;        /**< events / exposure; NaN without exposure */
   double error;        /**< standard error; without events the upper bound at one sigma */
   double lower, upper; /**< confidence interval */
-  double dispersion;   /**< variance of the trajectories' counts by that of independent events: 1 for
-                            those. Larger: transitions come in bursts, and error and
+  double dispersion;   /**< variance of the trajectories' counts by that of independent events:
+                            1 for those. Larger: transitions come in bursts, and error and
                             interval allow for it. NaN where there are too few to tell */
 } pendres_switching_rate;
 
