@@ -1,0 +1,612 @@
+/*
+ * test_basin.c -- basins over grids: labels against far tighter runs and the reference, the
+ * refinement against the whole grid, and the statistics on sets whose numbers are known.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/basin.h>
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+static const double pi = 3.14159265358979323846;
+
+static const pendres_pendulum fig7 = {
+  .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
+
+static pendres_context *context_with(const pendres_options *o)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(o, &ctx));
+  return ctx;
+}
+
+static int setup(void **state)
+{
+  *state = context_with(NULL);
+  return 0;
+}
+
+static int teardown(void **state)
+{
+  pendres_context_free(*state);
+  return 0;
+}
+
+static double next_random(uint64_t *z)
+{
+  *z = *z * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  return (double)(*z >> 11) * 0x1p-53;
+}
+
+/* ---- grids ---- */
+
+/* Evenly spaced, points in the middle of their cells. */
+static double *spaced(size_t n, double first, double last)
+{
+  double *values = malloc(n * sizeof *values);
+  assert_non_null(values);
+  for (size_t i = 0; i < n; i++) values[i] = first + (last - first) * ((double)i + 0.5) / (double)n;
+  return values;
+}
+
+typedef struct portrait {
+  pendres_basin_grid grid;
+  double *x, *v;
+  pendres_attractors *set;
+  pendres_basin_state *state;
+} portrait;
+
+static void compute(pendres_context *ctx, const pendres_pendulum *p, size_t nx, size_t nv,
+                    double fastest, portrait *out)
+{
+  out->x = spaced(nx, -0.5 * pi, 1.5 * pi);
+  out->v = spaced(nv, -fastest, fastest);
+  out->grid = (pendres_basin_grid){.nx = nx, .nv = nv, .x = out->x, .v = out->v};
+  out->state = malloc(nx * nv * sizeof *out->state);
+  assert_non_null(out->state);
+  check_ok(pendres_basin_attractors(ctx, p, &out->grid, &out->set));
+  check_ok(pendres_basin_compute(ctx, out->set, &out->grid, out->state));
+}
+
+static void release(portrait *p)
+{
+  free(p->x);
+  free(p->v);
+  free(p->state);
+  pendres_attractors_free(p->set);
+}
+
+static int alike(const pendres_basin_state *a, const pendres_basin_state *b)
+{
+  return a->attractor == b->attractor && a->label == b->label && a->well == b->well;
+}
+
+/* However the rows are cut, and whatever the blocks: the same states. */
+static void cutting(void **state)
+{
+  portrait p;
+  compute(*state, &fig7, 60, 50, 2.5, &p);
+  pendres_basin_state *again = malloc(60 * 50 * sizeof *again);
+  size_t *index = malloc(60 * 50 * sizeof *index), deferred = 0;
+  assert_true(again != NULL && index != NULL);
+  pendres_context *small = context_with(&(pendres_options){.block_lanes = 16});
+  for (size_t first = 0; first < 60; first += 7) {
+    const size_t rows = 60 - first < 7 ? 60 - first : 7;
+    check_ok(pendres_basin_rows(small, p.set, &p.grid, first, rows, again + first * 50, &deferred));
+    assert_int_equal(deferred, 0);
+  }
+  for (size_t k = 0; k < 60 * 50; k++) {
+    assert_true(alike(&again[k], &p.state[k]));
+    assert_int_equal(again[k].settling_periods, p.state[k].settling_periods);
+    index[k] = 60 * 50 - 1 - k;
+  }
+  check_ok(pendres_basin_states(small, p.set, &p.grid, 60 * 50, index, again));
+  for (size_t k = 0; k < 60 * 50; k++) assert_true(alike(&again[k], &p.state[index[k]]));
+  pendres_context_free(small);
+  free(again);
+  free(index);
+  release(&p);
+}
+
+/*
+ * Labels against a run with a tolerance of 1e-12. The grid is labelled with 1e-5 a period at most,
+ * so states within some 1e-4 of a boundary (1e-5, grown on the way to the saddle) may be on its
+ * other side; the boundary is about 35 long in this window of 31.4, which makes 2 * 35e-4 / 31.4 =
+ * 2e-4 of the states, 9 of 40000, at most. Each of them must be close to the boundary.
+ */
+static void tighter(void **state)
+{
+  enum { N = 200 };
+  const double near = 1e-4;
+  portrait p;
+  compute(*state, &fig7, N, N, 2.5, &p);
+  pendres_context *tight = context_with(&(pendres_options){.tolerance = 1e-12});
+  double *x = malloc(N * N * sizeof *x), *v = malloc(N * N * sizeof *v);
+  pendres_outcome *outcome = malloc(N * N * sizeof *outcome);
+  assert_true(x != NULL && v != NULL && outcome != NULL);
+  for (size_t k = 0; k < N * N; k++) {
+    x[k] = p.x[k / N];
+    v[k] = p.v[k % N];
+  }
+  check_ok(pendres_attractors_settle(tight, p.set, N * N, x, v, outcome));
+  size_t differ = 0;
+  for (size_t k = 0; k < N * N; k++) {
+    if (outcome[k].attractor == p.state[k].attractor && outcome[k].well == p.state[k].well) continue;
+    differ++;
+    const double ax[4] = {x[k] + near, x[k] - near, x[k], x[k]};
+    const double av[4] = {v[k], v[k], v[k] + near, v[k] - near};
+    pendres_outcome around[4];
+    check_ok(pendres_attractors_settle(tight, p.set, 4, ax, av, around));
+    int unlike = 0;
+    for (int i = 0; i < 4; i++)
+      unlike |= around[i].attractor != outcome[k].attractor || around[i].well != outcome[k].well;
+    assert_true(unlike);
+  }
+  assert_true(differ <= 9);
+  pendres_context_free(tight);
+  free(x);
+  free(v);
+  free(outcome);
+  release(&p);
+}
+
+/* Random states of the grid against the extended-precision reference, which shares no code. */
+static void against_the_reference(void **state)
+{
+  enum { N = 100, SAMPLE = 150 };
+  portrait p;
+  uint64_t z = 11;
+  compute(*state, &fig7, N, N, 2.5, &p);
+  for (int i = 0; i < SAMPLE; i++) {
+    const size_t k = (size_t)(next_random(&z) * N * N);
+    long double y = (long double)p.x[k / N] - (long double)(0.5 * pi), v = p.v[k % N];
+    long turns = 0;
+    check_ok(pendres_reference_advance(&fig7, &y, &v, &turns, 100));
+    /* exp(-0.06 * 800) = 1e-21: what is left is the error of the orbit itself. */
+    const pendres_orbit *o = &pendres_attractors_get(p.set, (size_t)p.state[k].attractor)->orbit;
+    double dx = (double)y + 0.5 * pi - o->x;
+    const double whole = rint(dx / (2.0 * pi));
+    dx -= 2.0 * pi * whole;
+    check_near(hypot(dx, (double)v - o->v), 0.0, 1e-8);
+    assert_int_equal(turns + (long)whole, p.state[k].well);
+  }
+  release(&p);
+}
+
+/* ---- refinement ---- */
+
+static void follow(pendres_context *ctx, const pendres_attractors *set,
+                   const pendres_basin_grid *grid, pendres_basin_plan *plan)
+{
+  for (;;) {
+    size_t n = 0;
+    const size_t *index = NULL;
+    check_ok(pendres_basin_plan_next(plan, &n, &index));
+    if (n == 0) return;
+    pendres_basin_state *state = malloc(n * sizeof *state);
+    assert_non_null(state);
+    check_ok(pendres_basin_states(ctx, set, grid, n, index, state));
+    check_ok(pendres_basin_plan_accept(plan, state));
+    free(state);
+  }
+}
+
+/* A refined grid is the whole grid, for a fraction of the work. */
+static void refined(void **state)
+{
+  enum { N = 400, SAMPLE = 10000 };
+  pendres_context *ctx = *state;
+  portrait p;
+  pendres_basin_plan *plan = NULL;
+  pendres_basin_state *filled = malloc(N * N * sizeof *filled);
+  pendres_basin_state *sample = malloc(SAMPLE * sizeof *sample);
+  const size_t *index = NULL;
+  size_t drawn = 0, missed = 1, wrong = 0, integrated = 0;
+  assert_true(filled != NULL && sample != NULL);
+  compute(ctx, &fig7, N, N, 2.5, &p);
+  check_ok(pendres_basin_plan_create(&p.grid, 0, N, 0, &plan));
+  follow(ctx, p.set, &p.grid, plan);
+  check_ok(pendres_basin_plan_states(plan, filled));
+  for (size_t k = 0; k < N * N; k++) {
+    wrong += !alike(&filled[k], &p.state[k]);
+    if (filled[k].how == PENDRES_BASIN_INTEGRATED) {
+      integrated++;
+      assert_int_equal(filled[k].settling_periods, p.state[k].settling_periods);
+    } else {
+      assert_int_equal(filled[k].settling_periods, -2);
+    }
+  }
+  assert_int_equal(wrong, 0);
+  assert_int_equal(integrated, pendres_basin_plan_integrated(plan));
+  /* About 2.3 states along each of 35 / 0.0125 steps of boundary, and the coarse lattice. */
+  assert_true(integrated < N * N / 4);
+
+  check_ok(pendres_basin_plan_sample(plan, SAMPLE, 3, &drawn, &index));
+  assert_int_equal(drawn, SAMPLE);
+  for (size_t k = 0; k < drawn; k++) assert_int_equal(filled[index[k]].how, PENDRES_BASIN_FILLED);
+  check_ok(pendres_basin_states(ctx, p.set, &p.grid, drawn, index, sample));
+  check_ok(pendres_basin_plan_verify(plan, sample, &missed));
+  assert_int_equal(missed, 0);
+  pendres_basin_plan_free(plan);
+  free(filled);
+  free(sample);
+  release(&p);
+}
+
+/* Answers from a picture instead of a pendulum. */
+typedef int picture(size_t row, size_t column);
+
+static size_t draw(picture *f, size_t rows, size_t columns, int stride, uint64_t seed,
+                   size_t *missed)
+{
+  const double zero[1] = {0.0};
+  const pendres_basin_grid grid = {.nx = rows, .nv = columns, .x = zero, .v = zero};
+  pendres_basin_plan *plan = NULL;
+  size_t n = 1, wrong = 0;
+  const size_t *index = NULL;
+  pendres_basin_state *state = calloc(rows * columns, sizeof *state);
+  assert_non_null(state);
+  check_ok(pendres_basin_plan_create(&grid, 0, rows, stride, &plan));
+  for (int verified = 0; verified < 2; verified++) {
+    for (;;) {
+      check_ok(pendres_basin_plan_next(plan, &n, &index));
+      if (n == 0) break;
+      for (size_t k = 0; k < n; k++)
+        state[k].attractor = (int16_t)f(index[k] / columns, index[k] % columns);
+      check_ok(pendres_basin_plan_accept(plan, state));
+    }
+    if (missed == NULL || verified) break;
+    check_ok(pendres_basin_plan_sample(plan, rows * columns / 2, seed, &n, &index));
+    for (size_t k = 0; k < n; k++)
+      state[k].attractor = (int16_t)f(index[k] / columns, index[k] % columns);
+    check_ok(pendres_basin_plan_verify(plan, state, missed));
+  }
+  check_ok(pendres_basin_plan_states(plan, state));
+  for (size_t k = 0; k < rows * columns; k++)
+    wrong += state[k].attractor != f(k / columns, k % columns);
+  pendres_basin_plan_free(plan);
+  free(state);
+  return wrong;
+}
+
+static int diagonal(size_t row, size_t column)
+{
+  return 3 * row > 2 * column + 17;
+}
+
+/* A line one state wide, which meets the coarse lattice in a single point, (32, 0). */
+static int thread(size_t row, size_t column)
+{
+  return row == 32 + column / 3;
+}
+
+/* A dot that no point of the coarse lattice meets. */
+static int dot(size_t row, size_t column)
+{
+  return row >= 21 && row < 25 && column >= 35 && column < 39;
+}
+
+static void pictures(void **state)
+{
+  size_t missed = 0;
+  (void)state;
+  assert_int_equal(draw(diagonal, 101, 77, 16, 0, NULL), 0);
+  assert_int_equal(draw(diagonal, 101, 77, 4, 0, NULL), 0);
+  assert_int_equal(draw(diagonal, 64, 64, 1, 0, NULL), 0);
+  assert_int_equal(draw(diagonal, 1, 300, 16, 0, NULL), 0);
+  assert_int_equal(draw(diagonal, 300, 1, 16, 0, NULL), 0);
+  assert_int_equal(draw(diagonal, 1, 1, 16, 0, NULL), 0);
+  /* Met by the lattice somewhere, and followed from there. */
+  assert_int_equal(draw(thread, 128, 128, 16, 0, NULL), 0);
+  /* Missed, found by the sample, and then put right. */
+  assert_int_equal(draw(dot, 64, 64, 16, 0, NULL), 16);
+  assert_int_equal(draw(dot, 64, 64, 16, 7, &missed), 0);
+  assert_true(missed > 0 && missed <= 16);
+}
+
+/* ---- statistics ---- */
+
+static pendres_basin_statistics describe(picture *f, size_t rows, size_t columns, int attractors,
+                                         double *fraction, double *error)
+{
+  double *x = spaced(rows, 0.0, 1.0), *v = spaced(columns, 0.0, 1.0);
+  const pendres_basin_grid grid = {.nx = rows, .nv = columns, .x = x, .v = v};
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics s;
+  pendres_basin_state *row = calloc(columns, sizeof *row);
+  assert_non_null(row);
+  check_ok(pendres_basin_sums_create(&grid, (size_t)attractors, &sums));
+  for (size_t i = 0; i < rows; i++) {
+    for (size_t j = 0; j < columns; j++) row[j].attractor = (int16_t)f(i, j);
+    check_ok(pendres_basin_sums_add(sums, 1, row));
+  }
+  check_ok(pendres_basin_sums_result(sums, &s, fraction, error));
+  pendres_basin_sums_free(sums);
+  free(x);
+  free(v);
+  free(row);
+  return s;
+}
+
+static int slanted(size_t row, size_t column)
+{
+  return 1000 * column > 300 * 1000 + 137 * row;
+}
+
+/* A straight boundary: an exponent of 1, and an area that is known. */
+static void straight_boundary(void **state)
+{
+  enum { N = 1000 };
+  double fraction[2], error[2];
+  (void)state;
+  const pendres_basin_statistics s = describe(slanted, N, N, 2, fraction, error);
+  assert_int_equal(s.states, N * N);
+  assert_int_equal(s.unresolved, 0);
+  /* In steps: half the way from column 300 to 301 is 300.5, and 0.137 more each row; the window
+     begins and ends at the outermost states. */
+  const double exact = (N - 1 - (300.5 - 0.5 + 0.137 * 499.5)) / (N - 1);
+  check_near(fraction[1], exact, 3.0 * error[1] + 0.5 / N * 0.5);
+  check_near(fraction[0] + fraction[1], 1.0, 1e-9); /* a million shares added up */
+  assert_true(error[0] > 0.0 && error[0] < 1e-3);
+  /* Each row has two uncertain states at distance 1, four at 2, ...: exactly proportional, but for
+     the states left out at both ends, a relative 2 * 16 / N at the largest distance used. */
+  check_near(s.uncertainty_exponent, 1.0, 0.02);
+  check_near(s.uncertainty_exponent, 1.0, 3.0 * s.uncertainty_exponent_error);
+  check_near(s.uncertain[0], 2.0 / (N - 2.0), 1e-12);
+  check_near(s.distance[3] / s.distance[0], 8.0, 1e-12);
+  /* A line that crosses a box anywhere and hardly slants shares it as 1/5, ... 4/5. */
+  double mean = 0.0;
+  for (int k = 1; k < 5; k++) mean -= 0.25 * (k / 5.0 * log(k / 5.0) + (1 - k / 5.0) * log(1 - k / 5.0));
+  check_near(s.boundary_entropy, mean, 0.05);
+  assert_true(s.boundary_entropy < log(2.0));
+  check_near(s.entropy, s.boundary_entropy * s.boundary_boxes, 1e-12);
+}
+
+/* Everything at random: every box is a boundary box, with the entropy of 25 tosses of a coin. */
+static int coin(size_t row, size_t column)
+{
+  uint64_t z = (row * 65536 + column + 1) * UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (int)(z >> 63);
+}
+
+static void tossed(void **state)
+{
+  double expected = 0.0;
+  (void)state;
+  for (int k = 1; k < 25; k++) {
+    const double p = k / 25.0, ways = exp(lgamma(26.0) - lgamma(k + 1.0) - lgamma(26.0 - k));
+    expected -= ways * 0x1p-25 * (p * log(p) + (1.0 - p) * log(1.0 - p));
+  }
+  const pendres_basin_statistics s = describe(coin, 500, 500, 2, NULL, NULL);
+  check_near(s.boundary_boxes, 1.0, 1e-12);
+  check_near(s.boundary_entropy, expected, 4.0 * s.boundary_entropy_error);
+  assert_true(s.boundary_entropy_error < 1e-3);
+  /* Neighbours at any distance are as unlike as any: nothing to fit, or a slope of nought. */
+  assert_true(isnan(s.uncertainty_exponent) || fabs(s.uncertainty_exponent) < 0.05);
+}
+
+/* One basin alone has no boundary. */
+static int nothing(size_t row, size_t column)
+{
+  (void)row;
+  (void)column;
+  return 0;
+}
+
+static void no_boundary(void **state)
+{
+  double fraction[1], error[1];
+  (void)state;
+  const pendres_basin_statistics s = describe(nothing, 50, 50, 1, fraction, error);
+  assert_true(isnan(s.boundary_entropy) && isnan(s.uncertainty_exponent));
+  check_near(fraction[0], 1.0, 1e-12);
+  check_near(s.entropy, 0.0, 0.0);
+}
+
+/* The middle thirds that are taken away belong to basin 0, 1, 0, ... by their size: their boundary is
+   Cantor's set in v, of dimension log 2 / log 3. */
+static int cantor(size_t row, size_t column)
+{
+  (void)row;
+  size_t part = 6561;
+  for (int level = 0; part > 1; level++) {
+    part /= 3;
+    const size_t third = column / part;
+    if (third == 1) return level % 2;
+    column -= third * part;
+  }
+  return 0;
+}
+
+static void cantor_set(void **state)
+{
+  (void)state;
+  const pendres_basin_statistics s = describe(cantor, 32, 6561, 2, NULL, NULL);
+  const double exact = 1.0 - log(2.0) / log(3.0);
+  check_near(s.uncertainty_exponent, exact, 2.0 * s.uncertainty_exponent_error);
+  /* The set looks alike on scales 3 apart, distances are 2 apart: slopes between them scatter. */
+  assert_true(s.uncertainty_exponent_error < 0.5);
+  check_near(s.uncertainty_exponent, exact, 0.05);
+}
+
+/* ---- a fractal boundary ---- */
+
+/*
+ * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping 0.2,
+ * drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above log 2,
+ * which two basins with a smooth boundary cannot reach.
+ */
+static const pendres_pendulum wada = {
+  .damping = 0.2, .drive_amplitude = 1.66, .drive_frequency = 1.0};
+
+static void wada_basins(void **state)
+{
+  enum { N = 200 };
+  portrait p;
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics s;
+  double fraction[3], error[3];
+  compute(*state, &wada, N, N, 4.0, &p);
+  assert_int_equal(pendres_attractors_count(p.set), 3);
+  check_ok(pendres_basin_sums_create(&p.grid, 3, &sums));
+  check_ok(pendres_basin_sums_add(sums, N, p.state));
+  check_ok(pendres_basin_sums_result(sums, &s, fraction, error));
+  assert_int_equal(s.unresolved, 0);
+  assert_true(s.boundary_entropy > log(2.0) + 5.0 * s.boundary_entropy_error);
+  check_near(fraction[0] + fraction[1] + fraction[2], 1.0, 1e-12);
+
+  /* Wada: next to two unlike neighbours, with the help of a finer line, there is the third basin. */
+  enum { FINE = 2000 };
+  size_t pairs = 0, all_three = 0;
+  for (size_t k = 0; k + 1 < N * N && pairs < 40; k += 371) {
+    if (k % N == N - 1 || p.state[k].attractor == p.state[k + 1].attractor) continue;
+    double x[FINE], v[FINE];
+    pendres_outcome outcome[FINE];
+    int seen[3] = {0};
+    for (int i = 0; i < FINE; i++) {
+      x[i] = p.x[k / N];
+      v[i] = p.v[k % N] + (p.v[k % N + 1] - p.v[k % N]) * i / (FINE - 1.0);
+    }
+    check_ok(pendres_attractors_settle(*state, p.set, FINE, x, v, outcome));
+    for (int i = 0; i < FINE; i++)
+      if (outcome[i].attractor >= 0) seen[outcome[i].attractor] = 1;
+    pairs++;
+    all_three += seen[0] && seen[1] && seen[2];
+  }
+  assert_true(pairs >= 30);
+  assert_int_equal(all_three, pairs);
+  pendres_basin_sums_free(sums);
+  release(&p);
+}
+
+/* Where a state goes by the reference alone: by its turns in the end, or by staying. */
+static int fate_by_reference(double x, double v)
+{
+  long double y = (long double)x - (long double)(0.5 * pi), w = v;
+  long turns = 0, before = 0;
+  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 120));
+  before = turns;
+  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 20));
+  return turns - before > 10 ? 1 : turns - before < -10 ? -1 : 0;
+}
+
+/*
+ * The uncertainty exponent, and a share that it is made of once more by another way: random states
+ * integrated by the reference for 140 periods and told apart by their turns, with nothing of traps
+ * or orbits.
+ */
+static void uncertainty_exponent(void **state)
+{
+  static const double distance[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+  const pendres_basin_window window = {-0.5 * pi, 1.5 * pi, -4.0, 4.0};
+  pendres_attractors *set = NULL;
+  pendres_basin_statistics s;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  check_ok(pendres_basin_uncertainty(*state, set, &window, 4000, 5, distance, 1, &s));
+  assert_int_equal(s.unresolved, 0);
+  /* A straight line over four decades: a fractal boundary of dimension 2 - 0.15. */
+  assert_true(s.uncertainty_exponent_error < 0.05);
+  check_near(s.uncertainty_exponent, 0.15, 0.02 + s.uncertainty_exponent_error);
+
+  /* The reference's share of uncertain states, at one distance, by its own random states. */
+  enum { SAMPLE = 80 };
+  uint64_t z = 77;
+  int uncertain = 0;
+  for (int i = 0; i < SAMPLE; i++) {
+    const double x = 2.0 * pi * (next_random(&z) - 0.25), v = 8.0 * (next_random(&z) - 0.5);
+    const int fate = fate_by_reference(x, v);
+    uncertain += fate_by_reference(x, v + 1e-2) != fate || fate_by_reference(x, v - 1e-2) != fate;
+  }
+  const double share = (double)uncertain / SAMPLE;
+  const double spread = sqrt(s.uncertain[4] * (1.0 - s.uncertain[4]) / SAMPLE);
+  check_near(share, s.uncertain[4], 4.0 * hypot(spread, s.uncertain_error[4]));
+  pendres_attractors_free(set);
+}
+
+/* States of the pendulum above, one by one. */
+static void fractal_labels(void **state)
+{
+  enum { SAMPLE = 100 };
+  pendres_attractors *set = NULL;
+  double x[SAMPLE], v[SAMPLE];
+  pendres_outcome outcome[SAMPLE];
+  uint64_t z = 99;
+  int differ = 0;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  for (int i = 0; i < SAMPLE; i++) {
+    x[i] = 2.0 * pi * (next_random(&z) - 0.25);
+    v[i] = 8.0 * (next_random(&z) - 0.5);
+  }
+  check_ok(pendres_attractors_settle(*state, set, SAMPLE, x, v, outcome));
+  for (int i = 0; i < SAMPLE; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome[i].attractor);
+    const int turns = a->orbit.winding;
+    differ += (turns > 0) - (turns < 0) != fate_by_reference(x[i], v[i]);
+  }
+  /* An error of 1e-7 or so moves 0.126 (1e-7 / 1e-6)^0.15 = 9 % of the states across the boundary:
+     about half of these, two thirds of them to another basin; four standard deviations. */
+  assert_true(differ <= 14);
+  pendres_attractors_free(set);
+}
+
+/* ---- mistakes ---- */
+
+static void mistakes(void **state)
+{
+  pendres_context *ctx = *state;
+  const double one[1] = {0.0};
+  const pendres_basin_grid grid = {.nx = 1, .nv = 1, .x = one, .v = one};
+  const pendres_basin_grid empty = {.nx = 0, .nv = 1, .x = one, .v = one};
+  pendres_attractors *set = NULL;
+  pendres_basin_state s;
+  pendres_basin_plan *plan = NULL;
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics statistics;
+  size_t n = 0;
+  const size_t beyond = 1, *index = NULL;
+  assert_int_equal(pendres_basin_attractors(ctx, &fig7, &empty, &set), PENDRES_INVALID_ARGUMENT);
+  check_ok(pendres_basin_attractors(ctx, &fig7, &grid, &set));
+  assert_int_equal(pendres_basin_rows(ctx, set, &grid, 1, 1, &s, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_states(ctx, set, &grid, 1, &beyond, &s),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_plan_create(&grid, 0, 1, 3, &plan), PENDRES_INVALID_ARGUMENT);
+  assert_null(plan);
+  check_ok(pendres_basin_plan_create(&grid, 0, 1, 0, &plan));
+  assert_int_equal(pendres_basin_plan_accept(plan, &s), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_plan_states(plan, &s), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_plan_sample(plan, 1, 0, &n, &index), PENDRES_INVALID_ARGUMENT);
+  pendres_basin_plan_free(plan);
+  pendres_basin_plan_free(NULL);
+  check_ok(pendres_basin_sums_create(&grid, 1, &sums));
+  assert_int_equal(pendres_basin_sums_result(sums, &statistics, NULL, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_basin_sums_add(sums, 2, &s), PENDRES_INVALID_ARGUMENT);
+  pendres_basin_sums_free(sums);
+  pendres_basin_sums_free(NULL);
+  pendres_attractors_free(set);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(cutting, setup, teardown),
+    cmocka_unit_test_setup_teardown(tighter, setup, teardown),
+    cmocka_unit_test_setup_teardown(against_the_reference, setup, teardown),
+    cmocka_unit_test_setup_teardown(refined, setup, teardown),
+    cmocka_unit_test(pictures),
+    cmocka_unit_test(straight_boundary),
+    cmocka_unit_test(tossed),
+    cmocka_unit_test(no_boundary),
+    cmocka_unit_test(cantor_set),
+    cmocka_unit_test_setup_teardown(wada_basins, setup, teardown),
+    cmocka_unit_test_setup_teardown(uncertainty_exponent, setup, teardown),
+    cmocka_unit_test_setup_teardown(fractal_labels, setup, teardown),
+    cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
