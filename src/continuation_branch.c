@@ -79,17 +79,17 @@ static int same_place(const pendres_walk *w, const met *a, const met *b)
 }
 
 /*
- * The map of which a fixed point of `map` may be one twice over: half a period and a reflection
- * for an orbit of period one, half the period of an even one. 0 if there is none.
+ * The map of which a fixed point of `map` may be one twice over: that with a reflection for an odd
+ * period, half the period of an even one. 0 if there is none.
  */
 static int half_of(const pendres_continuation_map *map, pendres_continuation_map *half)
 {
   if (map->mirror) return 0;
-  if (map->period == 1 && map->winding == 0) {
-    *half = (pendres_continuation_map){.mirror = 1, .period = 1};
-    return 1;
+  if (map->period % 2 != 0) {
+    *half = (pendres_continuation_map){.mirror = 1, .period = map->period};
+    return map->winding == 0;
   }
-  if (map->period % 2 != 0 || map->winding % 2 != 0) return 0;
+  if (map->winding % 2 != 0) return 0;
   *half =
     (pendres_continuation_map){.period = map->period / 2, .winding = map->winding / 2};
   return 1;
@@ -199,11 +199,14 @@ static void merge(const pendres_trail *t, const pendres_orbit *orbits, const dou
   }
 }
 
-static pendres_status build(pendres_context *ctx, const pendres_trail *t,
-                            pendres_parameter parameter, pendres_branch **out)
+static pendres_status build(pendres_context *ctx, pendres_trail *t, pendres_parameter parameter,
+                            pendres_branch **out)
 {
   size_t met_count = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_status status = pendres_trail_refine(ctx, t, test_fold);
+  if (status == PENDRES_OK) status = pendres_trail_refine(ctx, t, test_flip);
+  if (status != PENDRES_OK) return status;
+  status = PENDRES_OUT_OF_MEMORY;
   pendres_branch *b = calloc(1, sizeof *b);
   met *list = malloc(MOST_BIFURCATIONS * sizeof *list);
   pendres_continuation_pair *pairs = malloc((t->count + 1) * sizeof *pairs);
@@ -414,7 +417,7 @@ pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurca
 
   pendres_trail twice = {.kind = one, .count = 1};
   twice.kind.map = one.map.mirror
-                     ? (pendres_continuation_map){.period = 1}
+                     ? (pendres_continuation_map){.period = one.map.period}
                      : (pendres_continuation_map){.period = 2 * one.map.period,
                                                   .winding = 2 * one.map.winding};
   for (double away = 0.02; away < 0.5; away *= 2.0) {

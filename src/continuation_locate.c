@@ -104,7 +104,7 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,
                                           pair->fine, &at);
   if (status != PENDRES_OK) return status;
-  if (!rounding_of(&at, unknown, pair->fine_steps, map->mirror ? 1 : map->period, rounding))
+  if (!rounding_of(&at, unknown, pair->fine_steps, map->period, rounding))
     return PENDRES_NOT_CONVERGED;
   for (int i = 0; i < n; i++)
     out->error[i] = pendres_continuation_orbit_error(pair->coarse[unknown[i]],

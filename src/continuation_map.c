@@ -40,7 +40,7 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o,
   u[PENDRES_U_OMEGA] = o->pendulum.drive_frequency;
   u[PENDRES_U_GAMMA] = o->pendulum.damping;
   u[PENDRES_U_DRIVE] = o->pendulum.drive_amplitude;
-  if (o->symmetric && o->period == 1 && o->winding == 0) {
+  if (o->symmetric && o->period % 2 != 0 && o->winding == 0) {
     /* About the bottom of the well, or about the top of a barrier. */
     map.mirror = 1;
     map.winding = (int)rint(o->mean_angle / pi);
@@ -87,7 +87,7 @@ static void read_image(const pendres_flow *flow, const double *state, size_t lan
   const size_t stride = pendres_flow_stride(flow);
   const double sign = map->mirror ? -1.0 : 1.0;
   const double turns = two_pi * (map->mirror ? map->winding : -map->winding);
-  const double time = (map->mirror ? pi : two_pi * map->period) / u[PENDRES_U_OMEGA];
+  const double time = (map->mirror ? pi : two_pi) * map->period / u[PENDRES_U_OMEGA];
   const double *s = state + lane;
 
   out->f[0] = sign * s[0] + turns - u[PENDRES_U_Y];
@@ -114,13 +114,11 @@ static pendres_status run_block(pendres_context *ctx, pendres_flow *flow,
     const pendres_pendulum p = pendres_continuation_map_pendulum(u[i]);
     pendres_flow_set_lane(flow, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
-  if (map->mirror)
-    status = pendres_flow_half_period(flow);
-  else
-    for (int k = 0; k < map->period && status == PENDRES_OK; k++)
-      status = pendres_flow_period(flow);
+  const int whole = map->mirror ? map->period / 2 : map->period;
+  for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_flow_period(flow);
+  if (map->mirror && status == PENDRES_OK) status = pendres_flow_half_period(flow);
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)n * (map->mirror ? 0.5 : map->period);
+  ctx->cost.pendulum_periods += (double)n * map->period * (map->mirror ? 0.5 : 1.0);
   ctx->cost.newton_steps += (double)n;
   for (size_t i = 0; i < n; i++)
     read_image(flow, pendres_flow_state(flow), i, map, u[i], columns, &out[i]);

@@ -8,8 +8,8 @@
  * phase 0. The map G is
  *
  *   the q-th iterate of the strobe map, less 2 pi p (winding p), or
- *   for an orbit that is its own mirror image, half a period followed by the reflection
- *   (y, w) -> (2 pi p - y, -w), whose second iterate is the strobe map.
+ *   for an orbit that is its own mirror image, which has an odd q, q half periods followed by the
+ *   reflection (y, w) -> (2 pi p - y, -w), whose second iterate is the former.
  *
  * N = DG has the known determinant exp(-gamma time) (Liouville). A fold has det(N - I) = 0, a flip
  * det(N + I) = 0: of the first map a flip is a period doubling, of the second the loss of mirror
@@ -30,7 +30,7 @@
 enum { PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA, PENDRES_U_GAMMA, PENDRES_U_DRIVE, PENDRES_U_COUNT };
 
 typedef struct pendres_continuation_map {
-  int mirror;  /* half a period and the reflection; period is then 1 */
+  int mirror;  /* q half periods and the reflection; q is odd */
   int period;  /* q */
   int winding; /* p */
 } pendres_continuation_map;

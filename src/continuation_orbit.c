@@ -28,11 +28,6 @@ double pendres_continuation_orbit_error(double coarse, double fine, double round
   return 0.25 * fabs(fine - coarse) + rounding;
 }
 
-static int period_of(const pendres_continuation_map *map)
-{
-  return map->mirror ? 1 : map->period;
-}
-
 static int winding_of(const pendres_continuation_map *map)
 {
   return map->mirror ? 0 : map->winding;
@@ -80,7 +75,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
     const double *u = fine ? p->fine : p->coarse;
     memcpy(out[i].u, u, sizeof out[i].u);
     guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(u),
-                                     .period = period_of(&p->map),
+                                     .period = p->map.period,
                                      .winding = winding_of(&p->map)};
     c[i] = (pendres_newton_candidate){.guess = &guess[i],
                                       .index = i,
@@ -162,7 +157,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
 
   memset(o, 0, sizeof *o);
   o->pendulum = p;
-  o->period = period_of(&pair->map);
+  o->period = pair->map.period;
   o->winding = winding_of(&pair->map);
   o->steps = pair->fine_steps;
   long turns = 0;

@@ -45,7 +45,7 @@ static int out_of_bounds(const pendres_walk *w, const pendres_trail_bounds *b,
   return -1;
 }
 
-static double distance(const pendres_walk *w, const double *a, const double *b)
+double pendres_trail_distance(const pendres_walk *w, const double *a, const double *b)
 {
   double sum = 0.0;
   for (int k = 0; k < w->unknowns; k++) {
@@ -76,14 +76,14 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   pendres_status status = pendres_continuation_map_steps(ctx, u[0], w->tolerance, &steps);
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
-  const double chord = distance(w, inside->u, outside->u);
-  if (status != PENDRES_OK || isnan(rounding) || distance(w, inside->u, u[0]) > chord ||
+  const double chord = pendres_trail_distance(w, inside->u, outside->u);
+  if (status != PENDRES_OK || isnan(rounding) || pendres_trail_distance(w, inside->u, u[0]) > chord ||
       fabs(u[0][place] - bound) > 1e-12)
     return status;
   memcpy(point->u, u[0], sizeof point->u);
   point->u[place] = bound;
   point->held = k + 1;
-  point->arclength = inside->arclength + distance(w, inside->u, u[0]);
+  point->arclength = inside->arclength + pendres_trail_distance(w, inside->u, u[0]);
   point->bending = inside->bending + part * (outside->bending - inside->bending);
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
@@ -106,9 +106,9 @@ static int passes(const pendres_walk *w, const pendres_walk_point *start,
     behind += t * (b->u[i] - start->u[i]) / pendres_walk_scale[i];
     along += t * b->tangent[k];
   }
-  const double chord = distance(w, a->u, b->u);
-  return before < 0.0 && behind >= 0.0 && along > 0.9 && distance(w, a->u, start->u) <= chord &&
-         distance(w, b->u, start->u) <= chord;
+  const double chord = pendres_trail_distance(w, a->u, b->u);
+  return before < 0.0 && behind >= 0.0 && along > 0.9 && pendres_trail_distance(w, a->u, start->u) <= chord &&
+         pendres_trail_distance(w, b->u, start->u) <= chord;
 }
 
 /* Take over what a walk has found ahead of it. */
@@ -135,7 +135,7 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
       if (landed && add(to, &landing) != 0) goto no_memory;
       break;
     }
-    if (p->arclength > 4.0 * distance(w, last->u, p->u) && passes(w, start, last, p, 1.0)) {
+    if (p->arclength > 4.0 * pendres_trail_distance(w, last->u, p->u) && passes(w, start, last, p, 1.0)) {
       to->going = 0;
       to->end = PENDRES_END_CLOSED;
       break;
@@ -349,68 +349,4 @@ done:
   free(steps);
   free(index);
   return status;
-}
-
-/* ---- zeros of test functions ---- */
-
-/* A test function at three points of arclength s: real zeros of the parabola within [a, b] where
-   the values at both ends have one sign. Returns 0 or 2. */
-static int parabola_zeros(const double s[3], const double g[3], double a, double b, double zero[2])
-{
-  const double d1 = (g[1] - g[0]) / (s[1] - s[0]), d2 = (g[2] - g[1]) / (s[2] - s[1]);
-  const double c = (d2 - d1) / (s[2] - s[0]);
-  if (!(fabs(c) > 0.0)) return 0;
-  const double vertex = 0.5 * (s[0] + s[1]) - 0.5 * d1 / c;
-  if (!(vertex > a && vertex < b)) return 0;
-  const double least = g[0] + (vertex - s[0]) * (d1 + c * (vertex - s[1]));
-  /* An extremum that only comes near is looked at too: the parabola is not exact. */
-  if (least * c > 0.0 && fabs(least) > 0.2 * fmin(fabs(g[0]), fabs(g[2]))) return 0;
-  const double half = sqrt(fabs(least / c));
-  zero[0] = fmax(a, vertex - half);
-  zero[1] = fmin(b, vertex + half);
-  return 2;
-}
-
-size_t pendres_trail_zeros(const pendres_trail *t, pendres_trail_test *test, size_t room,
-                           pendres_trail_zero *zeros)
-{
-  size_t count = 0;
-  const size_t n = t->count, chords = t->closed ? n : n - 1;
-  for (size_t i = 0; i < chords && n > 1; i++) {
-    const size_t k = (i + 1) % n;
-    const double a = test(&t->point[i]), b = test(&t->point[k]);
-    if (a == 0.0 || a * b < 0.0) {
-      if (count < room) zeros[count] = (pendres_trail_zero){.i = i, .part = a / (a - b)};
-      count++;
-      continue;
-    }
-    double s[3], g[3], zero[2];
-    int found = 0;
-    for (int side = 0; side < 2 && !found; side++) {
-      /* With the point before, or with the one behind. */
-      if (side == 0 ? i == 0 : i + 2 >= n) continue;
-      for (size_t m = 0; m < 3; m++) {
-        const pendres_walk_point *p = &t->point[i + m - (side == 0 ? 1 : 0)];
-        s[m] = p->arclength;
-        g[m] = test(p);
-      }
-      found = parabola_zeros(s, g, t->point[i].arclength, t->point[i + 1].arclength, zero);
-    }
-    for (int m = 0; m < found; m++) {
-      const double chord = t->point[k].arclength - t->point[i].arclength;
-      if (count < room)
-        zeros[count] =
-          (pendres_trail_zero){.i = i, .part = (zero[m] - t->point[i].arclength) / chord};
-      count++;
-    }
-  }
-  return count < room ? count : room;
-}
-
-double pendres_trail_between(const pendres_trail *t, const pendres_trail_zero *z,
-                             double u[PENDRES_U_COUNT])
-{
-  const pendres_walk_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
-  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (b->u[i] - a->u[i]);
-  return distance(&t->kind, a->u, b->u);
 }

@@ -58,10 +58,20 @@ typedef struct pendres_trail_zero {
   double part;
 } pendres_trail_zero;
 
-/* Up to `room` of them, in order; returns their number. Two zeros between two points are seen by the
-   curvature of the function. */
+/*
+ * Add points to a trail where a test function comes close to 0 without changing its sign from one
+ * point to the next, until it does or is known not to: two folds may be close together.
+ */
+pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *trail,
+                                    pendres_trail_test *test);
+
+/* Up to `room` of them, in order; returns their number. A least value of about 0 counts: where a
+   branch is born from another the determinant touches 0. */
 size_t pendres_trail_zeros(const pendres_trail *trail, pendres_trail_test *test, size_t room,
                            pendres_trail_zero *zeros);
+
+/* Distance in the scale of arclength, of the walk's unknowns. */
+double pendres_trail_distance(const pendres_walk *walk, const double *a, const double *b);
 
 /* The point between, linearly, and the length of the chord. */
 double pendres_trail_between(const pendres_trail *trail, const pendres_trail_zero *zero,

@@ -258,6 +258,20 @@ pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *ki
   return status;
 }
 
+pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *w, int steps,
+                                     pendres_walk_point *point)
+{
+  pendres_continuation_equations e;
+  double tangent[PENDRES_WALK_UNKNOWNS], null[2] = {point->null[0], point->null[1]};
+  const pendres_status status = pendres_continuation_map_equations(
+    ctx, &w->map, w->condition, steps, w->unknowns, w->unknown, 1,
+    (const double (*)[PENDRES_U_COUNT])point->u, &e);
+  if (status != PENDRES_OK) return status;
+  describe(w, &e, null, point);
+  if (tangent_of(w, &e, point->tangent, tangent)) memcpy(point->tangent, tangent, sizeof tangent);
+  return status;
+}
+
 /* Keep the points that converged, up to the first that did not, and choose the next step. */
 static void accept(pendres_walk *w, const candidate *c)
 {

@@ -63,6 +63,11 @@ pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *ki
                                     const pendres_walk_point *points, const int *steps,
                                     double (*u)[PENDRES_U_COUNT], double *rounding);
 
+/* What a point of the curve is beside its place: image, growth, and null vector and bending with
+   the sign of the null vector that the point has already. */
+pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *kind, int steps,
+                                     pendres_walk_point *point);
+
 /* Advance n walks; each ends with its `ahead` filled, or stuck. Stuck ones are left alone. */
 pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk *walks);
 
