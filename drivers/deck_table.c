@@ -122,7 +122,7 @@ const deck_key deck_table[] = {
   { LOGICAL("basins", "statistics", basins.statistics), IN(BASINS), .number = 1 },
   { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT), .number = 1000, .when = DECK_WITH_NOISE },
   { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
-  { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS), RANGE(1, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE },
+  { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS), RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE },
 
   { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
   { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING), RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE },

@@ -148,12 +148,13 @@ def draw_basins(h, path):
         bv = h["boundary_v"]
         ax.plot(bx / np.pi, bv, ",", color="black")
     if "strobe_x" in h:
-        for t, name in enumerate(h["temperature"]):
+        for t, name in reversed(list(enumerate(h["temperature"]))):  # the cold clouds on top
             sx, sv = h["strobe_x"][t].ravel(), h["strobe_v"][t].ravel()
-            ax.plot(sx / np.pi, sv, ",", color=["lime", "orange", "yellow"][t % 3],
-                    label=f"T = {name:g}")
+            ax.plot(sx / np.pi, sv, ",", color=["lime", "orange", "yellow"][t % 3])
+            ax.plot([], [], "s", color=["lime", "orange", "yellow"][t % 3], label=f"T = {name:g}")
+        ax.legend(loc="lower right")
     for i in range(len(h["attractor_x"])):
-        ax.plot(h["attractor_x"][i] / np.pi, h["attractor_v"][i], "x", ms=9, mew=2, color="white")
+        ax.plot(h["attractor_x"][i] / np.pi, h["attractor_v"][i], "x", ms=7, mew=1.5, color="black")
         ax.annotate(LABEL_NAMES[int(h["attractor_label"][i])],
                     (h["attractor_x"][i] / np.pi, h["attractor_v"][i]), color="white",
                     textcoords="offset points", xytext=(6, 6))
