@@ -9,16 +9,17 @@
 
 typedef pendres_lanes_shape shape;
 
-/* Vectors start at different places of the cache's sets, or they would push each other out. */
+/* Strips lie side by side modulo this, or the vectors would push each other out of a cache. */
 enum { CACHE_PERIOD = 4096, STRIP_BYTES = 1280 };
 
 /*
  * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
- * vectors of a state than the kernels keep in registers at once.
+ * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
+ * cost a few per cent.
  */
 static size_t most_lanes(size_t rows)
 {
-  return rows <= 2 ? 80 : rows <= 6 ? 32 : 16;
+  return rows <= PENDRES_ROWS_STATE ? 80 : rows <= PENDRES_ROWS_VARIATIONAL ? 48 : 24;
 }
 
 static const pendres_lanes_content *of(N_Vector v)
