@@ -11,7 +11,7 @@
 #include "steps.h"
 #include "tables.h"
 
-enum { DEFAULT_LANES = 192, MOST_LANES = 4096, MOST_STEPS = 1000000 };
+enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
 
 const char *pendres_method_name(pendres_method method)
 {

@@ -65,7 +65,7 @@ typedef struct pendres_options {
   pendres_method method;
   pendres_table table;
   int steps_per_period; /**< overrides the choice made from the tolerance */
-  int block_lanes;      /**< pendulums side by side, a multiple of 8; default 192 */
+  int block_lanes;      /**< pendulums side by side, a multiple of 8; default 512 */
   long period_budget;   /**< drive periods after which a pendulum is unresolved; default
                              from damping and tolerance */
 } pendres_options;
