@@ -1,8 +1,8 @@
 /*
  * scene_basins.c -- basins of attraction over a grid of initial states; the paper's Fig. 7.
  *
- * One task a handful of rows, each state integrated; or, with refine, one task a slice of the states
- * that a plan (basin.h) asks for. Rows are written as they come, so that memory stays bounded.
+ * One task a handful of rows, each state integrated; or, with refine, one task a slice of the
+ * states that a plan (basin.h) asks for. Rows are written as they come: memory stays bounded.
  * What stays unresolved is searched for attractors that the scouts have missed; if there are any,
  * all rows are done again with them, so that results do not depend on who found what.
  */

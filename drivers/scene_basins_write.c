@@ -11,7 +11,8 @@ static const double pi = 3.14159265358979323846;
 
 enum { QUICK = 1 /* compression of what there is most of: higher levels gain little */ };
 
-static const char *const label_names[] = {"sa", "la", "periodic", "running", "chaotic", "unresolved"};
+static const char *const label_names[] = {"sa",      "la",      "periodic",
+                                          "running", "chaotic", "unresolved"};
 
 /* ---- states -------------------------------------------------------------------------------- */
 
@@ -234,7 +235,7 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
                         s->uncertainty_exponent, s->uncertainty_exponent_error);
   if (status == PENDRES_OK && s->scales > 0) {
     const pendres_store_spec spec = {.name = "uncertain_fraction", .dimensions = {"distance"},
-                                     .long_name = "share of states with an unlike one at that distance"};
+                                     .long_name = "share of states with an unlike one so far off"};
     status = pendres_store_dimension(store, "", "distance", (uint64_t)s->scales, s->distance,
                                      "distance in initial velocity", "1");
     if (status == PENDRES_OK)
@@ -296,7 +297,7 @@ static pendres_status put_boundary(pendres_store *store, const pendres_boundary 
   return status;
 }
 
-/* The stable manifold of the orbit between the first attractor and its neighbour, if there is one. */
+/* The stable manifold of the orbit between the first attractor and its neighbour, if any. */
 static pendres_status write_boundary(basins *b)
 {
   const deck_axis *x = &b->d->axis[DECK_AXIS_X], *v = &b->d->axis[DECK_AXIS_V];

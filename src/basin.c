@@ -149,8 +149,8 @@ pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK) return status;
   if (first > grid->nx || rows > grid->nx - first)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "rows %zu to %zu are not in the grid",
-                                first, first + rows);
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "rows %zu to %zu are not in the grid", first, first + rows);
   const size_t n = rows * grid->nv, offset = first * grid->nv;
   size_t *index = calloc(n + 1, sizeof *index);
   if (index == NULL)

@@ -71,7 +71,8 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
   s->members = calloc(attractors + 1, sizeof *s->members);
   s->crossings = calloc(attractors + 1, sizeof *s->crossings);
   s->box_rows = calloc(PENDRES_BASIN_BOX * grid->nv, sizeof *s->box_rows);
-  if (s->x_share == NULL || s->v_share == NULL || s->members == NULL || s->crossings == NULL || s->box_rows == NULL) {
+  if (s->x_share == NULL || s->v_share == NULL || s->members == NULL || s->crossings == NULL ||
+      s->box_rows == NULL) {
     pendres_basin_sums_free(s);
     return PENDRES_OUT_OF_MEMORY;
   }

@@ -40,7 +40,8 @@ void pendres_catalogue_clear(pendres_catalogue *c)
   *c = (pendres_catalogue){.pendulum = c->pendulum, .effort = c->effort};
 }
 
-int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane, long *well)
+int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
+                             long *well)
 {
   for (size_t i = 0; i < c->traps; i++) {
     const pendres_trap *t = &c->trap[i];
@@ -210,8 +211,8 @@ static pendres_status all_points(pendres_context *ctx, const pendres_orbit *o,
 }
 
 /* The point with the largest x represents the orbit. */
-static pendres_status append(pendres_context *ctx, pendres_catalogue *c, const pendres_orbit *points,
-                             const pendres_trap *traps)
+static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
+                             const pendres_orbit *points, const pendres_trap *traps)
 {
   const int q = points[0].period;
   int representative = 0;
@@ -284,8 +285,8 @@ static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_c
 }
 
 /* Keep the stable orbits that are not in the catalogues, drop repetitions within a set. */
-static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set, const pendres_status *outcome,
-                              const pendres_catalogue *catalogues)
+static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
+                              const pendres_status *outcome, const pendres_catalogue *catalogues)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
@@ -321,7 +322,8 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
 
 /* Add what guesses lead to; mirrors[0 .. *more) are guesses for the mirror images of new orbits. */
 static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
-                                  const pendres_scout *guesses, pendres_scout *mirrors, size_t *more)
+                                  const pendres_scout *guesses, pendres_scout *mirrors,
+                                  size_t *more)
 {
   pendres_status status = PENDRES_OK;
   pendres_orbit_guess *g = calloc(n, sizeof *g);

@@ -3,7 +3,8 @@
  *
  * Owns: finding attractors from scouts, numbering and labelling them, and telling which
  * trap a state lies in. Attractors keep the order of their discovery until
- * pendres_catalogue_order() puts them into their physical order. Works on many parameter sets at a time, so that blocks stay full.
+ * pendres_catalogue_order() puts them into their physical order. Works on many parameter sets at a
+ * time, so that blocks stay full.
  */
 #ifndef PENDRES_CATALOGUE_H
 #define PENDRES_CATALOGUE_H

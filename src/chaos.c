@@ -23,7 +23,7 @@ enum {
 static const double significance = 5.0;
 /* Least growth of the logarithm a period: slower is not told from slow settling. */
 static const double least_growth = 0.01;
-/* A suspect's tangent vector must have grown by e to this: transients grow by a few without chaos. */
+/* A suspect's tangent vector must have grown by e to this: without chaos it grows by a few. */
 static const double suspicious = 2.0;
 /* Walkers start this close to where lanes of the set are. */
 static const double scatter = 1e-3;
@@ -70,8 +70,8 @@ static int in_trap(const pendres_catalogue *c, const walker *a)
 }
 
 /* One period of the walkers of a block; their tangent vectors grow by the period's derivative. */
-static pendres_status step_block(pendres_context *ctx, pendres_flow *flow, const pendres_catalogue *c,
-                                 size_t n, walker *a)
+static pendres_status step_block(pendres_context *ctx, pendres_flow *flow,
+                                 const pendres_catalogue *c, size_t n, walker *a)
 {
   for (size_t i = 0; i < n; i++)
     pendres_flow_set_lane(flow, i, &c->pendulum, a[i].y, a[i].w);
@@ -184,7 +184,8 @@ static int growth(size_t n, const walker *a, double *mean, double *error)
 static double share_within(const pendres_cover *cover, const trace *t)
 {
   size_t inside = 0;
-  for (size_t i = 0; i < t->count; i++) inside += (size_t)pendres_cover_holds(cover, t->y[i], t->w[i]);
+  for (size_t i = 0; i < t->count; i++)
+    inside += (size_t)pendres_cover_holds(cover, t->y[i], t->w[i]);
   return (double)inside / (double)t->count;
 }
 
@@ -242,7 +243,7 @@ pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, si
     cover = create_cover(visited);
     status = cover != NULL
                ? pendres_catalogue_add_chaos(ctx, c, mean / tau, error / tau, cover)
-               : pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaotic motion");
+               : pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaos");
   }
   for (size_t i = 0; i < visited->count && status == PENDRES_OK; i++)
     cover_add(cover, visited->y[i], visited->w[i]);

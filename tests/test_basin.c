@@ -134,7 +134,8 @@ static void tighter(void **state)
   check_ok(pendres_attractors_settle(tight, p.set, N * N, x, v, outcome));
   size_t differ = 0;
   for (size_t k = 0; k < N * N; k++) {
-    if (outcome[k].attractor == p.state[k].attractor && outcome[k].well == p.state[k].well) continue;
+    if (outcome[k].attractor == p.state[k].attractor && outcome[k].well == p.state[k].well)
+      continue;
     differ++;
     const double ax[4] = {x[k] + near, x[k] - near, x[k], x[k]};
     const double av[4] = {v[k], v[k], v[k] + near, v[k] - near};
@@ -359,7 +360,10 @@ static void straight_boundary(void **state)
   check_near(s.distance[3] / s.distance[0], 8.0, 1e-12);
   /* A line that crosses a box anywhere and hardly slants shares it as 1/5, ... 4/5. */
   double mean = 0.0;
-  for (int k = 1; k < 5; k++) mean -= 0.25 * (k / 5.0 * log(k / 5.0) + (1 - k / 5.0) * log(1 - k / 5.0));
+  for (int k = 1; k < 5; k++) {
+    const double share = k / 5.0;
+    mean -= 0.25 * (share * log(share) + (1.0 - share) * log(1.0 - share));
+  }
   check_near(s.boundary_entropy, mean, 0.05);
   assert_true(s.boundary_entropy < log(2.0));
   check_near(s.entropy, s.boundary_entropy * s.boundary_boxes, 1e-12);
@@ -408,8 +412,8 @@ static void no_boundary(void **state)
   check_near(s.entropy, 0.0, 0.0);
 }
 
-/* The middle thirds that are taken away belong to basin 0, 1, 0, ... by their size: their boundary is
-   Cantor's set in v, of dimension log 2 / log 3. */
+/* The middle thirds that are taken away belong to basin 0, 1, 0, ... by their size: their boundary
+   is Cantor's set in v, of dimension log 2 / log 3. */
 static int cantor(size_t row, size_t column)
 {
   (void)row;
@@ -437,8 +441,8 @@ static void cantor_set(void **state)
 /* ---- a fractal boundary ---- */
 
 /*
- * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping 0.2,
- * drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above log 2,
+ * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping
+ * 0.2, drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above log 2,
  * which two basins with a smooth boundary cannot reach.
  */
 static const pendres_pendulum wada = {
@@ -460,7 +464,7 @@ static void wada_basins(void **state)
   assert_true(s.boundary_entropy > log(2.0) + 5.0 * s.boundary_entropy_error);
   check_near(fraction[0] + fraction[1] + fraction[2], 1.0, 1e-12);
 
-  /* Wada: next to two unlike neighbours, with the help of a finer line, there is the third basin. */
+  /* Wada: between two unlike neighbours a finer line finds the third basin. */
   enum { FINE = 2000 };
   size_t pairs = 0, all_three = 0;
   for (size_t k = 0; k + 1 < N * N && pairs < 40; k += 371) {

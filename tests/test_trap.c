@@ -202,7 +202,8 @@ static void unstable_orbits_have_none(void **state)
 static void period_two(void **state)
 {
   pendres_context *ctx = *state;
-  const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 1.07, .drive_frequency = 2.0 / 3.0};
+  const pendres_pendulum p = {
+    .damping = 0.5, .drive_amplitude = 1.07, .drive_frequency = 2.0 / 3.0};
   const pendres_orbit o = orbit_near(ctx, &p, -0.636898, 1.346102, 2, 0);
   pendres_trap t;
   assert_true(o.stable);

@@ -66,7 +66,7 @@ typedef struct pendres_outcome {
   pendres_label label;
   int attractor;         /**< index in the set; -1: unresolved */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
-  long settling_periods; /**< drive periods until it was inside the trapping region; -1: unresolved */
+  long settling_periods; /**< drive periods until it was inside the trap; -1: unresolved */
 } pendres_outcome;
 
 /**

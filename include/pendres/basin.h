@@ -147,13 +147,13 @@ typedef struct pendres_basin_statistics {
   double entropy, entropy_error;   /**< basin entropy: mean over boxes of 5 x 5 states of
                                         -sum p log p, p the shares of attractors in the box */
   double boundary_entropy, boundary_entropy_error; /**< the same over boxes with unlike states; more
-                                        than log 2: the boundary is fractal. NaN without a boundary */
+                                        than log 2: a fractal boundary. NaN without any */
   double boundary_boxes;           /**< share of boxes with unlike states */
   double uncertainty_exponent, uncertainty_exponent_error; /**< alpha in f ~ distance^alpha; NaN
                                         without a boundary */
   int scales;
   double distance[PENDRES_BASIN_SCALES];  /**< in v */
-  double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one that far away */
+  double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one so far away */
   double uncertain_error[PENDRES_BASIN_SCALES];
 } pendres_basin_statistics;
 
@@ -173,7 +173,7 @@ void pendres_basin_sums_free(pendres_basin_sums *sums);
 pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
                                       const pendres_basin_state *state);
 /** fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
- *  first to the last x and v, each state standing for what is nearest to it. Only after all rows. */
+ *  first to the last x and v, each state standing for what is nearest to it. After all rows. */
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
                                          pendres_basin_statistics *out, double *fraction,
                                          double *error);

@@ -1,0 +1,196 @@
+/* settle_hunt.c -- what attracts pendulums that are in no known trap; see settle_hunt.h. */
+#include "settle_hunt.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "context_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum {
+  LONGEST_PERIOD = 32, /* of an orbit that is looked for: half the history */
+  MOST_GUESSES = 8     /* orbits looked for at a time in one parameter set */
+};
+
+/* A history that comes back closer than this may be near an orbit. */
+static const double near_orbit = 0.3;
+
+/*
+ * The shortest period that a history repeats itself with about as closely as with any; rounding
+ * alone must not prefer a multiple. Returns 0 if it does not come near itself.
+ */
+static int recurrence(const pendres_settle_history *h, pendres_scout *s)
+{
+  double distance[LONGEST_PERIOD + 1], closest = near_orbit;
+  const long last = h->filled - 1;
+  const double y = h->y[last % PENDRES_SETTLE_HISTORY], w = h->w[last % PENDRES_SETTLE_HISTORY];
+  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
+    const long k = (last - q) % PENDRES_SETTLE_HISTORY;
+    const double dy = y - h->y[k];
+    distance[q] = hypot(dy - two_pi * rint(dy / two_pi), w - h->w[k]);
+    closest = fmin(closest, distance[q]);
+  }
+  s->y = y;
+  s->w = w;
+  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
+    if (distance[q] > fmax(3.0 * closest, 1e-6)) continue;
+    s->period = q;
+    s->winding = (int)rint((y - h->y[(last - q) % PENDRES_SETTLE_HISTORY]) / two_pi);
+    return closest < near_orbit;
+  }
+  return 0;
+}
+
+/* Everything about the pendulums that a batch has lost so far. */
+typedef struct lost_lanes {
+  size_t count;
+  size_t *index; /* in the batch */
+  size_t *set;
+  pendres_strobe_lane *lanes;
+  pendres_outcome *outcome;
+  pendres_settle_history *histories;
+  pendres_scout *guesses;
+  const pendres_strobe_lane **suspects;
+  size_t *known; /* attractors of each set when the hunt began */
+} lost_lanes;
+
+static void free_lost(lost_lanes *l)
+{
+  free(l->index);
+  free(l->set);
+  free(l->lanes);
+  free(l->outcome);
+  free(l->histories);
+  free(l->guesses);
+  free(l->suspects);
+  free(l->known);
+}
+
+static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
+{
+  const size_t n = l->count;
+  l->index = malloc(n * sizeof *l->index);
+  l->set = malloc(n * sizeof *l->set);
+  l->lanes = malloc(n * sizeof *l->lanes);
+  l->outcome = malloc(n * sizeof *l->outcome);
+  l->histories = calloc(n, sizeof *l->histories);
+  l->guesses = malloc(n * sizeof *l->guesses);
+  l->suspects = malloc(n * sizeof *l->suspects);
+  l->known = malloc(sets * sizeof *l->known);
+  if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
+      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+  return PENDRES_OK;
+}
+
+/* Orbits that the lost lanes are near, a few in each set. */
+static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
+                                      pendres_catalogue *catalogues)
+{
+  size_t n = 0, in_set = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
+    if (l->outcome[i].attractor >= 0 || l->histories[i].filled == 0) continue;
+    l->guesses[n].set = l->set[i];
+    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], &l->guesses[n])) {
+      n++;
+      in_set++;
+    }
+  }
+  return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
+}
+
+/* Chaos among the lost lanes, set by set. */
+static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
+    size_t n = 0;
+    pendres_catalogue *c = &catalogues[l->set[first]];
+    for (last = first; last < l->count && l->set[last] == l->set[first]; last++) {
+      long well;
+      if (l->outcome[last].attractor < 0 &&
+          pendres_catalogue_locate(c, &l->lanes[last], &well) < 0)
+        l->suspects[n++] = &l->lanes[last];
+    }
+    int found = 0;
+    status = pendres_chaos_find(ctx, c, n, l->suspects, &found);
+  }
+  return status;
+}
+
+/* Lanes that went to an attractor found late: again from the start, for their settling times. */
+static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_quarry *q,
+                             pendres_settle_labelling *job)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    const int attractor = l->outcome[i].attractor;
+    if (attractor < 0 || (size_t)attractor < l->known[l->set[i]]) continue;
+    l->index[n] = l->index[i];
+    l->set[n] = q->set[l->index[i]];
+    l->outcome[n] = pendres_settle_unresolved;
+    l->lanes[n++] = q->starts[l->index[i]];
+  }
+  job->outcome = l->outcome;
+  job->set = l->set;
+  job->histories = NULL;
+  const pendres_status status = pendres_settle_lanes(ctx, n, l->lanes, job);
+  l->count = status == PENDRES_OK ? n : 0;
+  return status;
+}
+
+/* Budgets of the next round; 0 when all had been spent before. */
+static int raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round)
+{
+  int longer = 0;
+  for (size_t s = 0; s < q->sets; s++) {
+    const pendres_catalogue *c = &q->catalogues[s];
+    long *budget = &q->budget[s];
+    const long most = pendres_settle_last_budget(ctx, c);
+    const long more = (pendres_settle_first_budget(&c->pendulum) + PENDRES_SETTLE_HISTORY) << round;
+    if (*budget >= most) continue;
+    longer = 1;
+    *budget = *budget < most - more ? *budget + more : most;
+  }
+  return longer;
+}
+
+pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_quarry *q)
+{
+  lost_lanes l = {0};
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < q->n; i++) l.count += q->outcome[i].attractor < 0;
+  if (l.count == 0) return status;
+  status = allocate_lost(ctx, &l, q->sets);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0, k = 0; i < q->n; i++) {
+    if (q->outcome[i].attractor >= 0) continue;
+    l.index[k] = i;
+    l.set[k] = q->set[i];
+    l.outcome[k] = pendres_settle_unresolved;
+    l.lanes[k++] = q->lanes[i];
+  }
+  for (size_t s = 0; s < q->sets; s++) l.known[s] = q->catalogues[s].count;
+
+  pendres_settle_labelling job = {.catalogues = q->catalogues, .set = l.set, .budget = q->budget,
+                                  .outcome = l.outcome, .histories = l.histories};
+  for (int round = 0; status == PENDRES_OK; round++) {
+    size_t left = 0;
+    const int longer = raise_budgets(ctx, q, round);
+    status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
+    for (size_t i = 0; i < l.count; i++) left += l.outcome[i].attractor < 0;
+    if (status != PENDRES_OK || left == 0 || !longer) break;
+    status = add_recurrences(ctx, &l, q->catalogues);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->catalogues);
+  }
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
+  if (status == PENDRES_OK) status = repeat(ctx, &l, q, &job);
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
+done:
+  free_lost(&l);
+  return status;
+}

@@ -1,0 +1,132 @@
+/* settle_lanes.c -- running pendulums until they are inside a trap; see settle_lanes.h. */
+#include "settle_lanes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "context_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Strobes in a row in a chaotic attractor's cells that make chaos. */
+enum { CHAOTIC_STREAK = 32 };
+
+/* e-folding time of a small oscillation, in periods. */
+static double settling_time(const pendres_pendulum *p)
+{
+  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
+}
+
+long pendres_settle_first_budget(const pendres_pendulum *p)
+{
+  return (long)ceil(fmin(20.0 + 10.0 * settling_time(p), 1e7));
+}
+
+/* Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. */
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c)
+{
+  if (ctx->options.period_budget > 0) return ctx->options.period_budget;
+  double slowest = 0.0;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_orbit *o = &c->attractors[i].orbit;
+    const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
+    if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
+  }
+  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4);
+  return (long)ceil(fmin(most, 1e8));
+}
+
+static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
+{
+  const long k = h->filled++ % PENDRES_SETTLE_HISTORY;
+  h->y[k] = lane->y + two_pi * (double)lane->turns;
+  h->w[k] = lane->w;
+}
+
+/*
+ * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
+ * transients are over.
+ */
+static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  for (size_t k = 0; k < c->covers; k++) {
+    if (!pendres_cover_holds(c->cover[k], lane->y, lane->w)) continue;
+    const long soonest = pendres_settle_first_budget(&c->pendulum);
+    if (++l->streak[i] < CHAOTIC_STREAK || lane->period < soonest) return 0;
+    l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
+                                      .attractor = c->cover[k]->attractor,
+                                      .settling_periods = lane->period - l->streak[i] + 1};
+    return 1;
+  }
+  l->streak[i] = 0;
+  return 0;
+}
+
+static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  pendres_outcome *o = &l->outcome[i];
+  const int attractor = pendres_catalogue_locate(c, lane, &o->well);
+  if (attractor < 0) return 0;
+  o->attractor = attractor;
+  o->label = c->attractors[attractor].label;
+  o->settling_periods = lane->period;
+  return 1;
+}
+
+static size_t set_of(const pendres_settle_labelling *l, size_t i)
+{
+  return l->set != NULL ? l->set[i] : 0;
+}
+
+static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const pendres_settle_labelling *l = arg;
+  const size_t i = l->origin[index], set = set_of(l, i);
+  const pendres_catalogue *c = &l->catalogues[set];
+  if (trapped(l, i, c, lane)) return 1;
+  if (l->histories != NULL) record(&l->histories[i], lane);
+  if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
+  return lane->period >= l->budget[set];
+}
+
+pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                pendres_settle_labelling *l)
+{
+  size_t left = 0;
+  int covers = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_strobe_lane *rest = malloc((n + 1) * sizeof *rest);
+  size_t *origin = malloc((n + 1) * sizeof *origin);
+  if (rest == NULL || origin == NULL) goto no_memory;
+  for (size_t i = 0; i < n; i++) {
+    const size_t set = set_of(l, i);
+    const pendres_catalogue *c = &l->catalogues[set];
+    if (l->outcome[i].attractor >= 0) continue;
+    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
+    covers |= c->covers > 0;
+    origin[left] = i;
+    rest[left++] = lanes[i];
+  }
+  if (covers) {
+    l->streak = calloc(n, sizeof *l->streak);
+    if (l->streak == NULL) goto no_memory;
+  }
+  l->origin = origin;
+  status = pendres_strobe_run(ctx, left, rest, settle_look, l);
+  for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+    pendres_outcome *o = &l->outcome[origin[i]];
+    lanes[origin[i]] = rest[i];
+    if (o->attractor < 0) *o = pendres_settle_unresolved;
+  }
+  goto done;
+no_memory:
+  (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
+done:
+  free(l->streak);
+  l->streak = NULL;
+  free(rest);
+  free(origin);
+  return status;
+}

@@ -1,0 +1,45 @@
+/*
+ * settle_lanes.h -- running pendulums until they are inside a trap.
+ *
+ * Owns: what a lane is told after each period, the budgets of periods, and the record of lanes that
+ * do not settle.
+ */
+#ifndef PENDRES_SETTLE_LANES_H
+#define PENDRES_SETTLE_LANES_H
+
+#include "catalogue.h"
+
+enum { PENDRES_SETTLE_HISTORY = 65 /* strobe points kept of a pendulum that does not settle */ };
+
+/* The latest strobe points of a lane, a ring buffer. */
+typedef struct pendres_settle_history {
+  long filled; /* points ever recorded */
+  double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY]; /* unwrapped angle */
+} pendres_settle_history;
+
+/* Arrays are by the caller's numbers of lanes. */
+typedef struct pendres_settle_labelling {
+  const pendres_catalogue *catalogues;
+  const size_t *set;        /* of each lane; NULL: all belong to the first catalogue */
+  const long *budget;       /* of each set, periods in all */
+  pendres_outcome *outcome;
+  pendres_settle_history *histories; /* NULL: not kept */
+  /* Of the run itself: */
+  const size_t *origin;     /* caller's numbers of the lanes under way */
+  int *streak;              /* strobes in a row in the cells of a chaotic attractor; NULL: none */
+} pendres_settle_labelling;
+
+static const pendres_outcome pendres_settle_unresolved = {
+  .label = PENDRES_LABEL_UNRESOLVED, .attractor = -1, .settling_periods = -1};
+
+/* Periods after which a pendulum that is in no trap is looked at closely. */
+long pendres_settle_first_budget(const pendres_pendulum *p);
+
+/* Periods after which it is given up. */
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c);
+
+/* Run the lanes that are unresolved; those inside a trap are done before they begin. */
+pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                    pendres_settle_labelling *l);
+
+#endif
