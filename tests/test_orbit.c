@@ -1,0 +1,196 @@
+/*
+ * test_orbit.c -- periodic orbits against closed forms, exact identities, and the
+ * extended-precision reference.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+#include "golden.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+static pendres_context *context_with(double tolerance)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = tolerance}, &ctx));
+  return ctx;
+}
+
+/* All golden orbits refined from a start a little off; the caller frees. */
+static pendres_orbit *golden_refined(pendres_context *ctx, size_t *count)
+{
+  const size_t n = sizeof golden_orbits / sizeof golden_orbits[0];
+  pendres_orbit_guess *guess = calloc(n, sizeof *guess);
+  pendres_orbit *orbit = calloc(n, sizeof *orbit);
+  pendres_status *outcome = calloc(n, sizeof *outcome);
+  assert_true(guess != NULL && orbit != NULL && outcome != NULL);
+  for (size_t i = 0; i < n; i++) {
+    const pendres_reference_cycle *g = &golden_orbits[i];
+    guess[i] = (pendres_orbit_guess){
+      .pendulum = {.damping = (double)g->damping, .drive_amplitude = (double)g->drive_amplitude,
+                   .drive_frequency = (double)g->drive_frequency},
+      .x = (double)g->y + half_pi + 1e-3, .v = (double)g->v - 1e-3,
+      .period = (int)g->period, .winding = (int)g->winding};
+  }
+  check_ok(pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome));
+  for (size_t i = 0; i < n; i++) assert_int_not_equal(outcome[i], PENDRES_NOT_CONVERGED);
+  free(guess);
+  free(outcome);
+  *count = n;
+  return orbit;
+}
+
+/* Angles compare modulo whole turns. */
+static double nearest_turn(double x, double to)
+{
+  return x - two_pi * rint((x - to) / two_pi);
+}
+
+/*
+ * The promise of the error estimates: never smaller than a tenth of the true error; and what is
+ * asked for is met.
+ */
+static void honest_against_reference(void **state)
+{
+  static const double tolerances[] = {1e-5, 1e-8, 1e-11};
+  (void)state;
+  for (size_t t = 0; t < 3; t++) {
+    pendres_context *ctx = context_with(tolerances[t]);
+    size_t n = 0;
+    pendres_orbit *orbit = golden_refined(ctx, &n);
+    for (size_t i = 0; i < n; i++) {
+      const pendres_reference_cycle *g = &golden_orbits[i];
+      const pendres_orbit *o = &orbit[i];
+      const double x = (double)g->y + half_pi;
+      check_near(nearest_turn(o->x, x), x, 10.0 * o->x_error);
+      check_near(o->v, (double)g->v, 10.0 * o->v_error);
+      check_near(o->loop_area, (double)g->loop_area, 10.0 * o->loop_area_error);
+      check_near(o->dissipation, (double)g->dissipation, 10.0 * o->dissipation_error);
+      check_near(o->amplitude, (double)g->amplitude, 10.0 * o->amplitude_error);
+      check_near(o->first_harmonic_amplitude, (double)g->first_harmonic_amplitude,
+                 10.0 * o->first_harmonic_amplitude_error);
+      check_near(o->phase_lag, (double)g->phase_lag, 10.0 * o->phase_lag_error);
+      check_near(o->mean_power, (double)g->mean_power, 10.0 * o->mean_power_error);
+      assert_true(o->loop_area_error <= tolerances[t] && o->x_error <= tolerances[t]);
+    }
+    free(orbit);
+    pendres_context_free(ctx);
+  }
+}
+
+/*
+ * On a closed orbit what the drive gives is dissipated: within ten times the tolerance asked
+ * for. The multipliers' product is exp(-damping q tau) (Liouville): to rounding, since the second
+ * one is taken from it; the determinant of the monodromy matrix is independent of that.
+ */
+static void exact_identities(void **state)
+{
+  static const double tolerances[] = {1e-6, 1e-9};
+  (void)state;
+  for (size_t t = 0; t < 2; t++) {
+    pendres_context *ctx = context_with(tolerances[t]);
+    size_t n = 0;
+    pendres_orbit *orbit = golden_refined(ctx, &n);
+    for (size_t i = 0; i < n; i++) {
+      const pendres_orbit *o = &orbit[i];
+      const pendres_pendulum *p = &o->pendulum;
+      const double shrink = exp(-p->damping * o->period * two_pi / p->drive_frequency);
+      const double det = o->monodromy[0][0] * o->monodromy[1][1] -
+                         o->monodromy[0][1] * o->monodromy[1][0];
+      /* Entries of size ten and more cancel in the determinant. */
+      const double size = 1.0 + fabs(o->monodromy[0][0] * o->monodromy[1][1]);
+      check_near(o->loop_area, o->dissipation, 10.0 * tolerances[t]);
+      check_near(det, shrink, 10.0 * tolerances[t] * size);
+    }
+    free(orbit);
+    pendres_context_free(ctx);
+  }
+}
+
+/*
+ * Linear limit, F0 = 1e-6: amplitude, phase lag and loop area within 1e-9 relative of the closed
+ * form; sin y differs from y by amplitude^2 / 8 relative, at most 1e-11 / 8 here.
+ */
+static void linear_limit(void **state)
+{
+  static const double sets[][2] = {{0.3, 0.9}, {0.5, 1.1}, {1.0, 0.7}, {0.4, 0.5}};
+  pendres_context *ctx = context_with(1e-11);
+  (void)state;
+  for (size_t i = 0; i < sizeof sets / sizeof sets[0]; i++) {
+    const pendres_orbit_guess g = {
+      .pendulum = {.damping = sets[i][0], .drive_amplitude = 1e-6, .drive_frequency = sets[i][1]},
+      .x = half_pi, .period = 1};
+    pendres_orbit o;
+    pendres_harmonic h;
+    pendres_status outcome;
+    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_harmonic_response(&g.pendulum, &h));
+    check_relative(o.amplitude, h.amplitude, 1e-9);
+    check_relative(o.phase_lag, h.phase_lag, 1e-9);
+    check_relative(o.loop_area, h.loop_area, 1e-9);
+    assert_true(o.stable && o.symmetric);
+  }
+  pendres_context_free(ctx);
+}
+
+/* The slope of the loop area by frequency against a difference quotient: centred, so off by the
+   third derivative (about 100) times step^2 / 6, and the areas' errors over the step. */
+static void slopes(void **state)
+{
+  pendres_context *ctx = context_with(1e-11);
+  const double step = 1e-5;
+  pendres_orbit_guess g = {
+    .pendulum = {.damping = 0.31, .drive_amplitude = 0.17, .drive_frequency = 0.83},
+    .x = half_pi, .period = 1};
+  pendres_orbit at, below, above;
+  pendres_status outcome;
+  (void)state;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_FREQUENCY_SLOPE, &at, &outcome));
+  g.pendulum.drive_frequency = 0.83 - step;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &below, &outcome));
+  g.pendulum.drive_frequency = 0.83 + step;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &above, &outcome));
+  const double slack = 100.0 * step * step + (above.loop_area_error + below.loop_area_error) / step;
+  check_near(at.loop_area_slope, (above.loop_area - below.loop_area) / (2.0 * step), slack);
+  check_near(at.frequency_derivative[0], (above.x - below.x) / (2.0 * step),
+             100.0 * step * step + (above.x_error + below.x_error) / step);
+  check_near(at.frequency_derivative[1], (above.v - below.v) / (2.0 * step),
+             100.0 * step * step + (above.v_error + below.v_error) / step);
+  pendres_context_free(ctx);
+}
+
+static void refusals(void **state)
+{
+  pendres_context *ctx = context_with(1e-8);
+  pendres_orbit o;
+  pendres_status outcome;
+  pendres_orbit_guess g = {.pendulum = {.damping = -1.0, .drive_frequency = 1.0}, .period = 1};
+  (void)state;
+  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+                   PENDRES_INVALID_ARGUMENT);
+  g.pendulum.damping = 0.1;
+  g.period = 0;
+  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+                   PENDRES_INVALID_ARGUMENT);
+  g.period = 1;
+  g.x = NAN;
+  assert_int_equal(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome),
+                   PENDRES_INVALID_ARGUMENT);
+  check_ok(pendres_orbit_refine(ctx, 0, NULL, PENDRES_ORBIT_PLAIN, NULL, NULL));
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(honest_against_reference), cmocka_unit_test(exact_identities),
+    cmocka_unit_test(linear_limit),             cmocka_unit_test(slopes),
+    cmocka_unit_test(refusals),
+  };
+  return cmocka_run_group_tests_name("orbit", tests, NULL, NULL);
+}
