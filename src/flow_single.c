@@ -62,13 +62,17 @@ static int jacobian(sunrealtype theta, N_Vector state, N_Vector f, SUNMatrix j, 
   return 0;
 }
 
-/* Relative and absolute tolerance alike, but whole turns of the angle do not loosen it. */
+/*
+ * Relative and absolute tolerance alike, but whole turns of the angle do not loosen it, except to
+ * what their digits allow.
+ */
 static int weights(N_Vector state, N_Vector out, void *arg)
 {
   const problem *b = arg;
   const double *s = N_VGetArrayPointer(state), tolerance = b->ctx->options.tolerance;
   double *w = N_VGetArrayPointer(out);
-  w[0] = 1.0 / (tolerance * (1.0 + fmin(fabs(s[0]), 3.14159265358979323846)));
+  const double asked = tolerance * (1.0 + fmin(fabs(s[0]), 3.14159265358979323846));
+  w[0] = 1.0 / fmax(asked, 2e-15 * fabs(s[0]));
   w[1] = 1.0 / (tolerance * (1.0 + fabs(s[1])));
   return 0;
 }

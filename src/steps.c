@@ -11,8 +11,12 @@ enum {
   PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
   FEWEST_STEPS = 8,
   MOST_STEPS = 1000000,
-  FIRST_SIZE = 64       /* of the memo, doubled as it fills */
+  FIRST_SIZE = 64,      /* of the memo, doubled as it fills */
+  POINTS = 65           /* of a period at which probes are compared */
 };
+
+/* Growth of an error of the start beyond which a probe is not followed. */
+static const double wild = 100.0;
 
 /* A cell of the lattice: indices of damping, frequency, drive, speed and tolerance. */
 typedef struct cell {
@@ -104,38 +108,97 @@ static void load_probe(pendres_flow *flow, size_t lane, int i, const pendres_pen
   pendres_flow_set_lane(flow, lane, p, y, v / p->drive_frequency);
 }
 
-/* All probes over one period; end[2 i], end[2 i + 1] are y and w of probe i. */
-static pendres_status run_probes(pendres_context *ctx, pendres_flow *flow,
-                                 const pendres_pendulum *p, double speed, int steps,
-                                 double end[2 * PROBES])
+/*
+ * What is seen of the probes: their states at `dense` equally spaced points, and at the period's
+ * end. The growth of an error of the start, the largest entry of the derivative of (y, v), is
+ * looked at by the finer run alone.
+ */
+typedef struct sight {
+  int steps, stride, dense, points;
+  int growing;
+  size_t first, lanes; /* probes in the block */
+  double omega;
+  double y[POINTS][PROBES], v[POINTS][PROBES], growth[POINTS][PROBES];
+} sight;
+
+static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
 {
+  sight s = {.steps = steps, .stride = stride, .growing = growing, .omega = p->drive_frequency};
+  s.dense = steps / stride < POINTS - 1 ? steps / stride : POINTS - 1;
+  s.points = s.dense + (s.dense * stride < steps);
+  return s;
+}
+
+/* Steps in half a unit of time, in which errors grow by no more than e^(1/2). */
+static int stride_of(const pendres_pendulum *p, int steps)
+{
+  const double period = 6.28318530717958647693 / p->drive_frequency;
+  return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
+}
+
+static void look(void *arg, int step, double theta, size_t stride, const double *state)
+{
+  sight *s = arg;
+  int k = s->points - 1;
+  (void)theta;
+  if (step % s->stride == 0 && step / s->stride <= s->dense) k = step / s->stride - 1;
+  else if (step < s->steps) return;
+  for (size_t i = 0; i < s->lanes; i++) {
+    double *growth = &s->growth[k][s->first + i];
+    s->y[k][s->first + i] = state[i];
+    s->v[k][s->first + i] = s->omega * state[stride + i];
+    if (!s->growing) continue;
+    *growth = fmax(fabs(state[2 * stride + i]), fabs(state[5 * stride + i]));
+    *growth = fmax(*growth, s->omega * fabs(state[3 * stride + i]));
+    *growth = fmax(*growth, fabs(state[4 * stride + i]) / s->omega);
+  }
+}
+
+/* All probes over one period, looked at on the way. */
+static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                                 sight *s)
+{
+  pendres_flow *flow = NULL;
+  pendres_status status = pendres_context_flow(
+    ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
+  if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_flow_capacity(flow);
-  pendres_status status = pendres_flow_set_steps(flow, steps);
+  status = pendres_flow_set_steps(flow, s->steps);
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  for (size_t first = 0; first < PROBES; first += capacity) {
-    const size_t lanes = PROBES - first < capacity ? PROBES - first : capacity;
-    pendres_flow_resize(flow, lanes);
-    for (size_t i = 0; i < lanes; i++) load_probe(flow, i, (int)(first + i), p, speed);
-    status = pendres_flow_period(flow);
+  for (s->first = 0; s->first < PROBES; s->first += capacity) {
+    s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
+    pendres_flow_resize(flow, s->lanes);
+    for (size_t i = 0; i < s->lanes; i++) load_probe(flow, i, (int)(s->first + i), p, speed);
+    status = pendres_flow_period_sampled(flow, look, s);
     if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-    const double *state = pendres_flow_state(flow);
-    for (size_t i = 0; i < lanes; i++) {
-      end[2 * (first + i)] = state[i];
-      end[2 * (first + i) + 1] = state[pendres_flow_stride(flow) + i];
-    }
   }
   ctx->cost.pendulum_periods += PROBES;
   return PENDRES_OK;
 }
 
-/* Largest difference over the probes, in y and in v; infinite where a run left all bounds. */
-static double difference(const double a[2 * PROBES], const double b[2 * PROBES])
+/*
+ * Error of probe i over the period: the largest difference up to the point at which errors have
+ * grown `wild`, as if what follows added as much a unit of time. No steps help against what a wild
+ * pendulum makes of its errors, so that is not asked of them.
+ */
+static double probe_error(const sight *coarse, const sight *fine, size_t i)
 {
   double largest = 0.0;
-  for (int i = 0; i < 2 * PROBES; i++) {
-    const double d = fabs(a[i] - b[i]);
-    if (!(d <= largest)) largest = isnan(d) ? INFINITY : d;
+  int k = 0;
+  for (; k < coarse->points; k++) {
+    if (k > 0 && !(fine->growth[k][i] <= wild)) break;
+    const double dy = fabs(coarse->y[k][i] - fine->y[k][i]);
+    const double dv = fabs(coarse->v[k][i] - fine->v[k][i]);
+    if (!(dy + dv < INFINITY)) return INFINITY;
+    largest = fmax(largest, fmax(dy, dv));
   }
+  return k == coarse->points ? largest : largest * coarse->steps / ((double)k * coarse->stride);
+}
+
+static double largest_error(const sight *coarse, const sight *fine)
+{
+  double largest = 0.0;
+  for (size_t i = 0; i < PROBES; i++) largest = fmax(largest, probe_error(coarse, fine, i));
   return largest;
 }
 
@@ -150,23 +213,21 @@ static double least_steps(const pendres_pendulum *p, double speed)
 
 static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
-  pendres_flow *flow = NULL;
   pendres_pendulum p;
-  double speed, tolerance, coarse[2 * PROBES], fine[2 * PROBES];
+  double speed, tolerance;
   const int order = pendres_table_order(ctx->options.table);
 
   worst_of(c, &p, &speed, &tolerance);
   if (p.drive_frequency == 0.0) goto too_slow;
-  pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
-  if (status != PENDRES_OK) return status;
-
   double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
-    status = run_probes(ctx, flow, &p, speed, n, coarse);
-    if (status == PENDRES_OK) status = run_probes(ctx, flow, &p, speed, 2 * n, fine);
+    const int stride = stride_of(&p, n);
+    sight coarse = sight_of(&p, n, stride, 0), fine = sight_of(&p, 2 * n, 2 * stride, 1);
+    pendres_status status = run_probes(ctx, &p, speed, &coarse);
+    if (status == PENDRES_OK) status = run_probes(ctx, &p, speed, &fine);
     if (status != PENDRES_OK) return status;
-    const double error = difference(coarse, fine);
+    const double error = largest_error(&coarse, &fine);
     /* Where the error no longer falls it is rounding alone: more steps would not help. */
     const int rounding = error < 1e-9 && error > 0.5 * last_error;
     if (error <= tolerance || rounding) {

@@ -6,6 +6,7 @@
 
 #include "context_internal.h"
 #include "steps.h"
+#include "strobe_noise.h"
 #include "strobe_run.h"
 
 static const double half_pi = 1.57079632679489661923;
@@ -77,23 +78,26 @@ static void forget_adaptive_block(pendres_context *ctx)
   *flow = NULL;
 }
 
-/* The same pendulums once more, by a better method: more steps, or a tenth of the tolerance. */
+/*
+ * The same pendulums once more, by a better method. With fixed steps: more of them, and noise[n]
+ * receives the rounding errors. Else a tenth of the tolerance, and noise[n] is 0: rounding is far
+ * below the errors of methods that no tolerance holds to the result's.
+ */
 static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                 const double *x, const double *v, long periods,
-                                pendres_strobe_lane *finer)
+                                pendres_strobe_lane *finer, double *noise)
 {
   const double tolerance = ctx->options.tolerance;
   pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
   if (status != PENDRES_OK) return status;
-  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
-    ctx->options.tolerance = 0.1 * tolerance;
-    forget_adaptive_block(ctx);
-  }
+  if (ctx->options.method == PENDRES_BLOCK_FIXED)
+    return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
+  for (size_t i = 0; i < n; i++) noise[i] = 0.0;
+  ctx->options.tolerance = 0.1 * tolerance;
+  forget_adaptive_block(ctx);
   status = pendres_strobe_run(ctx, n, finer, after_all_periods, &periods);
-  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
-    ctx->options.tolerance = tolerance;
-    forget_adaptive_block(ctx);
-  }
+  ctx->options.tolerance = tolerance;
+  forget_adaptive_block(ctx);
   return status;
 }
 
@@ -103,6 +107,65 @@ static double distance(const pendres_strobe_lane *a, const pendres_strobe_lane *
   const double dy = (a->y - b->y) + two_pi * (double)(a->turns - b->turns);
   const double dv = (a->w - b->w) * a->pendulum->drive_frequency;
   return fmax(fabs(dy), fabs(dv));
+}
+
+/*
+ * From the distance of two runs and the standard error of rounding; what is lost in the last sums
+ * comes on top. Runs that are a tenth of a radian apart have lost each other: nothing is known then.
+ */
+static double error_of(double apart, double noise, long turns)
+{
+  return apart < 0.1 ? apart + 2.0 * noise + 2.2e-16 * (8.0 + two_pi * labs(turns)) : INFINITY;
+}
+
+/*
+ * Along one expanding direction two errors of either sign may be equal by chance. Where
+ * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
+ * distance. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
+ */
+static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                  const double *x, const double *v, long periods,
+                                  const pendres_strobe_lane *lanes, const double *noise,
+                                  pendres_strobe_lane *room, double *apart)
+{
+  static const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
+  size_t some = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (!(noise[i] > grown)) continue;
+    const pendres_status status = load(ctx, 1, &p[i], &x[i], &v[i], periods, 2.0, &room[some]);
+    if (status != PENDRES_OK) return status;
+    some++;
+  }
+  const pendres_status status =
+    pendres_strobe_run(ctx, some, room, after_all_periods, &periods);
+  some = 0;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    if (noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));
+  return status;
+}
+
+/* error[n] of the first run lanes[n], whose starts x[n] and v[n] still hold. */
+static pendres_status estimate(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                               const double *x, const double *v, long periods,
+                               const pendres_strobe_lane *lanes, double *error)
+{
+  pendres_strobe_lane *finer = malloc(n * sizeof *finer);
+  double *apart = malloc(n * sizeof *apart);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (finer == NULL || apart == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
+    goto done;
+  }
+  status = run_finer(ctx, n, p, x, v, periods, finer, error);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0; i < n; i++) apart[i] = distance(&lanes[i], &finer[i]);
+  status = ask_thirdly(ctx, n, p, x, v, periods, lanes, error, finer, apart);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    error[i] = error_of(apart[i], error[i], lanes[i].turns);
+done:
+  free(finer);
+  free(apart);
+  return status;
 }
 
 pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
@@ -118,35 +181,18 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
     return PENDRES_OK;
   }
 
-  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes), *finer = NULL;
-  if (lanes == NULL) goto no_memory;
+  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
+  if (lanes == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   status = load(ctx, n, pendulums, x, v, periods, 1.0, lanes);
   if (status == PENDRES_OK)
     status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
-  if (status != PENDRES_OK) goto done;
-
-  if (error != NULL) {
-    finer = malloc(n * sizeof *finer);
-    if (finer == NULL) goto no_memory;
-    /* More steps rather than fewer: below the tolerance both runs are in the regime where the
-       order holds, and the difference is the error of the first run itself. */
-    status = run_finer(ctx, n, pendulums, x, v, periods, finer);
-    if (status != PENDRES_OK) goto done;
+  if (status == PENDRES_OK && error != NULL)
+    status = estimate(ctx, n, pendulums, x, v, periods, lanes, error);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    x[i] = lanes[i].y + half_pi + two_pi * (double)lanes[i].turns;
+    v[i] = lanes[i].w * pendulums[i].drive_frequency;
   }
-  for (size_t i = 0; i < n; i++) {
-    const pendres_strobe_lane *l = &lanes[i];
-    x[i] = l->y + half_pi + two_pi * (double)l->turns;
-    v[i] = l->w * pendulums[i].drive_frequency;
-    /* Rounding: half a unit in the last place of each step's sum, at random. */
-    if (error != NULL)
-      error[i] = distance(l, &finer[i]) +
-                 2.2e-16 * (fabs(x[i]) + 4.0 * sqrt((double)l->steps * (double)periods));
-  }
-  goto done;
-no_memory:
-  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-done:
   free(lanes);
-  free(finer);
   return status;
 }

@@ -1,10 +1,8 @@
 /*
  * strobe_record.c -- a trajectory at equally spaced drive phases; see strobe.h.
  *
- * Errors: discretisation from a second run with more steps; rounding from the covariance C of the
- * state's rounding errors, carried along by the variational equation of the second run,
- * C(t) = M C M' + (what is added on the way). A trajectory near a separatrix amplifies
- * rounding by orders of magnitude, where two runs may agree by chance.
+ * Errors: discretisation from a second run with more steps; rounding from the covariance of the
+ * state's rounding errors, carried along by the variational equation of the second run.
  */
 #include <pendres/strobe.h>
 
@@ -14,15 +12,13 @@
 
 #include "context_internal.h"
 #include "steps.h"
+#include "strobe_noise.h"
 #include "strobe_run.h"
 
 static const double half_pi = 1.57079632679489661923;
 static const double two_pi = 6.28318530717958647693;
 
 enum { MOST_SAMPLES = 1000000 };
-
-/* Rounding of one step: a unit in the last place of angles up to pi, as measured. */
-static const double step_rounding = 4.4e-16;
 
 /* Where the points of a period go; in the second run also their standard errors of rounding. */
 typedef struct recorder {
@@ -32,19 +28,6 @@ typedef struct recorder {
   int stretch;               /* steps between two points */
   double omega, turned;
 } recorder;
-
-/* C after `step` steps: rows 2 to 5 of the state hold the columns of M. */
-static void carry(const double noise[3], int step, size_t stride, const double *state,
-                  double out[3])
-{
-  const double a = state[2 * stride], c = state[3 * stride];
-  const double b = state[4 * stride], d = state[5 * stride];
-  const double w = fmax(1.0, fabs(state[stride]));
-  const double added = step_rounding * step_rounding * step;
-  out[0] = a * a * noise[0] + 2.0 * a * b * noise[1] + b * b * noise[2] + added;
-  out[1] = a * c * noise[0] + (a * d + b * c) * noise[1] + b * d * noise[2];
-  out[2] = c * c * noise[0] + 2.0 * c * d * noise[1] + d * d * noise[2] + added * w * w;
-}
 
 static void keep(void *arg, int step, double theta, size_t stride, const double *state)
 {
@@ -56,7 +39,7 @@ static void keep(void *arg, int step, double theta, size_t stride, const double 
   r->v[k] = r->omega * state[stride];
   if (r->x_noise != NULL) {
     double noise[3];
-    carry(r->noise, step, stride, state, noise);
+    pendres_strobe_noise_carry(r->noise, step, stride, state, noise);
     r->x_noise[k] = sqrt(noise[0]);
     r->v_noise[k] = r->omega * sqrt(noise[2]);
   }
@@ -103,7 +86,8 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     const double *state = pendres_flow_state(flow);
     const size_t stride = pendres_flow_stride(flow);
     double noise[3] = { 0.0 };
-    if (x_noise != NULL) carry(r.noise, what->samples * stretch, stride, state, noise);
+    if (x_noise != NULL)
+      pendres_strobe_noise_carry(r.noise, what->samples * stretch, stride, state, noise);
     for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
     y = state[0];
     w = state[stride];

@@ -24,10 +24,11 @@ extern "C" {
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
  * error[n], if not NULL, receives an estimate of the larger of the errors of x and v:
- * a second run with fewer steps a period is compared with the first, which costs about
- * as much again. It covers discretisation and rounding, amplified along each trajectory
- * as the trajectory itself amplifies them; where that is by more than the tolerance
- * allows, the estimate says so, it is not an error of the function.
+ * a second run with more steps a period, or with a tenth of the tolerance where the method's steps
+ * are adaptive, is compared with the first. It covers discretisation and rounding, amplified along
+ * each trajectory as the trajectory itself amplifies them; where that is by more than the
+ * tolerance allows, the estimate says so (infinite: nothing is known), it is not an error of the
+ * function. It costs about four times as much as the first run.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.
