@@ -11,8 +11,8 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
+#include "catalogue.h"
 #include "golden.h"
-#include "trap.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -213,6 +213,25 @@ static void period_two(void **state)
   check_inside(ctx, &o, &t, 500, 10, 40, 1e-8);
 }
 
+/* A trap across the upright position, where angles jump by a turn: wells are counted right. */
+static void across_the_top(void **state)
+{
+  pendres_trap t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1};
+  int owner = 0;
+  pendres_catalogue c = {.count = 1, .traps = 1, .trap = &t, .owner = &owner};
+  pendres_strobe_lane lane = {.y = 2.8, .turns = 4};
+  long well = 99;
+  (void)state;
+  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), 0);
+  assert_int_equal(well, 4);
+  /* -3.1 + 2 pi is 3.18: the same well as 3.0, though a turn has been counted. */
+  lane.y = -3.1;
+  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), 0);
+  assert_int_equal(well, 3);
+  lane.w = 0.5;
+  assert_int_equal(pendres_catalogue_locate(&c, &lane, &well), -1);
+}
+
 /* What a trap is does not depend on the others that it is looked for with. */
 static void independent_of_company(void **state)
 {
@@ -240,6 +259,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(near_a_fold, setup, teardown),
     cmocka_unit_test_setup_teardown(unstable_orbits_have_none, setup, teardown),
     cmocka_unit_test_setup_teardown(period_two, setup, teardown),
+    cmocka_unit_test(across_the_top),
     cmocka_unit_test_setup_teardown(independent_of_company, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
