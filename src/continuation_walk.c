@@ -17,6 +17,7 @@ static const double last_step = 1e-8;
 static const double sharpest_turn = 0.92;
 static const double farthest_miss = 0.25;
 static const double shortest_step = 1e-6;
+static const int widest_gap = 3; /* from one point to the next, in steps */
 
 /* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
 static int tangent_of(const pendres_walk *w, const pendres_continuation_equations *e,
@@ -55,33 +56,6 @@ static void describe(const pendres_walk *w, const pendres_continuation_equations
     v[1] = -v[1];
   }
   point->bending = e->j[2][PENDRES_U_Y] * v[0] + e->j[2][PENDRES_U_W] * v[1];
-}
-
-pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
-                                  const double u[PENDRES_U_COUNT], double direction)
-{
-  pendres_continuation_equations e;
-  double along[PENDRES_WALK_UNKNOWNS] = {0.0};
-  int steps = 0;
-  memcpy(w->here.u, u, sizeof w->here.u);
-  w->stuck = w->found = 0;
-  w->here.arclength = 0.0;
-  w->step = 0.1 * w->longest;
-  memset(w->bend, 0, sizeof w->bend);
-  pendres_status status = pendres_continuation_map_steps(ctx, u, w->tolerance, &steps);
-  if (status == PENDRES_OK)
-    status = pendres_continuation_map_solve(ctx, &w->map, w->condition, steps, w->unknown, 0.3,
-                                            w->here.u, &e);
-  /* The equations were last evaluated one tiny step before: do it again, for all unknowns. */
-  if (status == PENDRES_OK)
-    status = pendres_continuation_map_equations(ctx, &w->map, w->condition, steps, w->unknowns,
-                                                w->unknown, 1,
-                                                (const double (*)[PENDRES_U_COUNT])w->here.u, &e);
-  if (status != PENDRES_OK) return status;
-  describe(w, &e, NULL, &w->here);
-  along[w->unknowns - 1] = direction;
-  if (!tangent_of(w, &e, along, w->here.tangent)) return PENDRES_NOT_CONVERGED;
-  return PENDRES_OK;
 }
 
 /* ---- advancing ---- */
@@ -190,11 +164,12 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
   return status;
 }
 
-/* Whether a converged point follows upon `last` in order; its tangent and arclength are set. */
-static int follows(const pendres_walk *w, const pendres_walk_point *last, const candidate *c,
-                   pendres_walk_point *point)
+/* Whether a point follows upon `last`, `gap` steps before it; its tangent and arclength are set. */
+static int follows(const pendres_walk *w, const pendres_walk_point *last, int gap,
+                   const candidate *c, pendres_walk_point *point)
 {
   double way = 0.0, miss = 0.0, turn = 0.0;
+  if (c->state != CONVERGED) return 0;
   if (!tangent_of(w, &c->at, last->tangent, point->tangent)) return 0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
@@ -202,7 +177,7 @@ static int follows(const pendres_walk *w, const pendres_walk_point *last, const 
     miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_walk_scale[i]);
     turn += last->tangent[k] * point->tangent[k];
   }
-  if (turn < sharpest_turn || way > 2.0 * w->step || miss > farthest_miss * w->step * (c->rank + 1))
+  if (turn < sharpest_turn || way > 2.0 * gap * w->step || miss > farthest_miss * w->step * (c->rank + 1))
     return 0;
   memcpy(point->u, c->u, sizeof point->u);
   point->held = 0;
@@ -258,6 +233,61 @@ pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *ki
   return status;
 }
 
+/*
+ * The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
+ * tried as the one that goes on: near a fold the last one hardly changes.
+ */
+static int first_tangent(const pendres_walk *w, const pendres_continuation_equations *e,
+                         double direction, double *tangent)
+{
+  const int n = w->unknowns, last = n - 1;
+  int best = -1;
+  for (int k = 0; k < n; k++) {
+    double along[PENDRES_WALK_UNKNOWNS] = {0.0}, t[PENDRES_WALK_UNKNOWNS];
+    along[k] = 1.0;
+    if (!tangent_of(w, e, along, t) || (best >= 0 && fabs(t[k]) <= fabs(tangent[best]))) continue;
+    memcpy(tangent, t, (size_t)n * sizeof *t);
+    best = k;
+  }
+  if (best < 0) return 0;
+  const double ahead = fabs(tangent[last]) > 1e-6 ? tangent[last] : tangent[best];
+  if (ahead * direction < 0.0)
+    for (int k = 0; k < n; k++) tangent[k] = -tangent[k];
+  return 1;
+}
+
+static pendres_status equations_at(pendres_context *ctx, const pendres_walk *w, int steps,
+                                   const double u[PENDRES_U_COUNT],
+                                   pendres_continuation_equations *e)
+{
+  return pendres_continuation_map_equations(ctx, &w->map, w->condition, steps, w->unknowns,
+                                            w->unknown, 1, (const double (*)[PENDRES_U_COUNT])u, e);
+}
+
+pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
+                                  const double u[PENDRES_U_COUNT], double direction)
+{
+  pendres_continuation_equations e;
+  double place[1][PENDRES_U_COUNT], rounding = NAN;
+  int steps = 0;
+  w->here = (pendres_walk_point){.arclength = 0.0};
+  w->stuck = w->found = 0;
+  w->step = 0.1 * w->longest;
+  memset(w->bend, 0, sizeof w->bend);
+  memcpy(place[0], u, sizeof place[0]);
+  pendres_status status = pendres_continuation_map_steps(ctx, u, w->tolerance, &steps);
+  if (status == PENDRES_OK) status = equations_at(ctx, w, steps, u, &e);
+  if (status != PENDRES_OK) return status;
+  if (!first_tangent(w, &e, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
+  status = pendres_walk_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
+  if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
+  if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
+  if (status != PENDRES_OK) return status;
+  memcpy(w->here.u, place[0], sizeof w->here.u);
+  describe(w, &e, NULL, &w->here);
+  return first_tangent(w, &e, direction, w->here.tangent) ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+}
+
 pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *w, int steps,
                                      pendres_walk_point *point)
 {
@@ -272,15 +302,23 @@ pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *w
   return status;
 }
 
-/* Keep the points that converged, up to the first that did not, and choose the next step. */
+/*
+ * Keep the points that converged and follow upon each other, and choose the next step. A few that
+ * failed may be stepped over: where branches cross there is a small gap in which none converges.
+ */
 static void accept(pendres_walk *w, const candidate *c)
 {
   const pendres_walk_point start = w->here;
   const pendres_walk_point *last = &start;
   w->found = 0;
-  while (w->found < PENDRES_WALK_AHEAD && c[w->found].state == CONVERGED &&
-         follows(w, last, &c[w->found], &w->ahead[w->found]))
-    last = &w->ahead[w->found++];
+  for (int rank = 0, gap = 1; rank < PENDRES_WALK_AHEAD && gap <= widest_gap; rank++) {
+    if (follows(w, last, gap, &c[rank], &w->ahead[w->found])) {
+      last = &w->ahead[w->found++];
+      gap = 1;
+    } else {
+      gap++;
+    }
+  }
   if (w->found == 0) {
     w->step /= PENDRES_WALK_AHEAD;
     /* With a shorter step the bend may be the wrong one of a longer past. */

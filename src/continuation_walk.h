@@ -46,9 +46,9 @@ typedef struct pendres_walk {
 extern const double pendres_walk_scale[PENDRES_U_COUNT];
 
 /*
- * Start a walk at u, corrected to the curve with its last unknown held, towards growing
- * (direction > 0) or falling values of the last unknown. The fields above `stuck` are set by the
- * caller. PENDRES_NOT_CONVERGED if there is no curve at u.
+ * Start a walk at u, corrected to the curve across its tangent, towards growing (direction > 0) or
+ * falling values of the last unknown; where that stands still, the two directions are opposite.
+ * The fields above `stuck` are set by the caller. PENDRES_NOT_CONVERGED if there is no curve at u.
  */
 pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *walk,
                                   const double u[PENDRES_U_COUNT], double direction);

@@ -401,6 +401,42 @@ static void ensemble_finds_the_branch_born_away(void **state)
   pendres_context_free(ctx);
 }
 
+/* A fold itself is a start as good as any other: at damping 0.13 a large orbit, apart from the S,
+   lives between its symmetry breaking and a fold. */
+static void branches_start_at_folds(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-9, PENDRES_TABLE_DEFAULT);
+  const pendres_orbit near = orbit_of(ctx, 0.13, 0.2, 0.8, 1);
+  const pendres_curve_options wide = {
+    .second = PENDRES_DAMPING, .low = {0.4, 0.12}, .high = {1.2, 1.0}};
+  const pendres_branch_options options = {
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = 0.38, .high = 0.5};
+  pendres_fold fold;
+  pendres_curve *c = NULL;
+  pendres_branch *b = NULL;
+  pendres_bifurcation at[4];
+  pendres_reference_cycle want;
+  size_t found = 0;
+  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_curve_follow(ctx, 1, &fold, &wide, &c));
+  check_ok(pendres_curve_cross(ctx, c, 0.13, 4, at, &found));
+  assert_int_equal(found, 3);
+  check_ok(pendres_branch_follow(ctx, 1, &at[0].orbit, &options, &b));
+  assert_int_equal(pendres_branch_bifurcations(b), 2);
+  const pendres_bifurcation *end = pendres_branch_bifurcation(b, 0);
+  const pendres_bifurcation *again = pendres_branch_bifurcation(b, 1);
+  assert_int_equal(end->kind, PENDRES_SYMMETRY_BREAKING);
+  check_ok(pendres_reference_symmetry_breaking(&end->orbit.pendulum, end->value,
+                                               end->orbit.x - half_pi, end->orbit.v, &want));
+  check_near(end->value, (double)want.drive_frequency, fair * end->value_error);
+  assert_int_equal(again->kind, PENDRES_FOLD);
+  check_near(again->value, at[0].value, again->value_error + at[0].value_error);
+  pendres_branch_free(b);
+  pendres_curve_free(c);
+  pendres_context_free(ctx);
+}
+
 /* The curve of folds from damping 0.06 over the cusp and down the other side. */
 static void fold_curve_passes_the_cusp(void **state)
 {
@@ -599,6 +635,7 @@ int main(void)
     cmocka_unit_test(symmetry_breaks_and_period_doubles),
     cmocka_unit_test(running_orbits_make_an_isola),
     cmocka_unit_test(ensemble_finds_the_branch_born_away),
+    cmocka_unit_test(branches_start_at_folds),
     cmocka_unit_test(fold_curve_passes_the_cusp),
     cmocka_unit_test(symmetry_breakings_follow_parameters),
     cmocka_unit_test(other_parameters_lead_to_the_same_orbits),
