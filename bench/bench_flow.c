@@ -332,7 +332,7 @@ static double single_tolerance(pendres_table table, const ensemble *reference, d
   return 0.0;
 }
 
-/* Pendulum-periods a second of a block of the whole ensemble and of two single problems, in turn. */
+/* Pendulum-periods a second of a block of all members and of two single problems, in turn. */
 static void race(const pendres_options *block, const pendres_options *single, double *block_speed,
                  double *single_speed)
 {

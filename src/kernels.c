@@ -49,8 +49,7 @@ static void sum(const pendres_sum *q, size_t at, size_t n)
 {
   const size_t end = at + n;
   for (; at + 8 * LANES <= end; at += 8 * LANES) sum_vectors(8, q, at);
-  for (; at + 2 * LANES <= end; at += 2 * LANES) sum_vectors(2, q, at);
-  for (; at < end; at += LANES) sum_vectors(1, q, at);
+  for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
 }
 
 /*

@@ -191,8 +191,8 @@ static sunrealtype wrms_norm(N_Vector x, N_Vector w)
     lanes = pendres_lanes_strip(s, lane);
     for (size_t i = 0; i < lanes; i++) {
       const double sum = sum_of_squares(px + i, pw + i, s->rows, lanes);
-      /* A NaN must win, or a failed lane would pass as a perfect one. */
-      if (!(sum <= largest)) largest = sum;
+      if (isnan(sum)) return sum; /* or a lost lane would pass as a perfect one */
+      if (sum > largest) largest = sum;
     }
     px += s->rows * lanes;
     pw += s->rows * lanes;
@@ -272,8 +272,10 @@ static sunrealtype max_norm(N_Vector x)
   const size_t n = length(x);
   const double *data = numbers(x);
   double largest = 0.0;
-  for (size_t i = 0; i < n; i++)
-    if (!(fabs(data[i]) <= largest)) largest = fabs(data[i]);
+  for (size_t i = 0; i < n; i++) {
+    if (isnan(data[i])) return data[i];
+    largest = fmax(largest, fabs(data[i]));
+  }
   return largest;
 }
 
@@ -282,8 +284,10 @@ static sunrealtype smallest(N_Vector x)
   const size_t n = length(x);
   const double *data = numbers(x);
   double least = INFINITY;
-  for (size_t i = 0; i < n; i++)
-    if (!(data[i] >= least)) least = data[i];
+  for (size_t i = 0; i < n; i++) {
+    if (isnan(data[i])) return data[i];
+    least = fmin(least, data[i]);
+  }
   return least;
 }
 

@@ -178,5 +178,5 @@ void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope
   o->slope = to;
   o->cos_theta = cos_theta;
   o->keep = 1;
-  s->tape->unread &= ~(reads | pendres_lanes_of(slope)->bit);
+  s->tape->unread &= ~reads;
 }
