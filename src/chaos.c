@@ -25,7 +25,7 @@ static const double significance = 5.0;
 static const double least_growth = 0.01;
 /* A suspect's tangent vector must have grown by e to this: without chaos it grows by a few. */
 static const double suspicious = 2.0;
-/* Walkers start this close to where lanes of the set are. */
+/* Walkers start this close to the suspect. */
 static const double scatter = 1e-3;
 
 /* A pendulum with a tangent vector. */
@@ -146,10 +146,10 @@ static walker start_walker(double y, double w)
   return (walker){.y = y, .w = w, .u = {0.6, 0.8}};
 }
 
-/* The lanes whose nearby motions part from each other, among the first few. */
-static pendres_status find_suspects(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                                    const pendres_strobe_lane *const *lanes, walker *suspects,
-                                    size_t *count)
+/* A lane whose nearby motions part from each other, among the first few; *any: 0 if none is. */
+static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue *c, size_t n,
+                                   const pendres_strobe_lane *const *lanes, walker *suspect,
+                                   int *any)
 {
   walker a[SUSPECTS];
   const size_t asked = n < SUSPECTS ? n : SUSPECTS;
@@ -158,9 +158,12 @@ static pendres_status find_suspects(pendres_context *ctx, const pendres_catalogu
     a[i] = start_walker(l->y, l->w);
   }
   const pendres_status status = walk(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
-  *count = 0;
-  for (size_t i = 0; i < asked && status == PENDRES_OK; i++)
-    if (!a[i].trapped && a[i].sum > suspicious) suspects[(*count)++] = a[i];
+  *any = 0;
+  for (size_t i = 0; i < asked && !*any && status == PENDRES_OK; i++)
+    if (!a[i].trapped && a[i].sum > suspicious) {
+      *suspect = a[i];
+      *any = 1;
+    }
   return status;
 }
 
@@ -201,15 +204,14 @@ static pendres_cover *create_cover(const trace *t)
   return cover;
 }
 
-/* Walkers that start from the suspects and lose each other. */
-static pendres_status measure(pendres_context *ctx, const pendres_catalogue *c, size_t suspects,
+/* Walkers that start around the suspect and lose each other. */
+static pendres_status measure(pendres_context *ctx, const pendres_catalogue *c,
                               const walker *suspect, walker *a, trace *visited)
 {
   for (size_t i = 0; i < WALKERS; i++) {
-    const walker *s = &suspect[i % suspects];
     /* Spread by an irrational angle: no two walkers start at the same place. */
     const double angle = 2.39996322972865332 * (double)i;
-    a[i] = start_walker(s->y + scatter * cos(angle), s->w + scatter * sin(angle));
+    a[i] = start_walker(suspect->y + scatter * cos(angle), suspect->w + scatter * sin(angle));
   }
   const pendres_status status = walk(ctx, c, WALKERS, a, WARM_UP, NULL);
   if (status != PENDRES_OK) return status;
@@ -220,18 +222,18 @@ static pendres_status measure(pendres_context *ctx, const pendres_catalogue *c, 
 pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, size_t n,
                                   const pendres_strobe_lane *const *lanes, int *found)
 {
-  walker suspects[SUSPECTS], a[WALKERS];
-  size_t count = 0;
+  walker suspect, a[WALKERS];
+  int any = 0;
   double mean = 0.0, error = 0.0;
   *found = 0;
   if (n == 0 || c->covers == PENDRES_MOST_COVERS) return PENDRES_OK;
-  pendres_status status = find_suspects(ctx, c, n, lanes, suspects, &count);
-  if (status != PENDRES_OK || count == 0) return status;
+  pendres_status status = find_suspect(ctx, c, n, lanes, &suspect, &any);
+  if (status != PENDRES_OK || !any) return status;
 
   trace *visited = calloc(1, sizeof *visited);
   if (visited == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaotic motion");
-  status = measure(ctx, c, count, suspects, a, visited);
+  status = measure(ctx, c, &suspect, a, visited);
   if (status != PENDRES_OK || !growth(WALKERS, a, &mean, &error)) goto done;
   if (!(mean > significance * error && mean > least_growth)) goto done;
 

@@ -101,21 +101,29 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
   return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
 }
 
-/* Chaos among the lost lanes, set by set. */
+/* Whether a lane is where none of the attractors known is. */
+static int nowhere(const pendres_catalogue *c, const pendres_strobe_lane *lane)
+{
+  long well;
+  for (size_t k = 0; k < c->covers; k++)
+    if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
+  return pendres_catalogue_locate(c, lane, &well) < 0;
+}
+
+/* Chaos among the lost lanes, set by set, one attractor after the other. */
 static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
-    size_t n = 0;
     pendres_catalogue *c = &catalogues[l->set[first]];
-    for (last = first; last < l->count && l->set[last] == l->set[first]; last++) {
-      long well;
-      if (l->outcome[last].attractor < 0 &&
-          pendres_catalogue_locate(c, &l->lanes[last], &well) < 0)
-        l->suspects[n++] = &l->lanes[last];
+    for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
+    for (int found = 1; found && status == PENDRES_OK;) {
+      size_t n = 0;
+      for (size_t i = first; i < last; i++)
+        if (l->outcome[i].attractor < 0 && nowhere(c, &l->lanes[i]))
+          l->suspects[n++] = &l->lanes[i];
+      status = pendres_chaos_find(ctx, c, n, l->suspects, &found);
     }
-    int found = 0;
-    status = pendres_chaos_find(ctx, c, n, l->suspects, &found);
   }
   return status;
 }

@@ -43,6 +43,20 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
   h->w[k] = lane->w;
 }
 
+/* Strobes in a row in the cells of one attractor, and which of the catalogue's it is: one number. */
+enum { STREAK_SCALE = 1 << 16 };
+
+/* The streak after one more strobe. */
+static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *lane, int streak)
+{
+  const size_t last = (size_t)(streak / STREAK_SCALE);
+  if (streak % STREAK_SCALE > 0 && pendres_cover_holds(c->cover[last], lane->y, lane->w))
+    return streak % STREAK_SCALE < STREAK_SCALE - 1 ? streak + 1 : streak;
+  for (size_t k = 0; k < c->covers; k++)
+    if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return (int)k * STREAK_SCALE + 1;
+  return 0;
+}
+
 /*
  * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
  * transients are over.
@@ -50,17 +64,14 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
 static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
                    const pendres_strobe_lane *lane)
 {
-  for (size_t k = 0; k < c->covers; k++) {
-    if (!pendres_cover_holds(c->cover[k], lane->y, lane->w)) continue;
-    const long soonest = pendres_settle_first_budget(&c->pendulum);
-    if (++l->streak[i] < CHAOTIC_STREAK || lane->period < soonest) return 0;
-    l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
-                                      .attractor = c->cover[k]->attractor,
-                                      .settling_periods = lane->period - l->streak[i] + 1};
-    return 1;
-  }
-  l->streak[i] = 0;
-  return 0;
+  const int streak = l->streak[i] = longer_streak(c, lane, l->streak[i]);
+  if (streak % STREAK_SCALE < CHAOTIC_STREAK) return 0;
+  if (lane->period < pendres_settle_first_budget(&c->pendulum)) return 0;
+  l->outcome[i] =
+    (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
+                      .attractor = c->cover[streak / STREAK_SCALE]->attractor,
+                      .settling_periods = lane->period - streak % STREAK_SCALE + 1};
+  return 1;
 }
 
 static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,

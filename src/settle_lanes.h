@@ -26,7 +26,7 @@ typedef struct pendres_settle_labelling {
   pendres_settle_history *histories; /* NULL: not kept */
   /* Of the run itself: */
   const size_t *origin;     /* caller's numbers of the lanes under way */
-  int *streak;              /* strobes in a row in the cells of a chaotic attractor; NULL: none */
+  int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
 } pendres_settle_labelling;
 
 static const pendres_outcome pendres_settle_unresolved = {

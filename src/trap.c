@@ -19,7 +19,7 @@ enum {
   MANY_POINTS = 48,
   MOST_POINTS = MANY_POINTS,
   RINGS = 3,        /* at most tried at once */
-  FEW_LOOKS = 10,   /* strobes of the q-th iterate before a ring is given up, by effort */
+  FEW_LOOKS = 12,   /* strobes of the q-th iterate before a ring is given up, by effort */
   MANY_LOOKS = 24,
   MOST_LOOKS = MANY_LOOKS
 };
@@ -216,6 +216,7 @@ typedef struct search {
   stage stage;
   int pass;
   int base_looks;        /* iterates of a base ring */
+  int looks;             /* of the others */
   double base;           /* radius of the next base ring */
   double proven, failed; /* largest radius shown, smallest that could not be */
   int rings;             /* of this pass */
@@ -246,6 +247,15 @@ static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
   }
 }
 
+/* Looks that a ring gets: with few pendulums to come it does not pay to wait for stragglers. */
+static int patience(const pendres_orbit *o, pendres_trap_effort effort)
+{
+  if (effort == PENDRES_TRAP_MANY) return MANY_LOOKS;
+  const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
+  const double way = log(climb_ratio / home_share);
+  return (int)fmin(FEW_LOOKS, 2.0 + ceil(way / rate));
+}
+
 static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
                       int looks)
 {
@@ -253,16 +263,15 @@ static void plan_ring(search *s, const pendres_trap *t, double radius, double ho
     .trap = t, .radius = radius, .home = home, .points = points, .looks = looks};
 }
 
-static void plan(search *s, const pendres_trap *t, pendres_trap_effort effort)
+static void plan(search *s, const pendres_trap *t)
 {
-  const int many = effort == PENDRES_TRAP_MANY;
   s->rings = 0;
   if (s->stage == STAGE_BASE) {
     plan_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
   } else if (s->stage == STAGE_CLIMB) {
     const double radius =
       s->failed > 0.0 ? sqrt(s->proven * s->failed) : fmin(s->proven * climb_ratio, widest);
-    plan_ring(s, t, radius, home_share * s->proven, FEW_POINTS, many ? MANY_LOOKS : FEW_LOOKS);
+    plan_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
   } else {
     for (int k = 1; k <= RINGS; k++)
       plan_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
@@ -369,7 +378,8 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
       s[left++] = (search){.orbit = i,
                            .stage = STAGE_BASE,
                            .base = base_first,
-                           .base_looks = contraction_looks(&traps[i], o)};
+                           .base_looks = contraction_looks(&traps[i], o),
+                           .looks = patience(o, effort)};
   }
   const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
   points = malloc((most + 1) * sizeof *points);
@@ -377,7 +387,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
   if (points == NULL || lanes == NULL) goto no_memory;
 
   while (left > 0 && status == PENDRES_OK) {
-    for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit], effort);
+    for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit]);
     status = run_rings(ctx, left, s, orbits, points, lanes);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {

@@ -231,6 +231,32 @@ static void lyapunov_exponent(void **state)
   pendres_attractors_free(set);
 }
 
+/*
+ * Where a pair of mirror images has gone through its period doublings, there are two chaotic
+ * attractors, mirror images too: each has its own entry, and the same exponent.
+ */
+static void two_chaotic_attractors(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.5, .drive_amplitude = 1.0875, .drive_frequency = 2.0 / 3.0};
+  ensemble e;
+  int chaotic[2] = {0}, n = 0;
+  settle_row(*state, &p, -0.5 * pi, 1.5 * pi, &e);
+  assert_int_equal(count_label(&e, PENDRES_LABEL_UNRESOLVED), 0);
+  for (size_t i = 0; i < pendres_attractors_count(e.set); i++)
+    if (pendres_attractors_get(e.set, i)->label == PENDRES_LABEL_CHAOTIC && n < 2)
+      chaotic[n++] = (int)i;
+  assert_int_equal(n, 2);
+  const pendres_attractor *a = pendres_attractors_get(e.set, (size_t)chaotic[0]);
+  const pendres_attractor *b = pendres_attractors_get(e.set, (size_t)chaotic[1]);
+  check_near(a->lyapunov, b->lyapunov, 4.0 * hypot(a->lyapunov_error, b->lyapunov_error));
+  int members[2] = {0};
+  for (int i = 0; i < MEMBERS; i++)
+    for (int k = 0; k < 2; k++) members[k] += e.outcome[i].attractor == chaotic[k];
+  assert_true(members[0] > 20 && members[1] > 20);
+  pendres_attractors_free(e.set);
+}
+
 /* ---- symmetry ---- */
 
 /*
@@ -480,6 +506,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(baker_and_gollub, setup, teardown),
     cmocka_unit_test_setup_teardown(wada_pendulums, setup, teardown),
     cmocka_unit_test_setup_teardown(lyapunov_exponent, setup, teardown),
+    cmocka_unit_test_setup_teardown(two_chaotic_attractors, setup, teardown),
     cmocka_unit_test_setup_teardown(mirror_image, setup, teardown),
     cmocka_unit_test_setup_teardown(pairs, setup, teardown),
     cmocka_unit_test_setup_teardown(mirror_of_one, setup, teardown),
