@@ -43,7 +43,7 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
   h->w[k] = lane->w;
 }
 
-/* Strobes in a row in the cells of one attractor, and which of the catalogue's it is: one number. */
+/* Strobes in a row in the cells of one attractor, and whose cells: one number. */
 enum { STREAK_SCALE = 1 << 16 };
 
 /* The streak after one more strobe. */
