@@ -10,7 +10,7 @@
 #include "strobe_run.h"
 
 static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693;
+static const double two_pi = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
 
 static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
@@ -190,7 +190,8 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
   if (status == PENDRES_OK && error != NULL)
     status = estimate(ctx, n, pendulums, x, v, periods, lanes, error);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    x[i] = lanes[i].y + half_pi + two_pi * (double)lanes[i].turns;
+    const double turns = (double)lanes[i].turns;
+    x[i] = fma(two_pi, turns, fma(two_pi_low, turns, lanes[i].y + half_pi));
     v[i] = lanes[i].w * pendulums[i].drive_frequency;
   }
   free(lanes);
