@@ -92,7 +92,7 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
     dump_axis(key, &d->axis[key->axis], stream);
     return;
   }
-  if ((key->type == DECK_CHOICES || key->type == DECK_STRINGS) && names->count == 0) return;
+  if (key->type == DECK_CHOICES && names->count == 0) return;
   w = begin(stream, key->name, "");
   switch (key->type) {
   case DECK_REAL:
@@ -109,7 +109,6 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
     put(&w, *(const int *)f ? ".true." : ".false.");
     break;
   case DECK_CHOICES:
-  case DECK_STRINGS:
     for (size_t i = 0; i < names->count; i++) put_string(&w, names->name[i]);
     break;
   default:

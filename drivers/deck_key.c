@@ -150,13 +150,8 @@ static int apply_names(deck_builder *b, const deck_key *key, const namelist_arra
     const namelist_value *v = array->item[i];
     char *name = names->name[names->count];
     int wrong = 0;
-    if (key->type == DECK_CHOICES) {
-      const int choice = read_choice(b, key, v, &wrong);
-      if (choice >= 0) strcpy(name, key->choices[choice]);
-    } else {
-      wrong = !namelist_value_string(b->nl, v, key->name, name, DECK_NAME, b->errors);
-      trim(name);
-    }
+    const int choice = read_choice(b, key, v, &wrong);
+    if (choice >= 0) strcpy(name, key->choices[choice]);
     for (size_t k = 0; !wrong && k < names->count; k++) {
       if (strcmp(names->name[k], name) != 0) continue;
       complain(b, v, key->name, "names this one twice");
@@ -242,7 +237,7 @@ static int apply_listed(deck_builder *b, const deck_key *key, const namelist_arr
 
 static int is_list(const deck_key *key)
 {
-  return key->type == DECK_CHOICES || key->type == DECK_STRINGS || key->type == DECK_SWEEP;
+  return key->type == DECK_CHOICES || key->type == DECK_SWEEP;
 }
 
 /* Is it the name of a key of that group, so that its equals sign has probably been forgotten? */

@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "hard_cases.h"
+
 #define BIT(kind) (1u << DECK_##kind)
 #define FREE BIT(FREE_OSCILLATION)
 #define CURVE BIT(RESONANCE_CURVE)
@@ -37,7 +39,6 @@
 #define STRING(g, n, f) .group = g, .name = n, .type = DECK_STRING, FIELD(f)
 #define CHOICE(g, n, f) .group = g, .name = n, .type = DECK_CHOICE, FIELD(f)
 #define CHOICES(g, n, f) .group = g, .name = n, .type = DECK_CHOICES, FIELD(f)
-#define STRINGS(g, n, f) .group = g, .name = n, .type = DECK_STRINGS, FIELD(f)
 #define BOUNDS(g, n, f) .group = g, .name = n, .type = DECK_BOUNDS, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
@@ -71,6 +72,12 @@ static const char *const compared[] = {
   "single", "single_order8", "single_order5", "cvode_adams", "cvode_bdf", "gsl_rk8pd", "naive", NULL
 };
 static const char *const starts[] = { "", "sa", "la", NULL };
+static const char *const cases[] = {
+#define CASE_NAME(name) #name,
+  HARD_CASE_LIST(CASE_NAME)
+#undef CASE_NAME
+  NULL
+};
 static const char *const units[] = { "ensemble", "sweep", NULL };
 
 const deck_key deck_table[] = {
@@ -103,7 +110,7 @@ const deck_key deck_table[] = {
   { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2) },
   { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared },
   { CHOICE("sweep", "unit", unit), IN(WORK), .choices = units, .text = "ensemble" },
-  { STRINGS("sweep", "case", cases), IN(HARD) },
+  { CHOICES("sweep", "case", cases), IN(HARD), .choices = cases },
 
   { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT), .number = 200 },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG), .number = -PI / 2 },

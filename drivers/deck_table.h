@@ -14,7 +14,6 @@ typedef enum deck_type {
   DECK_STRING,
   DECK_CHOICE,     /* a string out of a list */
   DECK_CHOICES,    /* several of them */
-  DECK_STRINGS,    /* free names */
   DECK_BOUNDS,     /* two ascending numbers */
   DECK_SWEEP,      /* an axis: NAME = values, NAME_range = first, last, count */
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */

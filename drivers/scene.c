@@ -15,6 +15,7 @@ extern const scene_kind scene_work_precision;
 extern const scene_kind scene_phase_diagram;
 extern const scene_kind scene_branches;
 extern const scene_kind scene_switching;
+extern const scene_kind scene_hard_cases;
 
 static const scene_kind *const scenes[] = {
   &scene_free_oscillation,
@@ -26,6 +27,7 @@ static const scene_kind *const scenes[] = {
   &scene_phase_diagram,
   &scene_branches,
   &scene_switching,
+  &scene_hard_cases,
 };
 
 const scene_kind *scene_find(deck_kind kind)

@@ -116,7 +116,7 @@ static const char *const good[] = {
   "&sweep damping=0.13,0.14,0.15 drive_frequency_range=0.7,0.9,200 /\n",
   "&scene kind='work_precision' /\n&sweep method='block_fixed','gsl_rk8pd' tolerance=1e-4,1e-13 unit='sweep' /\n",
   "&scene kind='hard_cases' /",
-  "&scene kind='hard_cases' /\n&sweep case='separatrix', 'fold' /",
+  "&scene kind='hard_cases' /\n&sweep case='separatrix', 'tolerance' /",
   "&scene kind='switching' /\n" ONE "&sweep temperature_range=1e-3,1e-2,5 /\n",
 };
 
@@ -561,7 +561,7 @@ static void damaged_decks(void **state)
   uint64_t seed = 2;
   int good_ones = 0;
   (void)state;
-  for (int round = 0; round < 20000; round++) {
+  for (int round = 0; round < 30000; round++) {
     char text[1000];
     deck d = { 0 };
     namelist_errors errors = { 0 };
