@@ -111,34 +111,16 @@ done:
   return status;
 }
 
-static double phase_lag_of(const pendres_orbit_measures *m, double drive)
-{
-  if (drive == 0.0 || hypot(m->cosine[0], m->sine[0]) == 0.0) return NAN;
-  return drive > 0.0 ? atan2(m->sine[0], m->cosine[0])
-                     : atan2(-m->sine[0], -m->cosine[0]);
-}
-
-/* Multipliers from the trace; their product is known exactly (Liouville). */
 static void multipliers(const reading *coarse, const reading *fine, double product,
                         double rounding, pendres_orbit *o)
 {
   const double trace = fine->m[0][0] + fine->m[1][1];
-  const double half = 0.5 * trace, discriminant = half * half - product;
-  if (discriminant < 0.0) {
-    o->multiplier_re[0] = o->multiplier_re[1] = half;
-    o->multiplier_im[0] = sqrt(-discriminant);
-    o->multiplier_im[1] = -o->multiplier_im[0];
-  } else {
-    const double large = half + copysign(sqrt(discriminant), half);
-    o->multiplier_re[0] = large;
-    o->multiplier_re[1] = large != 0.0 ? product / large : 0.0;
-  }
+  pendres_orbit_set_multipliers(trace, product, o);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);
   const double trace_error = pendres_continuation_orbit_error(
     coarse->m[0][0] + coarse->m[1][1], trace, rounding * fmax(1.0, fabs(trace)));
-  o->stable = size < 1.0;
   /* Where two multipliers meet they move with the square root. */
   o->multiplier_error = fmin(trace_error * fmax(1.0, size) / fmax(gap, 1e-300),
                              sqrt(trace_error) + trace_error);
@@ -189,9 +171,9 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   o->first_harmonic_amplitude = hypot(f->cosine[0], f->sine[0]);
   o->first_harmonic_amplitude_error = pendres_continuation_orbit_error(
     hypot(c->cosine[0], c->sine[0]), o->first_harmonic_amplitude, floor);
-  o->phase_lag = phase_lag_of(f, p.drive_amplitude);
+  o->phase_lag = pendres_orbit_phase_lag(f, p.drive_amplitude);
   o->phase_lag_error =
-    pendres_continuation_orbit_error(phase_lag_of(c, p.drive_amplitude), o->phase_lag,
+    pendres_continuation_orbit_error(pendres_orbit_phase_lag(c, p.drive_amplitude), o->phase_lag,
                                      floor / o->first_harmonic_amplitude);
   o->symmetric = o->winding == 0 && f->symmetry_defect <= 1e-7 * fmax(1.0, f->amplitude);
   o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;

@@ -75,31 +75,6 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
   return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
 }
 
-static double phase_lag_of(const pendres_orbit_measures *m, double drive)
-{
-  if (hypot(m->cosine[0], m->sine[0]) == 0.0 || drive == 0.0) return NAN;
-  /* The drive is F0 cos theta: with F0 < 0 it leads by half a turn. */
-  return drive > 0.0 ? atan2(m->sine[0], m->cosine[0]) : atan2(-m->sine[0], -m->cosine[0]);
-}
-
-/* Multipliers from the trace; their product is known exactly (Liouville). */
-static void multipliers(double trace, double product, pendres_orbit *o)
-{
-  const double half = 0.5 * trace, discriminant = half * half - product;
-  if (discriminant < 0.0) {
-    o->multiplier_re[0] = o->multiplier_re[1] = half;
-    o->multiplier_im[0] = sqrt(-discriminant);
-    o->multiplier_im[1] = -o->multiplier_im[0];
-  } else {
-    /* The larger root first, the other from the product: no cancellation. */
-    const double large = half + copysign(sqrt(discriminant), half);
-    o->multiplier_re[0] = large;
-    o->multiplier_re[1] = large != 0.0 ? product / large : 0.0;
-    o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
-  }
-  o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
-}
-
 /*
  * Error of the finer of two results. With 1.4 times the steps an order-8 method's error falls to
  * a fifteenth; a quarter of the difference is claimed, for where the order has not set in yet. A
@@ -144,7 +119,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->monodromy[0][1] = fine->m[0][1] / omega;
   o->monodromy[1][0] = fine->m[1][0] * omega;
   o->monodromy[1][1] = fine->m[1][1];
-  multipliers(fine->trace, exp(-p->damping * q * two_pi / omega), o);
+  pendres_orbit_set_multipliers(fine->trace, exp(-p->damping * q * two_pi / omega), o);
   /* The trace's error moves a multiplier mu by trace' mu / (mu - other). */
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);
@@ -168,8 +143,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
   o->first_harmonic_amplitude_error =
     error_of(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, point, floor);
-  o->phase_lag = phase_lag_of(b, p->drive_amplitude);
-  o->phase_lag_error = error_of(phase_lag_of(a, p->drive_amplitude), o->phase_lag,
+  o->phase_lag = pendres_orbit_phase_lag(b, p->drive_amplitude);
+  o->phase_lag_error = error_of(pendres_orbit_phase_lag(a, p->drive_amplitude), o->phase_lag,
                                 point / o->first_harmonic_amplitude,
                                 floor / o->first_harmonic_amplitude);
   o->symmetric = o->winding == 0 && b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);

@@ -162,3 +162,28 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
   }
   return PENDRES_OK;
 }
+
+double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amplitude)
+{
+  const double cosine = m->cosine[0], sine = m->sine[0];
+  if (hypot(cosine, sine) == 0.0 || drive_amplitude == 0.0) return NAN;
+  /* The drive is F0 cos theta: with F0 < 0 it leads by half a turn. */
+  return drive_amplitude > 0.0 ? atan2(sine, cosine) : atan2(-sine, -cosine);
+}
+
+void pendres_orbit_set_multipliers(double trace, double product, pendres_orbit *o)
+{
+  const double half = 0.5 * trace, discriminant = half * half - product;
+  if (discriminant < 0.0) {
+    o->multiplier_re[0] = o->multiplier_re[1] = half;
+    o->multiplier_im[0] = sqrt(-discriminant);
+    o->multiplier_im[1] = -o->multiplier_im[0];
+  } else {
+    /* The larger root first, the other from the product: no cancellation. */
+    const double large = half + copysign(sqrt(discriminant), half);
+    o->multiplier_re[0] = large;
+    o->multiplier_re[1] = large != 0.0 ? product / large : 0.0;
+    o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
+  }
+  o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
+}

@@ -28,6 +28,15 @@ typedef struct pendres_orbit_measures {
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out);
 
+/* Lag of the first harmonic behind a drive of that amplitude; NaN if either vanishes. */
+double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amplitude);
+
+/*
+ * Multipliers from the trace of the monodromy matrix and their product, which is known exactly
+ * (Liouville), and whether both are inside the unit circle.
+ */
+void pendres_orbit_set_multipliers(double trace, double product, pendres_orbit *o);
+
 /* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
 double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],
                                        const double sine[PENDRES_ORBIT_HARMONICS]);

@@ -23,24 +23,12 @@ void pendres_strobe_noise_carry(const double noise[3], int step, size_t stride,
   out[2] = c * c * yy + 2.0 * c * d * yw + d * d * ww + added * w * w;
 }
 
-typedef struct ranked {
-  int steps;
-  size_t index;
-} ranked;
-
-static int by_steps(const void *a, const void *b)
-{
-  const ranked *p = a, *q = b;
-  if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
-  return p->index < q->index ? -1 : p->index > q->index;
-}
-
 typedef struct covariance {
   double c[3];
 } covariance;
 
 /* One period of a block of n lanes of equal steps. */
-static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n, const ranked *rank,
+static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n, const pendres_strobe_rank *rank,
                            pendres_strobe_lane *lanes, covariance *noise)
 {
   pendres_status status = pendres_context_poll(ctx);
@@ -74,14 +62,14 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
   pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_VARIATIONAL, &flow);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_flow_capacity(flow);
-  ranked *rank = malloc((n + 1) * sizeof *rank);
+  pendres_strobe_rank *rank = malloc((n + 1) * sizeof *rank);
   covariance *sum = calloc(n + 1, sizeof *sum);
   if (rank == NULL || sum == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++) rank[i] = (ranked){.steps = lanes[i].steps, .index = i};
-  qsort(rank, n, sizeof *rank, by_steps);
+  for (size_t i = 0; i < n; i++) rank[i] = (pendres_strobe_rank){.steps = lanes[i].steps, .index = i};
+  pendres_strobe_order(n, rank);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     last = first + 1;
     while (last < n && last - first < capacity && rank[last].steps == rank[first].steps) last++;

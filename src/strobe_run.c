@@ -18,17 +18,18 @@ void pendres_strobe_wrap(double *y, long *turns)
   *turns += (long)k;
 }
 
-/* Lanes in the order of their steps, those of equal steps in their own order. */
-typedef struct ranked {
-  int steps;
-  size_t index;
-} ranked;
-
 static int by_steps(const void *a, const void *b)
 {
-  const ranked *p = a, *q = b;
+  const pendres_strobe_rank *p = a, *q = b;
   if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
+}
+
+void pendres_strobe_order(size_t n, pendres_strobe_rank *rank)
+{
+  size_t i = 1;
+  while (i < n && rank[i - 1].steps <= rank[i].steps) i++;
+  if (i < n) qsort(rank, n, sizeof *rank, by_steps);
 }
 
 typedef struct block {
@@ -63,7 +64,7 @@ static int look(block *b, size_t slot)
 }
 
 /* Run all lanes of one class of steps, queue[0..n). */
-static pendres_status run_class(block *b, const ranked *queue, size_t n)
+static pendres_status run_class(block *b, const pendres_strobe_rank *queue, size_t n)
 {
   size_t next = 0;
   const size_t capacity = pendres_flow_capacity(b->flow);
@@ -108,7 +109,7 @@ static pendres_status run_blocks(pendres_context *ctx, size_t n, pendres_strobe_
                                  pendres_strobe_visit *visit, void *arg)
 {
   block b = {.ctx = ctx, .lanes = lanes, .visit = visit, .arg = arg};
-  ranked *queue = NULL;
+  pendres_strobe_rank *queue = NULL;
   const int adaptive = ctx->options.method == PENDRES_BLOCK_ADAPTIVE;
   pendres_status status =
     pendres_context_flow(ctx, adaptive ? PENDRES_FLOW_ADAPTIVE : PENDRES_FLOW_STATE, &b.flow);
@@ -120,12 +121,9 @@ static pendres_status run_blocks(pendres_context *ctx, size_t n, pendres_strobe_
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
-  int sorted = 1;
-  for (size_t i = 0; i < n; i++) {
-    queue[i] = (ranked){.steps = adaptive ? 1 : lanes[i].steps, .index = i};
-    if (i > 0 && queue[i].steps < queue[i - 1].steps) sorted = 0;
-  }
-  if (!sorted) qsort(queue, n, sizeof *queue, by_steps);
+  for (size_t i = 0; i < n; i++)
+    queue[i] = (pendres_strobe_rank){.steps = adaptive ? 1 : lanes[i].steps, .index = i};
+  pendres_strobe_order(n, queue);
 
   for (size_t first = 0; first < n && status == PENDRES_OK;) {
     size_t last = first;

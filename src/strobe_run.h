@@ -21,6 +21,15 @@ typedef struct pendres_strobe_lane {
   int steps;                        /* a period; unused by adaptive methods */
 } pendres_strobe_lane;
 
+/* A lane's place in a list, and its steps. */
+typedef struct pendres_strobe_rank {
+  int steps;
+  size_t index;
+} pendres_strobe_rank;
+
+/* Lanes in the order of their steps, those of equal steps in their own order. */
+void pendres_strobe_order(size_t n, pendres_strobe_rank *rank);
+
 /* Look at lane number `index` after one more period; nonzero: it is done. */
 typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_lane *lane);
 
