@@ -3,19 +3,9 @@
  * write, the same bytes whatever the threads, and figures that test_continuation.c has from
  * elsewhere.
  */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "scene_fixture.h"
 
 #include <pendres/phase_diagram.h>
-#include <pendres/store.h>
-
-#include "scene.h"
-
-static char folder[] = "/tmp/scene-curves-XXXXXX";
 
 static const char branches_deck[] =
   "&scene kind = 'branches' /\n"
@@ -28,79 +18,10 @@ static const char diagram_deck[] =
   "&sweep damping = 0.08, 0.13, 0.17, drive_frequency = 0.536, 0.65, 0.8, 0.9 /\n"
   "&ensemble members = 200 /\n";
 
-static void path_of(const char *name, char path[100])
-{
-  snprintf(path, 100, "%s/%s.h5", folder, name);
-}
-
-static void run_deck(const char *text, int threads, const char *name)
-{
-  char path[100];
-  const char *why = NULL;
-  deck d;
-  namelist_errors errors = {0};
-  farm_options options = {.threads = threads};
-  scene_run run = {.deck = &d};
-  assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors), PENDRES_OK);
-  check_ok(scene_precision(&d, &options.library, &why));
-  check_ok(farm_create(&options, &run.farm));
-  path_of(name, path);
-  check_ok(pendres_store_create(path, NULL, &run.store));
-  const pendres_status status = scene_find(d.kind)->run(&run);
-  if (status != PENDRES_OK) print_error("%s\n", run.message);
-  check_ok(status);
-  assert_int_equal(run.failed_points, 0);
-  check_ok(pendres_store_close(run.store));
-  pendres_store_free(run.store);
-  farm_free(run.farm);
-  deck_free(&d);
-  namelist_errors_free(&errors);
-}
-
-/* The whole file; its length. */
-static size_t slurp(const char *name, char **bytes)
-{
-  char path[100];
-  path_of(name, path);
-  FILE *f = fopen(path, "rb");
-  assert_non_null(f);
-  assert_int_equal(fseek(f, 0, SEEK_END), 0);
-  const size_t n = (size_t)ftell(f);
-  rewind(f);
-  *bytes = malloc(n);
-  assert_non_null(*bytes);
-  assert_int_equal(fread(*bytes, 1, n, f), n);
-  fclose(f);
-  return n;
-}
-
-static pendres_store *open_file(const char *name)
-{
-  char path[100];
-  pendres_store *store = NULL;
-  path_of(name, path);
-  check_ok(pendres_store_open(path, &store));
-  return store;
-}
-
-/* A variable of numbers as a list; its length in *n. */
-static double *values(pendres_store *store, const char *name, size_t *n)
-{
-  int rank = 0;
-  uint64_t sizes[PENDRES_STORE_RANK];
-  check_ok(pendres_store_shape(store, "", name, &rank, sizes));
-  *n = 1;
-  for (int i = 0; i < rank; i++) *n *= (size_t)sizes[i];
-  double *v = malloc((*n + 1) * sizeof *v);
-  assert_non_null(v);
-  check_ok(pendres_store_read(store, "", name, PENDRES_STORE_DOUBLE, v, *n));
-  return v;
-}
-
 static double scalar(pendres_store *store, const char *name)
 {
   size_t n = 0;
-  double *v = values(store, name, &n);
+  double *v = scene_values(store, name, &n);
   assert_int_equal(n, 1);
   const double value = v[0];
   free(v);
@@ -113,15 +34,11 @@ static void same_bytes_on_any_threads(void **state)
   static const char *const decks[] = {branches_deck, diagram_deck};
   static const char *const names[] = {"branches", "diagram"};
   for (int i = 0; i < 2; i++) {
-    char again[32], *first = NULL, *second = NULL;
+    char again[32];
     snprintf(again, sizeof again, "%s-again", names[i]);
-    run_deck(decks[i], 1, names[i]);
-    run_deck(decks[i], 2, again);
-    const size_t n = slurp(names[i], &first);
-    assert_int_equal(slurp(again, &second), n);
-    assert_memory_equal(first, second, n);
-    free(first);
-    free(second);
+    scene_run_deck(decks[i], 1, names[i]);
+    scene_run_deck(decks[i], 2, again);
+    scene_check_same_bytes(names[i], again);
   }
 }
 
@@ -141,12 +58,12 @@ static void errors_stand_beside(void **state)
     const char *const *names = which == 0 ? branches : diagram;
     const size_t count =
       which == 0 ? sizeof branches / sizeof *branches : sizeof diagram / sizeof *diagram;
-    pendres_store *store = open_file(which == 0 ? "branches" : "diagram");
+    pendres_store *store = scene_open(which == 0 ? "branches" : "diagram");
     for (size_t i = 0; i < count; i++) {
       char error_name[64];
       size_t n = 0, m = 0;
       snprintf(error_name, sizeof error_name, "%s_error", names[i]);
-      double *v = values(store, names[i], &n), *e = values(store, error_name, &m);
+      double *v = scene_values(store, names[i], &n), *e = scene_values(store, error_name, &m);
       assert_int_equal(n, m);
       for (size_t k = 0; k < n; k++) {
         assert_int_equal(isnan(v[k]), isnan(e[k]));
@@ -163,12 +80,12 @@ static void branches_hold_the_figures(void **state)
 {
   (void)state;
   size_t n = 0, m = 0;
-  pendres_store *store = open_file("branches");
+  pendres_store *store = scene_open("branches");
   check_near(scalar(store, "cusp_damping"), 0.163656902031172567, 1e-8);
   check_near(scalar(store, "cusp_frequency"), 0.862157913509009358, 1e-8);
   /* SA at 0.7 and 0.8 for both, LA from 0.8 for damping 0.13, from 0.845 for 0.15. */
   static const int sa_lives[8] = {1, 1, 0, 0, 1, 1, 1, 0}, la_lives[8] = {0, 1, 1, 1, 0, 0, 1, 1};
-  double *sa = values(store, "sa_amplitude", &n), *la = values(store, "la_amplitude", &m);
+  double *sa = scene_values(store, "sa_amplitude", &n), *la = scene_values(store, "la_amplitude", &m);
   assert_int_equal(n, 8);
   assert_int_equal(m, 8);
   for (int i = 0; i < 8; i++) {
@@ -176,9 +93,9 @@ static void branches_hold_the_figures(void **state)
     assert_int_equal(!isnan(la[i]), la_lives[i]);
   }
   /* The unstable middle part lies between the folds of each damping. */
-  double *damping = values(store, "branch_damping", &n);
-  double *frequency = values(store, "branch_frequency", &m);
-  double *stable = values(store, "branch_stable", &m), *kind = values(store, "branch_kind", &m);
+  double *damping = scene_values(store, "branch_damping", &n);
+  double *frequency = scene_values(store, "branch_frequency", &m);
+  double *stable = scene_values(store, "branch_stable", &m), *kind = scene_values(store, "branch_kind", &m);
   size_t unstable = 0, folds = 0;
   for (size_t i = 0; i < n; i++) {
     folds += kind[i] == PENDRES_FOLD;
@@ -190,7 +107,7 @@ static void branches_hold_the_figures(void **state)
   assert_int_equal(folds, 4);
   assert_true(unstable > 10);
   /* Fold points have the cusp's damping at most, and SA's and LA's sides both. */
-  double *fold = values(store, "fold_damping", &n), *which = values(store, "fold_branch", &m);
+  double *fold = scene_values(store, "fold_damping", &n), *which = scene_values(store, "fold_branch", &m);
   int sides[3] = {0, 0, 0};
   for (size_t i = 0; i < n; i++) {
     assert_true(fold[i] <= 0.1636569021);
@@ -212,10 +129,10 @@ static void diagram_holds_the_regimes(void **state)
 {
   (void)state;
   size_t n = 0;
-  pendres_store *store = open_file("diagram");
-  double *regime = values(store, "regime", &n);
+  pendres_store *store = scene_open("diagram");
+  double *regime = scene_values(store, "regime", &n);
   assert_int_equal(n, 12);
-  double *exact = values(store, "regime_exact", &n), *other = values(store, "other", &n);
+  double *exact = scene_values(store, "regime_exact", &n), *other = scene_values(store, "other", &n);
   /* At damping 0.08 and frequency 0.536 LA has lost its symmetry (at 0.537944). */
   static const int want[12] = {
     PENDRES_REGIME_OTHER,  PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_LA,
@@ -226,14 +143,14 @@ static void diagram_holds_the_regimes(void **state)
     assert_int_equal((int)other[i], i == 0 ? PENDRES_OTHER_ASYMMETRIC : 0);
     assert_int_equal((int)exact[i], i == 0 ? PENDRES_REGIME_SA : want[i]);
   }
-  double *fraction = values(store, "sa_fraction", &n), *area = values(store, "mean_loop_area", &n);
+  double *fraction = scene_values(store, "sa_fraction", &n), *area = scene_values(store, "mean_loop_area", &n);
   for (int i = 0; i < 12; i++) {
     assert_int_equal(isnan(fraction[i]), want[i] == PENDRES_REGIME_SINGLE);
     assert_true(area[i] > 0.0);
   }
   /* The curve on which LA loses its symmetry passes this damping at that frequency. */
-  double *kind = values(store, "flip_kind", &n), *damping = values(store, "flip_damping", &n);
-  double *frequency = values(store, "flip_frequency", &n);
+  double *kind = scene_values(store, "flip_kind", &n), *damping = scene_values(store, "flip_damping", &n);
+  double *frequency = scene_values(store, "flip_frequency", &n);
   double nearest = INFINITY;
   for (size_t i = 0; i < n; i++)
     if (kind[i] == PENDRES_SYMMETRY_BREAKING)
@@ -250,29 +167,11 @@ static void diagram_holds_the_regimes(void **state)
   pendres_store_free(store);
 }
 
-static int make_folder(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) != NULL ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-  static const char *const names[] = {"branches", "branches-again", "diagram", "diagram-again"};
-  (void)state;
-  for (int i = 0; i < 4; i++) {
-    char path[100];
-    path_of(names[i], path);
-    (void)unlink(path);
-  }
-  return rmdir(folder);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
     cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes),
   };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -2,26 +2,12 @@
  * test_scene_noise.c -- scenes with noise, run in this process: results that do not depend on
  * threads, against linear noise theory and the deterministic limit, and decks that are wrong.
  */
-#define _XOPEN_SOURCE 700 /* mkdtemp */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
+#include "scene_fixture.h"
 
 #include <pendres/pendres.h>
-#include <pendres/store.h>
 
-#include "scene.h"
 #include "scene_basins_noise.h"
 #include "scene_noise.h"
-
-static char folder[] = "/tmp/scene-noise-XXXXXX";
-
-static void path_of(const char *name, char path[100])
-{
-  snprintf(path, 100, "%s/%s.h5", folder, name);
-}
 
 /* Clouds alone, as scene_basins.c asks for them. */
 static pendres_status run_clouds(scene_run *run)
@@ -38,66 +24,16 @@ static pendres_status run_clouds(scene_run *run)
   return status;
 }
 
-/* Run a deck's scene into NAME.h5. */
 static void run_deck(const char *text, int threads, const char *name)
 {
-  char path[100];
-  const char *why = NULL;
-  deck d;
-  namelist_errors errors = { 0 };
-  farm_options options = { .threads = threads };
-  scene_run run = { .deck = &d };
-  assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors), PENDRES_OK);
-  check_ok(scene_precision(&d, &options.library, &why));
-  check_ok(farm_create(&options, &run.farm));
-  path_of(name, path);
-  check_ok(pendres_store_create(path, NULL, &run.store));
-  const pendres_status status =
-    d.kind == DECK_BASINS ? run_clouds(&run) : scene_find(d.kind)->run(&run);
-  if (status != PENDRES_OK) print_error("%s\n", run.message);
-  check_ok(status);
-  assert_int_equal(run.failed_points, 0);
-  check_ok(pendres_store_close(run.store));
-  pendres_store_free(run.store);
-  farm_free(run.farm);
-  deck_free(&d);
-  namelist_errors_free(&errors);
-}
-
-/* The whole file; its length. */
-static size_t slurp(const char *name, char **bytes)
-{
-  char path[100];
-  path_of(name, path);
-  FILE *f = fopen(path, "rb");
-  assert_non_null(f);
-  assert_int_equal(fseek(f, 0, SEEK_END), 0);
-  const size_t n = (size_t)ftell(f);
-  rewind(f);
-  *bytes = malloc(n);
-  assert_non_null(*bytes);
-  assert_int_equal(fread(*bytes, 1, n, f), n);
-  fclose(f);
-  return n;
-}
-
-static void check_same_bytes(const char *one, const char *two)
-{
-  char *a = NULL, *b = NULL;
-  const size_t n = slurp(one, &a);
-  assert_int_equal(n, slurp(two, &b));
-  assert_memory_equal(a, b, n);
-  free(a);
-  free(b);
+  const int clouds = strstr(text, "'basins'") != NULL;
+  scene_run_deck_by(clouds ? run_clouds : NULL, text, threads, name);
 }
 
 /* n numbers of a variable. */
 static void get(const char *file, const char *name, double *values, size_t n)
 {
-  char path[100];
-  pendres_store *store = NULL;
-  path_of(file, path);
-  check_ok(pendres_store_open(path, &store));
+  pendres_store *store = scene_open(file);
   const pendres_status status =
     pendres_store_read(store, "", name, PENDRES_STORE_DOUBLE, values, n);
   if (status != PENDRES_OK) print_error("%s: %s\n", name, pendres_store_message(store));
@@ -118,7 +54,7 @@ static void switching_counts_both_ways(void **state)
   (void)state;
   run_deck(switching_deck, 1, "one");
   run_deck(switching_deck, 2, "two");
-  check_same_bytes("one", "two");
+  scene_check_same_bytes("one", "two");
   get("one", "exposure_sa", sa, 2);
   get("one", "exposure_la", la, 2);
   for (int i = 0; i < 2; i++) /* every trajectory is somewhere at all times */
@@ -168,7 +104,7 @@ static void clouds_agree_with_linear_theory(void **state)
   (void)state;
   run_deck(basins_deck, 1, "one");
   run_deck(basins_deck, 2, "two");
-  check_same_bytes("one", "two");
+  scene_check_same_bytes("one", "two");
   get("one", "strobe_x", x, T * A * S);
   get("one", "strobe_v", v, T * A * S);
   get("one", "linear_theory", verdict, T * A);
@@ -221,7 +157,7 @@ static void response_begins_at_the_deterministic_one(void **state)
   (void)state;
   run_deck(RESPONSE_DECK ", temperature = 0, 1e-5, 0.01" NOISE_GROUP, 1, "one");
   run_deck(RESPONSE_DECK ", temperature = 0, 1e-5, 0.01" NOISE_GROUP, 2, "two");
-  check_same_bytes("one", "two");
+  scene_check_same_bytes("one", "two");
   run_deck(RESPONSE_DECK "/\n", 2, "two");
   for (size_t k = 0; k < sizeof still / sizeof *still; k++) {
     get("one", still[k], value, T * PLANE);
@@ -322,24 +258,6 @@ static void chunks_cover_everything(void **state)
   }
 }
 
-static int enter(void **state)
-{
-  (void)state;
-  return mkdtemp(folder) != NULL ? 0 : -1;
-}
-
-static int leave(void **state)
-{
-  static const char *const names[] = { "one", "two" };
-  (void)state;
-  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    char path[100];
-    path_of(names[i], path);
-    (void)remove(path);
-  }
-  return rmdir(folder);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -350,5 +268,5 @@ int main(void)
     cmocka_unit_test(clouds_agree_with_linear_theory),
     cmocka_unit_test(response_begins_at_the_deterministic_one),
   };
-  return cmocka_run_group_tests(tests, enter, leave);
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }
