@@ -78,6 +78,20 @@ static void forget_adaptive_block(pendres_context *ctx)
   *flow = NULL;
 }
 
+/* A run by a method of adaptive steps with this share of the tolerance. */
+static pendres_status run_tighter(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                  long periods, double share)
+{
+  static const double tightest = 1e-15; /* what CVODE still works with */
+  const double tolerance = ctx->options.tolerance;
+  ctx->options.tolerance = fmax(tightest, share * tolerance);
+  forget_adaptive_block(ctx);
+  const pendres_status status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
+  ctx->options.tolerance = tolerance;
+  forget_adaptive_block(ctx);
+  return status;
+}
+
 /*
  * The same pendulums once more, by a better method. With fixed steps: more of them, and noise[n]
  * receives the rounding errors. Else a tenth of the tolerance, and noise[n] is 0: rounding is far
@@ -87,18 +101,12 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
                                 const double *x, const double *v, long periods,
                                 pendres_strobe_lane *finer, double *noise)
 {
-  const double tolerance = ctx->options.tolerance;
-  pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
+  const pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
   if (status != PENDRES_OK) return status;
   if (ctx->options.method == PENDRES_BLOCK_FIXED)
     return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
   for (size_t i = 0; i < n; i++) noise[i] = 0.0;
-  ctx->options.tolerance = 0.1 * tolerance;
-  forget_adaptive_block(ctx);
-  status = pendres_strobe_run(ctx, n, finer, after_all_periods, &periods);
-  ctx->options.tolerance = tolerance;
-  forget_adaptive_block(ctx);
-  return status;
+  return run_tighter(ctx, n, finer, periods, 0.1);
 }
 
 /* |a - b| of two final states, in x and v. */
@@ -121,26 +129,30 @@ static double error_of(double apart, double noise, long turns)
 /*
  * Along one expanding direction two errors of either sign may be equal by chance. Where
  * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
- * distance. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
+ * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
+ * steps of stiff pendulums), so that a tenth of it may change next to nothing: there all are
+ * asked, with a hundredth. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
  */
 static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                   const double *x, const double *v, long periods,
                                   const pendres_strobe_lane *lanes, const double *noise,
                                   pendres_strobe_lane *room, double *apart)
 {
-  static const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
+  const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
+  const int fixed = ctx->options.method == PENDRES_BLOCK_FIXED;
   size_t some = 0;
   for (size_t i = 0; i < n; i++) {
-    if (!(noise[i] > grown)) continue;
+    if (fixed && !(noise[i] > grown)) continue;
     const pendres_status status = load(ctx, 1, &p[i], &x[i], &v[i], periods, 2.0, &room[some]);
     if (status != PENDRES_OK) return status;
     some++;
   }
   const pendres_status status =
-    pendres_strobe_run(ctx, some, room, after_all_periods, &periods);
+    fixed ? pendres_strobe_run(ctx, some, room, after_all_periods, &periods)
+          : run_tighter(ctx, some, room, periods, 0.01);
   some = 0;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    if (noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));
+    if (!fixed || noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));
   return status;
 }
 

@@ -269,8 +269,8 @@ static void test_counts(void **state)
 /*
  * Every other method against extended precision, over five periods. Their tolerance is that of a
  * step: some tens of steps a period, five periods, and errors that grow up to ten times in between
- * make 1e4 tolerances (measured: CVODE needs a quarter of that). The estimate, a
- * second run by a tenth of the tolerance, must not be below a tenth of the true error.
+ * make 1e4 tolerances (measured: CVODE needs a quarter of that). The estimate, from
+ * runs by a tenth and a hundredth of the tolerance, must not be below a tenth of the true error.
  */
 static void test_methods_against_reference(void **state)
 {

@@ -23,12 +23,12 @@ extern "C" {
  * pendulums[n] are read; x[n] and v[n] (position and velocity at drive phase 0) are
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
- * error[n], if not NULL, receives an estimate of the larger of the errors of x and v:
- * a second run with more steps a period, or with a tenth of the tolerance where the method's steps
- * are adaptive, is compared with the first. It covers discretisation and rounding, amplified along
- * each trajectory as the trajectory itself amplifies them; where that is by more than the
- * tolerance allows, the estimate says so (infinite: nothing is known), it is not an error of the
- * function. It costs about four times as much as the first run.
+ * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: a second run
+ * with more steps a period, or runs with a tenth and a hundredth of the tolerance where the
+ * method's steps are adaptive, are compared with the first. It covers discretisation and rounding,
+ * amplified along each trajectory as the trajectory itself amplifies them; where that is by more
+ * than the tolerance allows, the estimate says so (infinite: nothing is known), it is not an error
+ * of the function. It costs about four times as much as the first run.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.
