@@ -211,6 +211,7 @@ static double least_steps(const pendres_pendulum *p, double speed)
   return fmax(period * p->damping / 4.0, period * fmax(1.0, speed / 4.0) / 1.5);
 }
 
+/* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
 static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
   pendres_pendulum p;
@@ -218,7 +219,7 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   const int order = pendres_table_order(ctx->options.table);
 
   worst_of(c, &p, &speed, &tolerance);
-  if (p.drive_frequency == 0.0) goto too_slow;
+  if (p.drive_frequency == 0.0) return PENDRES_TOLERANCE_UNREACHABLE;
   double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
@@ -240,12 +241,7 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
       error < 1e-2 ? pow(error / tolerance, 1.0 / order) * 0.95 : 1.5;
     wanted = n * fmax(1.01, fmin(growth, 4.0));
   }
-too_slow:
-  return pendres_context_fail(
-    ctx, PENDRES_TOLERANCE_UNREACHABLE,
-    "damping %g at drive frequency %g needs more than %d explicit steps a period: "
-    "use method cvode_bdf, or a looser tolerance",
-    p.damping, p.drive_frequency, MOST_STEPS);
+  return PENDRES_TOLERANCE_UNREACHABLE;
 }
 
 static int same_cell(const cell *a, const cell *b)
@@ -286,6 +282,13 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     }
   int chosen = 0;
   pendres_status status = probe(ctx, &key, &chosen);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE)
+    return pendres_context_fail(
+      ctx, status,
+      "damping %g at drive frequency %g needs more than %d explicit steps a period: a looser "
+      "tolerance may do, and method cvode_bdf advances such pendulums "
+      "(pendres_strobe_advance); orbits and labels need explicit steps",
+      p->damping, p->drive_frequency, MOST_STEPS);
   if (status == PENDRES_OK) status = remember(ctx, &key, chosen);
   if (status == PENDRES_OK) *steps = chosen;
   return status;
