@@ -51,7 +51,7 @@ static void check_same_results(const char *a, const char *b)
   comparison c = { .other = H5Fopen(b, H5F_ACC_RDONLY, H5P_DEFAULT) };
   assert_true(file >= 0 && c.other >= 0);
 #if H5_VERSION_GE(1, 12, 0)
-  assert_true(H5Ovisit1(file, H5_INDEX_NAME, H5_ITER_INC, (H5O_iterate1_t)compare, &c) >= 0);
+  assert_true(H5Ovisit3(file, H5_INDEX_NAME, H5_ITER_INC, compare, &c, H5O_INFO_BASIC) >= 0);
 #else
   assert_true(H5Ovisit(file, H5_INDEX_NAME, H5_ITER_INC, compare, &c) >= 0);
 #endif
