@@ -66,8 +66,8 @@ static kind kind_of(const deck_key *key)
 {
   if (key->type == DECK_INTEGER) return INTEGER;
   if (key->type == DECK_LOGICAL) return LOGICAL;
-  if (key->type == DECK_STRING || key->type == DECK_CHOICE || key->type == DECK_CHOICES ||
-      key->type == DECK_STRINGS) return STRING;
+  if (key->type == DECK_STRING || key->type == DECK_CHOICE || key->type == DECK_CHOICES)
+    return STRING;
   return REAL;
 }
 
