@@ -279,6 +279,7 @@ uninstall:
 	  $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc $(DESTDIR)$(BINDIR)/resonance \
 	  $(DESTDIR)$(MANDIR)/man1/resonance.1
 	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres
+	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 doc:
 	@mkdir -p build
