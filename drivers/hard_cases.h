@@ -18,7 +18,9 @@
 
 /* Cases by the names that decks give them, in the order in which they are printed. */
 #define HARD_CASE_LIST(ITEM)                                                                      \
+  ITEM(equilibrium)                                                                               \
   ITEM(separatrix)                                                                                \
+  ITEM(energy)                                                                                    \
   ITEM(tolerance)
 
 /* What must hold is figure <= bound. */

@@ -9,7 +9,7 @@
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 static const double scale = 0.01;
 #else
-static const double scale = 1.0;
+static const double scale = 0.1;
 #endif
 
 static void run_case(void **state)
