@@ -4,10 +4,11 @@
  */
 #include "deck_table.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <pendres/sweep.h>
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -175,55 +176,16 @@ static void check_idle_keys(deck_builder *b)
 
 /* ---- axes ---------------------------------------------------------------------------------- */
 
-static int ascending(const void *a, const void *b)
-{
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static size_t sort_and_unique(double *value, size_t count)
-{
-  size_t kept = 0;
-  if (count == 0) return 0;
-  for (size_t i = 0; i < count; i++) value[i] += 0.0; /* no negative zeros */
-  qsort(value, count, sizeof *value, ascending);
-  for (size_t i = 1; i < count; i++)
-    if (value[i] > value[kept]) value[++kept] = value[i];
-  return kept + 1;
-}
-
-/* Equally spaced with exact ends. */
-static double range_value(const deck_axis *axis, size_t i)
-{
-  const double n = (double)(axis->range_count - 1);
-  if (i == 0) return axis->range_first + 0.0;
-  if (i + 1 == axis->range_count) return axis->range_last + 0.0;
-  return (axis->range_first * (n - (double)i) + axis->range_last * (double)i) / n + 0.0;
-}
-
-/*
- * The union of list and range. A listed 0.24 stands for the range's 0.24000000000000002 too:
- * values of the range within its rounding error of a listed one are dropped.
- */
 static int expand_axis(deck_axis *axis)
 {
-  const double margin = 4.0 * DBL_EPSILON * fmax(fabs(axis->range_first), fabs(axis->range_last));
-  size_t next = 0, n = 0;
-  axis->listed_count = sort_and_unique(axis->listed, axis->listed_count);
+  const pendres_range range = { axis->range_first, axis->range_last, axis->range_count };
   axis->value = malloc((axis->listed_count + axis->range_count) * sizeof *axis->value);
   if (axis->value == NULL) return 0;
-  for (size_t i = 0; i < axis->range_count; i++) {
-    const double x = range_value(axis, i);
-    while (next < axis->listed_count && axis->listed[next] <= x)
-      axis->value[n++] = axis->listed[next++];
-    if (next > 0 && x - axis->listed[next - 1] <= margin) continue;
-    if (next < axis->listed_count && axis->listed[next] - x <= margin) continue;
-    if (n > 0 && x <= axis->value[n - 1]) continue;
-    axis->value[n++] = x;
-  }
-  while (next < axis->listed_count) axis->value[n++] = axis->listed[next++];
-  axis->count = n;
-  return 1;
+  /* Keys were checked one by one: nothing is left that could be refused here. */
+  return pendres_sweep_values(axis->listed_count, axis->listed, NULL, axis->listed,
+                              &axis->listed_count) == PENDRES_OK &&
+         pendres_sweep_values(axis->listed_count, axis->listed, &range, axis->value,
+                              &axis->count) == PENDRES_OK;
 }
 
 static void expand_axes(deck_builder *b)

@@ -109,11 +109,30 @@ pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id a
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
-double scene_member_x(const deck *d, size_t k)
+pendres_ensemble scene_ensemble(const deck *d)
 {
-  const double n = (double)d->ensemble.members;
-  /* The last member is at x_last to the last bit. */
-  return (d->ensemble.x_first * (n - (double)k) + d->ensemble.x_last * (double)k) / n;
+  return (pendres_ensemble){ .members = (size_t)d->ensemble.members,
+                             .x_first = d->ensemble.x_first,
+                             .x_last = d->ensemble.x_last,
+                             .v = d->ensemble.v };
+}
+
+pendres_sweep scene_sweep(const deck *d)
+{
+  static const struct { deck_axis_id id; pendres_quantity quantity; } axes[] = {
+    { DECK_AXIS_DAMPING, PENDRES_QUANTITY_DAMPING },
+    { DECK_AXIS_DRIVE_FREQUENCY, PENDRES_QUANTITY_DRIVE_FREQUENCY },
+    { DECK_AXIS_DRIVE_PERIOD, PENDRES_QUANTITY_DRIVE_PERIOD },
+  };
+  pendres_sweep s = { .pendulum = { .damping = d->pendulum.damping,
+                                    .drive_amplitude = d->pendulum.drive_amplitude,
+                                    .drive_frequency = d->pendulum.drive_frequency } };
+  for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
+    const deck_axis *a = &d->axis[axes[i].id];
+    if (a->count > 0)
+      s.axis[s.axes++] = (pendres_axis){ axes[i].quantity, a->count, a->value };
+  }
+  return s;
 }
 
 /* ---- the group `paper` --------------------------------------------------------------------- */

@@ -56,8 +56,11 @@ pendres_status scene_farm_failed(scene_run *run, pendres_status status);
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
 
-/* The deck's ensemble: members at x_first + (x_last - x_first) k / members, k = 1..members. */
-double scene_member_x(const deck *d, size_t k);
+/* The deck's ensemble. */
+pendres_ensemble scene_ensemble(const deck *d);
+
+/* The deck's dampings by its drive frequencies or periods, as far as it has them as axes. */
+pendres_sweep scene_sweep(const deck *d);
 
 /* The group `paper`: printed values beside computed ones. */
 typedef struct scene_printed {

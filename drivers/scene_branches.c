@@ -8,23 +8,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene_curves.h"
+#include "scene_lines.h"
 
 enum { BACKBONE = 101, FREE = 156 };
-
-typedef struct line {
-  pendres_phase_point *points;
-  pendres_branches *branches;
-} line;
-
-typedef struct figure {
-  scene_run *run;
-  const deck *d;
-  pendres_ensemble ensemble;
-  size_t dampings, drives;
-  line *lines; /* [damping] */
-  scene_curves curves;
-} figure;
 
 static void plan(const deck *d, FILE *out)
 {
@@ -35,37 +21,6 @@ static void plan(const deck *d, FILE *out)
           "amplitude %g; the branches of orbits that they lie on, curves of folds, and backbones\n",
           (long long)d->ensemble.members, damping->count, drive->count, drive->value[0],
           drive->value[drive->count - 1], d->pendulum.drive_amplitude);
-}
-
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
-{
-  figure *g = arg;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_pendulum *p = calloc(g->drives, sizeof *p);
-  pendres_phase_point *points = calloc(g->drives, sizeof *points);
-  if (p == NULL || points == NULL) goto done;
-  for (size_t k = 0; k < g->drives; k++)
-    p[k] = (pendres_pendulum){.damping = g->d->axis[DECK_AXIS_DAMPING].value[task],
-                              .drive_amplitude = g->d->pendulum.drive_amplitude,
-                              .drive_frequency = g->d->axis[DECK_AXIS_DRIVE_FREQUENCY].value[k]};
-  status =
-    pendres_phase_line(ctx, g->drives, p, &g->ensemble, 0.0, points, &g->lines[task].branches);
-  if (status == PENDRES_OK) {
-    g->lines[task].points = points;
-    points = NULL;
-  }
-done:
-  free(p);
-  free(points);
-  return status;
-}
-
-static pendres_status collect(void *arg, size_t task)
-{
-  figure *g = arg;
-  for (size_t k = 0; k < g->drives; k++)
-    g->run->failed_points += g->lines[task].points[k].unresolved > 0;
-  return scene_curves_add(&g->curves, g->lines[task].branches);
 }
 
 /* ---- the grid ------------------------------------------------------------------------------ */
@@ -90,7 +45,7 @@ static double field(const pendres_phase_point *p, size_t offset)
   return *(const double *)(const void *)((const char *)p + offset);
 }
 
-static pendres_status write_grid(scene_run *run, const figure *g)
+static pendres_status write_grid(scene_run *run, const scene_lines *g)
 {
   static const char *const regimes[] = {"sa", "la", "coexistence", "single", "other"};
   const size_t n = g->dampings * g->drives;
@@ -109,7 +64,7 @@ static pendres_status write_grid(scene_run *run, const figure *g)
                                      .dimensions = {"damping", "drive_frequency"},
                                      .long_name = fields[f].long_name, .units = fields[f].units};
     for (size_t i = 0; i < n; i++) {
-      const pendres_phase_point *p = &g->lines[i / g->drives].points[i % g->drives];
+      const pendres_phase_point *p = scene_lines_point(g, i);
       value[i] = field(p, fields[f].value);
       error[i] = field(p, fields[f].error);
       regime[i] = (int8_t)p->regime;
@@ -203,12 +158,12 @@ static void points_add(points *p, const pendres_branch_point *b, int32_t branch)
   p->period[i] = o->period;
 }
 
-static size_t count_points(const figure *g)
+static size_t count_points(const scene_lines *g)
 {
   size_t n = 0;
   for (size_t i = 0; i < g->dampings; i++)
-    for (size_t k = 0; k < pendres_branches_count(g->lines[i].branches); k++)
-      n += pendres_branch_count(pendres_branches_get(g->lines[i].branches, k));
+    for (size_t k = 0; k < pendres_branches_count(g->line[i].branches); k++)
+      n += pendres_branch_count(pendres_branches_get(g->line[i].branches, k));
   return n;
 }
 
@@ -262,7 +217,7 @@ static pendres_status put_points(scene_run *run, const points *p)
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
-static pendres_status write_branches(scene_run *run, const figure *g)
+static pendres_status write_branches(scene_run *run, const scene_lines *g)
 {
   points p;
   int32_t number = 0;
@@ -272,8 +227,8 @@ static pendres_status write_branches(scene_run *run, const figure *g)
     goto done;
   }
   for (size_t i = 0; i < g->dampings; i++)
-    for (size_t k = 0; k < pendres_branches_count(g->lines[i].branches); k++, number++) {
-      const pendres_branch *b = pendres_branches_get(g->lines[i].branches, k);
+    for (size_t k = 0; k < pendres_branches_count(g->line[i].branches); k++, number++) {
+      const pendres_branch *b = pendres_branches_get(g->line[i].branches, k);
       for (size_t m = 0; m < pendres_branch_count(b); m++)
         points_add(&p, pendres_branch_get(b, m), number);
     }
@@ -286,14 +241,14 @@ done:
 /* ---- backbones ----------------------------------------------------------------------------- */
 
 /* Dampings in geometric order, from below where the backbone begins to twice the deck's own. */
-static void backbone_dampings(const figure *g, pendres_pendulum *p)
+static void backbone_dampings(const scene_lines *g, pendres_pendulum *p)
 {
-  const deck_axis *damping = &g->d->axis[DECK_AXIS_DAMPING];
+  const deck_axis *damping = &g->run->deck->axis[DECK_AXIS_DAMPING];
   const double low = 0.5 * damping->value[0];
   const double high = fmax(1.0, 2.0 * damping->value[damping->count - 1]);
   for (int i = 0; i < BACKBONE; i++)
     p[i] = (pendres_pendulum){.damping = low * pow(high / low, i / (BACKBONE - 1.0)),
-                              .drive_amplitude = g->d->pendulum.drive_amplitude};
+                              .drive_amplitude = g->run->deck->pendulum.drive_amplitude};
 }
 
 static pendres_status put_backbone(scene_run *run, const pendres_pendulum *p,
@@ -328,7 +283,7 @@ static pendres_status put_backbone(scene_run *run, const pendres_pendulum *p,
   return status;
 }
 
-static pendres_status write_backbone(scene_run *run, const figure *g)
+static pendres_status write_backbone(scene_run *run, const scene_lines *g)
 {
   pendres_pendulum p[BACKBONE];
   pendres_status outcome[BACKBONE], status = PENDRES_OUT_OF_MEMORY;
@@ -368,11 +323,11 @@ static pendres_status write_free(scene_run *run)
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
-static void print_table(FILE *out, const figure *g)
+static void print_table(FILE *out, const scene_lines *g)
 {
   fprintf(out, "damping   LA from omega          SA up to omega\n");
   for (size_t i = 0; i < g->dampings; i++) {
-    const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
+    const double damping = g->run->deck->axis[DECK_AXIS_DAMPING].value[i];
     const pendres_bifurcation *la = scene_curves_fold(&g->curves, damping, 1);
     const pendres_bifurcation *sa = scene_curves_fold(&g->curves, damping, 0);
     fprintf(out, "%-9.4g", damping);
@@ -381,13 +336,10 @@ static void print_table(FILE *out, const figure *g)
     if (sa != NULL) fprintf(out, " %.12f +- %.0e\n", sa->value, sa->value_error);
     else fprintf(out, " no fold\n");
   }
-  if (g->curves.has_cusp)
-    fprintf(out, "cusp: damping %.12f +- %.0e, drive frequency %.12f +- %.0e\n",
-            g->curves.cusp.value[1], g->curves.cusp.value_error[1], g->curves.cusp.value[0],
-            g->curves.cusp.value_error[0]);
+  scene_lines_print_cusp(g, out);
 }
 
-static pendres_status write_results(scene_run *run, const figure *g)
+static pendres_status write_results(scene_run *run, const scene_lines *g)
 {
   pendres_status status = write_grid(run, g);
   if (status == PENDRES_OK) status = write_branches(run, g);
@@ -400,34 +352,11 @@ static pendres_status write_results(scene_run *run, const figure *g)
 
 static pendres_status run_scene(scene_run *run)
 {
-  const deck *d = run->deck;
-  figure g = {.run = run,
-              .d = d,
-              .ensemble = {.members = (size_t)d->ensemble.members, .x_first = d->ensemble.x_first,
-                           .x_last = d->ensemble.x_last, .v = d->ensemble.v},
-              .dampings = d->axis[DECK_AXIS_DAMPING].count,
-              .drives = d->axis[DECK_AXIS_DRIVE_FREQUENCY].count};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  g.lines = calloc(g.dampings, sizeof *g.lines);
-  if (g.lines == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu lines", g.dampings);
-    goto done;
-  }
-  status = farm_run(run->farm, "dampings", g.dampings, compute, collect, &g);
-  if (status != PENDRES_OK) {
-    (void)scene_farm_failed(run, status);
-    goto done;
-  }
-  status = scene_curves_follow(run, &g.curves);
+  scene_lines g = {.spacing = 0.0};
+  pendres_status status = scene_lines_compute(run, &g);
   if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
-done:
-  for (size_t i = 0; i < g.dampings && g.lines != NULL; i++) {
-    free(g.lines[i].points);
-    pendres_branches_free(g.lines[i].branches);
-  }
-  free(g.lines);
-  scene_curves_free(&g.curves);
+  scene_lines_free(&g);
   return status;
 }
 

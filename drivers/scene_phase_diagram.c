@@ -8,21 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene_curves.h"
-
-/* What one task hands over. */
-typedef struct line {
-  pendres_phase_point *points;
-  pendres_branches *branches;
-} line;
+#include "scene_lines.h"
 
 typedef struct diagram {
-  scene_run *run;
-  const deck *d;
-  pendres_ensemble ensemble;
-  size_t dampings, drives;
-  line *lines;        /* [damping] */
-  scene_curves curves;
+  scene_lines lines;
   size_t tally[PENDRES_REGIME_COUNT], differ; /* points of each regime; where scan and curves differ */
   size_t skipped;
 } diagram;
@@ -39,46 +28,19 @@ static void plan(const deck *d, FILE *out)
           drive->value[drive->count - 1], d->pendulum.drive_amplitude);
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
-{
-  diagram *g = arg;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_pendulum *p = calloc(g->drives, sizeof *p);
-  pendres_phase_point *points = calloc(g->drives, sizeof *points);
-  if (p == NULL || points == NULL) goto done;
-  for (size_t k = 0; k < g->drives; k++)
-    p[k] = (pendres_pendulum){.damping = g->d->axis[DECK_AXIS_DAMPING].value[task],
-                              .drive_amplitude = g->d->pendulum.drive_amplitude,
-                              .drive_frequency = g->d->axis[DECK_AXIS_DRIVE_FREQUENCY].value[k]};
-  /* Nobody sees the branches themselves: their points may be sparse. */
-  status =
-    pendres_phase_line(ctx, g->drives, p, &g->ensemble, 0.1, points, &g->lines[task].branches);
-  if (status == PENDRES_OK) {
-    g->lines[task].points = points;
-    points = NULL;
-  }
-done:
-  free(p);
-  free(points);
-  return status;
-}
-
 /* Keep what is needed of a line's branches, which are large. */
-static pendres_status collect(void *arg, size_t task)
+static void look(void *arg, size_t damping)
 {
   diagram *g = arg;
-  line *l = &g->lines[task];
-  const pendres_status status = scene_curves_add(&g->curves, l->branches);
+  scene_line *l = &g->lines.line[damping];
   g->skipped += pendres_branches_skipped(l->branches);
   pendres_branches_free(l->branches);
   l->branches = NULL;
-  for (size_t k = 0; k < g->drives; k++) {
+  for (size_t k = 0; k < g->lines.drives; k++) {
     const pendres_phase_point *p = &l->points[k];
     g->tally[p->regime]++;
     g->differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
-    g->run->failed_points += p->unresolved > 0;
   }
-  return status;
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -102,14 +64,14 @@ static double field(const pendres_phase_point *p, size_t offset)
 
 static pendres_status write_fields(scene_run *run, const diagram *g, double *value, double *error)
 {
-  const size_t n = g->dampings * g->drives;
+  const size_t n = g->lines.dampings * g->lines.drives;
   pendres_status status = PENDRES_OK;
   for (size_t f = 0; f < sizeof fields / sizeof *fields && status == PENDRES_OK; f++) {
     const pendres_store_spec spec = {.name = fields[f].name,
                                      .dimensions = {"damping", "drive_frequency"},
                                      .long_name = fields[f].long_name};
     for (size_t i = 0; i < n; i++) {
-      const pendres_phase_point *p = &g->lines[i / g->drives].points[i % g->drives];
+      const pendres_phase_point *p = scene_lines_point(&g->lines, i);
       value[i] = field(p, fields[f].value);
       error[i] = field(p, fields[f].error);
     }
@@ -131,7 +93,7 @@ static pendres_status write_flags(scene_run *run, const diagram *g, int8_t *flag
     "state of motion that the members of the ensemble settle on",
     "states of motion that exist as attractors, by the branches, whether members reach them or not",
     "what else members settle on: sum of the flags"};
-  const size_t n = g->dampings * g->drives;
+  const size_t n = g->lines.dampings * g->lines.drives;
   pendres_status status = PENDRES_OK;
   for (int f = 0; f < 3 && status == PENDRES_OK; f++) {
     const pendres_store_spec spec = {.name = names[f],
@@ -142,7 +104,7 @@ static pendres_status write_flags(scene_run *run, const diagram *g, int8_t *flag
                                      .flag_values = f < 2 ? NULL : bits,
                                      .flag_meanings = f < 2 ? regimes : meanings};
     for (size_t i = 0; i < n; i++) {
-      const pendres_phase_point *p = &g->lines[i / g->drives].points[i % g->drives];
+      const pendres_phase_point *p = scene_lines_point(&g->lines, i);
       flag[i] = (int8_t)(f == 0 ? (int)p->regime : f == 1 ? (int)p->exact : p->other);
     }
     status = pendres_store_put(run->store, &spec, flag, n);
@@ -152,7 +114,7 @@ static pendres_status write_flags(scene_run *run, const diagram *g, int8_t *flag
 
 static pendres_status write_results(scene_run *run, const diagram *g)
 {
-  const size_t n = g->dampings * g->drives;
+  const size_t n = g->lines.dampings * g->lines.drives;
   double *value = malloc(n * sizeof *value), *error = malloc(n * sizeof *error);
   int8_t *flag = malloc(n);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -164,8 +126,8 @@ static pendres_status write_results(scene_run *run, const diagram *g)
   if (status == PENDRES_OK) status = scene_dimension(run, "", DECK_AXIS_DRIVE_FREQUENCY);
   if (status == PENDRES_OK) status = write_flags(run, g, flag);
   if (status == PENDRES_OK) status = write_fields(run, g, value, error);
-  if (status == PENDRES_OK) status = scene_curves_write(run, &g->curves);
-  if (status == PENDRES_OK) status = scene_curves_write_paper(run, &g->curves);
+  if (status == PENDRES_OK) status = scene_curves_write(run, &g->lines.curves);
+  if (status == PENDRES_OK) status = scene_curves_write_paper(run, &g->lines.curves);
 done:
   free(value);
   free(error);
@@ -175,48 +137,23 @@ done:
 
 static void print_table(FILE *out, const diagram *g)
 {
-  const size_t n = g->dampings * g->drives;
+  const size_t n = g->lines.dampings * g->lines.drives;
   fprintf(out, "regime        points\n");
   for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
     fprintf(out, "%-12s  %zu\n", pendres_regime_name((pendres_regime)r), g->tally[r]);
   fprintf(out, "members miss a state that exists at %zu of %zu points\n", g->differ, n);
   if (g->skipped > 0) fprintf(out, "orbits without a branch: %zu\n", g->skipped);
-  if (g->curves.has_cusp)
-    fprintf(out, "cusp: damping %.12f +- %.0e, drive frequency %.12f +- %.0e\n",
-            g->curves.cusp.value[1], g->curves.cusp.value_error[1], g->curves.cusp.value[0],
-            g->curves.cusp.value_error[0]);
+  scene_lines_print_cusp(&g->lines, out);
 }
 
 static pendres_status run_scene(scene_run *run)
 {
-  const deck *d = run->deck;
-  diagram g = {.run = run,
-               .d = d,
-               .ensemble = {.members = (size_t)d->ensemble.members, .x_first = d->ensemble.x_first,
-                            .x_last = d->ensemble.x_last, .v = d->ensemble.v},
-               .dampings = d->axis[DECK_AXIS_DAMPING].count,
-               .drives = d->axis[DECK_AXIS_DRIVE_FREQUENCY].count};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  g.lines = calloc(g.dampings, sizeof *g.lines);
-  if (g.lines == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu lines", g.dampings);
-    goto done;
-  }
-  status = farm_run(run->farm, "dampings", g.dampings, compute, collect, &g);
-  if (status != PENDRES_OK) {
-    (void)scene_farm_failed(run, status);
-    goto done;
-  }
-  status = scene_curves_follow(run, &g.curves);
+  /* Nobody sees the branches themselves: their points may be sparse. */
+  diagram g = {.lines = {.spacing = 0.1, .look = look, .arg = &g}};
+  pendres_status status = scene_lines_compute(run, &g.lines);
   if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
-done:
-  for (size_t i = 0; i < g.dampings && g.lines != NULL; i++) {
-    free(g.lines[i].points);
-    pendres_branches_free(g.lines[i].branches);
-  }
-  free(g.lines);
-  scene_curves_free(&g.curves);
+  scene_lines_free(&g.lines);
   return status;
 }
 

@@ -12,6 +12,7 @@ static const double two_pi = 6.28318530717958647693;
 
 typedef struct curve {
   const deck *d;
+  pendres_sweep sweep;
   pendres_ensemble ensemble;
   pendres_resonance *points; /* one a damping */
   pendres_status *outcome;
@@ -30,9 +31,8 @@ static void plan(const deck *d, FILE *out)
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
 {
   curve *c = arg;
-  const pendres_pendulum p = {.damping = c->d->axis[DECK_AXIS_DAMPING].value[task],
-                              .drive_amplitude = c->d->pendulum.drive_amplitude,
-                              .drive_frequency = c->d->search[0]};
+  pendres_pendulum p = pendres_sweep_pendulum(&c->sweep, task, NULL, NULL);
+  p.drive_frequency = c->d->search[0];
   c->outcome[task] = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
                                                      &c->ensemble, &c->points[task]);
   /* A damping whose area has no peak in the range is a point without a result, not a failure. */
@@ -290,10 +290,8 @@ static void print_table(FILE *out, const curve *c)
 static pendres_status run_scene(scene_run *run)
 {
   curve c = {.d = run->deck,
-             .ensemble = {.members = (size_t)run->deck->ensemble.members,
-                          .x_first = run->deck->ensemble.x_first,
-                          .x_last = run->deck->ensemble.x_last,
-                          .v = run->deck->ensemble.v}};
+             .sweep = scene_sweep(run->deck),
+             .ensemble = scene_ensemble(run->deck)};
   const size_t n = run->deck->axis[DECK_AXIS_DAMPING].count;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   c.points = calloc(n, sizeof *c.points);

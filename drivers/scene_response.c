@@ -18,6 +18,7 @@ enum { CHUNK = 16 /* drive periods a task */ };
 
 typedef struct grid {
   const deck *d;
+  pendres_sweep sweep;
   pendres_ensemble ensemble;
   size_t dampings, drives;    /* sizes of the axes */
   size_t chunks;              /* tasks a damping */
@@ -46,12 +47,7 @@ static void plan(const deck *d, FILE *out)
 
 static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
 {
-  const deck_axis_id axis = drive_axis(g->d);
-  const double value = g->d->axis[axis].value[drive];
-  return (pendres_pendulum){
-    .damping = g->d->axis[DECK_AXIS_DAMPING].value[damping],
-    .drive_amplitude = g->d->pendulum.drive_amplitude,
-    .drive_frequency = axis == DECK_AXIS_DRIVE_PERIOD ? two_pi / value : value};
+  return pendres_sweep_pendulum(&g->sweep, damping * g->drives + drive, NULL, NULL);
 }
 
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
@@ -228,8 +224,8 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   grid g = {.d = d,
-            .ensemble = {.members = (size_t)d->ensemble.members, .x_first = d->ensemble.x_first,
-                         .x_last = d->ensemble.x_last, .v = d->ensemble.v},
+            .sweep = scene_sweep(d),
+            .ensemble = scene_ensemble(d),
             .dampings = d->axis[DECK_AXIS_DAMPING].count,
             .drives = d->axis[drive_axis(d)].count};
   pendres_status status = PENDRES_OUT_OF_MEMORY;

@@ -9,20 +9,9 @@
 #include "orbit_measure.h"
 #include "settle.h"
 
-static const double half_pi = 1.57079632679489661923;
 static const double two_pi = 6.28318530717958647693;
 
 enum { BATCH_SETS = 32 };
-
-pendres_ensemble pendres_ensemble_default(void)
-{
-  return (pendres_ensemble){.members = 200, .x_first = -half_pi, .x_last = 3.0 * half_pi};
-}
-
-double pendres_ensemble_x(const pendres_ensemble *e, size_t k)
-{
-  return e->x_first + (e->x_last - e->x_first) * ((double)k / (double)e->members);
-}
 
 /* Sums over states, weighted by their share of the resolved members. */
 typedef struct sums {

@@ -7,6 +7,7 @@
 #include <pendres/version.h>
 #include <pendres/status.h>
 #include <pendres/pendulum.h>
+#include <pendres/sweep.h>
 #include <pendres/context.h>
 #include <pendres/strobe.h>
 #include <pendres/orbit.h>

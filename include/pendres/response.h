@@ -15,24 +15,12 @@
 #define PENDRES_RESPONSE_H
 
 #include <pendres/attractor.h>
+#include <pendres/sweep.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 #pragma GCC visibility push(default)
-
-/** Members k = 1..members start at x_first + (x_last - x_first) k / members with velocity v. */
-typedef struct pendres_ensemble {
-  size_t members;
-  double x_first, x_last;
-  double v;
-} pendres_ensemble;
-
-/** The paper's: 200 members at rest over -pi/2 < x <= 3 pi/2. */
-pendres_ensemble pendres_ensemble_default(void);
-
-/** Start of member k = 1..members. */
-double pendres_ensemble_x(const pendres_ensemble *e, size_t k);
 
 enum { PENDRES_RESPONSE_STATES = 8 /**< attractors of one parameter set that are listed */ };
 

@@ -1,0 +1,98 @@
+/*
+ * sweep.h -- many pendulums by number: axes of values, ensembles of starts, index arithmetic.
+ *
+ * Owns: which parameters and which initial state pendulum number i of a sweep has. Nothing is
+ * integrated here and nothing is stored: a sweep of 2^60 pendulums costs as much as one of two.
+ *
+ * Thread safety: all functions are pure.
+ */
+#ifndef PENDRES_SWEEP_H
+#define PENDRES_SWEEP_H
+
+#include <stddef.h>
+
+#include <pendres/pendulum.h>
+#include <pendres/status.h>
+
+#pragma GCC visibility push(default)
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Equally spaced values with exact ends; count 0: none, 1: only if both ends agree. */
+typedef struct pendres_range {
+  double first, last; /**< first <= last */
+  size_t count;
+} pendres_range;
+
+/** Value number i < count. */
+double pendres_range_value(const pendres_range *range, size_t i);
+
+/**
+ * The values of an axis: the union of a list and a range, ascending, repeated values dropped. A
+ * listed 0.24 stands for the range's 0.24000000000000002 too: values of the range within their
+ * rounding error of a listed one are dropped.
+ *
+ * @param listed how many values list has; they may be in any order
+ * @param range  may be NULL
+ * @param value  room for listed + range->count values; may be list itself if there is no range
+ * @param count  receives how many there are
+ * @return PENDRES_INVALID_ARGUMENT if anything is not finite or the range runs backwards
+ */
+pendres_status pendres_sweep_values(size_t listed, const double *list, const pendres_range *range,
+                                    double *value, size_t *count);
+
+/** What an axis of a sweep varies. */
+typedef enum pendres_quantity {
+  PENDRES_QUANTITY_DAMPING,
+  PENDRES_QUANTITY_DRIVE_AMPLITUDE,
+  PENDRES_QUANTITY_DRIVE_FREQUENCY,
+  PENDRES_QUANTITY_DRIVE_PERIOD, /**< 2 pi over the drive frequency */
+  PENDRES_QUANTITY_TEMPERATURE,
+  PENDRES_QUANTITY_X,            /**< initial position */
+  PENDRES_QUANTITY_V,            /**< initial velocity */
+  PENDRES_QUANTITY_COUNT
+} pendres_quantity;
+
+typedef struct pendres_axis {
+  pendres_quantity quantity;
+  size_t count;
+  const double *value; /**< [count], not owned */
+} pendres_axis;
+
+/** The product of some axes. Where quantities have no axis, `pendulum`, x and v hold. */
+typedef struct pendres_sweep {
+  pendres_pendulum pendulum;
+  double x, v;
+  size_t axes;
+  pendres_axis axis[PENDRES_QUANTITY_COUNT]; /**< the last one runs fastest */
+} pendres_sweep;
+
+/**
+ * How many pendulums a sweep has. PENDRES_INVALID_ARGUMENT if a quantity has two axes (the drive
+ * period and frequency are one quantity), an axis is empty, or the number does not fit.
+ */
+pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count);
+
+/** Pendulum number `index` below that count, and its start; x and v may be NULL. */
+pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
+                                        double *v);
+
+/** Members k = 1..members start at x_first + (x_last - x_first) k / members with velocity v. */
+typedef struct pendres_ensemble {
+  size_t members;
+  double x_first, x_last;
+  double v;
+} pendres_ensemble;
+
+/** The paper's: 200 members at rest over -pi/2 < x <= 3 pi/2. */
+pendres_ensemble pendres_ensemble_default(void);
+
+/** Start of member k = 1..members. */
+double pendres_ensemble_x(const pendres_ensemble *e, size_t k);
+
+#ifdef __cplusplus
+}
+#endif
+#pragma GCC visibility pop
+#endif

@@ -1,0 +1,136 @@
+/* sweep.c -- axes and index arithmetic; see sweep.h. */
+#include <pendres/sweep.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double half_pi = 1.57079632679489661923;
+static const double two_pi = 6.28318530717958647693;
+
+double pendres_range_value(const pendres_range *range, size_t i)
+{
+  const double n = (double)(range->count - 1), k = (double)i;
+  if (i == 0) return range->first + 0.0; /* no negative zeros */
+  if (i + 1 == range->count) return range->last + 0.0;
+  return (range->first * (n - k) + range->last * k) / n + 0.0;
+}
+
+static int ascending(const void *a, const void *b)
+{
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static size_t sort_and_unique(double *value, size_t count)
+{
+  size_t kept = 0;
+  if (count == 0) return 0;
+  for (size_t i = 0; i < count; i++) value[i] += 0.0;
+  qsort(value, count, sizeof *value, ascending);
+  for (size_t i = 1; i < count; i++)
+    if (value[i] > value[kept]) value[++kept] = value[i];
+  return kept + 1;
+}
+
+static int sound(size_t listed, const double *list, const pendres_range *range)
+{
+  for (size_t i = 0; i < listed; i++)
+    if (!isfinite(list[i])) return 0;
+  if (range->count == 0) return 1;
+  if (!(isfinite(range->first) && isfinite(range->last))) return 0;
+  return range->count == 1 ? range->first == range->last : range->first < range->last;
+}
+
+pendres_status pendres_sweep_values(size_t listed, const double *list, const pendres_range *range,
+                                    double *value, size_t *count)
+{
+  const pendres_range none = {0.0, 0.0, 0};
+  if (range == NULL) range = &none;
+  if (count == NULL || (listed > 0 && list == NULL) || (listed + range->count > 0 && value == NULL))
+    return PENDRES_INVALID_ARGUMENT;
+  if (!sound(listed, list, range)) return PENDRES_INVALID_ARGUMENT;
+
+  /* The list at the end of the room: what is written never overtakes it. */
+  double *rest = value;
+  if (listed > 0) {
+    rest = value + range->count;
+    memmove(rest, list, listed * sizeof *value);
+    listed = sort_and_unique(rest, listed);
+  }
+  const double margin = 4.0 * DBL_EPSILON * fmax(fabs(range->first), fabs(range->last));
+  double latest = -INFINITY; /* of the list */
+  size_t next = 0, n = 0;
+  for (size_t i = 0; i < range->count; i++) {
+    const double x = pendres_range_value(range, i);
+    while (next < listed && rest[next] <= x) value[n++] = latest = rest[next++];
+    if (x - latest <= margin) continue;
+    if (next < listed && rest[next] - x <= margin) continue;
+    if (n > 0 && x <= value[n - 1]) continue;
+    value[n++] = x;
+  }
+  while (next < listed) value[n++] = rest[next++];
+  *count = n;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count)
+{
+  unsigned seen = 0;
+  size_t n = 1;
+  if (sweep == NULL || count == NULL || sweep->axes > PENDRES_QUANTITY_COUNT)
+    return PENDRES_INVALID_ARGUMENT;
+  for (size_t i = 0; i < sweep->axes; i++) {
+    const pendres_axis *a = &sweep->axis[i];
+    if (a->quantity < 0 || a->quantity >= PENDRES_QUANTITY_COUNT) return PENDRES_INVALID_ARGUMENT;
+    const unsigned bit = a->quantity == PENDRES_QUANTITY_DRIVE_PERIOD
+                           ? 1u << PENDRES_QUANTITY_DRIVE_FREQUENCY
+                           : 1u << a->quantity;
+    if (a->count == 0 || a->value == NULL || (seen & bit) != 0 || n > (size_t)-1 / a->count)
+      return PENDRES_INVALID_ARGUMENT;
+    seen |= bit;
+    n *= a->count;
+  }
+  *count = n;
+  return PENDRES_OK;
+}
+
+static void set(pendres_quantity quantity, double value, pendres_pendulum *p, double *x, double *v)
+{
+  switch (quantity) {
+  case PENDRES_QUANTITY_DAMPING: p->damping = value; break;
+  case PENDRES_QUANTITY_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
+  case PENDRES_QUANTITY_DRIVE_FREQUENCY: p->drive_frequency = value; break;
+  case PENDRES_QUANTITY_DRIVE_PERIOD: p->drive_frequency = two_pi / value; break;
+  case PENDRES_QUANTITY_TEMPERATURE: p->temperature = value; break;
+  case PENDRES_QUANTITY_X: *x = value; break;
+  case PENDRES_QUANTITY_V: *v = value; break;
+  case PENDRES_QUANTITY_COUNT: break;
+  }
+}
+
+pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
+                                        double *v)
+{
+  pendres_pendulum p = sweep->pendulum;
+  double position = sweep->x, velocity = sweep->v;
+  for (size_t i = sweep->axes; i-- > 0;) {
+    const pendres_axis *a = &sweep->axis[i];
+    set(a->quantity, a->value[index % a->count], &p, &position, &velocity);
+    index /= a->count;
+  }
+  if (x != NULL) *x = position;
+  if (v != NULL) *v = velocity;
+  return p;
+}
+
+pendres_ensemble pendres_ensemble_default(void)
+{
+  return (pendres_ensemble){.members = 200, .x_first = -half_pi, .x_last = 3.0 * half_pi};
+}
+
+double pendres_ensemble_x(const pendres_ensemble *e, size_t k)
+{
+  return e->x_first + (e->x_last - e->x_first) * ((double)k / (double)e->members);
+}
