@@ -33,7 +33,8 @@ double pendres_range_value(const pendres_range *range, size_t i);
  * listed 0.24 stands for the range's 0.24000000000000002 too: values of the range within their
  * rounding error of a listed one are dropped.
  *
- * @param listed how many values list has; they may be in any order
+ * @param listed how many values list has
+ * @param list   in any order; may be NULL if there are none
  * @param range  may be NULL
  * @param value  room for listed + range->count values; may be list itself if there is no range
  * @param count  receives how many there are
