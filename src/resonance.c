@@ -257,7 +257,8 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
         found = 1;
       }
     }
-    if (status != PENDRES_OK || kind == GAP_PLAIN || bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
+    if (status != PENDRES_OK || kind == GAP_PLAIN) continue;
+    if (bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
     status = kind == GAP_PEAK
                ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
                : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);

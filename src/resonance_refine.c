@@ -123,10 +123,16 @@ typedef struct peak_search {
   pendres_status status;
 } peak_search;
 
-/* The slope at a frequency, following the states from the nearest frequency known. */
+/*
+ * The slope at a frequency, following the states from the nearest frequency known. Always finite,
+ * and at the ends of the bracket what it is known to be: anything else would have GSL call its
+ * error handler, which ends the program.
+ */
 static double slope_at(double omega, void *arg)
 {
   peak_search *s = arg;
+  if (omega == s->a->response.pendulum.drive_frequency) return s->a->slope;
+  if (omega == s->b->response.pendulum.drive_frequency) return s->b->slope;
   const pendres_scan_point *from = s->a;
   const pendres_scan_point *const known[] = {s->b, &s->latest, &s->before};
   pendres_scan_point now;
@@ -135,6 +141,7 @@ static double slope_at(double omega, void *arg)
         fabs(from->response.pendulum.drive_frequency - omega))
       from = known[i];
   if (s->status == PENDRES_OK) s->status = follow(s->ctx, from, omega, &now);
+  if (s->status == PENDRES_OK && !isfinite(now.slope)) s->status = PENDRES_NOT_CONVERGED;
   if (s->status != PENDRES_OK) return 0.0;
   s->before = s->latest;
   s->latest = now;
@@ -203,6 +210,11 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
 {
   enum { MOST_STEPS = 60 };
   peak_search s = {.ctx = ctx, .a = a, .b = b, .latest = *a, .before = *b};
+  if (!(a->slope >= 0.0 && b->slope <= 0.0))
+    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
+                                "the loop area has no peak between drive frequencies %g and %g",
+                                a->response.pendulum.drive_frequency,
+                                b->response.pendulum.drive_frequency);
   gsl_function f = {.function = slope_at, .params = &s};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
   const double lower = a->response.pendulum.drive_frequency;
@@ -222,8 +234,9 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   gsl_root_fsolver_free(solver);
   if (s.status != PENDRES_OK) return s.status;
   if (gsl != GSL_SUCCESS)
-    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the slope of the loop area has no "
-                                "bracket between drive frequencies %g and %g", lower, upper);
+    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the root of the loop area's slope "
+                                "between drive frequencies %g and %g: %s", lower, upper,
+                                gsl_strerror(gsl));
 
   /* The curvature from two points astride, wide enough for the slopes' own errors. */
   pendres_scan_point at, beside;
