@@ -62,7 +62,8 @@ def resonance_axes(ax, h, labels):
     amplitude, frequency = h["mean_loop_amplitude"], h["resonance_frequency"]
     edge, damping = h["peak"] == 1, h["damping"]
     x = np.linspace(0, max(2.4, np.nanmax(amplitude) * 1.1), 400)
-    ax.plot(x[x < np.pi], free_frequency(x[x < np.pi]), "--", color=FREE, label="free oscillation, exact")
+    x = x[x < np.pi]
+    ax.plot(x, free_frequency(x), "--", color=FREE, label="free oscillation, exact")
     ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
     ax.plot(amplitude[~edge], frequency[~edge], "o", ms=3, color=SA, label="smooth peak")
     ax.plot(amplitude[edge], frequency[edge], "s", ms=3, color=LA, label="edge: SA ends")
@@ -144,9 +145,9 @@ def draw_basins(h, path):
     bar = fig.colorbar(mesh, ax=ax, ticks=range(6))
     bar.ax.set_yticklabels(LABEL_NAMES)
     if "boundary_x" in h:
-        bx = h["boundary_x"]
-        bv = h["boundary_v"]
-        ax.plot(bx / np.pi, bv, ",", color="black")
+        gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
+        ax.plot(np.insert(h["boundary_x"] / np.pi, gaps, np.nan),
+                np.insert(h["boundary_v"], gaps, np.nan), color="black", lw=0.5)
     if "strobe_x" in h:
         for t, name in reversed(list(enumerate(h["temperature"]))):  # the cold clouds on top
             sx, sv = h["strobe_x"][t].ravel(), h["strobe_v"][t].ravel()
@@ -159,7 +160,8 @@ def draw_basins(h, path):
                     (h["attractor_x"][i] / np.pi, h["attractor_v"][i]), color="white",
                     textcoords="offset points", xytext=(6, 6))
     ax.axhline(0, color="white", lw=0.6)
-    ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi), ylim=(v[0], v[-1]))
+    ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi),
+           ylim=(v[0], v[-1]))
     return fig
 
 
@@ -176,20 +178,19 @@ def curves(h, what, x, y):
 
 def draw_phase_diagram(h, path):
     damping, omega = h["damping"], h["drive_frequency"]
-    fig, (left, right) = plt.subplots(1, 2, figsize=(12, 5))
+    fig, (left, right, cuts) = plt.subplots(1, 3, figsize=(16, 5), width_ratios=[1.15, 1.15, 1])
     names = ["SA", "LA", "coexistence", "single", "other"]
-    mesh = left.imshow(h["regime"], origin="lower", aspect="auto", interpolation="nearest",
-                       extent=(omega[0], omega[-1], damping[0], damping[-1]),
-                       cmap=ListedColormap(["#4477aa", "#ee6677", "#ccbb44", "#dddddd", "#228833"]),
-                       norm=BoundaryNorm(np.arange(-0.5, 5), 5))
+    colours = ListedColormap(["#4477aa", "#ee6677", "#ccbb44", "#dddddd", "#228833"])
+    mesh = left.pcolormesh(omega, damping, h["regime"], shading="nearest", rasterized=True,
+                           cmap=colours, norm=BoundaryNorm(np.arange(-0.5, 5), 5))
     bar = fig.colorbar(mesh, ax=left, ticks=range(5))
     bar.ax.set_yticklabels(names)
-    area = right.imshow(h["mean_loop_area"], origin="lower", aspect="auto", cmap="viridis",
-                        extent=(omega[0], omega[-1], damping[0], damping[-1]))
+    area = right.pcolormesh(omega, damping, h["mean_loop_area"], shading="nearest", cmap="viridis",
+                            rasterized=True)
     fig.colorbar(area, ax=right, label="mean loop area")
     for ax in (left, right):
         for named, omega_of, gamma_of in curves(h, "fold", "frequency", "damping"):
-            ax.plot(omega_of, gamma_of, color="black", lw=1.2 if named else 0.3)
+            ax.plot(omega_of, gamma_of, color="black", lw=1.4 if named else 0.4)
         for _, omega_of, gamma_of in curves(h, "flip", "frequency", "damping"):
             ax.plot(omega_of, gamma_of, ":", color="black", lw=0.8)
         if "cusp_frequency" in h:
@@ -197,6 +198,20 @@ def draw_phase_diagram(h, path):
                     "*", color="black", ms=9)
         ax.set(xlabel=r"drive frequency $\omega$", ylabel=r"damping $\gamma$",
                xlim=(omega[0], omega[-1]), ylim=(damping[0], damping[-1]))
+    for width, style, label in ((1.4, "-", "folds: SA or LA ends"), (0.4, "-", "folds of others"),
+                                (0.8, ":", "period doubling,\nsymmetry breaking")):
+        left.plot([], [], style, color="black", lw=width, label=label)
+    left.plot([], [], "*", color="black", ms=9, ls="", label="cusp")
+    left.legend(loc="upper left", fontsize=7, framealpha=0.9)
+    # Sections through the surface: smooth above the cusp, a jump at SA's end below it.
+    chosen = np.unique(np.linspace(0, len(damping) - 1, 9).round().astype(int))
+    for colour, i in zip(plt.cm.plasma(np.linspace(0, 0.85, len(chosen))), chosen):
+        cuts.plot(omega, h["mean_loop_area"][i], color=colour, lw=1,
+                  label=rf"$\gamma = {damping[i]:.4g}$")
+    cuts.set(xlabel=r"drive frequency $\omega$", ylabel="mean loop area",
+             xlim=(omega[0], omega[-1]))
+    cuts.set_ylim(bottom=0)
+    cuts.legend(fontsize=7)
     return fig
 
 
@@ -213,10 +228,14 @@ def draw_branches(h, path):
             a, w = h["branch_amplitude"][here], h["branch_frequency"][here]
             for mask, style in ((stable[here], "-"), (~stable[here], ":")):
                 ax.plot(np.where(mask, a, np.nan), w, style, color=colour, lw=1)
+    for style, label in (("-", "stable"), (":", "unstable")):
+        ax.plot([], [], style, color="black", lw=1, label="branches, " + label)
     for named, amplitude, frequency in curves(h, "fold", "amplitude", "frequency"):
         if named:
-            ax.plot(amplitude, frequency, color="black", lw=2, alpha=0.5)
-    ax.plot(h["free_amplitude"], h["free_frequency"], "--", color=FREE, lw=0.8, label="free pendulum")
+            ax.plot(amplitude, frequency, color="black", lw=2, alpha=0.5,
+                    label="folds, all dampings")
+    ax.plot(h["free_amplitude"], h["free_frequency"], "--", color=FREE, lw=0.8,
+            label="free pendulum")
     ax.set(xlabel=r"amplitude $\langle x_0\rangle$ (rad)", ylabel=r"drive frequency $\omega$",
            ylim=(omega[0], omega[-1]), xlim=(0, 2.6))
     ax.legend(fontsize=8)
