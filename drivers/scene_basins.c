@@ -331,6 +331,10 @@ const scene_kind scene_basins = {
   .references =
     "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
     "pendulum, Fig. 7. Basin entropy: Daza et al., Scientific Reports 6 (2016) 31416. "
-    "Uncertainty exponent: McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.",
+    "Uncertainty exponent: McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125. With "
+    "temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. "
+    "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, "
+    "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
+    "chapter VIII.6.",
   .plan = plan,
   .run = run_scene};

@@ -21,6 +21,7 @@ typedef struct basins {
   pendres_basin_sums *sums;
   int variable[BASINS_VARIABLES];
   size_t unresolved;
+  size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
   /* refinement alone: */
   size_t integrated, verified, missed;
   /* the line v = 0: */

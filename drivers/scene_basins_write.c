@@ -219,6 +219,35 @@ static pendres_status put_count(pendres_store *store, const char *name, const ch
   return pendres_store_put(store, &spec, &value, 1);
 }
 
+/*
+ * A fractal boundary fills a grid at every distance that the grid has, and gives it no exponent:
+ * then by random states and small distances, which depend on the tolerance alone.
+ */
+static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
+{
+  enum { STATES = 8192, SCALES = 5, APART = 4, SEED = 1 };
+  const pendres_basin_grid *g = &b->grid;
+  const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
+                                       .v_low = g->v[0], .v_high = g->v[g->nv - 1]};
+  double distance[SCALES] = {fmin(1e3 * b->d->precision.tolerance, 1e-4)};
+  pendres_basin_statistics random;
+  for (int k = 1; k < SCALES; k++) distance[k] = APART * distance[k - 1];
+  pendres_context *ctx = farm_context(b->run->farm);
+  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  const pendres_status status =
+    pendres_basin_uncertainty(ctx, b->set, &window, STATES, SCALES, distance, SEED, &random);
+  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* no exponent this way either */
+  if (status != PENDRES_OK) return scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  b->random_states = STATES;
+  s->uncertainty_exponent = random.uncertainty_exponent;
+  s->uncertainty_exponent_error = random.uncertainty_exponent_error;
+  s->scales = random.scales;
+  memcpy(s->distance, random.distance, sizeof s->distance);
+  memcpy(s->uncertain, random.uncertain, sizeof s->uncertain);
+  memcpy(s->uncertain_error, random.uncertain_error, sizeof s->uncertain_error);
+  return PENDRES_OK;
+}
+
 static pendres_status write_statistics(basins *b, const pendres_basin_statistics *s)
 {
   pendres_store *store = b->run->store;
@@ -233,6 +262,10 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
     status = put_scalar(store, "uncertainty_exponent",
                         "exponent of the share of uncertain states over distance",
                         s->uncertainty_exponent, s->uncertainty_exponent_error);
+  if (status == PENDRES_OK)
+    status = put_count(store, "uncertainty_random_states",
+                       "random states that the exponent is from; 0: the states of the grid",
+                       b->random_states);
   if (status == PENDRES_OK && s->scales > 0) {
     const pendres_store_spec spec = {.name = "uncertain_fraction", .dimensions = {"distance"},
                                      .long_name = "share of states with an unlike one so far off"};
@@ -353,27 +386,47 @@ static pendres_status write_paper(basins *b)
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
+/* What a closed orbit has and a chaotic attractor has not. */
+static void print_orbit(FILE *out, const pendres_orbit *o)
+{
+  if (o->period > 0)
+    fprintf(out, "%4d %6d   %.8f   %.8f", o->period, o->winding, o->amplitude, o->phase_lag);
+  else
+    fprintf(out, "%4s %6s   %-10s   %-10s", "-", "-", "-", "-");
+}
+
+static void print_statistics(FILE *out, const pendres_basin_statistics *s)
+{
+  if (!(s->boundary_boxes > 0.0)) {
+    fprintf(out, "no boundary between basins\n");
+    return;
+  }
+  fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
+          s->boundary_entropy_error);
+  if (isnan(s->uncertainty_exponent)) fprintf(out, "unknown: the boundary was met too rarely\n");
+  else fprintf(out, "%.3f +- %.3f\n", s->uncertainty_exponent, s->uncertainty_exponent_error);
+}
+
 static void print_table(const basins *b, const pendres_basin_statistics *s, const double *fraction,
                         const double *error)
 {
   FILE *out = b->run->table;
   if (out == NULL) return;
-  fprintf(out, "attractor   period winding amplitude    phase lag    share of the area\n");
+  fprintf(out, "attractor   period winding amplitude    phase lag    Lyapunov exponent     "
+               "share of the area\n");
   for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
     const pendres_attractor *a = pendres_attractors_get(b->set, i);
-    fprintf(out, "%2zu %-10s %4d %6d   %.8f   %.8f   %.6f +- %.0e\n", i,
-            pendres_label_name(a->label), a->orbit.period, a->orbit.winding, a->orbit.amplitude,
-            a->orbit.phase_lag, fraction[i], error[i]);
+    fprintf(out, "%2zu %-10s", i, pendres_label_name(a->label));
+    print_orbit(out, &a->orbit);
+    fprintf(out, "   %9.6f +- %.0e   %.6f +- %.0e\n", a->lyapunov, a->lyapunov_error, fraction[i],
+            error[i]);
   }
   fprintf(out, "%zu states, %zu unresolved\n", s->states, b->unresolved);
   if (b->d->basins.refine)
     fprintf(out, "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong\n",
             b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
             b->missed);
-  if (b->d->basins.statistics)
-    fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent %.3f +- %.3f\n",
-            s->boundary_entropy, s->boundary_entropy_error, s->uncertainty_exponent,
-            s->uncertainty_exponent_error);
+  if (b->d->basins.statistics) print_statistics(out, s);
 }
 
 pendres_status basins_write_results(basins *b)
@@ -385,6 +438,9 @@ pendres_status basins_write_results(basins *b)
     return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_status status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
   if (status != PENDRES_OK) (void)scene_fail(b->run, status, "there are no states");
+  if (status == PENDRES_OK && b->d->basins.statistics && s.boundary_boxes > 0.0 &&
+      isnan(s.uncertainty_exponent))
+    status = sample_boundary(b, &s);
   if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
   if (status == PENDRES_OK) status = write_cut(b);
   if (status == PENDRES_OK) status = write_counts(b);

@@ -30,6 +30,7 @@ typedef struct work {
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
   pendres_orbit orbit;
+  double lyapunov, lyapunov_error;
   char message[200];             /* why there is no such attractor; "" */
 } work;
 
@@ -40,6 +41,8 @@ static void keep_orbit(work *w, const pendres_attractor *a)
   w->label = a->label;
   w->closed = a->label != PENDRES_LABEL_CHAOTIC;
   w->orbit = a->orbit;
+  w->lyapunov = a->lyapunov;
+  w->lyapunov_error = a->lyapunov_error;
 }
 
 /* "sa, la": what there is instead. */
@@ -225,6 +228,8 @@ static pendres_status put_scalars(scene_run *run, const work *w)
       0 },
     { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
       1 },
+    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", w->lyapunov,
+      w->lyapunov_error, 1 },
   };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
@@ -271,6 +276,9 @@ static void tabulate(FILE *out, const work *w)
   fprintf(out, "%-26s %s\n", "label", pendres_label_name(w->label));
   if (w->settling_periods >= 0)
     fprintf(out, "%-26s %ld\n", "settling periods", w->settling_periods);
+  if (isfinite(w->lyapunov))
+    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", w->closed ? 12 : 6, w->lyapunov,
+            w->lyapunov_error);
   if (!w->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
   if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", w->well);
@@ -302,7 +310,7 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples),
-             .settling_periods = -1,
+             .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
              /* On a named attractor there is no transient. */
              .transient = d->orbit.transient && d->orbit.start[0] == '\0',
              .pendulum = { .damping = d->pendulum.damping,

@@ -3,6 +3,7 @@
 
 #include <pendres/strobe.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -210,6 +211,19 @@ static pendres_status all_points(pendres_context *ctx, const pendres_orbit *o,
   return status;
 }
 
+/*
+ * The larger multiplier's logarithm in time. A complex pair has the modulus exp(-damping time / 2),
+ * whatever its error; of a real one the relative error counts.
+ */
+static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
+{
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double error = o->multiplier_im[0] != 0.0 ? 0.0 : o->multiplier_error / size;
+  a->lyapunov = log(size) / time;
+  a->lyapunov_error = error / time + 4.0 * DBL_EPSILON * fabs(a->lyapunov);
+}
+
 /* The point with the largest x represents the orbit. */
 static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
                              const pendres_orbit *points, const pendres_trap *traps)
@@ -221,11 +235,9 @@ static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
   if (reserve(c, (size_t)q) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_attractor *a = &c->attractors[c->count];
-  const double rate = log(hypot(points[0].multiplier_re[0], points[0].multiplier_im[0]));
-  *a = (pendres_attractor){
-    .orbit = points[representative],
-    .trap_radius = traps[representative].radius,
-    .lyapunov = rate * points[0].pendulum.drive_frequency / (two_pi * q)};
+  *a = (pendres_attractor){.orbit = points[representative],
+                           .trap_radius = traps[representative].radius};
+  set_lyapunov(a, &points[0]);
   memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
   for (int j = 0; j < q; j++) {
     c->trap[c->traps] = traps[j];
