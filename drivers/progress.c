@@ -12,6 +12,8 @@ enum { BAR = 30, LINE_STEP = 10 };
 
 /* Redrawing more often would only make a terminal flicker. */
 static const double redraw_after = 0.1;
+/* What is done sooner needs no lines. */
+static const double first_line_after = 1.0;
 
 static double now(void)
 {
@@ -84,6 +86,7 @@ void progress_step(progress *p, size_t done)
   }
   if (percent / LINE_STEP == p->percent / LINE_STEP) return;
   p->percent = percent;
+  if (elapsed < first_line_after) return;
   snprintf(text, sizeof text, "%d %% of %zu %s after %.1f s", percent, p->total, p->what, elapsed);
   log_line(p, text);
   if (!p->terminal && !p->quiet) {
