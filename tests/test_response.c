@@ -1,0 +1,195 @@
+/*
+ * test_response.c -- the mean response of an ensemble against members integrated one by one, by a
+ * classical Runge-Kutta method that shares nothing with the library, and averaged sample by sample.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+static const double pi = 3.14159265358979323846;
+
+enum {
+  MEMBERS = 20,
+  STEPS = 4000,  /* a period */
+  SETTLING = 70, /* periods: exp(-0.06 * 8 * 70) = 3e-15 of the start is left */
+};
+
+/* Where two states coexist, and starts end up in several wells. */
+static const pendres_pendulum two_states = {
+  .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
+
+static void step(const pendres_pendulum *p, int k, double *y, double *v)
+{
+  const double h = 2.0 * pi / p->drive_frequency / STEPS;
+  double a[4], u[4];
+  for (int i = 0; i < 4; i++) {
+    const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5;
+    const double at = i == 0 ? *y : *y + c * h * u[i - 1];
+    u[i] = i == 0 ? *v : *v + c * h * a[i - 1];
+    a[i] = -sin(at) - p->damping * u[i] +
+           p->drive_amplitude * cos(2.0 * pi * (k + c) / STEPS);
+  }
+  *y += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
+  *v += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+}
+
+/* A settled member's angle over one period, in its own well; returns the well. */
+static long follow(const pendres_pendulum *p, double x, double v, double *loop)
+{
+  double y = x - 0.5 * pi, mean = 0.0;
+  for (int n = 0; n < SETTLING * STEPS; n++) step(p, n % STEPS, &y, &v);
+  for (int k = 0; k < STEPS; k++) {
+    loop[k] = y;
+    mean += y / STEPS;
+    step(p, k, &y, &v);
+  }
+  const double well = rint(mean / (2.0 * pi));
+  for (int k = 0; k < STEPS; k++) loop[k] -= 2.0 * pi * well;
+  return (long)well;
+}
+
+/* Half peak to peak, peaks by a parabola through the highest three samples. */
+static double half_range(const double *loop)
+{
+  double peak[2] = {-INFINITY, -INFINITY};
+  for (int side = 0; side < 2; side++)
+    for (int k = 0; k < STEPS; k++) {
+      const double s = side == 0 ? 1.0 : -1.0;
+      const double a = s * loop[(k + STEPS - 1) % STEPS], b = s * loop[k];
+      const double c = s * loop[(k + 1) % STEPS];
+      if (b < a || b < c) continue;
+      peak[side] = fmax(peak[side], b + (a - c) * (a - c) / (8.0 * (2.0 * b - a - c)));
+    }
+  return 0.5 * (peak[0] + peak[1]);
+}
+
+static void harmonic(const double *loop, double *cosine, double *sine)
+{
+  *cosine = *sine = 0.0;
+  for (int k = 0; k < STEPS; k++) {
+    *cosine += 2.0 / STEPS * loop[k] * cos(2.0 * pi * k / STEPS);
+    *sine += 2.0 / STEPS * loop[k] * sin(2.0 * pi * k / STEPS);
+  }
+}
+
+typedef struct averages {
+  double loop[STEPS];
+  double amplitude, area; /* means of the members' own */
+  int small, wells;       /* members with small amplitude; different wells */
+} averages;
+
+static void average(const pendres_pendulum *p, const pendres_ensemble *e, averages *out)
+{
+  double loop[STEPS];
+  long well[MEMBERS];
+  *out = (averages){.wells = 0};
+  for (int m = 0; m < MEMBERS; m++) {
+    double cosine, sine;
+    int seen = 0;
+    well[m] = follow(p, pendres_ensemble_x(e, (size_t)m + 1), e->v, loop);
+    for (int i = 0; i < m; i++) seen |= well[i] == well[m];
+    out->wells += !seen;
+    harmonic(loop, &cosine, &sine);
+    for (int k = 0; k < STEPS; k++) out->loop[k] += loop[k] / MEMBERS;
+    out->amplitude += half_range(loop) / MEMBERS;
+    out->area += pi * p->drive_amplitude * sine / MEMBERS;
+    out->small += half_range(loop) < 1.0;
+  }
+}
+
+/*
+ * What the test itself is off by: against twice the STEPS averages change by 8e-11 (the parabola; at half the STEPS five times that). The rest is the promise, ten times the errors claimed.
+ */
+static void members_one_by_one(void **state)
+{
+  const pendres_ensemble e = {.members = MEMBERS, .x_first = -0.5 * pi, .x_last = 1.5 * pi,
+                              .v = 1.7};
+  averages want;
+  pendres_context *ctx = NULL;
+  pendres_response r;
+  double cosine, sine;
+  (void)state;
+  average(&two_states, &e, &want);
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_compute(ctx, 1, &two_states, &e, &r));
+  pendres_context_free(ctx);
+
+  /* Both states and several wells, else this says little. */
+  assert_true(want.small > 2 && want.small < MEMBERS - 2 && want.wells > 1);
+  assert_int_equal(r.unresolved, 0);
+  check_near(r.sa_fraction, (double)want.small / MEMBERS, 1e-12);
+  check_near(r.la_fraction, 1.0 - r.sa_fraction, 1e-12);
+  check_near(r.mean_loop_amplitude, half_range(want.loop),
+             2e-10 + 10.0 * r.mean_loop_amplitude_error);
+  check_near(r.mean_amplitude, want.amplitude, 2e-10 + 10.0 * r.mean_amplitude_error);
+  harmonic(want.loop, &cosine, &sine);
+  check_near(r.phase_lag, atan2(sine, cosine), 2e-10 + 10.0 * r.phase_lag_error);
+  check_near(r.mean_loop_area, want.area, 2e-10 + 10.0 * r.mean_loop_area_error);
+  check_near(r.mean_power, want.area * two_states.drive_frequency / (2.0 * pi),
+             2e-10 + 10.0 * r.mean_power_error);
+  /* No estimate hides a disagreement. */
+  assert_true(r.mean_loop_amplitude_error < 1e-8 && r.phase_lag_error < 1e-8);
+  /* The two states are out of step: their mean loop is smaller than the mean of their loops. */
+  assert_true(r.mean_loop_amplitude < 0.95 * r.mean_amplitude);
+}
+
+/* One state alone: averages are its own measures, as the long double reference has them. */
+static void one_state(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.24, .drive_amplitude = 0.2, .drive_frequency = 0.9};
+  const pendres_ensemble e = pendres_ensemble_default();
+  pendres_context *ctx = NULL;
+  pendres_response r;
+  pendres_reference_cycle cycle;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  pendres_context_free(ctx);
+  assert_int_equal(r.states, 1);
+  assert_int_equal(r.state_members[0], e.members);
+  const pendres_orbit *o = &r.state[0].orbit;
+  check_ok(pendres_reference_orbit(&p, o->x - 0.5 * pi, o->v, 1, 0, &cycle));
+  check_near(r.mean_loop_area, (double)cycle.loop_area, 10.0 * r.mean_loop_area_error);
+  check_near(r.mean_loop_amplitude, (double)cycle.amplitude, 10.0 * r.mean_loop_amplitude_error);
+  check_near(r.mean_amplitude, (double)cycle.amplitude, 10.0 * r.mean_amplitude_error);
+  check_near(r.phase_lag, (double)cycle.phase_lag, 10.0 * r.phase_lag_error);
+  check_near(r.mean_power, (double)cycle.mean_power, 10.0 * r.mean_power_error);
+}
+
+/* Parameter sets side by side do not influence each other. */
+static void side_by_side(void **state)
+{
+  enum { SETS = 40 };
+  const pendres_ensemble e = {.members = MEMBERS, .x_first = -0.5 * pi, .x_last = 1.5 * pi};
+  pendres_pendulum p[SETS];
+  pendres_response together[SETS], alone;
+  pendres_context *ctx = NULL;
+  (void)state;
+  for (int i = 0; i < SETS; i++) {
+    p[i] = two_states;
+    p[i].damping = 0.1 + 0.005 * i;
+  }
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_compute(ctx, SETS, p, &e, together));
+  for (int i = 0; i < SETS; i += 13) {
+    check_ok(pendres_response_compute(ctx, 1, &p[i], &e, &alone));
+    check_near(together[i].mean_loop_area, alone.mean_loop_area, 0.0);
+    check_near(together[i].mean_loop_amplitude, alone.mean_loop_amplitude, 0.0);
+    check_near(together[i].phase_lag, alone.phase_lag, 0.0);
+    check_near(together[i].sa_fraction, alone.sa_fraction, 0.0);
+  }
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(members_one_by_one),
+    cmocka_unit_test(one_state),
+    cmocka_unit_test(side_by_side),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
