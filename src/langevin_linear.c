@@ -1,5 +1,5 @@
 /*
- * langevin_linear.c -- linear noise theory around a closed orbit, and rates; see langevin.h.
+ * langevin_linear.c -- linear noise theory around a closed orbit; see langevin.h.
  *
  * Around an orbit (x, v) small deviations obey d' = J d + noise, J = [0 1; -sin x, -gamma].
  * With M the fundamental matrix of one cycle and C the covariance that noise adds over it,
@@ -10,8 +10,6 @@
 
 #include <math.h>
 #include <stddef.h>
-
-#include <gsl/gsl_cdf.h>
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -106,17 +104,5 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
   /* Order four: what is left is a fifteenth of the difference. */
   out->error =
     fmax(fabs(a->xx - b->xx), fmax(fabs(a->xv - b->xv), fabs(a->vv - b->vv))) / 15.0;
-  return PENDRES_OK;
-}
-
-pendres_status pendres_langevin_rate(double events, double exposure, double level, double *rate,
-                                     double *lower, double *upper)
-{
-  if (!(events >= 0.0 && isfinite(events) && exposure > 0.0 && level > 0.0 && level < 1.0))
-    return PENDRES_INVALID_ARGUMENT;
-  const double tail = 0.5 * (1.0 - level);
-  *rate = events / exposure;
-  *lower = events > 0.0 ? gsl_cdf_gamma_Pinv(tail, events, 1.0) / exposure : 0.0;
-  *upper = gsl_cdf_gamma_Qinv(tail, events + 1.0, 1.0) / exposure;
   return PENDRES_OK;
 }

@@ -359,6 +359,43 @@ static void rates_have_exact_intervals(void **state)
                    PENDRES_INVALID_ARGUMENT);
 }
 
+/* Probability of up to n events where `mean` are expected: the sum of Poisson's terms. */
+static double poisson_up_to(long n, double mean)
+{
+  double sum = 0.0;
+  for (long k = 0; k <= n; k++)
+    sum += exp((double)k * log(mean) - mean - lgamma((double)k + 1.0));
+  return sum;
+}
+
+/*
+ * What an interval's ends are: were the rate the upper end, so few events would come with the
+ * probability of one tail, were it the lower, so many. Terms are good to 1e-10, so are roots; from
+ * 500 events on the approximation is off by 1e-4 of the width, which is 2 z standard deviations
+ * for a tail beyond z of them: up to 2e-4 z^2 of the tail, 2.2e-3 at z = 3.3.
+ */
+static void intervals_leave_their_tails(void **state)
+{
+  static const long counts[] = {1, 3, 40, 499, 500, 1160, 5000, 200708};
+  static const double levels[] = {0.5, 0.68268949213708585, 0.95, 0.999};
+  (void)state;
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
+    for (size_t k = 0; k < sizeof levels / sizeof *levels; k++) {
+      const double tail = 0.5 * (1.0 - levels[k]), tolerance = counts[i] < 499 ? 1e-9 : 3e-3;
+      double rate, lower, upper;
+      check_ok(pendres_langevin_rate((double)counts[i], 1.0, levels[k], &rate, &lower, &upper));
+      check_relative(poisson_up_to(counts[i], upper), tail, tolerance);
+      check_relative(1.0 - poisson_up_to(counts[i] - 1, lower), tail, fmax(tolerance, 1e-6));
+    }
+  /* Fractions of events, as counts divided by their dispersion are. */
+  double before = -1.0, rate, lower, upper;
+  for (double events = 1e-8; events < 600.0; events *= 1.5) {
+    check_ok(pendres_langevin_rate(events, 1.0, 0.95, &rate, &lower, &upper));
+    assert_true(lower >= 0.0 && lower < events && upper > events && upper > before);
+    before = upper;
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -372,6 +409,7 @@ int main(void)
     cmocka_unit_test(lyapunov_equation),
     cmocka_unit_test(linear_theory_refuses),
     cmocka_unit_test(rates_have_exact_intervals),
+    cmocka_unit_test(intervals_leave_their_tails),
   };
   return cmocka_run_group_tests_name("langevin", tests, NULL, NULL);
 }
