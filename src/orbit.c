@@ -1,6 +1,7 @@
 /* orbit.c -- periodic orbits by Newton's method on the stroboscopic map; see orbit.h. */
 #include <pendres/orbit.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -99,7 +100,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   /* Each step rounds the state by half a unit in the last place; the errors add at random, and
      the fixed point feels them amplified by (I - M)^-1. */
   const double size = fmax(b->amplitude, fmax(fabs(fine->y), fabs(fine->w)));
-  const double floor = 1.2e-16 * size * sqrt(c->steps * q) * fmax(1.0, stretch);
+  const double last_place = fmax(1.2e-16 * size, DBL_TRUE_MIN);
+  const double floor = last_place * sqrt(c->steps * q) * fmax(1.0, stretch);
 
   memset(o, 0, sizeof *o);
   o->pendulum = *p;

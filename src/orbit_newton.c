@@ -121,7 +121,7 @@ static void improve(pendres_newton_candidate *c)
   const double step = hypot(dy, omega * dw);
 
   c->iterations++;
-  if (!(step < 1e6) || c->iterations > MOST_ITERATIONS) {
+  if (!(step < 1e6) || (c->iterations > MOST_ITERATIONS && step >= last_step)) {
     c->state = PENDRES_NEWTON_FAILED;
     return;
   }
@@ -132,9 +132,11 @@ static void improve(pendres_newton_candidate *c)
   c->y += dy;
   c->w += dw;
   /* Close to a fold rounding keeps steps from shrinking further: that is as good as it gets. */
-  const int stalled = c->iterations > 8 && step < 1e-5 && step > 0.5 * c->last_step;
+  const int stalled = c->iterations > 8 && step < 1e-5 && step >= 0.5 * c->last_step;
   c->last_step = step;
-  if (step < last_step || stalled) c->state = PENDRES_NEWTON_CONVERGED;
+  /* A tiny drive's orbit is no larger than its drive: go on until the step is small beside it. */
+  const double size = c->guess->pendulum.drive_amplitude != 0.0 ? hypot(c->y, omega * c->w) : 1.0;
+  if (step < fmin(last_step, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
 }
 
 /* Active candidates first, in the order of steps, period and index. */
