@@ -27,8 +27,9 @@ static void describe_range(const deck_key *key, double x, char *text, size_t siz
   else if (key->low == 0.0 && x < 0.0) snprintf(text, size, "must not be negative");
   else if (key->low > 0.0 && x <= 0.0) snprintf(text, size, "must be positive");
   else
-    snprintf(text, size, "must lie between %.7g and %.7g%s", key->low, key->high,
-             key->open ? " (both excluded)" : "");
+    snprintf(text, size, "must lie between %.7g and %.7g%s%s%s", key->low, key->high,
+             key->open ? " (both excluded)" : "", key->why != NULL ? ": " : "",
+             key->why != NULL ? key->why : "");
 }
 
 static int in_range(deck_builder *b, const deck_key *key, const namelist_value *v, const char *name,

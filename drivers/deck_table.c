@@ -135,7 +135,7 @@ const deck_key deck_table[] = {
   { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING), RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE },
   { INTEGER("noise", "periods", noise.periods), IN(RESPONSE | SWITCHING), RANGE(1, 1e9), .number = 1000, .when = DECK_WITH_NOISE },
 
-  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-14, 1e-2), .number = 1e-8 },
+  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2), .why = "less is beyond double precision", .number = 1e-8 },
   { CHOICE("precision", "method", precision.method), IN(RESULTS), .choices = methods, .text = "block_fixed" },
   { CHOICE("precision", "table", precision.table), IN(RESULTS), .choices = tables, .text = "tp8" },
   { INTEGER("precision", "steps_per_period", precision.steps_per_period), IN(RESULTS), RANGE(0, DECK_MAX_COUNT), .number = 0 },

@@ -38,6 +38,7 @@ typedef struct deck_key {
   unsigned needed;             /* that cannot do without */
   double low, high;            /* numbers must lie between these */
   int open;                    /* nonzero: low and high themselves are excluded */
+  const char *why;             /* for messages: where the range comes from; may be NULL */
   double number;               /* default of a number or logical */
   double number2;              /* second default of DECK_BOUNDS */
   const char *text;            /* default of a string; NULL: "" */
