@@ -21,6 +21,7 @@
   ITEM(equilibrium)                                                                               \
   ITEM(separatrix)                                                                                \
   ITEM(energy)                                                                                    \
+  ITEM(stiff)                                                                                     \
   ITEM(tolerance)
 
 /* What must hold is figure <= bound. */
