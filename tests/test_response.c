@@ -101,7 +101,8 @@ static void average(const pendres_pendulum *p, const pendres_ensemble *e, averag
 }
 
 /*
- * What the test itself is off by: against twice the STEPS averages change by 8e-11 (the parabola; at half the STEPS five times that). The rest is the promise, ten times the errors claimed.
+ * What the test itself is off by: with twice the STEPS averages change by 8e-11, with half of them
+ * by five times that. The rest is the promise, ten times the errors claimed.
  */
 static void members_one_by_one(void **state)
 {

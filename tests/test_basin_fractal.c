@@ -1,0 +1,230 @@
+/*
+ * test_basin_fractal.c -- fractal boundaries of basins: published facts, and the uncertainty exponent
+ * against computations that share nothing with the library.
+ */
+#include "basin_fixture.h"
+
+#include <pendres/reference.h>
+
+/*
+ * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping
+ * 0.2, drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above log 2,
+ * which two basins with a smooth boundary cannot reach.
+ */
+static const pendres_pendulum wada = {
+  .damping = 0.2, .drive_amplitude = 1.66, .drive_frequency = 1.0};
+
+static void wada_basins(void **state)
+{
+  enum { N = 200 };
+  portrait p;
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics s;
+  double fraction[3], error[3];
+  compute(*state, &wada, N, N, 4.0, &p);
+  assert_int_equal(pendres_attractors_count(p.set), 3);
+  check_ok(pendres_basin_sums_create(&p.grid, 3, &sums));
+  check_ok(pendres_basin_sums_add(sums, N, p.state));
+  check_ok(pendres_basin_sums_result(sums, &s, fraction, error));
+  assert_int_equal(s.unresolved, 0);
+  assert_true(s.boundary_entropy > log(2.0) + 5.0 * s.boundary_entropy_error);
+  check_near(fraction[0] + fraction[1] + fraction[2], 1.0, 1e-12);
+
+  /* Wada: between two unlike neighbours a finer line finds the third basin. */
+  enum { FINE = 2000 };
+  size_t pairs = 0, all_three = 0;
+  for (size_t k = 0; k + 1 < N * N && pairs < 40; k += 371) {
+    if (k % N == N - 1 || p.state[k].attractor == p.state[k + 1].attractor) continue;
+    double x[FINE], v[FINE];
+    pendres_outcome outcome[FINE];
+    int seen[3] = {0};
+    for (int i = 0; i < FINE; i++) {
+      x[i] = p.x[k / N];
+      v[i] = p.v[k % N] + (p.v[k % N + 1] - p.v[k % N]) * i / (FINE - 1.0);
+    }
+    check_ok(pendres_attractors_settle(*state, p.set, FINE, x, v, outcome));
+    for (int i = 0; i < FINE; i++)
+      if (outcome[i].attractor >= 0) seen[outcome[i].attractor] = 1;
+    pairs++;
+    all_three += seen[0] && seen[1] && seen[2];
+  }
+  assert_true(pairs >= 30);
+  assert_int_equal(all_three, pairs);
+  pendres_basin_sums_free(sums);
+  release(&p);
+}
+
+/* Where a state goes by the reference alone: by its turns in the end, or by staying. */
+static int fate_by_reference(double x, double v)
+{
+  long double y = (long double)x - (long double)(0.5 * pi), w = v;
+  long turns = 0, before = 0;
+  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 120));
+  before = turns;
+  check_ok(pendres_reference_advance(&wada, &y, &w, &turns, 20));
+  return turns - before > 10 ? 1 : turns - before < -10 ? -1 : 0;
+}
+
+/*
+ * The uncertainty exponent, and a share that it is made of once more by another way: random states
+ * integrated by the reference for 140 periods and told apart by their turns, with nothing of traps
+ * or orbits.
+ */
+static void uncertainty_exponent(void **state)
+{
+  static const double distance[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+  const pendres_basin_window window = {-0.5 * pi, 1.5 * pi, -4.0, 4.0};
+  pendres_attractors *set = NULL;
+  pendres_basin_statistics s;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  check_ok(pendres_basin_uncertainty(*state, set, &window, 4000, 5, distance, 1, &s));
+  assert_int_equal(s.unresolved, 0);
+  /* A straight line over four decades: a fractal boundary of dimension 2 - 0.15. */
+  assert_true(s.uncertainty_exponent_error < 0.05);
+  check_near(s.uncertainty_exponent, 0.15, 0.02 + s.uncertainty_exponent_error);
+
+  /* The reference's share of uncertain states, at one distance, by its own random states. */
+  enum { SAMPLE = 80 };
+  uint64_t z = 77;
+  int uncertain = 0;
+  for (int i = 0; i < SAMPLE; i++) {
+    const double x = 2.0 * pi * (next_random(&z) - 0.25), v = 8.0 * (next_random(&z) - 0.5);
+    const int fate = fate_by_reference(x, v);
+    uncertain += fate_by_reference(x, v + 1e-2) != fate || fate_by_reference(x, v - 1e-2) != fate;
+  }
+  const double share = (double)uncertain / SAMPLE;
+  const double spread = sqrt(s.uncertain[4] * (1.0 - s.uncertain[4]) / SAMPLE);
+  check_near(share, s.uncertain[4], 4.0 * hypot(spread, s.uncertain_error[4]));
+  pendres_attractors_free(set);
+}
+
+/* States of the pendulum above, one by one. */
+static void fractal_labels(void **state)
+{
+  enum { SAMPLE = 100 };
+  pendres_attractors *set = NULL;
+  double x[SAMPLE], v[SAMPLE];
+  pendres_outcome outcome[SAMPLE];
+  uint64_t z = 99;
+  int differ = 0;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  for (int i = 0; i < SAMPLE; i++) {
+    x[i] = 2.0 * pi * (next_random(&z) - 0.25);
+    v[i] = 8.0 * (next_random(&z) - 0.5);
+  }
+  check_ok(pendres_attractors_settle(*state, set, SAMPLE, x, v, outcome));
+  for (int i = 0; i < SAMPLE; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome[i].attractor);
+    const int turns = a->orbit.winding;
+    differ += (turns > 0) - (turns < 0) != fate_by_reference(x[i], v[i]);
+  }
+  /* An error of 1e-7 or so moves 0.126 (1e-7 / 1e-6)^0.15 = 9 % of the states across the boundary:
+     about half of these, two thirds of them to another basin; four standard deviations. */
+  assert_true(differ <= 14);
+  pendres_attractors_free(set);
+}
+
+/* ---- the exponent by another way ---- */
+
+/* A pendulum of the test's own: angle and velocity, and the angle one and two periods ago. */
+typedef struct plain {
+  double y, v, back[2];
+} plain;
+
+enum { STEPS = 64, PATIENCE = 300 };
+
+/* One drive period by the classical Runge-Kutta method; some 1e-6 are lost. */
+static void swing(const pendres_pendulum *p, const double *drive, plain *s)
+{
+  const double h = 2.0 * pi / p->drive_frequency / STEPS, g = p->damping;
+  s->back[1] = s->back[0];
+  s->back[0] = s->y;
+  for (int k = 0; k < STEPS; k++) {
+    const double *f = drive + 2 * k, y = s->y, v = s->v;
+    const double a1 = f[0] - g * v - sin(y);
+    const double v2 = v + 0.5 * h * a1, a2 = f[1] - g * v2 - sin(y + 0.5 * h * v);
+    const double v3 = v + 0.5 * h * a2, a3 = f[1] - g * v3 - sin(y + 0.5 * h * v2);
+    const double v4 = v + h * a3, a4 = f[2] - g * v4 - sin(y + h * v3);
+    s->y += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
+    s->v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  }
+}
+
+/* Turns in two periods, once these are whole for six periods in succession; 99: never. */
+static int plain_fate(const pendres_pendulum *p, const double *drive, double y, double v)
+{
+  plain s = {.y = y, .v = v, .back = {INFINITY, INFINITY}};
+  for (int n = 0, quiet = 0; n < PATIENCE; n++) {
+    swing(p, drive, &s);
+    const double turns = (s.y - s.back[1]) / (2.0 * pi);
+    quiet = fabs(turns - rint(turns)) < 1e-4 ? quiet + 1 : 0;
+    if (quiet == 6) return (int)rint(turns);
+  }
+  return 99;
+}
+
+/*
+ * The exponent from random states at two distances. Its error: counts scatter like those of tosses,
+ * as if those at one distance knew nothing of the other; they do, which makes it smaller.
+ */
+static double plain_exponent(const pendres_pendulum *p, int states, const double distance[2],
+                             double *error)
+{
+  double drive[2 * STEPS + 1];
+  int uncertain[2] = {0};
+  uint64_t z = 2024;
+  for (int k = 0; k <= 2 * STEPS; k++) drive[k] = p->drive_amplitude * cos(pi * k / STEPS);
+  for (int i = 0; i < states; i++) {
+    const double y = 2.0 * pi * (next_random(&z) - 0.5), v = 8.0 * (next_random(&z) - 0.5);
+    const int fate = plain_fate(p, drive, y, v);
+    assert_true(fate != 99);
+    for (int k = 0; k < 2; k++)
+      uncertain[k] += plain_fate(p, drive, y, v + distance[k]) != fate ||
+                      plain_fate(p, drive, y, v - distance[k]) != fate;
+  }
+  double share[2], variance = 0.0;
+  for (int k = 0; k < 2; k++) {
+    share[k] = (double)uncertain[k] / states;
+    variance += (1.0 - share[k]) / uncertain[k];
+  }
+  const double range = log(distance[1] / distance[0]);
+  *error = sqrt(variance) / range;
+  return log(share[1] / share[0]) / range;
+}
+
+/*
+ * The exponents of two forced pendulums, damping 0.2, drive 1.66 cos t and 2 cos t, against
+ * another integrator, another way to tell where a state has gone, and other random states.
+ */
+static void exponent_by_another_way(void **state)
+{
+  static const double distance[] = {1e-5, 1e-4, 1e-3, 1e-2}, ends[2] = {1e-5, 1e-2};
+  static const struct { double drive; size_t attractors; } cases[] = {{1.66, 3}, {2.0, 2}};
+  const pendres_basin_window window = {-0.5 * pi, 1.5 * pi, -4.0, 4.0};
+  for (int i = 0; i < 2; i++) {
+    const pendres_pendulum p = {
+      .damping = 0.2, .drive_amplitude = cases[i].drive, .drive_frequency = 1.0};
+    pendres_attractors *set = NULL;
+    pendres_basin_statistics s;
+    double error = 0.0;
+    check_ok(pendres_attractors_find(*state, &p, 0, NULL, NULL, &set));
+    assert_int_equal(pendres_attractors_count(set), cases[i].attractors);
+    check_ok(pendres_basin_uncertainty(*state, set, &window, 16000, 4, distance, 1, &s));
+    const double want = plain_exponent(&p, 3000, ends, &error);
+    /* Measured: 0.145(8) and 0.154(7), 0.293(24) and 0.290(20). */
+    assert_true(error < 0.03 && s.uncertainty_exponent_error < 0.03);
+    check_near(s.uncertainty_exponent, want, 3.0 * hypot(error, s.uncertainty_exponent_error));
+    pendres_attractors_free(set);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(wada_basins, setup, teardown),
+    cmocka_unit_test_setup_teardown(uncertainty_exponent, setup, teardown),
+    cmocka_unit_test_setup_teardown(fractal_labels, setup, teardown),
+    cmocka_unit_test_setup_teardown(exponent_by_another_way, setup, teardown),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
