@@ -225,7 +225,7 @@ static pendres_status put_count(pendres_store *store, const char *name, const ch
  */
 static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
 {
-  enum { STATES = 8192, SCALES = 5, APART = 4, SEED = 1 };
+  enum { STATES = 16384, SCALES = 5, APART = 6, SEED = 1 };
   const pendres_basin_grid *g = &b->grid;
   const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
                                        .v_low = g->v[0], .v_high = g->v[g->nv - 1]};

@@ -1,0 +1,201 @@
+/*
+ * test_scene_states.c -- the scenes orbit and basins, run in this process: published facts outside of
+ * the paper's range, the same bytes whatever the threads, refined grids against whole ones.
+ */
+#include "scene_fixture.h"
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+static const double pi = 3.14159265358979323846;
+
+static double scalar(pendres_store *store, const char *name)
+{
+  size_t n = 0;
+  double *v = scene_values(store, name, &n);
+  assert_int_equal(n, 1);
+  const double value = v[0];
+  free(v);
+  return value;
+}
+
+/*
+ * Baker and Gollub, Chaotic Dynamics (1996), chapters 3 and 4: q = 2 (damping 1/2), drive frequency
+ * 2/3. Orbits that are not their own mirror image come in pairs.
+ */
+static const struct fact {
+  double drive;
+  pendres_label label;
+  int attractors, period, winding; /* |winding| */
+} facts[] = {
+  {0.90, PENDRES_LABEL_PERIODIC, 1, 1, 0}, {1.07, PENDRES_LABEL_PERIODIC, 2, 2, 0},
+  {1.15, PENDRES_LABEL_CHAOTIC, 1, 0, 0},  {1.35, PENDRES_LABEL_RUNNING, 2, 1, 1},
+  {1.45, PENDRES_LABEL_RUNNING, 2, 2, 2},  {1.47, PENDRES_LABEL_RUNNING, 2, 4, 4},
+  {1.50, PENDRES_LABEL_CHAOTIC, 1, 0, 0},
+};
+enum { FACTS = sizeof facts / sizeof *facts };
+
+static void run_fact(const struct fact *f, const char *kind, const char *rest, const char *name)
+{
+  char text[500];
+  snprintf(text, sizeof text,
+           "&scene kind = '%s' /\n"
+           "&pendulum drive_amplitude = %g, damping = 0.5, drive_frequency = %.17g /\n%s",
+           kind, f->drive, 2.0 / 3.0, rest);
+  scene_run_deck(text, 2, name);
+}
+
+/* Against the long double reference, within ten times the errors claimed. */
+static void check_closed_orbit(pendres_store *store, const struct fact *f)
+{
+  static const char *const names[] = {"loop_area", "amplitude", "mean_power", "lyapunov_exponent"};
+  const pendres_pendulum p = {
+    .damping = 0.5, .drive_amplitude = f->drive, .drive_frequency = 2.0 / 3.0};
+  pendres_reference_cycle c;
+  size_t n = 0;
+  double *x = scene_values(store, "x", &n), *v = scene_values(store, "v", &n);
+  const int winding = (int)scalar(store, "winding");
+  assert_int_equal(scalar(store, "period"), f->period);
+  assert_int_equal(abs(winding), f->winding);
+  check_ok(pendres_reference_orbit(&p, x[0] - 0.5 * pi, v[0], f->period, winding, &c));
+  const double time = 2.0 * pi * f->period / p.drive_frequency;
+  const double want[] = {
+    (double)c.loop_area, (double)c.amplitude, (double)c.mean_power,
+    log(hypot((double)c.multiplier_re[0], (double)c.multiplier_im[0])) / time};
+  for (int i = 0; i < 4; i++) {
+    char error[64];
+    snprintf(error, sizeof error, "%s_error", names[i]);
+    check_near(scalar(store, names[i]), want[i], 10.0 * scalar(store, error));
+    assert_true(scalar(store, error) < 1e-7);
+  }
+  free(x);
+  free(v);
+}
+
+static void orbits_of_baker_and_gollub(void **state)
+{
+  (void)state;
+  for (int i = 0; i < FACTS; i++) {
+    run_fact(&facts[i], "orbit", "&orbit x = 1.8, v = 0.1, periods = 8, samples = 16 /\n", "orbit");
+    pendres_store *store = scene_open("orbit");
+    size_t n = 0;
+    double *x = scene_values(store, "x", &n);
+    assert_int_equal(n, 128);
+    for (size_t k = 0; k < n; k++) assert_true(isfinite(x[k]));
+    assert_int_equal(scalar(store, "label"), facts[i].label);
+    if (facts[i].label != PENDRES_LABEL_CHAOTIC) {
+      check_closed_orbit(store, &facts[i]);
+    } else {
+      const double error = scalar(store, "lyapunov_exponent_error");
+      assert_true(error > 0.0 && scalar(store, "lyapunov_exponent") > 5.0 * error);
+      assert_true(isnan(scalar(store, "loop_area")) && isnan(scalar(store, "loop_area_error")));
+      assert_true(isnan(scalar(store, "period")) && isnan(scalar(store, "amplitude")));
+    }
+    free(x);
+    pendres_store_free(store);
+  }
+}
+
+static void basins_of_baker_and_gollub(void **state)
+{
+  (void)state;
+  for (int i = 0; i < FACTS; i++) {
+    run_fact(&facts[i], "basins", "&sweep x_range = -1.5, 4.7, 40, v_range = -3, 3, 40 /\n",
+             "basins");
+    pendres_store *store = scene_open("basins");
+    size_t n = 0, states = 0;
+    double *label = scene_values(store, "attractor_label", &n), sum = 0.0;
+    double *share = scene_values(store, "basin_fraction", &n);
+    double *lyapunov = scene_values(store, "attractor_lyapunov", &n);
+    double *of_state = scene_values(store, "label", &states);
+    assert_int_equal(n, facts[i].attractors);
+    for (size_t k = 0; k < n; k++) {
+      assert_int_equal(label[k], facts[i].label);
+      assert_int_equal(lyapunov[k] > 0.0, facts[i].label == PENDRES_LABEL_CHAOTIC);
+      sum += share[k];
+    }
+    check_near(sum, 1.0, 1e-12);
+    assert_int_equal(states, 1600);
+    for (size_t k = 0; k < states; k++) assert_int_equal(of_state[k], facts[i].label);
+    assert_int_equal(scalar(store, "unresolved_states"), 0);
+    free(label);
+    free(share);
+    free(lyapunov);
+    free(of_state);
+    pendres_store_free(store);
+  }
+}
+
+/* A fractal boundary fills a grid; then the exponent is from random states, as in the library. */
+static void exponent_of_a_fractal_boundary(void **state)
+{
+  (void)state;
+  scene_run_deck("&scene kind = 'basins' /\n"
+                 "&pendulum drive_amplitude = 1.66, damping = 0.2, drive_frequency = 1 /\n"
+                 "&sweep x_range = -1.5, 4.7, 60, v_range = -4, 4, 60 /\n",
+                 2, "wada");
+  pendres_store *store = scene_open("wada");
+  assert_true(scalar(store, "uncertainty_random_states") > 0);
+  /* 0.154 +- 0.007 by an independent computation: test_basin_fractal.c. */
+  const double error = scalar(store, "uncertainty_exponent_error");
+  assert_true(error < 0.03);
+  check_near(scalar(store, "uncertainty_exponent"), 0.154, 3.0 * hypot(error, 0.007));
+  pendres_store_free(store);
+}
+
+#define GRID "&sweep x_range = -1.5, 4.7, 150, v_range = -2.5, 2.5, 130 /\n"
+
+static const char whole_deck[] =
+  "&scene kind = 'basins' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n" GRID;
+static const char refined_deck[] =
+  "&scene kind = 'basins' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n" GRID
+  "&basins refine = T /\n";
+
+static void same_bytes_on_any_threads(void **state)
+{
+  (void)state;
+  scene_run_deck(whole_deck, 1, "whole");
+  scene_run_deck(whole_deck, 3, "whole-again");
+  scene_check_same_bytes("whole", "whole-again");
+  scene_run_deck(refined_deck, 1, "refined");
+  scene_run_deck(refined_deck, 3, "refined-again");
+  scene_check_same_bytes("refined", "refined-again");
+}
+
+static void refined_is_whole(void **state)
+{
+  static const char *const names[] = {"label", "attractor_index", "well", "basin_fraction"};
+  pendres_store *whole = scene_open("whole"), *refined = scene_open("refined");
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    size_t n = 0, m = 0;
+    double *a = scene_values(whole, names[i], &n), *b = scene_values(refined, names[i], &m);
+    assert_int_equal(n, m);
+    for (size_t k = 0; k < n; k++) check_near(a[k], b[k], 0.0);
+    free(a);
+    free(b);
+  }
+  const double integrated = scalar(refined, "integrated_states");
+  /* What was verified was filled in first, and counts as integrated since. */
+  check_near(integrated + scalar(refined, "filled_states"), 150 * 130, 0.0);
+  assert_int_equal(scalar(refined, "verified_states"), 10000);
+  assert_int_equal(scalar(refined, "verification_misses"), 0);
+  /* On this grid the exponent is from the grid. */
+  assert_int_equal(scalar(whole, "uncertainty_random_states"), 0);
+  pendres_store_free(whole);
+  pendres_store_free(refined);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(orbits_of_baker_and_gollub),
+    cmocka_unit_test(basins_of_baker_and_gollub),
+    cmocka_unit_test(exponent_of_a_fractal_boundary),
+    cmocka_unit_test(same_bytes_on_any_threads),
+    cmocka_unit_test(refined_is_whole), /* of what the test before has written */
+  };
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
