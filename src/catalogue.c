@@ -97,7 +97,8 @@ static void label_all(pendres_catalogue *c)
     else if (!named_family(o))
       *label = PENDRES_LABEL_PERIODIC;
     else if (named == 1)
-      *label = o->phase_lag < pi / 3.0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+      /* At rest there is no phase lag, and no amplitude. */
+      *label = o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;
     else
       *label = rank++ == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
   }

@@ -433,6 +433,22 @@ static void ghost_of_a_fold(void **state)
   }
 }
 
+/* Without a drive all come to rest at the bottom of some well; the exponent is that of the spiral. */
+static void rest(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.2, .drive_frequency = 1.0};
+  ensemble e;
+  settle_row(*state, &p, -0.5 * pi, 1.5 * pi, &e);
+  assert_int_equal(pendres_attractors_count(e.set), 1);
+  assert_int_equal(count_label(&e, PENDRES_LABEL_SA), MEMBERS);
+  const pendres_attractor *a = pendres_attractors_get(e.set, 0);
+  check_near(a->orbit.x, 0.5 * pi, 1e-14);
+  check_near(a->orbit.amplitude, 0.0, 1e-14);
+  assert_true(isnan(a->orbit.phase_lag));
+  check_near(a->lyapunov, -0.5 * p.damping, 1e-12);
+  pendres_attractors_free(e.set);
+}
+
 /* A pendulum that runs out of its budget is unresolved, whatever it may look like. */
 static void budget(void **state)
 {
@@ -513,6 +529,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(independent_of_company, setup, teardown),
     cmocka_unit_test_setup_teardown(known_attractors, setup, teardown),
     cmocka_unit_test_setup_teardown(ghost_of_a_fold, setup, teardown),
+    cmocka_unit_test_setup_teardown(rest, setup, teardown),
     cmocka_unit_test_setup_teardown(budget, setup, teardown),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
     cmocka_unit_test(names),

@@ -27,7 +27,8 @@ extern "C" {
 /**
  * Labels. SA (small amplitude, phase lag below pi/3) and LA (large amplitude, large phase lag)
  * are orbits of period one, mirror symmetric, without winding, under the weak drive that the
- * paper is about (|F0| <= 0.25). Where two such orbits coexist the smaller is SA.
+ * paper is about (|F0| <= 0.25). Where two such orbits coexist the smaller is SA, and
+ * so is rest, without a drive.
  */
 typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,
