@@ -34,14 +34,11 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
   return PENDRES_OK;
 }
 
-/*
- * The error of one period that leaves the tolerance for the whole run: errors of earlier
- * periods fade as exp(-gamma t / 2), or add up without damping.
- */
-static double share_of_a_period(const pendres_pendulum *p, double tolerance, long periods)
+/* Periods whose errors are still there at the end: they fade as exp(-gamma t / 2). */
+static double periods_that_count(const pendres_pendulum *p, long periods)
 {
   const double decay = -expm1(-0.5 * p->damping * two_pi / p->drive_frequency);
-  return tolerance * fmax(decay, 1.0 / fmax(1.0, (double)periods));
+  return 1.0 / fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
 /* More steps (`refinement` times as many) where steps are fixed. */
@@ -59,23 +56,11 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
     if (ctx->options.method != PENDRES_BLOCK_FIXED) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], fabs(v[i]),
-                           share_of_a_period(&p[i], ctx->options.tolerance, periods), &l->steps);
+                           ctx->options.tolerance / periods_that_count(&p[i], periods), &l->steps);
     if (status != PENDRES_OK) return status;
     if (refinement != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * refinement));
   }
   return PENDRES_OK;
-}
-
-/* The block of adaptive steps has the tolerance it was made with. */
-static void forget_adaptive_block(pendres_context *ctx)
-{
-  pendres_flow **flow = &ctx->flows[PENDRES_FLOW_ADAPTIVE];
-  if (*flow != NULL) {
-    ctx->cost.rhs_evaluations += pendres_flow_evaluations(*flow);
-    ctx->cost.steps += pendres_flow_steps(*flow);
-  }
-  pendres_flow_free(*flow);
-  *flow = NULL;
 }
 
 /* A run by a method of adaptive steps with this share of the tolerance. */
@@ -85,17 +70,26 @@ static pendres_status run_tighter(pendres_context *ctx, size_t n, pendres_strobe
   static const double tightest = 1e-15; /* what CVODE still works with */
   const double tolerance = ctx->options.tolerance;
   ctx->options.tolerance = fmax(tightest, share * tolerance);
-  forget_adaptive_block(ctx);
   const pendres_status status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
   ctx->options.tolerance = tolerance;
-  forget_adaptive_block(ctx);
   return status;
 }
 
 /*
- * The same pendulums once more, by a better method. With fixed steps: more of them, and noise[n]
- * receives the rounding errors. Else a tenth of the tolerance, and noise[n] is 0: rounding is far
- * below the errors of methods that no tolerance holds to the result's.
+ * A clock that runs on is rounded by each step, by up to half a unit of its last place, and what is
+ * not forgotten adds up at random, some hundred steps a period. The state's own rounding is far
+ * below. A block's clock starts anew each period.
+ */
+static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p, long periods)
+{
+  if (ctx->options.method == PENDRES_BLOCK_ADAPTIVE) return 0.0;
+  const double step = 1.1e-16 * two_pi * (double)periods;
+  return step * sqrt(100.0 * periods_that_count(p, periods));
+}
+
+/*
+ * The same pendulums once more, by a better method. With fixed steps: more of them; else a tenth of
+ * the tolerance. noise[n] receives the rounding errors.
  */
 static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                 const double *x, const double *v, long periods,
@@ -105,7 +99,7 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
   if (status != PENDRES_OK) return status;
   if (ctx->options.method == PENDRES_BLOCK_FIXED)
     return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
-  for (size_t i = 0; i < n; i++) noise[i] = 0.0;
+  for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, &p[i], periods);
   return run_tighter(ctx, n, finer, periods, 0.1);
 }
 

@@ -105,12 +105,27 @@ static pendres_status run_class(block *b, const pendres_strobe_rank *queue, size
   return PENDRES_OK;
 }
 
+/*
+ * Adaptive steps go on from the step before, and their block has the tolerance that it was made
+ * with. Made anew for each run, nothing depends on what the context did before.
+ */
+static void forget_adaptive_block(pendres_context *ctx)
+{
+  pendres_flow **flow = &ctx->flows[PENDRES_FLOW_ADAPTIVE];
+  if (*flow == NULL) return;
+  ctx->cost.rhs_evaluations += pendres_flow_evaluations(*flow);
+  ctx->cost.steps += pendres_flow_steps(*flow);
+  pendres_flow_free(*flow);
+  *flow = NULL;
+}
+
 static pendres_status run_blocks(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                  pendres_strobe_visit *visit, void *arg)
 {
   block b = {.ctx = ctx, .lanes = lanes, .visit = visit, .arg = arg};
   pendres_strobe_rank *queue = NULL;
   const int adaptive = ctx->options.method == PENDRES_BLOCK_ADAPTIVE;
+  if (adaptive) forget_adaptive_block(ctx);
   pendres_status status =
     pendres_context_flow(ctx, adaptive ? PENDRES_FLOW_ADAPTIVE : PENDRES_FLOW_STATE, &b.flow);
   if (status != PENDRES_OK) return status;
