@@ -18,6 +18,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.patheffects import withStroke
+
+plt.rcParams["figure.constrained_layout.use"] = True
 
 SA, LA, FREE, EXACT = "tab:blue", "tab:red", "0.45", "black"
 
@@ -96,6 +99,7 @@ def draw_response(h, path):
     drive, damping = h[name][:], h["damping"]
     fig, ax = plt.subplots(figsize=(7.5, 5))
     phase = ax.twinx()
+    shortest = np.nanmin(h["resonance_period"]) if np.any(np.isfinite(h["resonance_period"])) else 0
     for i, g in enumerate(damping):
         colour = f"C{i}"
         ax.plot(drive, h["mean_loop_amplitude"][i], color=colour, label=rf"$\gamma = {g:g}$")
@@ -104,8 +108,10 @@ def draw_response(h, path):
         at = tau if name == "drive_period" else 2 * np.pi / tau
         if np.isfinite(at):
             ax.vlines(at, 0, h["resonance_amplitude"][i], color=colour, lw=0.8)
-            ax.annotate(rf"$\tau_0 = {tau:.4f}$", (at, h["resonance_amplitude"][i]), fontsize=7,
-                        textcoords="offset points", xytext=(4, 4), color=colour)
+            left = (tau == shortest) == (name == "drive_period")  # outside of the lines
+            ax.annotate(rf"$\tau_0 = {tau:.4f}$", (at, 0), fontsize=8, rotation=90, color=colour,
+                        textcoords="offset points", xytext=(-4 if left else 4, 6), va="bottom",
+                        ha="right" if left else "left")
     ax.set(xlabel=r"drive period $\tau$" if name == "drive_period" else r"drive frequency $\omega$",
            ylabel=r"amplitude $\langle x_0\rangle$ (rad, full lines)")
     ax.set_ylim(bottom=0)
@@ -116,34 +122,70 @@ def draw_response(h, path):
 
 def draw_orbit(h, path):
     fig, (top, bottom) = plt.subplots(2, 1, figsize=(6.5, 7))
-    theta = h["drive_phase"] / (2 * np.pi)
-    scale = 0.5 * np.ptp(h["x"]) / max(np.ptp(h["drive"]), 1e-300)
-    top.plot(theta, h["x"], color=LA, label="$x$")
-    top.plot(theta, np.mean(h["x"]) + scale * h["drive"], "--", color=FREE,
+    periods, x, closed = h["drive_phase"] / (2 * np.pi), h["x"], np.isfinite(h["period"])
+    scale = 0.5 * np.ptp(x) / max(np.ptp(h["drive"]), 1e-300)
+    top.plot(periods, x, color=LA, label="$x$")
+    top.plot(periods, np.mean(x) + scale * h["drive"], "--", color=FREE,
              label=f"drive, magnified {scale:.1f} times")
     top.set(xlabel="drive periods", ylabel="$x$ (rad)")
-    top.legend(loc="upper right")
-    bottom.plot(h["drive"], h["x"], color=LA)
-    bottom.set(xlabel="$F$", ylabel="$x$ (rad)",
-               title=rf"area {h['loop_area']:.6f}, amplitude {h['amplitude']:.4f}, "
-                     rf"phase lag {h['phase_lag'] / np.pi:.4f}$\pi$")
+    top.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2, fontsize=8, frameon=False)
+    label = "$x$ (rad)"
+    if closed and h["winding"] != 0:  # the mean rotation encloses no area
+        x, label = x - 2 * np.pi * h["winding"] / h["period"] * periods, "$x$ without rotation (rad)"
+    bottom.plot(h["drive"], x, color=LA)
+    if closed:
+        title = (rf"area {h['loop_area']:.6f}, amplitude {h['amplitude']:.4f}, "
+                 rf"phase lag {h['phase_lag'] / np.pi:.4f}$\pi$")
+    elif np.isfinite(h["lyapunov_exponent"]):
+        title = f"chaotic, Lyapunov exponent {h['lyapunov_exponent']:.4f}"
+    else:
+        title = "no closed orbit"
+    bottom.set(xlabel="$F$", ylabel=label)
+    bottom.set_title(title, fontsize=10)
     return fig
 
 
-LABEL_COLOURS = ["#4477aa", "#ee6677", "#228833", "#ccbb44", "#aa3377", "#bbbbbb"]
 LABEL_NAMES = ["SA", "LA", "periodic", "running", "chaotic", "unresolved"]
+NAMED_COLOURS = ["#4477aa", "#ee6677"]
+OTHER_COLOURS = ["#228833", "#ccbb44", "#aa3377", "#66ccee", "#ee7733", "#004488", "#99ddaa"]
+UNRESOLVED_COLOUR = "#bbbbbb"
+OUTLINE = [withStroke(linewidth=2, foreground="black")]
+
+
+def attractor_styles(h):
+    """A name and a colour for each attractor: SA and LA always the same, others in their order."""
+    labels, names, colours = h["attractor_label"], [], []
+    others = 0
+    for i, label in enumerate(labels):
+        name = LABEL_NAMES[label]
+        if name == "running":
+            name += f" {h['attractor_winding'][i]:+d}/{h['attractor_period'][i]}"
+        elif np.count_nonzero(labels == label) > 1:
+            name += f" {np.count_nonzero(labels[: i + 1] == label)}"
+        names.append(name)
+        if label < 2:
+            colours.append(NAMED_COLOURS[label])
+        else:
+            colours.append(OTHER_COLOURS[others % len(OTHER_COLOURS)])
+            others += 1
+    return names, colours
 
 
 def draw_basins(h, path):
-    x, v, label = h["x"], h["v"], h["label"]
+    x, v, index = h["x"], h["v"], h["attractor_index"]
     fig, ax = plt.subplots(figsize=(9, 5.5))
     step = max(1, len(x) // 1500), max(1, len(v) // 1500)
-    image = label[:: step[0], :: step[1]].T
-    mesh = ax.imshow(image, origin="lower", aspect="auto", interpolation="nearest",
-                     extent=(x[0] / np.pi, x[-1] / np.pi, v[0], v[-1]),
-                     cmap=ListedColormap(LABEL_COLOURS), norm=BoundaryNorm(np.arange(-0.5, 6), 6))
-    bar = fig.colorbar(mesh, ax=ax, ticks=range(6))
-    bar.ax.set_yticklabels(LABEL_NAMES)
+    names, colours = attractor_styles(h)
+    bar_names, bar_colours, first = names, colours, 0
+    if np.any(index < 0):
+        bar_names, bar_colours, first = ["unresolved"] + names, [UNRESOLVED_COLOUR] + colours, -1
+    n = len(bar_names)
+    mesh = ax.imshow(index[:: step[0], :: step[1]].T, origin="lower", aspect="auto",
+                     interpolation="nearest", extent=(x[0] / np.pi, x[-1] / np.pi, v[0], v[-1]),
+                     cmap=ListedColormap(bar_colours),
+                     norm=BoundaryNorm(np.arange(n + 1) + first - 0.5, max(n, 1)))
+    bar = fig.colorbar(mesh, ax=ax, ticks=np.arange(n) + first)
+    bar.ax.set_yticklabels(bar_names)
     if "boundary_x" in h:
         gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
         ax.plot(np.insert(h["boundary_x"] / np.pi, gaps, np.nan),
@@ -154,11 +196,12 @@ def draw_basins(h, path):
             ax.plot(sx / np.pi, sv, ",", color=["lime", "orange", "yellow"][t % 3])
             ax.plot([], [], "s", color=["lime", "orange", "yellow"][t % 3], label=f"T = {name:g}")
         ax.legend(loc="lower right")
-    for i in range(len(h["attractor_x"])):
+    for i, name in enumerate(names):
+        if not np.isfinite(h["attractor_x"][i]):
+            continue
         ax.plot(h["attractor_x"][i] / np.pi, h["attractor_v"][i], "x", ms=7, mew=1.5, color="black")
-        ax.annotate(LABEL_NAMES[int(h["attractor_label"][i])],
-                    (h["attractor_x"][i] / np.pi, h["attractor_v"][i]), color="white",
-                    textcoords="offset points", xytext=(6, 6))
+        ax.annotate(name, (h["attractor_x"][i] / np.pi, h["attractor_v"][i]), color="white",
+                    textcoords="offset points", xytext=(6, 6), path_effects=OUTLINE)
     ax.axhline(0, color="white", lw=0.6)
     ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi),
            ylim=(v[0], v[-1]))
@@ -246,22 +289,39 @@ def text(names):
     return [n.decode() if isinstance(n, bytes) else str(n) for n in names]
 
 
+LOST = 0.1  # an error beyond which a pendulum is somewhere else: speed says nothing then
+
+
 def draw_work_precision(h, path):
-    fig, ax = plt.subplots(figsize=(8, 6))
-    styles = [{"color": f"C{i}", "marker": "osD^v"[i // 10 % 5]} for i in range(50)]
-    for i, name in enumerate(text(h["method_name"])):
-        error, speed = h["error_100"][i], h["throughput"][i] / 1e6
-        good = np.isfinite(error) & (error > 0) & np.isfinite(speed)
-        ax.loglog(error[good], speed[good], "-", ms=4, label=name, **styles[i % 50])
-    if "others" in h:
+    fig, (ax, honest) = plt.subplots(1, 2, figsize=(13, 7), width_ratios=(3, 2))
+    names, error = text(h["method_name"]), h["error_100"]
+    # Fixed and adaptive steps of one table share a colour.
+    table = [n.replace("block_adaptive", "block_fixed") if len(names) > 10 else n for n in names]
+    colours = {t: f"C{i}" for i, t in enumerate(dict.fromkeys(table))}
+    for i, name in enumerate(names):
+        style = {"color": colours[table[i]], "ms": 4, "mfc": "none" if "adaptive" in name else None,
+                 "ls": "--" if "adaptive" in name else "-", "marker": "s" if "adaptive" in name else "o"}
+        good = (error[i] > 0) & (error[i] < LOST) & np.isfinite(h["throughput"][i])
+        ax.loglog(error[i][good], h["throughput"][i][good] / 1e6, label=name, **style)
+        estimate = h["estimated_error"][i]
+        good &= np.isfinite(estimate) & (estimate > 0)
+        honest.loglog(error[i][good], estimate[good], **{**style, "ls": ""})
+    if text([h["unit"]])[0] == "ensemble":  # what the others' figures are of
         for i, name in enumerate(text(h["others/method"])):
-            speed = h["others/throughput"][i] / 1e6
-            ax.loglog(h["others/error"], speed, "x:", color=f"{0.2 + 0.12 * i:.2f}",
-                      label=f"{name}, elsewhere")
+            ax.loglog(h["others/error"], h["others/throughput"][i] / 1e6, marker="x", ls=":",
+                      color=f"{0.1 + 0.14 * i:.2f}", label=f"{name}, elsewhere")
+    line = np.array([1e-15, LOST])
+    for factor, label in ((1, "exact"), (0.1, "a tenth: promised at least")):
+        honest.loglog(line, factor * line, color=FREE, lw=0.8, ls="-" if factor == 1 else "--")
+        honest.annotate(label, (line[1], factor * line[1]), xytext=(-4, -9), fontsize=7, ha="right",
+                        textcoords="offset points", rotation=0, color=FREE)
     ax.set(xlabel="largest error after 100 periods", ylabel="million pendulum-periods a second")
-    ax.invert_xaxis()
-    ax.legend(fontsize=7, ncol=2)
-    ax.grid(True, which="both", alpha=0.3)
+    honest.set(xlabel="largest error after 100 periods", ylabel="largest estimate of it")
+    for axes in (ax, honest):
+        axes.invert_xaxis()
+        axes.grid(True, alpha=0.3)
+    fig.legend(loc="outside lower center" if hasattr(fig, "get_layout_engine") else "lower center",
+               fontsize=8, ncol=6)
     return fig
 
 
@@ -296,6 +356,7 @@ def main():
     parser.add_argument("-f", "--format", default="png", choices=["png", "pdf", "svg"])
     arguments = parser.parse_args()
     failed = 0
+    os.makedirs(arguments.output, exist_ok=True)
     for path in arguments.files:
         name = os.path.splitext(os.path.basename(path))[0]
         with h5py.File(path, "r") as file:
@@ -309,7 +370,6 @@ def main():
             title = h.attrs.get("title", "")
             title = title.decode() if isinstance(title, bytes) else title
         figure.suptitle(title, fontsize=10)
-        figure.tight_layout()
         target = os.path.join(arguments.output, f"{name}.{arguments.format}")
         figure.savefig(target, dpi=130)
         plt.close(figure)
