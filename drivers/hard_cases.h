@@ -22,7 +22,8 @@
   ITEM(separatrix)                                                                                \
   ITEM(energy)                                                                                    \
   ITEM(stiff)                                                                                     \
-  ITEM(tolerance)
+  ITEM(tolerance)                                                                                 \
+  ITEM(drive)
 
 /* What must hold is figure <= bound. */
 typedef struct hard_row {

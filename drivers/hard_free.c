@@ -24,11 +24,12 @@ static double steps_a_period(const pendres_context *ctx)
 }
 
 /*
- * How far rounding moves a pendulum next to the top, as if it had been moved at the start. A step of
- * the length h rounds the angle once, by last_place at most (the increments are summed before the
- * angle is added), and the angles of its stages, which adds up to h times as much. An error at
- * the time t is one of exp(-rate t) times its size at the start; the sum over all steps is geometric.
- * The start itself is rounded once when turned into an angle, and lacks the digits of pi / 2.
+ * How far rounding moves a pendulum next to the top, as if it had been moved at the start. A step
+ * of the length h rounds the angle once, by last_place at most (the increments are summed before
+ * the angle is added), and the angles of its stages, which adds up to h times as much. An error at
+ * the time t is one of exp(-rate t) times its size at the start; the sum over all steps is
+ * geometric. The start itself is rounded once when turned into an angle, and lacks the digits of
+ * pi / 2.
  */
 static double moved_by_rounding(double rate, double h)
 {
@@ -154,9 +155,9 @@ static pendres_status put_multiplier(hard_sheet *sheet, pendres_context *ctx, do
 /*
  * equilibrium: starts on the unstable equilibrium and 1e-12 beside it, without a drive.
  *
- * Nothing can stay on top: pi / 2 is not a double, and what is left of it grows as exp(rate t), rate
- * being sqrt(1 + damping^2 / 4) - damping / 2, as every rounding does. So all errors are divided by
- * that growth; what remains is the error of a start that would have explained them.
+ * Nothing can stay on top: pi / 2 is not a double, and what is left of it grows as exp(rate t),
+ * rate being sqrt(1 + damping^2 / 4) - damping / 2, as every rounding does. So all errors are
+ * divided by that growth; what remains is the error of a start that would have explained them.
  */
 pendres_status hard_equilibrium(hard_sheet *sheet)
 {
