@@ -132,7 +132,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
 
   o->loop_area = b->loop_area;
   o->loop_area_error =
-    error_of(a->loop_area, b->loop_area, point * fabs(p->drive_amplitude), pi * fabs(p->drive_amplitude) * floor);
+    error_of(a->loop_area, b->loop_area, point * fabs(p->drive_amplitude),
+             pi * fabs(p->drive_amplitude) * floor);
   o->dissipation = b->dissipation;
   o->dissipation_error = error_of(a->dissipation, b->dissipation, point * p->damping * omega * size,
                                   two_pi * p->damping * omega * size * floor);
@@ -200,7 +201,28 @@ static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton
   return status;
 }
 
-/* Converge, measure at n and at 1.4 n steps; candidates are sorted in place. */
+static double singularity(const double m[2][2])
+{
+  return (1.0 - m[0][0]) * (1.0 - m[1][1]) - m[0][1] * m[1][0];
+}
+
+/*
+ * Whether there is an orbit where Newton's method has come to rest. Beyond a fold it wanders about
+ * the ghost of the orbit that is gone: where the map's defect is like z^2 + s^2, a step takes
+ * det (I - M) ~ 2 z to less than half, or past zero. At an orbit, -s^2, a step leaves it as it is.
+ * One step lies between the two results; the fold of the map with n steps must not lie elsewhere
+ * than that with 1.4 n either, as seen from here.
+ */
+static int is_there(const result *coarse, const result *fine)
+{
+  const double ratio = singularity(fine->m) / singularity(coarse->m);
+  return ratio > 0.7 && ratio < 1.4;
+}
+
+/*
+ * Converge, measure at n and at 1.4 n steps; candidates are sorted in place. What is a ghost, or
+ * too close to one to tell, is PENDRES_NOT_CONVERGED with its state left at converged.
+ */
 static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                   pendres_orbit_want want, result *coarse, result *fine,
                                   pendres_orbit *out, pendres_status *outcome)
@@ -218,6 +240,10 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const size_t k = c[i].index;
     if (c[i].state != PENDRES_NEWTON_CONVERGED) {
+      outcome[k] = PENDRES_NOT_CONVERGED;
+      continue;
+    }
+    if (!is_there(&coarse[k], &fine[k])) {
       outcome[k] = PENDRES_NOT_CONVERGED;
       continue;
     }
@@ -274,10 +300,11 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
   size_t left = n;
   for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
     status = refine_once(ctx, left, c, want, coarse, fine, out, outcome);
-    /* What missed the tolerance goes on from where it is, with more steps. */
+    /* What missed the tolerance, or could not be told from a ghost, goes on from where it is, with
+       more steps. */
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++)
-      if (outcome[c[i].index] == PENDRES_TOLERANCE_UNREACHABLE &&
+      if (outcome[c[i].index] != PENDRES_OK && c[i].state == PENDRES_NEWTON_CONVERGED &&
           ctx->options.steps_per_period == 0)
         c[again++] = c[i];
     left = again;

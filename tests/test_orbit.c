@@ -164,6 +164,60 @@ static void slopes(void **state)
   pendres_context_free(ctx);
 }
 
+enum { TOLERANCES = 4 };
+
+/* The orbits next to a fold by each tolerance, guessed at g, against the exact one (NULL: gone). */
+static void check_next_to_fold(pendres_context *const ctx[TOLERANCES],
+                               const pendres_orbit_guess *g, double y,
+                               const pendres_reference_cycle *exact)
+{
+  for (int t = 0; t < TOLERANCES; t++) {
+    pendres_orbit o;
+    pendres_status outcome;
+    check_ok(pendres_orbit_refine(ctx[t], 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    const int found = outcome != PENDRES_NOT_CONVERGED &&
+                      fabs(nearest_turn(o.x - half_pi, y) - y) < 0.3;
+    if (exact == NULL) assert_false(found);
+    else if (t == TOLERANCES - 1) assert_true(found);
+    if (exact != NULL && found) /* or its twin, where the guess led there */
+      assert_true(fabs((double)((long double)o.x - half_pi - exact->y)) < 10.0 * o.x_error ||
+                  (o.multiplier_re[0] < 1.0) != (exact->multiplier_re[0] < 1.0L));
+  }
+}
+
+/*
+ * Beyond a fold nothing is found where the orbit was: another orbit (all are further away than
+ * 0.3), or none. Before it stands a pair of orbits, half the distance to each other away from the
+ * fold, found with an honest error or not at all, and at the tightest tolerance found. Folds are
+ * known to all digits, so that 1e-12 from them is meant as it stands.
+ */
+static void no_ghosts(void **state)
+{
+  static const double tolerances[TOLERANCES] = {1e-6, 1e-8, 1e-10, 1e-13};
+  pendres_context *ctx[TOLERANCES];
+  (void)state;
+  for (int t = 0; t < TOLERANCES; t++) ctx[t] = context_with(tolerances[t]);
+  for (size_t k = 0; k < sizeof golden_folds / sizeof golden_folds[0]; k += 3) {
+    const pendres_reference_cycle *fold = &golden_folds[k];
+    for (double off = 1e-3; off > 0.5e-12; off *= 0.1)
+      for (int side = -1; side <= 1; side += 2) {
+        pendres_orbit_guess g = {.x = (double)fold->y + half_pi, .v = (double)fold->v, .period = 1,
+                                 .pendulum = {.damping = (double)fold->damping,
+                                              .drive_amplitude = (double)fold->drive_amplitude}};
+        g.pendulum.drive_frequency = (double)(fold->drive_frequency + side * (long double)off);
+        pendres_reference_cycle exact;
+        int there = 0;
+        for (int i = -4; i <= 4 && !there; i++)
+          there = pendres_reference_orbit(&g.pendulum, fold->y + i * sqrtl(off), fold->v, 1, 0,
+                                          &exact) == PENDRES_OK &&
+                  fabsl(exact.y - fold->y) < 0.3L;
+        if (there) g.x = (double)exact.y + half_pi + 0.1 * sqrt(off), g.v = (double)exact.v;
+        check_next_to_fold(ctx, &g, (double)fold->y, there ? &exact : NULL);
+      }
+  }
+  for (int t = 0; t < TOLERANCES; t++) pendres_context_free(ctx[t]);
+}
+
 static void refusals(void **state)
 {
   pendres_context *ctx = context_with(1e-8);
@@ -190,7 +244,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(honest_against_reference), cmocka_unit_test(exact_identities),
     cmocka_unit_test(linear_limit),             cmocka_unit_test(slopes),
-    cmocka_unit_test(refusals),
+    cmocka_unit_test(refusals),                 cmocka_unit_test(no_ghosts),
   };
   return cmocka_run_group_tests_name("orbit", tests, NULL, NULL);
 }
