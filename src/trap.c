@@ -110,6 +110,7 @@ typedef struct ring {
   const pendres_trap *trap;
   double radius;
   double home;     /* points are home within this radius; 0: one look and no more */
+  double margin;   /* that errors must be small against: what a base ring contracts by; radius */
   int points, looks;
   int failed;      /* a point has left: the others need not go on */
   size_t first;    /* its first point */
@@ -176,15 +177,43 @@ static int ring_holds(const ring *r, const point *points)
 }
 
 /*
- * How much of the linear contraction the ring's departure from the linear map takes up, at its
- * last image. Below one the image lies inside the ring; as the departure falls with the square of
- * the radius, all smaller ellipses then shrink, too.
+ * The largest length in the metric that the linear map, `looks` times, leaves of a unit length: the
+ * root of the larger eigenvalue of P^-1 Q with Q = (M^looks)' P M^looks.
+ */
+static double linear_share(const pendres_trap *t, const pendres_orbit *o, int looks)
+{
+  const double omega = o->pendulum.drive_frequency, *p = t->metric;
+  const double m[2][2] = {{o->monodromy[0][0], o->monodromy[0][1] * omega},
+                          {o->monodromy[1][0] / omega, o->monodromy[1][1]}};
+  double a = 1.0, b = 0.0, c = 0.0, d = 1.0;
+  for (int k = 0; k < looks; k++) {
+    const double top[2] = {a, b};
+    a = m[0][0] * top[0] + m[0][1] * c;
+    b = m[0][0] * top[1] + m[0][1] * d;
+    c = m[1][0] * top[0] + m[1][1] * c;
+    d = m[1][0] * top[1] + m[1][1] * d;
+  }
+  const double q[3] = {p[0] * a * a + 2.0 * p[1] * a * c + p[2] * c * c,
+                       p[0] * a * b + p[1] * (a * d + b * c) + p[2] * c * d,
+                       p[0] * b * b + 2.0 * p[1] * b * d + p[2] * d * d};
+  const double half =
+    0.5 * (p[2] * q[0] - 2.0 * p[1] * q[1] + p[0] * q[2]) / (p[0] * p[2] - p[1] * p[1]);
+  const double det = a * d - b * c;
+  return sqrt(half + sqrt(fmax(0.0, half * half - det * det)));
+}
+
+/*
+ * How much of what the linear contraction leaves between the ring and its image the departure
+ * from the linear map takes up. Below one the image lies inside the ring; as the departure falls
+ * with the square of the radius, all smaller ellipses then shrink, too. (The departure's angle
+ * enters by its double, so that BASE_POINTS find all of it but a tenth; the contraction's slow
+ * direction they would miss.)
  */
 static double ring_departure(const ring *r, const point *points, const pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
   const pendres_trap *t = r->trap;
-  double worst = 0.0, image = 0.0;
+  double worst = 0.0;
   for (int i = 0; i < r->points; i++) {
     double dy = points[i].y[0] - t->y, dw = points[i].w[0] - t->w;
     for (int k = 0; k < r->looks; k++) {
@@ -197,9 +226,8 @@ static double ring_departure(const ring *r, const point *points, const pendres_o
     predicted.w = t->w + dw;
     worst = fmax(worst, sqrt(pendres_trap_norm2(&predicted, points[i].y[r->looks],
                                                 points[i].w[r->looks])));
-    image = fmax(image, sqrt(pendres_trap_norm2(t, predicted.y, predicted.w)));
   }
-  return image < r->radius ? worst / (r->radius - image) : INFINITY;
+  return r->margin > 0.0 ? worst / r->margin : INFINITY;
 }
 
 /* ---- the search for the largest ring ---- */
@@ -216,6 +244,7 @@ typedef struct search {
   stage stage;
   int pass;
   int base_looks;        /* iterates of a base ring */
+  double base_share;     /* of a length that the linear map leaves then */
   int looks;             /* of the others */
   double base;           /* radius of the next base ring */
   double proven, failed; /* largest radius shown, smallest that could not be */
@@ -226,25 +255,9 @@ typedef struct search {
 /* Iterates until the linear map contracts well in the trap's metric. */
 static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
 {
-  const double omega = o->pendulum.drive_frequency;
-  const ring r = {.trap = t, .radius = 1.0, .points = BASE_POINTS};
-  double dy[BASE_POINTS], dw[BASE_POINTS];
-  for (int i = 0; i < BASE_POINTS; i++) {
-    ring_point(&r, i, &dy[i], &dw[i]);
-    dy[i] -= t->y;
-    dw[i] -= t->w;
-  }
-  for (int looks = 1;; looks++) {
-    double image = 0.0;
-    for (int i = 0; i < BASE_POINTS; i++) {
-      const double y = o->monodromy[0][0] * dy[i] + o->monodromy[0][1] * omega * dw[i];
-      dw[i] = o->monodromy[1][0] / omega * dy[i] + o->monodromy[1][1] * dw[i];
-      dy[i] = y;
-      image = fmax(image, t->metric[0] * y * y + 2.0 * t->metric[1] * y * dw[i] +
-                            t->metric[2] * dw[i] * dw[i]);
-    }
-    if (image < base_contraction * base_contraction || looks == BASE_LOOKS) return looks;
-  }
+  int looks = 1;
+  while (looks < BASE_LOOKS && linear_share(t, o, looks) >= base_contraction) looks++;
+  return looks;
 }
 
 /* Looks that a ring gets: with few pendulums to come it does not pay to wait for stragglers. */
@@ -259,8 +272,12 @@ static int patience(const pendres_orbit *o, pendres_trap_effort effort)
 static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
                       int looks)
 {
-  s->ring[s->rings++] = (ring){
-    .trap = t, .radius = radius, .home = home, .points = points, .looks = looks};
+  s->ring[s->rings++] = (ring){.trap = t,
+                               .radius = radius,
+                               .home = home,
+                               .margin = home == 0.0 ? radius * (1.0 - s->base_share) : radius,
+                               .points = points,
+                               .looks = looks};
 }
 
 static void plan(search *s, const pendres_trap *t)
@@ -326,9 +343,9 @@ static void judge(search *s, const point *points, const pendres_orbit *o,
 }
 
 /* Tolerance of rings: small against their margin, in few classes so that blocks stay full. */
-static double ring_tolerance(double radius)
+static double ring_tolerance(double margin)
 {
-  return radius >= 0.05 ? 1e-4 : radius >= 1e-3 ? 1e-6 : radius >= 1e-5 ? 1e-8 : 1e-12;
+  return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
 }
 
 /* Integrate the rings of all searches at once. */
@@ -343,7 +360,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
       ring *r = &s[i].ring[k];
       int steps = 0;
       const pendres_status status =
-        pendres_steps_choose(ctx, p, 0.0, ring_tolerance(r->radius), &steps);
+        pendres_steps_choose(ctx, p, 0.0, ring_tolerance(r->margin), &steps);
       if (status != PENDRES_OK) return status;
       r->first = count;
       for (int j = 0; j < r->points; j++, count++) {
@@ -374,12 +391,15 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
                               .w = o->v / o->pendulum.drive_frequency,
                               .period = o->period,
                               .winding = o->winding};
-    if (o->stable && metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
-      s[left++] = (search){.orbit = i,
-                           .stage = STAGE_BASE,
-                           .base = base_first,
-                           .base_looks = contraction_looks(&traps[i], o),
-                           .looks = patience(o, effort)};
+    if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
+      continue;
+    const int looks = contraction_looks(&traps[i], o);
+    s[left++] = (search){.orbit = i,
+                         .stage = STAGE_BASE,
+                         .base = base_first,
+                         .base_looks = looks,
+                         .base_share = linear_share(&traps[i], o, looks),
+                         .looks = patience(o, effort)};
   }
   const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
   points = malloc((most + 1) * sizeof *points);

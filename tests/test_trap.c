@@ -186,6 +186,50 @@ static void near_a_fold(void **state)
   assert_true(seen >= 4 && last < 0.05);
 }
 
+/*
+ * The saddle behind a fold is on the edge of the basin, so no trap may reach it, however close; nor
+ * need a trap be much smaller than that where the linear map is all that matters. Extended
+ * precision tells where the saddle is.
+ */
+static void short_of_the_saddle(void **state)
+{
+  const pendres_reference_cycle *fold = &golden_folds[0];
+  pendres_context *ctx = NULL;
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-13}, &ctx));
+  for (double before = 1e-2; before > 0.5e-12; before /= 10.0) {
+    const pendres_pendulum p = {
+      .damping = (double)fold->damping,
+      .drive_amplitude = (double)fold->drive_amplitude,
+      .drive_frequency = (double)(fold->drive_frequency - (long double)before)};
+    pendres_reference_cycle node = {0}, saddle = {0}, one;
+    for (int i = -6; i <= 6; i++) {
+      const long double y = fold->y + 0.7L * i * sqrtl(before);
+      if (pendres_reference_orbit(&p, y, fold->v, 1, 0, &one) != PENDRES_OK ||
+          fabsl(one.y - fold->y) > 0.5L)
+        continue;
+      if (one.multiplier_re[0] > 1.0L) saddle = one;
+      else node = one;
+    }
+    assert_true(node.period == 1 && saddle.period == 1);
+    const pendres_orbit_guess g = {
+      .pendulum = p, .x = (double)node.y + 0.5 * pi, .v = (double)node.v, .period = 1};
+    for (int effort = PENDRES_TRAP_FEW; effort <= PENDRES_TRAP_MANY; effort++) {
+      pendres_orbit o;
+      pendres_status outcome;
+      pendres_trap t;
+      check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+      assert_true(outcome != PENDRES_NOT_CONVERGED && o.stable);
+      check_ok(pendres_trap_find(ctx, 1, &o, (pendres_trap_effort)effort, &t));
+      const double reach =
+        sqrt(pendres_trap_norm2(&t, (double)saddle.y, (double)(saddle.v / p.drive_frequency)));
+      assert_true(t.radius < reach);
+      assert_true(t.radius > 0.1 * reach);
+    }
+  }
+  pendres_context_free(ctx);
+}
+
 static void unstable_orbits_have_none(void **state)
 {
   pendres_context *ctx = *state;
@@ -257,6 +301,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(both_states, setup, teardown),
     cmocka_unit_test_setup_teardown(metric_contracts, setup, teardown),
     cmocka_unit_test_setup_teardown(near_a_fold, setup, teardown),
+    cmocka_unit_test(short_of_the_saddle),
     cmocka_unit_test_setup_teardown(unstable_orbits_have_none, setup, teardown),
     cmocka_unit_test_setup_teardown(period_two, setup, teardown),
     cmocka_unit_test(across_the_top),
