@@ -85,8 +85,9 @@ typedef enum pendres_orbit_want {
  *
  * guess[n] is read; out[n] and outcome[n] are written. outcome[i] is PENDRES_OK, or
  * PENDRES_NOT_CONVERGED where Newton's method found no orbit near the guess, or one so close to
- * its end in a fold that it cannot be told from the ghost beyond it (out[i] is then undefined), or PENDRES_TOLERANCE_UNREACHABLE where an orbit was found but its
- * estimated error exceeds the tolerance (out[i] is complete, errors say how far).
+ * its end in a fold that it cannot be told from the ghost beyond (out[i] is then undefined), or
+ * PENDRES_TOLERANCE_UNREACHABLE where an orbit was found but its estimated error exceeds the
+ * tolerance (out[i] is complete, errors say how far).
  * Returns PENDRES_OK unless nothing could be computed at all.
  */
 pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
