@@ -51,6 +51,7 @@ static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n, c
     l->w = state[stride + i];
     l->period++;
     pendres_strobe_wrap(&l->y, &l->turns);
+    pendres_strobe_rest(l->pendulum, &l->y, &l->w);
   }
   return PENDRES_OK;
 }

@@ -92,6 +92,7 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     y = state[0];
     w = state[stride];
     pendres_strobe_wrap(&y, &turns);
+    pendres_strobe_rest(what->p, &y, &w);
   }
   return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, flow, status);
 }

@@ -18,6 +18,13 @@ void pendres_strobe_wrap(double *y, long *turns)
   *turns += (long)k;
 }
 
+void pendres_strobe_rest(const pendres_pendulum *p, double *y, double *w)
+{
+  static const double nothing = 1e-290;
+  if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
+    *y = *w = 0.0;
+}
+
 static int by_steps(const void *a, const void *b)
 {
   const pendres_strobe_rank *p = a, *q = b;
@@ -59,7 +66,9 @@ static int look(block *b, size_t slot)
   l->w = state[stride + slot];
   l->period++;
   pendres_strobe_wrap(&l->y, &l->turns);
+  pendres_strobe_rest(l->pendulum, &l->y, &l->w);
   state[slot] = l->y;
+  state[stride + slot] = l->w;
   return b->visit(b->arg, b->slot[slot], l);
 }
 

@@ -43,4 +43,10 @@ pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe
 /* Take whole turns out of an angle: -pi <= y <= pi afterwards. */
 void pendres_strobe_wrap(double *y, long *turns);
 
+/*
+ * A damped pendulum without a drive dies down to denormal numbers and stays there, in steps that
+ * take forty times as long. Below 1e-290 it is put to rest.
+ */
+void pendres_strobe_rest(const pendres_pendulum *p, double *y, double *w);
+
 #endif
