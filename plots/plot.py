@@ -293,7 +293,9 @@ LOST = 0.1  # an error beyond which a pendulum is somewhere else: speed says not
 
 
 def draw_work_precision(h, path):
-    fig, (ax, honest) = plt.subplots(1, 2, figsize=(13, 7), width_ratios=(3, 2))
+    fig, axes = plt.subplot_mosaic([["speed", "honest"], ["legend", "legend"]], figsize=(13, 7.5),
+                                   width_ratios=(3, 2), height_ratios=(7, 1))
+    ax, honest = axes["speed"], axes["honest"]
     names, error = text(h["method_name"]), h["error_100"]
     # Fixed and adaptive steps of one table share a colour.
     table = [n.replace("block_adaptive", "block_fixed") if len(names) > 10 else n for n in names]
@@ -311,17 +313,16 @@ def draw_work_precision(h, path):
             ax.loglog(h["others/error"], h["others/throughput"][i] / 1e6, marker="x", ls=":",
                       color=f"{0.1 + 0.14 * i:.2f}", label=f"{name}, elsewhere")
     line = np.array([1e-15, LOST])
-    for factor, label in ((1, "exact"), (0.1, "a tenth: promised at least")):
-        honest.loglog(line, factor * line, color=FREE, lw=0.8, ls="-" if factor == 1 else "--")
-        honest.annotate(label, (line[1], factor * line[1]), xytext=(-4, -9), fontsize=7, ha="right",
-                        textcoords="offset points", rotation=0, color=FREE)
+    for factor, label, style in ((1, "the error", "-"), (0.1, "a tenth: promised at least", "--")):
+        honest.loglog(line, factor * line, color=FREE, lw=0.8, ls=style, label=label)
+    honest.legend(fontsize=8)
     ax.set(xlabel="largest error after 100 periods", ylabel="million pendulum-periods a second")
     honest.set(xlabel="largest error after 100 periods", ylabel="largest estimate of it")
-    for axes in (ax, honest):
-        axes.invert_xaxis()
-        axes.grid(True, alpha=0.3)
-    fig.legend(loc="outside lower center" if hasattr(fig, "get_layout_engine") else "lower center",
-               fontsize=8, ncol=6)
+    for panel in (ax, honest):
+        panel.invert_xaxis()
+        panel.grid(True, alpha=0.3)
+    axes["legend"].axis("off")
+    axes["legend"].legend(*ax.get_legend_handles_labels(), loc="center", fontsize=8, ncol=6)
     return fig
 
 
