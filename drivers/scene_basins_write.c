@@ -220,8 +220,9 @@ static pendres_status put_count(pendres_store *store, const char *name, const ch
 }
 
 /*
- * A fractal boundary fills a grid at every distance that the grid has, and gives it no exponent:
- * then by random states and small distances, which depend on the tolerance alone.
+ * A fractal boundary fills a grid at every distance that the grid has, and gives it no exponent;
+ * nor has a grid one whose v is not evenly spaced. Then by random states and small distances, which
+ * depend on the tolerance alone.
  */
 static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
 {
@@ -403,7 +404,8 @@ static void print_statistics(FILE *out, const pendres_basin_statistics *s)
   }
   fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
           s->boundary_entropy_error);
-  if (isnan(s->uncertainty_exponent)) fprintf(out, "unknown: the boundary was met too rarely\n");
+  if (isnan(s->uncertainty_exponent))
+    fprintf(out, "unknown: boundary met too rarely, or nearly everywhere\n");
   else fprintf(out, "%.3f +- %.3f\n", s->uncertainty_exponent, s->uncertainty_exponent_error);
 }
 

@@ -52,6 +52,16 @@ static double *shares_of(size_t n, const double *values)
   return share;
 }
 
+/* The step of v, 0 if its values are not evenly spaced to a thousandth of it. */
+static double even_step(const pendres_basin_grid *grid)
+{
+  if (grid->nv < 2) return 0.0;
+  const double step = (grid->v[grid->nv - 1] - grid->v[0]) / (double)(grid->nv - 1);
+  for (size_t j = 1; j < grid->nv; j++)
+    if (fabs(grid->v[j] - grid->v[j - 1] - step) > 1e-3 * fabs(step)) return 0.0;
+  return fabs(step);
+}
+
 pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
                                          pendres_basin_sums **out)
 {
@@ -64,8 +74,10 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
   s->nx = grid->nx;
   s->nv = grid->nv;
   s->attractors = attractors;
-  s->step = grid->nv > 1 ? fabs(grid->v[grid->nv - 1] - grid->v[0]) / (double)(grid->nv - 1) : 0.0;
-  while (s->scales < PENDRES_BASIN_SCALES && (size_t)8 << s->scales <= grid->nv) s->scales++;
+  s->step = even_step(grid);
+  while (s->step > 0.0 && s->scales < PENDRES_BASIN_SCALES &&
+         (size_t)8 << s->scales <= grid->nv)
+    s->scales++;
   s->x_share = shares_of(grid->nx, grid->x);
   s->v_share = shares_of(grid->nv, grid->v);
   s->members = calloc(attractors + 1, sizeof *s->members);
@@ -377,7 +389,8 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
   fit(strips, out);
   if (isnan(out->uncertainty_exponent))
     status = pendres_context_fail(ctx, PENDRES_NOT_FOUND,
-                                  "the boundary was met too rarely at the distances asked for");
+                                  "at too few of the distances the boundary is met often enough, "
+                                  "and by fewer than half of the states");
 done:
   free(x);
   free(v);

@@ -376,6 +376,28 @@ static void straight_boundary(void **state)
   check_near(s.entropy, s.boundary_entropy * s.boundary_boxes, 1e-12);
 }
 
+/* Distances on a grid that is not evenly spaced mean nothing: no exponent is made of them. */
+static void uneven(void **state)
+{
+  enum { N = 64 };
+  double x[N], v[N], fraction[2];
+  pendres_basin_state row[N] = {{0}};
+  const pendres_basin_grid grid = {.nx = N, .nv = N, .x = x, .v = v};
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics s;
+  (void)state;
+  for (int i = 0; i < N; i++) x[i] = v[i] = (double)i * i;
+  for (int j = N / 2; j < N; j++) row[j].attractor = 1;
+  check_ok(pendres_basin_sums_create(&grid, 2, &sums));
+  for (int i = 0; i < N; i++) check_ok(pendres_basin_sums_add(sums, 1, row));
+  check_ok(pendres_basin_sums_result(sums, &s, fraction, NULL));
+  assert_true(isnan(s.uncertainty_exponent) && isnan(s.uncertainty_exponent_error));
+  assert_int_equal(s.scales, 0);
+  /* Half the way between 31^2 and 32^2. */
+  check_near(fraction[0], 0.5 * (31.0 * 31.0 + 32.0 * 32.0) / (63.0 * 63.0), 1e-12);
+  pendres_basin_sums_free(sums);
+}
+
 /* Everything at random: every box is a boundary box, with the entropy of 25 tosses of a coin. */
 static int coin(size_t row, size_t column)
 {
@@ -495,6 +517,7 @@ int main(void)
     cmocka_unit_test(straight_boundary),
     cmocka_unit_test(tossed),
     cmocka_unit_test(no_boundary),
+    cmocka_unit_test(uneven),
     cmocka_unit_test(cantor_set),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
   };

@@ -158,7 +158,8 @@ typedef struct pendres_basin_statistics {
 } pendres_basin_statistics;
 
 /**
- * Opaque: sums over the rows of a grid. v is to be evenly spaced for the uncertainty exponent.
+ * Opaque: sums over the rows of a grid. Where v is not evenly spaced there is no uncertainty
+ * exponent.
  *
  * Errors are jackknife estimates from strips of rows: they hold for the sampling of the grid, not
  * for a choice of another window. Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán,
@@ -188,7 +189,8 @@ typedef struct pendres_basin_window {
  * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
  * below the tolerance mean nothing. The states depend on seed alone. statistics' fields
  * states, unresolved, uncertainty_exponent, distance, uncertain are set, others are NaN or 0.
- * PENDRES_NOT_FOUND: no distance met the boundary often enough.
+ * PENDRES_NOT_FOUND: at too few distances the boundary is met often enough for a count, and by fewer
+ * than half of the states: shares near one are no power of the distance.
  */
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
                                          const pendres_basin_window *window, size_t n,
