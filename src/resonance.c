@@ -162,12 +162,18 @@ static double best_area(const search *s)
   return best;
 }
 
+/* Whether a gap jumps and may hold more than the best value known. */
+static int promising(const search *s, size_t i, double best)
+{
+  const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+  return kind_of(a, b) == GAP_JUMP && bound_of(a, b) > best;
+}
+
 /* Whether a gap has to be looked into further. */
 static int open_gap(const search *s, size_t i, double best)
 {
-  const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-  return kind_of(a, b) == GAP_JUMP && frequency_of(b) - frequency_of(a) > narrow &&
-         bound_of(a, b) > best;
+  const double width = frequency_of(&s->points[i + 1]) - frequency_of(&s->points[i]);
+  return width > narrow && promising(s, i, best);
 }
 
 /* The largest bound of all gaps that are still open; minus infinity if none is. */
@@ -180,10 +186,11 @@ static double largest_bound(const search *s, double best)
 }
 
 /*
- * Look for a fold in the most promising open gap that was not searched yet: it takes the place of
- * the many frequencies close to it, where a ghost slows everything down. *found: one was added.
+ * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes the
+ * place of the many frequencies close to it, where a ghost slows everything down. *sought: there was
+ * such a gap; *found: one was added.
  */
-static pendres_status add_fold(search *s, int *found)
+static pendres_status add_fold(search *s, int *sought, int *found)
 {
   const double best = best_area(s);
   size_t gap = s->count;
@@ -191,13 +198,14 @@ static pendres_status add_fold(search *s, int *found)
   *found = 0;
   for (size_t i = 0; i + 1 < s->count; i++) {
     const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    if (!open_gap(s, i, best) || a->fold_sought || a->at_fold || b->at_fold) continue;
+    if (!promising(s, i, best) || a->fold_sought || a->at_fold || b->at_fold) continue;
     if (bound_of(a, b) > largest) {
       largest = bound_of(a, b);
       gap = i;
     }
   }
-  if (gap == s->count) return PENDRES_OK;
+  *sought = gap < s->count;
+  if (!*sought) return PENDRES_OK;
   pendres_scan_point in[2];
   s->points[gap].fold_sought = 1;
   pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, &s->points[gap],
@@ -219,11 +227,12 @@ static pendres_status resolve_jumps(search *s)
   for (;;) {
     double omega[MOST_POINTS];
     size_t n = 0;
-    int found = 0;
-    pendres_status status = add_fold(s, &found);
+    int sought = 0, found = 0;
+    pendres_status status = add_fold(s, &sought, &found);
     if (status != PENDRES_OK) return status;
     if (found) continue;
     const double best = best_area(s), largest = largest_bound(s, best);
+    if (largest == -INFINITY && sought) continue;
     if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
       const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
@@ -252,7 +261,8 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
     pendres_resonance one;
     if (a->at_fold && certain_area(a) >= best_area(s)) {
       status = pendres_resonance_at_fold(s->ctx, a, &one);
-      if (status == PENDRES_OK && one.loop_area > out->loop_area) {
+      /* As large: the gap before it was cut down to the same fold, less exactly. */
+      if (status == PENDRES_OK && one.loop_area >= out->loop_area) {
         *out = one;
         found = 1;
       }

@@ -301,22 +301,31 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
     const pendres_status status =
       pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, &m);
     if (status != PENDRES_OK) return status;
-    /* Keep the larger jump: that is where the largest value is. */
-    const double left = fabs(m.response.mean_loop_area - a->response.mean_loop_area);
-    const double right = fabs(b->response.mean_loop_area - m.response.mean_loop_area);
-    if (left > right)
-      *b = m;
-    else
+    /* Of several jumps the one next to the largest value counts, else the larger. What the states'
+       own slopes explain is no jump. */
+    const double at_a = a->response.mean_loop_area, at_b = b->response.mean_loop_area;
+    const double at_m = m.response.mean_loop_area;
+    const double left = fabs(at_m - at_a), right = fabs(at_b - at_m);
+    const double drift =
+      (upper - lower) * fmax(fabs(m.slope), fmax(fabs(a->slope), fabs(b->slope)));
+    int keep_right = right >= left;
+    if (at_b >= fmax(at_a, at_m) && right > drift) keep_right = 1;
+    if (at_a >= fmax(at_m, at_b) && left > drift) keep_right = 0;
+    if (keep_right)
       *a = m;
+    else
+      *b = m;
   }
 }
 
 enum { DECIDERS = 8 /* members that are followed up to a fold */ };
 
-/* Starts of the members that settle on an orbit's state at a frequency, at most `most` of n. */
+/*
+ * Of the n starts in x, those that settle on an orbit's state at a frequency, at most `most`, are
+ * moved to its front; *found is their number.
+ */
 static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p, size_t n,
-                                 const double *x, double v, double amplitude, size_t most,
-                                 double *found_x, size_t *found)
+                                 double v, double amplitude, size_t most, double *x, size_t *found)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
@@ -344,7 +353,7 @@ static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p
         outcome[i].attractor >= 0 ? pendres_attractors_get(set, (size_t)outcome[i].attractor) : NULL;
       /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
       if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
-      if (pass == 1 && *found < most && on * most >= *found * all) found_x[(*found)++] = x[i];
+      if (pass == 1 && *found < most && on * most >= *found * all) x[(*found)++] = x[i];
       on++;
     }
   }
@@ -358,32 +367,30 @@ done:
 
 /*
  * Whether the fold makes a jump of the ensemble's mean: the state that is born there has members
- * at once. Members on it a thousandth off the fold are followed to a hundred-thousandth: one that
- * is on it still was inside its basin when that was born.
+ * at once. Members on it a thousandth off the fold are followed to a millionth: one that is on it
+ * still was inside its basin when that was born. A few tell mostly; where the basin is torn to shreds
+ * and they have all left, the others are asked.
  */
 static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
                                    const pendres_fold *fold, double side, int *decides)
 {
-  double x[DECIDERS], *all = malloc(e->members * sizeof *all);
-  size_t n = e->members, found = 0;
-  const double *from = all;
+  const size_t most[2] = {DECIDERS, e->members};
+  double *x = malloc(e->members * sizeof *x);
   pendres_status status = PENDRES_OK;
-  if (all == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
-  for (size_t k = 1; k <= n; k++) all[k - 1] = pendres_ensemble_x(e, k);
   *decides = 0;
-  for (double off = 1e-3; off > 5e-6 && status == PENDRES_OK; off *= 0.1) {
-    pendres_pendulum p = fold->orbit.pendulum;
-    double next[DECIDERS];
-    p.drive_frequency = fold->value + side * off;
-    status = members_on(ctx, &p, n, from, e->v, fold->orbit.amplitude, DECIDERS, next, &found);
-    for (size_t i = 0; i < found; i++) x[i] = next[i];
-    from = x;
-    n = found;
-    if (found == 0) break;
+  if (x == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
+  for (int pass = 0; pass < 2 && !*decides && status == PENDRES_OK; pass++) {
+    size_t n = e->members;
+    for (size_t k = 1; k <= n; k++) x[k - 1] = pendres_ensemble_x(e, k);
+    for (double off = 1e-3; off > 5e-7 && n > 0 && status == PENDRES_OK; off *= 0.1) {
+      pendres_pendulum p = fold->orbit.pendulum;
+      p.drive_frequency = fold->value + side * off;
+      status = members_on(ctx, &p, n, e->v, fold->orbit.amplitude, most[pass], x, &n);
+    }
+    *decides = n > 0;
   }
-  *decides = found > 0;
-  free(all);
+  free(x);
   return status;
 }
 

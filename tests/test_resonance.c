@@ -161,6 +161,52 @@ static void independent_of_blocks(void **state)
   }
 }
 
+/*
+ * At weak damping SA's basin is torn: its last members leave one by one within 1e-4 below the fold,
+ * some before it, and each leaves a jump. No mean area nearby may exceed the one found; an edge at
+ * the fold says so, and an edge that is a little below it does not.
+ */
+static void the_last_of_many_jumps(void **state)
+{
+  enum { NEARBY = 81 };
+  static const struct {
+    double damping;
+    int at_fold;
+  } cases[] = {{0.04, 1}, {0.02 + 0.068 * 4 / 60, 1}, {0.02 + 0.068 * 2 / 60, 0}};
+  pendres_context *ctx = context_with(1e-8, 0);
+  const pendres_ensemble e = pendres_ensemble_default();
+  (void)state;
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    const pendres_resonance r = find(ctx, cases[k].damping, 0.1);
+    pendres_pendulum nearby[NEARBY];
+    pendres_response there[NEARBY];
+    assert_int_equal(r.peak, PENDRES_PEAK_EDGE);
+    for (int i = 0; i < NEARBY; i++)
+      nearby[i] = (pendres_pendulum){.damping = cases[k].damping,
+                                     .drive_amplitude = 0.1,
+                                     .drive_frequency = r.frequency + 1e-6 * (i - 40) + 1e-8};
+    check_ok(pendres_response_compute(ctx, NEARBY, nearby, &e, there));
+    for (int i = 0; i < NEARBY; i++)
+      assert_true(there[i].mean_loop_area - there[i].mean_loop_area_error <=
+                  r.loop_area + r.loop_area_error);
+
+    pendres_attractors *found = NULL;
+    pendres_fold fold;
+    pendres_pendulum p = nearby[0];
+    p.drive_frequency = 0.88;
+    check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found));
+    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(found, 0)->orbit, &fold));
+    pendres_attractors_free(found);
+    if (cases[k].at_fold) {
+      check_near(r.frequency, fold.value, r.frequency_error + fold.value_error);
+      check_near(r.fold_frequency, fold.value, r.fold_frequency_error + fold.value_error);
+    } else {
+      assert_true(isnan(r.fold_frequency) && r.frequency < fold.value - 1e-6);
+    }
+  }
+  pendres_context_free(ctx);
+}
+
 static void no_peak_is_said(void **state)
 {
   pendres_context *ctx = context_with(1e-8, 0);
@@ -199,7 +245,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(smooth_peaks),         cmocka_unit_test(edges_are_folds),
-    cmocka_unit_test(an_edge_is_a_jump),    cmocka_unit_test(linear_limit),
+    cmocka_unit_test(an_edge_is_a_jump),    cmocka_unit_test(the_last_of_many_jumps),
+    cmocka_unit_test(linear_limit),
     cmocka_unit_test(sign_of_the_drive),    cmocka_unit_test(independent_of_blocks),
     cmocka_unit_test(no_peak_is_said),      cmocka_unit_test(shares),
   };
