@@ -22,6 +22,7 @@ typedef struct basins {
   int variable[BASINS_VARIABLES];
   size_t unresolved;
   size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
+  const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
   /* refinement alone: */
   size_t integrated, verified, missed;
   /* the line v = 0: */

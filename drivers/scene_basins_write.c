@@ -342,6 +342,7 @@ static pendres_status write_boundary(basins *b)
   pendres_context *ctx = farm_context(b->run->farm);
   const pendres_attractor *first = pendres_attractors_get(b->set, 0);
   if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  b->curve = "none: the first attractor has no unstable orbit beside it on its branch";
   if (first == NULL || first->orbit.period != 1 || first->orbit.winding != 0) return PENDRES_OK;
   pendres_status status = pendres_saddle_find(ctx, &first->orbit, &saddle);
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* nothing beside it on its branch */
@@ -349,6 +350,7 @@ static pendres_status write_boundary(basins *b)
   if (status != PENDRES_OK) {
     (void)scene_fail(b->run, status, "%s", pendres_context_message(ctx));
   } else {
+    b->curve = pendres_boundary_complete(curve) ? "all of it" : "a part, it goes on";
     status = put_boundary(b->run->store, curve);
     if (status != PENDRES_OK) (void)scene_store_failed(b->run, status);
   }
@@ -399,7 +401,8 @@ static void print_orbit(FILE *out, const pendres_orbit *o)
 static void print_statistics(FILE *out, const pendres_basin_statistics *s)
 {
   if (!(s->boundary_boxes > 0.0)) {
-    fprintf(out, "no boundary between basins\n");
+    fprintf(out, isnan(s->boundary_boxes) ? "too few states for statistics of the boundary\n"
+                                          : "no boundary between basins\n");
     return;
   }
   fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
@@ -429,6 +432,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
             b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
             b->missed);
   if (b->d->basins.statistics) print_statistics(out, s);
+  if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
 }
 
 pendres_status basins_write_results(basins *b)
