@@ -1,0 +1,180 @@
+/*
+ * test_scene_work.c -- speed against error: what is compared, errors that are errors, estimates
+ * that are honest, methods that fail, and the same figures whatever the threads.
+ */
+#include "scene_fixture.h"
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+#include "contest.h"
+
+enum { METHODS = 4, TOLERANCES = 3, ALL = METHODS * TOLERANCES, MEMBERS = 200, PERIODS = 100 };
+enum { FIXED, ADAPTIVE, SINGLE, GSL };
+
+static const char work_deck[] =
+  "&scene kind = 'work_precision' /\n"
+  "&sweep method = 'block_fixed', 'block_adaptive_vern9', 'single_order5', 'gsl_rk8pd',\n"
+  "  tolerance = 1e-9, 1e-4, 1e-6, unit = 'ensemble' /\n";
+
+static const double pi = 3.14159265358979323846;
+
+static void get(pendres_store *store, const char *name, double values[ALL])
+{
+  size_t n = 0;
+  double *v = scene_values(store, name, &n);
+  assert_int_equal(n, ALL);
+  memcpy(values, v, ALL * sizeof *v);
+  free(v);
+}
+
+/*
+ * block_fixed at 1e-6 after 100 periods, by the public functions and starts written out here: the
+ * same calls on the same pendulums, so the same number but for the reference's last digit.
+ */
+static double error_of_block_fixed(double *estimate)
+{
+  static double x[MEMBERS], v[MEMBERS], start[MEMBERS], error[MEMBERS];
+  static pendres_pendulum p[MEMBERS];
+  const long double half_pi = 1.570796326794896619231321691639751442L;
+  pendres_context *ctx = NULL;
+  double most = 0.0;
+  for (int i = 0; i < MEMBERS; i++) {
+    p[i] = (pendres_pendulum){ .damping = 0.12, .drive_amplitude = 0.2,
+                               .drive_frequency = 2.0 * pi / 8.0 };
+    x[i] = start[i] = -0.5 * pi + 2.0 * pi * (i + 1) / MEMBERS;
+    v[i] = 0.0;
+  }
+  check_ok(pendres_context_create(&(pendres_options){ .tolerance = 1e-6 }, &ctx));
+  check_ok(pendres_strobe_advance(ctx, MEMBERS, p, x, v, PERIODS, error));
+  pendres_context_free(ctx);
+  *estimate = 0.0;
+  for (int i = 0; i < MEMBERS; i++) {
+    long double y = start[i] - half_pi, w = 0.0L;
+    long turns = 0;
+    check_ok(pendres_reference_advance(&p[i], &y, &w, &turns, PERIODS));
+    const long double off = x[i] - half_pi - y - 4.0L * half_pi * (long double)turns;
+    most = fmax(most, (double)fmaxl(fabsl(off), fabsl(v[i] - w)));
+    *estimate = fmax(*estimate, error[i]);
+  }
+  return most;
+}
+
+static void figures_are_plausible(void **state)
+{
+  double e10[ALL], e100[ALL], estimate[ALL], least[ALL], steps[ALL], rhs[ALL], speed[ALL], n[ALL];
+  (void)state;
+  scene_run_deck(work_deck, 2, "two");
+  pendres_store *store = scene_open("two");
+  get(store, "error_10", e10);
+  get(store, "error_100", e100);
+  get(store, "estimated_error", estimate);
+  get(store, "estimate_ratio_least", least);
+  get(store, "steps_per_period", steps);
+  get(store, "rhs_per_period", rhs);
+  get(store, "throughput", speed);
+  get(store, "pendulums", n);
+  for (int m = 0; m < METHODS; m++)
+    for (int t = 0; t < TOLERANCES; t++) { /* 1e-9, 1e-6, 1e-4 */
+      const int k = m * TOLERANCES + t;
+      check_near(n[k], m == SINGLE ? CONTEST_FEW : MEMBERS, 0.0);
+      assert_true(speed[k] > 0.0);
+      /* Two decades of tolerance at least are one decade of error, for methods of order 5 to 9
+         whose controllers hold errors proportional to it; three times that is room for luck. */
+      if (t > 0) {
+        assert_true(3.0 * e10[k - 1] < e10[k] && 3.0 * e100[k - 1] < e100[k]);
+        assert_true(steps[k - 1] > steps[k] && rhs[k - 1] > rhs[k]);
+      }
+      /* The promise of docs/accuracy.md. 3 is twice what the largest estimate is above the largest
+         error when the same member has both. */
+      if (m == GSL) assert_true(isnan(estimate[k]) && isnan(least[k]));
+      else assert_true(least[k] >= 0.1 && estimate[k] > 0.1 * e100[k] && estimate[k] < 3.0 * e100[k]);
+    }
+  /* tp8 has 12 stages; ARKODE evaluates once more when a period begins. */
+  for (int t = 0; t < TOLERANCES; t++)
+    check_near(rhs[FIXED * TOLERANCES + t], 12.0 * steps[FIXED * TOLERANCES + t] + 1.0, 1e-9);
+  double by_hand_estimate;
+  const double by_hand = error_of_block_fixed(&by_hand_estimate);
+  check_relative(e100[FIXED * TOLERANCES + 1], by_hand, 1e-6); /* differences of doubles near 1 */
+  check_relative(estimate[FIXED * TOLERANCES + 1], by_hand_estimate, 1e-12);
+  pendres_store_free(store);
+}
+
+/* Everything but time: the same bytes from one thread. Runs after the above. */
+static void threads_change_no_figure(void **state)
+{
+  static const char *const names[] = { "error_10", "error_100", "estimated_error",
+                                       "estimate_ratio_least", "estimate_ratio_median",
+                                       "steps_per_period", "rhs_per_period", "pendulums" };
+  double one[ALL], two[ALL];
+  (void)state;
+  scene_run_deck(work_deck, 1, "one");
+  pendres_store *a = scene_open("one"), *b = scene_open("two");
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    get(a, names[i], one);
+    get(b, names[i], two);
+    assert_memory_equal(one, two, sizeof one);
+  }
+  pendres_store_free(a);
+  pendres_store_free(b);
+}
+
+/* 'sweep': in its ranges, no two alike, and spread evenly (means within a hundredth of the range:
+   additive recurrences of 1000 points are far better than chance's third of a hundredth). */
+static void sweep_covers_its_ranges(void **state)
+{
+  work_unit w = { 0 };
+  double frequency = 0.0, damping = 0.0;
+  (void)state;
+  check_ok(work_unit_make("sweep", &w));
+  assert_int_equal(w.n, 1000);
+  for (size_t i = 0; i < w.n; i++) {
+    const pendres_pendulum *p = &w.pendulum[i];
+    assert_true(p->drive_frequency > 0.6 && p->drive_frequency < 1.2);
+    assert_true(p->damping > 0.06 && p->damping < 1.0);
+    frequency += p->drive_frequency / 1000.0, damping += p->damping / 1000.0;
+    for (size_t k = 0; k < i; k++)
+      assert_true(p->drive_frequency != w.pendulum[k].drive_frequency && w.x[i] != w.x[k]);
+  }
+  check_near(frequency, 0.9, 0.006);
+  check_near(damping, 0.53, 0.0094);
+  work_unit_free(&w);
+}
+
+static int now(void *arg)
+{
+  (void)arg;
+  return 1;
+}
+
+/* A method that gives up leaves words instead of figures; an interrupt ends everything. */
+static void failures_are_said(void **state)
+{
+  work_unit w = { 0 };
+  contest c;
+  (void)state;
+  check_ok(work_unit_make("ensemble", &w));
+  w.pendulum[7].damping = 1e6;
+  w.pendulum[7].drive_frequency = 0.01;
+  check_ok(contest_run(&w, "block_fixed", 1e-8, 0, NULL, NULL, &c));
+  assert_non_null(strstr(c.failure, "cvode_bdf"));
+  assert_true(isnan(c.error[0]) && isnan(c.error[1]) && isnan(c.estimate) && isnan(c.honesty));
+  assert_true(isnan(c.steps) && isnan(c.rhs) && isnan(c.seconds) && isnan(c.throughput));
+  assert_int_equal(c.pendulums, MEMBERS);
+  check_ok(contest_run(&w, "block_fixed", 1e-20, 0, NULL, NULL, &c));
+  assert_true(isnan(c.error[1]) && strlen(c.failure) > 10);
+  assert_int_equal(contest_run(&w, "cvode_bdf", 1e-8, 0, now, NULL, &c), PENDRES_INTERRUPTED);
+  assert_int_equal(contest_run(&w, "gsl_rk8pd", 1e-8, 0, now, NULL, &c), PENDRES_INTERRUPTED);
+  work_unit_free(&w);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(sweep_covers_its_ranges),
+    cmocka_unit_test(failures_are_said),
+    cmocka_unit_test(figures_are_plausible),
+    cmocka_unit_test(threads_change_no_figure),
+  };
+  return cmocka_run_group_tests_name("scene_work", tests, scene_enter, scene_leave);
+}
