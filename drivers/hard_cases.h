@@ -22,6 +22,8 @@
   ITEM(separatrix)                                                                                \
   ITEM(energy)                                                                                    \
   ITEM(stiff)                                                                                     \
+  ITEM(fold)                                                                                      \
+  ITEM(cusp)                                                                                      \
   ITEM(tolerance)                                                                                 \
   ITEM(drive)
 
