@@ -31,7 +31,7 @@ typedef struct work {
   int closed;                    /* nonzero: there is a closed orbit */
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
-  char message[200];             /* why there is no such attractor; "" */
+  char message[256];             /* why there is no such attractor; "" */
 } work;
 
 /* ---- what the pendulum settles on ---------------------------------------------------------- */
@@ -70,8 +70,8 @@ static pendres_status find_named(work *w, pendres_context *ctx)
     char list[100];
     list_labels(set, list, sizeof list);
     snprintf(w->message, sizeof w->message,
-             "there is no attractor '%s' at these parameters, only: %s", w->d->orbit.start,
-             list[0] != '\0' ? list : "none was found");
+             "there is no attractor '%s' at these parameters; found: %s", w->d->orbit.start,
+             list[0] != '\0' ? list : "none");
   }
   pendres_attractors_free(set);
   return status;
