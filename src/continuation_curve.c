@@ -7,6 +7,7 @@
 
 #include "context_internal.h"
 #include "continuation_locate.h"
+#include "continuation_stencil.h"
 #include "continuation_trail.h"
 
 static const double wildest = 300.0; /* default */
@@ -286,24 +287,6 @@ done:
 
 /* ---- one value of the second parameter ---- */
 
-/* A place near the crossing of a chord, and the chord's length. */
-static double between(const pendres_curve *c, size_t i, size_t k, double part, double value,
-                      double u[PENDRES_U_COUNT])
-{
-  double chord = 0.0;
-  /* The state leaves a cusp with the square root of the parameter. */
-  double way = part;
-  if (c->point[i].cusp >= 0) way = sqrt(part);
-  if (c->point[k].cusp >= 0) way = 1.0 - sqrt(1.0 - part);
-  for (int m = 0; m < PENDRES_U_COUNT; m++) {
-    const double step = c->u[k][m] - c->u[i][m];
-    u[m] = c->u[i][m] + (m < 2 ? way : part) * step;
-    chord = hypot(chord, step / pendres_walk_scale[m]);
-  }
-  u[place_of(c->parameter[1])] = value;
-  return chord;
-}
-
 pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
                                    size_t room, pendres_bifurcation *out, size_t *found)
 {
@@ -313,28 +296,37 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
   const int closed = c->end[0] == PENDRES_END_CLOSED;
   const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
   const int unknown[] = {PENDRES_U_Y, PENDRES_U_W, place_of(c->parameter[0])};
+  const int second = place_of(c->parameter[1]);
+  double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
   for (size_t i = 0; i < chords; i++) {
-    const size_t k = (i + 1) % c->count;
-    const double from = c->point[i].value[1] - value, to = c->point[k].value[1] - value;
-    double u[PENDRES_U_COUNT], part;
-    if (from == 0.0 || from * to < 0.0)
-      part = from == 0.0 ? 0.0 : from / (from - to);
-    else if (to == 0.0 && k == c->count - 1 && !closed)
-      part = 1.0;
-    else
-      continue;
-    pendres_located located;
-    const double chord = between(c, i, k, part, value, u);
-    pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown, u,
-                                                        2.0 * chord + 1e-3, &located);
-    if (status == PENDRES_NOT_CONVERGED) continue;
-    if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
-    if (*found < room) {
-      status = pendres_continuation_locate_finish(ctx, c->condition, c->parameter[0], &located,
-                                                  &out[*found]);
-      if (status != PENDRES_OK) return status;
+    pendres_continuation_stencil s;
+    double t[PENDRES_STENCIL_ROOTS];
+    pendres_continuation_stencil_init(&s, c->count, (const double (*)[PENDRES_U_COUNT])c->u, closed,
+                                      i);
+    const size_t roots =
+      pendres_continuation_stencil_roots(&s, second, value, !closed && i + 1 == chords, t);
+    for (size_t r = 0; r < roots; r++) {
+      pendres_located located;
+      pendres_continuation_stencil_at(&s, t[r], guess);
+      guess[second] = value;
+      pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown,
+                                                          guess, 2.0 * s.length + 1e-3, &located);
+      if (status == PENDRES_NOT_CONVERGED) continue;
+      if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+      /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
+      const int again = *found > 0 &&
+                        pendres_continuation_stencil_distance(located.pair.fine, last) <
+                          0.1 * pendres_continuation_stencil_distance(guess, last_guess);
+      memcpy(last_guess, guess, sizeof last_guess);
+      memcpy(last, located.pair.fine, sizeof last);
+      if (again) continue;
+      if (*found < room) {
+        status = pendres_continuation_locate_finish(ctx, c->condition, c->parameter[0], &located,
+                                                    &out[*found]);
+        if (status != PENDRES_OK) return status;
+      }
+      ++*found;
     }
-    ++*found;
   }
   return PENDRES_OK;
 }

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "context_internal.h"
-#include "continuation_walk.h"
+#include "continuation_stencil.h"
 #include "steps.h"
 
 /* Rounding of a step, three times its usual size: errors claim to be bounds. */
@@ -73,14 +73,6 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_continuat
   return PENDRES_OK;
 }
 
-static double distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
-{
-  double sum = 0.0;
-  for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / pendres_walk_scale[i]);
-  return sum;
-}
-
 static pendres_status solve_twice(pendres_context *ctx, const pendres_continuation_map *map,
                                   pendres_continuation_condition condition, const int *unknown,
                                   const double u[PENDRES_U_COUNT], double reach, int steps,
@@ -98,7 +90,7 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status = pendres_continuation_map_solve(
     ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
-  if (status == PENDRES_OK && !(distance(u, pair->coarse) <= reach)) status = PENDRES_NOT_CONVERGED;
+  if (status == PENDRES_OK && !(pendres_continuation_stencil_distance(u, pair->coarse) <= reach)) status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
   status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,

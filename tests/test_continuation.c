@@ -477,6 +477,44 @@ static void fold_curve_passes_the_cusp(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * LA's curve of folds has a lowest damping, 0.12228752, where it turns back between two of its points.
+ * Just above, both folds are there, however close; just below, neither. Their distance grows with the
+ * square root of the damping: from 1.8e-9 above the turn, at 1.56e-4, and so on.
+ */
+static void a_turn_of_a_curve_has_both_sides(void **state)
+{
+  (void)state;
+  static const double above[] = {0.12228752, 0.1222876, 0.12229, 0.1224};
+  pendres_context *ctx = context_of(1e-11, PENDRES_TABLE_DEFAULT);
+  const pendres_orbit near = orbit_of(ctx, 0.13, 0.2, 0.8, 1);
+  const pendres_curve_options options = {
+    .second = PENDRES_DAMPING, .low = {0.5, 0.06}, .high = {0.8, 1.0}};
+  pendres_fold fold;
+  pendres_curve *c = NULL;
+  pendres_bifurcation at[4];
+  size_t found = 0;
+  check_ok(pendres_fold_find(ctx, &near, &fold));
+  check_ok(pendres_curve_follow(ctx, 1, &fold, &options, &c));
+  for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
+    check_ok(pendres_curve_cross(ctx, c, above[i], 4, at, &found));
+    assert_int_equal(found, 2);
+    /* Square of the distance: 13.68 a unit of damping, to the next order, some per mille here. */
+    const double apart = at[1].value - at[0].value;
+    check_relative(apart * apart, 13.68 * (above[i] - 0.12228751823), 0.02);
+    for (int k = 0; k < 2; k++) {
+      pendres_reference_cycle want;
+      check_ok(pendres_reference_fold(&at[k].orbit.pendulum, at[k].value, at[k].orbit.x - half_pi,
+                                      at[k].orbit.v, &want));
+      check_near(at[k].value, (double)want.drive_frequency, fair * at[k].value_error);
+    }
+  }
+  check_ok(pendres_curve_cross(ctx, c, 0.1222875, 4, at, &found));
+  assert_int_equal(found, 0);
+  pendres_curve_free(c);
+  pendres_context_free(ctx);
+}
+
 /* The curve of symmetry breakings, in damping and drive amplitude too. */
 static void symmetry_breakings_follow_parameters(void **state)
 {
@@ -637,6 +675,7 @@ int main(void)
     cmocka_unit_test(ensemble_finds_the_branch_born_away),
     cmocka_unit_test(branches_start_at_folds),
     cmocka_unit_test(fold_curve_passes_the_cusp),
+    cmocka_unit_test(a_turn_of_a_curve_has_both_sides),
     cmocka_unit_test(symmetry_breakings_follow_parameters),
     cmocka_unit_test(other_parameters_lead_to_the_same_orbits),
     cmocka_unit_test(branches_do_not_depend_on_neighbours),

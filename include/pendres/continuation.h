@@ -222,7 +222,8 @@ pendres_branch_end pendres_curve_end_of(const pendres_curve *curve, int which);
 
 /**
  * All bifurcations of a curve at a value of its second parameter, in the order of the curve; each
- * is located to the tolerance. *found is their number, the first `room` are written.
+ * is located to the tolerance. *found is their number, the first `room` are written. Next to where
+ * the curve turns back in that parameter, within the errors, two may be missing.
  */
 pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *curve, double value,
                                    size_t room, pendres_bifurcation *out, size_t *found);
