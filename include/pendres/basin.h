@@ -149,8 +149,10 @@ typedef struct pendres_basin_statistics {
   double boundary_entropy, boundary_entropy_error; /**< the same over boxes with unlike states; more
                                         than log 2: a fractal boundary. NaN without any */
   double boundary_boxes;           /**< share of boxes with unlike states */
-  double uncertainty_exponent, uncertainty_exponent_error; /**< alpha in f ~ distance^alpha; NaN
-                                        without a boundary */
+  double uncertainty_exponent, uncertainty_exponent_error; /**< alpha in f ~ distance^alpha over the
+                                        smallest usable distances; NaN without a boundary. Strands
+                                        that accumulate at a curve make f ~ d log 1/d: alpha is then
+                                        below its limit 1 by 1 / log(1/d) at any distance d */
   int scales;
   double distance[PENDRES_BASIN_SCALES];  /**< in v */
   double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one so far away */
