@@ -24,6 +24,7 @@
   ITEM(stiff)                                                                                     \
   ITEM(fold)                                                                                      \
   ITEM(cusp)                                                                                      \
+  ITEM(boundary)                                                                                  \
   ITEM(tolerance)                                                                                 \
   ITEM(drive)
 

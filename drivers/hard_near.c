@@ -7,11 +7,11 @@
  * 1 / sqrt(d) periods to pass. At a cusp it is d^(1/3) and d^(2/3). Where everything is comes
  * from extended precision (reference.h).
  */
-#include "hard_cases.h"
-
 #include <math.h>
 
 #include <pendres/reference.h>
+
+#include "hard_cases.h"
 
 static const double half_pi = 1.57079632679489661923;
 

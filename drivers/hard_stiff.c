@@ -6,12 +6,12 @@
  * though nothing happens in them. Up to a million steps a period the library takes them; beyond
  * that it refuses and names cvode_bdf, whose steps follow the solution.
  */
-#include "hard_cases.h"
-
 #include <math.h>
 #include <string.h>
 
 #include <pendres/reference.h>
+
+#include "hard_cases.h"
 
 static const long double pi = 3.141592653589793238462643383279502884L;
 static const double tolerance = 1e-8;
