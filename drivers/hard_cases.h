@@ -25,6 +25,7 @@
   ITEM(fold)                                                                                      \
   ITEM(cusp)                                                                                      \
   ITEM(boundary)                                                                                  \
+  ITEM(wild)                                                                                      \
   ITEM(tolerance)                                                                                 \
   ITEM(drive)
 
