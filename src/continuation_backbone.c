@@ -1,9 +1,9 @@
 /*
  * continuation_backbone.c -- where the response lags a quarter of a turn; see continuation.h.
  *
- * At a lag of pi/2 the drive puts in pi F0 R a cycle, R the first harmonic, and friction takes out
- * pi gamma omega R^2 (1 + higher harmonics): with one harmonic gamma omega R = F0, and omega is
- * the free frequency at that amplitude. That is where the search starts.
+ * At a lag of pi/2 the drive puts in pi F0 R_1 a cycle, R_1 the first harmonic, and friction takes
+ * out pi gamma omega sum n^2 R_n^2. Where the two are equal for a free oscillation, the search
+ * starts: off by the square of the damping only, and a fold is hardly further away.
  */
 #include <pendres/continuation.h>
 
@@ -24,23 +24,38 @@ typedef struct search {
   pendres_orbit_guess guess;
 } search;
 
-/* Amplitude R <= pi with gamma omega(R) R = F0, or NaN. */
+/*
+ * Drive over damping that a free oscillation of amplitude a asks for: omega sum n^2 R_n^2 / R_1
+ * with its harmonics R_n = 8 q^(n/2) / (n (1 + q^n)), n odd, q the nome of k = sin(a / 2).
+ */
+static double balance(double a)
+{
+  const double pi = 2.0 * half_pi, omega = pendres_free_frequency(a);
+  const double q = exp(-pi * omega / pendres_free_frequency(pi - a));
+  const double first = 8.0 * sqrt(q) / (1.0 + q);
+  double sum = 0.0;
+  for (int n = 1; n < 40; n += 2) {
+    const double part = 8.0 * pow(q, 0.5 * n) / (1.0 + pow(q, n)); /* n R_n */
+    sum += part * part;
+  }
+  return omega * sum / first;
+}
+
+/* Amplitude below pi at which the drive meets friction, or NaN. */
 static double start_amplitude(const pendres_pendulum *p)
 {
-  double low = 0.0, high = 3.14;
-  /* omega(R) R grows up to about R = 2.6 and falls to 0 at the top: the lower root is meant. */
-  double best = 0.0, at = 0.0;
-  for (double r = 0.05; r < high; r += 0.05)
-    if (pendres_free_frequency(r) * r > best) {
-      best = pendres_free_frequency(r) * r;
-      at = r;
+  /* What is asked for grows up to a >= 2 and falls towards the top: the lower root is meant. */
+  double low = 0.0, high = 0.0, best = 0.0;
+  for (double a = 0.05; a < 3.14; a += 0.05)
+    if (balance(a) > best) {
+      best = balance(a);
+      high = a;
     }
   const double wanted = p->drive_amplitude / p->damping;
   if (!(wanted < best)) return NAN;
-  high = at;
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
-    if (pendres_free_frequency(middle) * middle < wanted)
+    if (balance(middle) < wanted)
       low = middle;
     else
       high = middle;
@@ -91,16 +106,16 @@ static size_t begin(size_t n, const pendres_pendulum *pendulums, search *s, doub
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     pendres_pendulum p = pendulums[i];
-    const double r = start_amplitude(&p);
+    const double a = start_amplitude(&p);
     outcome[i] = PENDRES_NOT_FOUND;
     if (error != NULL) error[i] = NAN;
-    if (isnan(r)) continue;
-    p.drive_frequency = pendres_free_frequency(r);
-    /* y = R sin(theta). */
+    if (isnan(a)) continue;
+    p.drive_frequency = pendres_free_frequency(a);
+    /* y goes as sin(theta): through its well with the speed of its energy. */
     s[count++] = (search){
       .index = i,
       .omega = p.drive_frequency,
-      .guess = {.pendulum = p, .x = half_pi, .v = r * p.drive_frequency, .period = 1}};
+      .guess = {.pendulum = p, .x = half_pi, .v = 2.0 * sin(0.5 * a), .period = 1}};
   }
   return count;
 }
