@@ -70,7 +70,7 @@ static double off(const pendres_continuation_stencil *s, int place, double value
   return u[place] - value;
 }
 
-/* Samples along the chord, and the vertices of parabolas through three: no pair of roots is lost. */
+/* Samples along the chord, and vertices of parabolas through three: no pair of roots is lost. */
 static int sample(const pendres_continuation_stencil *s, int place, double value,
                   double t[SAMPLES], double g[SAMPLES])
 {

@@ -31,7 +31,7 @@ void pendres_continuation_stencil_init(pendres_continuation_stencil *s, size_t c
 void pendres_continuation_stencil_at(const pendres_continuation_stencil *s, double t,
                                      double u[PENDRES_U_COUNT]);
 
-/* Where 0 <= t < length (<= if `last`) and coordinate `place` has a value: ascending, their number. */
+/* Where 0 <= t < length (<= if `last`) and coordinate `place` has a value; returns their number. */
 size_t pendres_continuation_stencil_roots(const pendres_continuation_stencil *s, int place,
                                           double value, int last,
                                           double t[PENDRES_STENCIL_ROOTS]);

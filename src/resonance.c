@@ -186,9 +186,9 @@ static double largest_bound(const search *s, double best)
 }
 
 /*
- * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes the
- * place of the many frequencies close to it, where a ghost slows everything down. *sought: there was
- * such a gap; *found: one was added.
+ * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes
+ * the place of the many frequencies close to it, where a ghost slows everything down. *sought:
+ * there was such a gap; *found: one was added.
  */
 static pendres_status add_fold(search *s, int *sought, int *found)
 {

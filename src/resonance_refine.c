@@ -368,8 +368,8 @@ done:
 /*
  * Whether the fold makes a jump of the ensemble's mean: the state that is born there has members
  * at once. Members on it a thousandth off the fold are followed to a millionth: one that is on it
- * still was inside its basin when that was born. A few tell mostly; where the basin is torn to shreds
- * and they have all left, the others are asked.
+ * still was inside its basin when that was born. A few tell mostly; where the basin is torn to
+ * shreds and they have all left, the others are asked.
  */
 static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
                                    const pendres_fold *fold, double side, int *decides)
