@@ -6,6 +6,7 @@
  */
 #define _POSIX_C_SOURCE 200809L /* open_memstream, access */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -31,6 +32,18 @@ typedef struct job {
   char *table;
   size_t table_size;
 } job;
+
+/*
+ * A standard stream that came closed is opened the wrong way round, so that its use fails as before:
+ * left alone, its number would go to the next file opened, and messages into the results.
+ */
+static int hold_streams(void)
+{
+  for (int fd = 0; fd <= 2; fd++)
+    if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) != fd)
+      return FAILED;
+  return DONE;
+}
 
 /* --output takes the place of the deck's, but never that of the deck itself. */
 static int override_output(job *j)
@@ -93,10 +106,15 @@ static int dump(job *j)
   return check_stdout(j);
 }
 
-/* The folder that the output would go to. */
+/* What is there already, and the folder that the output would go to. */
 static int output_writable(job *j)
 {
   char folder[DECK_PATH];
+  struct stat there;
+  if (stat(j->deck.output, &there) == 0 && !S_ISREG(there.st_mode)) {
+    progress_error(&j->progress, "'%s' exists and is not a regular file", j->deck.output);
+    return FAILED;
+  }
   strcpy(folder, j->deck.output);
   char *slash = strrchr(folder, '/');
   if (slash == NULL) strcpy(folder, ".");
@@ -202,6 +220,10 @@ static int report(job *j)
   progress_note(&j->progress, "%s written after %.2f s", j->deck.output,
                 provenance_wall(&j->provenance));
   if (check_stdout(j) != DONE) return FAILED;
+  if (j->progress.log != NULL && ferror(j->progress.log)) {
+    progress_error(&j->progress, "the log %s is not whole", j->options.log);
+    return FAILED;
+  }
   if (j->run.failed_points == 0) return DONE;
   progress_error(&j->progress, "%zu point%s failed, as marked in %s", j->run.failed_points,
                  j->run.failed_points == 1 ? "" : "s", j->deck.output);
@@ -222,6 +244,7 @@ static void let_go(job *j)
 int main(int argc, char **argv)
 {
   job j = { 0 };
+  if (hold_streams() != DONE) return FAILED;
   int code = options_parse(argc, argv, &j.options);                  /* 1 the command line */
   if (code != DONE) return code;
   if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);

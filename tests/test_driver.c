@@ -91,6 +91,17 @@ static void test_dry(void **state)
   assert_int_equal(count_names(".h5"), 0);
 }
 
+static void nap(long milliseconds)
+{
+  const struct timespec t = { milliseconds / 1000, milliseconds % 1000 * 1000000L };
+  nanosleep(&t, NULL);
+}
+
+static void wait_for(const char *path)
+{
+  for (int k = 0; k < 500 && !exists(path); k++) nap(20);
+}
+
 /* ---- what disks and pipes do --------------------------------------------------------------- */
 
 static void test_output_refused(void **state)
@@ -124,15 +135,32 @@ static void test_table_refused(void **state)
   check_says(err, "standard output");
   assert_true(exists("orbit.h5"));
   assert_int_equal(count_names(".part"), 0);
+  check_code(RUN("--log", "/dev/full", "orbit.nml"), 1);
+  check_says(err, "log");
+}
+
+/* Nothing is said, least of all into the file of results that is opened next. */
+static void test_streams_closed(void **state)
+{
+  const char *const arguments[] = { "-o", "kept.h5", "long.nml", NULL };
+  (void)state;
+  if (access("/proc/self/fd", R_OK) != 0) skip();
+  const pid_t pid = start(NULL, 0, arguments);
+  wait_for("kept.h5.part");
+  for (int fd = 0; fd <= 2; fd++) {
+    char link[64], target[32] = "";
+    snprintf(link, sizeof link, "/proc/%ld/fd/%d", (long)pid, fd);
+    assert_true(readlink(link, target, sizeof target - 1) > 0);
+    assert_string_equal(target, "/dev/null");
+  }
+  assert_int_equal(kill(pid, SIGTERM), 0);
+  check_code(finish(pid), 75);
+  check_code(finish(start(NULL, 0, (const char *const[]){ "orbit.nml", NULL })), 1);
+  assert_true(exists("orbit.h5"));
+  assert_string_equal(err, "");
 }
 
 /* ---- signals ------------------------------------------------------------------------------- */
-
-static void nap(long milliseconds)
-{
-  const struct timespec t = { milliseconds / 1000, milliseconds % 1000 * 1000000L };
-  nanosleep(&t, NULL);
-}
 
 static void test_signals(void **state)
 {
@@ -143,7 +171,7 @@ static void test_signals(void **state)
   write_text("kept.h5", "precious");
   for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) {
     const pid_t pid = start("stdout.txt", 0, arguments);
-    for (int k = 0; k < 500 && !exists("kept.h5.part"); k++) nap(20); /* it has begun */
+    wait_for("kept.h5.part"); /* it has begun */
     nap(50);
     assert_int_equal(kill(pid, signals[i]), 0);
     check_code(finish(pid), 75);
@@ -159,7 +187,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_usage),          TEST(test_bad_decks),     TEST(test_dry),
-    TEST(test_output_refused), TEST(test_table_refused), TEST(test_signals),
+    TEST(test_output_refused), TEST(test_table_refused), TEST(test_streams_closed),
+    TEST(test_signals),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }
