@@ -194,7 +194,7 @@ static pendres_status follow(run *r, pendres_langevin_block *b, pendres_langevin
 
 /* Standard errors of the statistics of `all`, or of their difference from those of `coarse`. */
 static pendres_status estimate(const run *r, const sums *all, const sums *coarse,
-                               pendres_langevin_estimate out[STATISTICS])
+                               pendres_langevin_estimate *out)
 {
   double value[STATISTICS], other[STATISTICS] = {0}, square[STATISTICS] = {0};
   const sums total = total_of(all, r->trajectories);
