@@ -20,10 +20,14 @@ typedef struct drive_memo {
   size_t size, next;
 } drive_memo;
 
+enum { MOST_STAGES = 32 };
+
 struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
   int steps, stages;
+  double node[MOST_STAGES]; /* of the stages of a step */
+  double end, half;         /* ARKODE's clock after a period and half of one */
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
   double *coefficient[4]; /* stiffness, drive, friction, inverse */
@@ -34,13 +38,30 @@ struct pendres_flow {
   int failure;
 };
 
-static double drive_cosine(drive_memo *m, double theta)
+/*
+ * ARKODE adds its clock up step by step, always rounding the same way: after 3e5 steps it is off by
+ * 1e-10. What is meant is the end of a whole number of steps and a stage's node.
+ */
+static double phase_meant(const pendres_flow *flow, double theta)
 {
+  if (flow->steps == 0) return theta; /* adaptive */
+  const double steps = theta * flow->steps / two_pi;
+  double meant = rint(steps);
+  for (int i = 0; i < flow->stages; i++) {
+    const double here = rint(steps - flow->node[i]) + flow->node[i];
+    if (fabs(here - steps) < fabs(meant - steps)) meant = here;
+  }
+  return fabs(meant - steps) < 1e-3 ? two_pi * meant / flow->steps : theta;
+}
+
+static double drive_cosine(pendres_flow *flow, double theta)
+{
+  drive_memo *m = &flow->memo;
   if (m->next >= m->size) return cos(theta); /* adaptive steps, or an unforeseen call */
   const size_t i = m->next++;
   if (m->theta[i] != theta) {
     m->theta[i] = theta;
-    m->cosine[i] = cos(theta);
+    m->cosine[i] = cos(phase_meant(flow, theta));
   }
   return m->cosine[i];
 }
@@ -48,7 +69,7 @@ static double drive_cosine(drive_memo *m, double theta)
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
   pendres_flow *flow = arg;
-  pendres_lanes_slope(y, slope, drive_cosine(&flow->memo, theta));
+  pendres_lanes_slope(y, slope, drive_cosine(flow, theta));
   flow->evaluations += (double)flow->lanes;
   return 0;
 }
@@ -106,6 +127,11 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   pendres_compat_silence(sun, flow->arkode, NULL);
   butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
   if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (flow->stages > MOST_STAGES) {
+    ARKodeButcherTable_Free(butcher);
+    return PENDRES_INTERNAL;
+  }
+  for (int i = 0; i < flow->stages; i++) flow->node[i] = butcher->c[i];
 
   int bad = ERKStepSetTable(flow->arkode, butcher) != 0 ||
             ERKStepSetUserData(flow->arkode, flow) != 0 ||
@@ -180,9 +206,16 @@ pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
   if (steps < 1 || flow->tolerance != 0.0) return PENDRES_INVALID_ARGUMENT;
   if (steps == flow->steps) return PENDRES_OK;
   if (memo_resize(&flow->memo, flow->stages, steps) != 0) return PENDRES_OUT_OF_MEMORY;
-  flow->failure = ERKStepSetFixedStep(flow->arkode, two_pi / steps);
+  const double h = two_pi / steps;
+  flow->failure = ERKStepSetFixedStep(flow->arkode, h);
   if (flow->failure != 0) return PENDRES_INTEGRATION_FAILED;
   flow->steps = steps;
+  /* A stop at 2 pi itself would cut the last step, or add one, by what the clock is off. */
+  flow->end = 0.0;
+  for (int i = 0; i < steps; i++) {
+    if (2 * i == steps) flow->half = flow->end;
+    flow->end += h;
+  }
   return PENDRES_OK;
 }
 
@@ -275,13 +308,13 @@ static pendres_status advance_to(pendres_flow *flow, double end)
 
 pendres_status pendres_flow_period(pendres_flow *flow)
 {
-  return advance_to(flow, two_pi);
+  return advance_to(flow, flow->steps > 0 ? flow->end : two_pi);
 }
 
 pendres_status pendres_flow_half_period(pendres_flow *flow)
 {
   if (flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
-  return advance_to(flow, 0.5 * two_pi);
+  return advance_to(flow, flow->half);
 }
 
 pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
@@ -289,10 +322,10 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
 {
   sunrealtype reached = 0.0;
   if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
-  const pendres_status status = start_period(flow, two_pi);
+  const pendres_status status = start_period(flow, flow->end);
   if (status != PENDRES_OK) return status;
   for (int step = 1; step <= flow->steps; step++) {
-    flow->failure = ERKStepEvolve(flow->arkode, two_pi, flow->state, &reached, ARK_ONE_STEP);
+    flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
     if (flow->failure < 0) return PENDRES_INTEGRATION_FAILED;
     pendres_lanes_read(flow->state, flow->rows);
     sample(arg, step, reached, flow->shape.stride, flow->rows);
