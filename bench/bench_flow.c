@@ -2,7 +2,7 @@
  * bench_flow.c -- what ARKODE costs a block of pendulums, and what blocks gain.
  *
  * Prints, on one core and as ratios within one run (each way in turn, the best of many short runs,
- * so that a busy machine matters little):
+ * so that a busy machine matters little; longer runs by processor time):
  *   1. blocks of several widths beside a bare SIMD loop of the same method (bare_loop.h);
  *   2. pendulum-periods a second of the reference ensemble at measured errors, by table;
  *   3. the same beside one ARKODE problem a pendulum.
@@ -25,6 +25,7 @@
 #include <pendres/strobe.h>
 
 #include "compat.h"
+#include "figures.h"
 #include "flow.h"
 #include "kernels.h"
 #include "tables.h"
@@ -177,9 +178,9 @@ static double run(const pendres_options *options, const ensemble *reference, siz
     v[n] = 0.0;
   }
   need_ok(pendres_context_create(options, &ctx), "a context");
-  clock_gettime(CLOCK_MONOTONIC, &a);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &a);
   need_ok(pendres_strobe_advance(ctx, n, p, x, v, periods, NULL), "the ensemble");
-  clock_gettime(CLOCK_MONOTONIC, &b);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
   *seconds = seconds_between(&a, &b);
   pendres_context_free(ctx);
   for (size_t i = stride - 1, k = 0; i < MEMBERS; i += stride, k++)
@@ -261,6 +262,9 @@ static void print_widths(SUNContext sun)
     duel_run(&d, 0.4, &block, &bare);
     printf("%8zu %22.3f %22.3f %12.0f %%\n", widths[i], 1e6 * block / steps, 1e6 * bare / steps,
            100.0 * bare / block);
+    if (widths[i] >= MEMBERS)
+      bench_figure(bare / block, '>', bench_ratio, "flow.block_to_bare.%zu.%s", widths[i],
+                   pendres_kernels_select()->name);
     duel_close(&d);
   }
 }
@@ -313,6 +317,8 @@ static void print_tables(SUNContext sun, const ensemble *reference, int steps[TA
       printf("%8.0e %8s %8d %10.1e %10.2f %10.2f %12.0f %%\n", targets[t],
              pendres_table_name(table), needs[table].steps[t], needs[table].error[t],
              1e-6 * MEMBERS / block, 1e-6 * MEMBERS / bare, 100.0 * bare / block);
+      bench_figure(needs[table].steps[t], '<', bench_count, "flow.steps.%s.%.0e",
+                   pendres_table_name(table), targets[t]);
     }
   memcpy(steps, needs[PENDRES_TABLE_TP8].steps, sizeof needs[PENDRES_TABLE_TP8].steps);
 }
@@ -364,6 +370,8 @@ static void print_singles(const ensemble *reference, const int steps[TARGETS])
       race(&block, &single, &fast, &slow);
       printf("%8.0e %8s %10.1e %16.4f %16.2f %16.0f\n", targets[t],
              pendres_table_name(tables[i]), tolerance, 1e-6 * slow, 1e-6 * fast, fast / slow);
+      bench_figure(fast / slow, '>', bench_ratio, "flow.block_to_single.%s.%.0e.%s",
+                   pendres_table_name(tables[i]), targets[t], pendres_kernels_select()->name);
     }
 }
 
