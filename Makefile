@@ -2,7 +2,8 @@
 #
 #   make            library (static and shared) and program
 #   make check      build and run all tests; CHECKS="test_flow ..." runs some; RUN=valgrind wraps
-#   make bench      build and run the benchmarks, one after another
+#   make bench      build and run the benchmarks, one after another, and compare their ratios and
+#                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make doc        reference manual from the public headers, with doxygen
@@ -145,7 +146,7 @@ SCRIPT_NAMES := $(if $(SANITIZE),,$(patsubst tests/%.sh,%,$(wildcard tests/*_che
 CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all check check-run bench install uninstall deps deps-plots doc style clean help FORCE
+.PHONY: all check check-run bench bench-baseline install uninstall deps deps-plots doc style clean help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
@@ -240,8 +241,18 @@ $(TEST_NAMES:%=run/%): run/%: $(BUILD)/tests/% $(PROGRAM)
 $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 
-bench: all $(BENCH_PROGRAMS)
-	@for b in $(BENCH_PROGRAMS); do echo "== $$b"; $(RUN_ENVIRONMENT) $$b || exit 1; done
+FIGURES := $(BUILD)/bench/figures.txt
+
+bench bench-baseline: all $(BENCH_PROGRAMS)
+	@rm -f $(FIGURES)
+	@for b in $(BENCH_PROGRAMS); do echo "== $$b"; \
+	  $(RUN_ENVIRONMENT) BENCH_FIGURES=$(FIGURES) $$b || exit 1; done
+	@echo "== beside the figures in bench/baseline.txt"
+	@bench/compare.sh bench/baseline.txt $(FIGURES)
+	@test $@ = bench || { { echo '# Figures of `make bench`: libpendres $(VERSION),' \
+	    'SUNDIALS $(SUNDIALS_MAJOR), $(notdir $(CC)). Renewed by `make bench-baseline`.'; \
+	  bench/compare.sh --renew bench/baseline.txt $(FIGURES); } >$(FIGURES).new && \
+	  mv $(FIGURES).new bench/baseline.txt; }
 
 # ---- Installation ----------------------------------------------------------------------------
 

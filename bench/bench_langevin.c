@@ -14,6 +14,7 @@
 
 #include <pendres/langevin.h>
 
+#include "figures.h"
 #include "kernels_langevin.h"
 
 /* Many short runs: the best then is one that nobody else disturbed. */
@@ -76,8 +77,12 @@ static int cloud(const char *name, double x, double temperature)
   }
   printf("%s, T = %g: %d steps a period, bias %.2f %% of the width (known to %.2f %%): ", name,
          temperature, bias.steps_per_period, 100.0 * worst, 100.0 * error);
-  printf("%.2f million pendulum-periods a second", 1e-6 * speed(lv, &p, 0));
-  printf(", %.2f with harmonics and work\n", 1e-6 * speed(lv, &p, 1));
+  const double plain = speed(lv, &p, 0), harmonics = speed(lv, &p, 1);
+  printf("%.2f million pendulum-periods a second", 1e-6 * plain);
+  printf(", %.2f with harmonics and work\n", 1e-6 * harmonics);
+  bench_figure(bias.steps_per_period, '<', bench_count, "noise.steps.%s.%.0e", name, temperature);
+  bench_figure(plain / harmonics, '<', bench_ratio, "noise.harmonics.%s.%.0e.%s", name, temperature,
+               pendres_kernels_langevin_select()->name);
   code = 0;
 done:
   if (code != 0) printf("%s: failed: %s\n", name, pendres_langevin_message(lv));
@@ -121,6 +126,7 @@ static void generators(void)
          k->name, best[0] * each, best[1] * each);
   printf("Random123's own functions: %.2f a 32-bit word of 4x32, %.2f of 4x64 (%d)\n",
          best[2] * each, best[3] * each / 2.0, (int)(sum & 1));
+  bench_figure(best[2] / best[0], '>', bench_ratio, "noise.random123_to_words.%s", k->name);
 }
 
 int main(void)
