@@ -26,7 +26,7 @@ static const char help[] =
   "  -V, --version         versions of the program and of its libraries\n"
   "\n"
   "Exit status: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they\n"
-  "are marked in the file); 75 interrupted by TERM, INT, USR1, USR2 or XCPU.\n"
+  "are marked in the file); 75 stopped by TERM, INT, HUP, USR1, USR2 or XCPU.\n"
   "A file of results is whole or absent: it is written as FILE.part and renamed at the end.\n"
   "\n"
   "Example: resonance input/f02.nml\n";

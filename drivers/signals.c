@@ -10,8 +10,8 @@
 static atomic_int came;
 
 static const struct { int number; const char *name; } stopping[] = {
-  { SIGTERM, "SIGTERM" }, { SIGINT, "SIGINT" }, { SIGUSR1, "SIGUSR1" }, { SIGUSR2, "SIGUSR2" },
-  { SIGXCPU, "SIGXCPU" },
+  { SIGTERM, "SIGTERM" }, { SIGINT, "SIGINT" },   { SIGHUP, "SIGHUP" },
+  { SIGUSR1, "SIGUSR1" }, { SIGUSR2, "SIGUSR2" }, { SIGXCPU, "SIGXCPU" },
 };
 static const int ignored[] = { SIGPIPE, SIGXFSZ };
 

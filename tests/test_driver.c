@@ -164,7 +164,7 @@ static void test_streams_closed(void **state)
 
 static void test_signals(void **state)
 {
-  static const int signals[] = { SIGTERM, SIGINT, SIGUSR1, SIGUSR2, SIGXCPU };
+  static const int signals[] = { SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU };
   const char *const arguments[] = { "-o", "kept.h5", "long.nml", NULL };
   char kept[20];
   (void)state;
