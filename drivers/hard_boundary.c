@@ -125,7 +125,7 @@ typedef struct starts {
 static pendres_status place_starts(const hard_sheet *sheet, const pendres_attractors *set,
                                    const pendres_pendulum *p, starts *s)
 {
-  const int points = sheet->scale < 1.0 ? 1 : POINTS;
+  const int points = sheet->scale >= 1.0 ? POINTS : sheet->scale >= 0.1 ? 2 : 1;
   pendres_status status = PENDRES_OK;
   s->n = 0;
   for (int i = 0; i < points && status == PENDRES_OK; i++) {

@@ -31,6 +31,12 @@ static const double vicinity = 0.3;
 static const double at_rest = 1e-6;
 static const double naive_tolerance = 1e-6;
 
+/* Decades between distances; shorter runs take fewer of them. */
+static int stride(const hard_sheet *sheet)
+{
+  return sheet->scale >= 1.0 ? 1 : sheet->scale >= 0.1 ? 3 : 9;
+}
+
 /* A fold, or the cusp; the pair of orbits exists at drive frequencies on one side of a fold. */
 typedef struct place {
   pendres_reference_cycle at;
@@ -302,7 +308,7 @@ pendres_status hard_fold(hard_sheet *sheet)
   place folds[2];
   pendres_status status = find_folds(folds);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
-  for (int k = 3; k <= NEAREST && status == PENDRES_OK; k += sheet->scale < 1.0 ? 9 : 1) {
+  for (int k = 3; k <= NEAREST && status == PENDRES_OK; k += stride(sheet)) {
     status = add_beyond(sheet, folds, pow(10.0, -k));
     if (status == PENDRES_OK) status = add_before(sheet, folds, pow(10.0, -k));
   }
@@ -339,7 +345,7 @@ pendres_status hard_cusp(hard_sheet *sheet)
   place cusp;
   pendres_status status = find_cusp(&cusp);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
-  for (int k = 3; k <= NEAREST && status == PENDRES_OK; k += sheet->scale < 1.0 ? 9 : 1) {
+  for (int k = 3; k <= NEAREST && status == PENDRES_OK; k += stride(sheet)) {
     const double off = pow(10.0, -k);
     double worst = 0.0, naive = 0.0;
     int wrong = 0;

@@ -257,7 +257,7 @@ done:
 pendres_status hard_stiff(hard_sheet *sheet)
 {
   static const double damping[] = { 10.0, 100.0, 1000.0 };
-  const int count = sheet->scale < 1.0 ? 2 : 3;
+  const int count = sheet->scale < 0.1 ? 2 : 3;
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < count && status == PENDRES_OK; i++) {
     status = add_damping(sheet, damping[i]);

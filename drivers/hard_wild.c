@@ -30,7 +30,7 @@ static double period_of(const pendres_pendulum *p)
 /* ---- chaos --------------------------------------------------------------------------------- */
 
 enum {
-  BATCHES = 20, BATCH = 150, /* periods */
+  BATCHES = 20, BATCH = 300, /* periods */
   TRANSIENT = 100,
   CHAOTIC_STARTS = 8
 };
@@ -42,7 +42,7 @@ typedef struct exponent {
 /* Benettin's method on the extended-precision map and its derivative: batches of periods. */
 static pendres_status exact_exponent(const pendres_pendulum *p, double scale, exponent *e)
 {
-  const int batch = scale < 1.0 ? BATCH / 10 : BATCH;
+  const int batch = scale >= 1.0 ? BATCH : scale >= 0.1 ? BATCH / 4 : BATCH / 20;
   long double y = 0.1L, v = 0.0L, u[2] = { 1.0L, 0.0L };
   double sum = 0.0, squares = 0.0;
   pendres_status status = pendres_reference_advance(p, &y, &v, NULL, TRANSIENT);
