@@ -63,13 +63,13 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
   return PENDRES_OK;
 }
 
-/* A run by a method of adaptive steps with this share of the tolerance. */
+/* A run by a method of adaptive steps with another tolerance. */
 static pendres_status run_tighter(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                                  long periods, double share)
+                                  long periods, double asked)
 {
   static const double tightest = 1e-15; /* what CVODE still works with */
   const double tolerance = ctx->options.tolerance;
-  ctx->options.tolerance = fmax(tightest, share * tolerance);
+  ctx->options.tolerance = fmax(tightest, asked);
   const pendres_status status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
   ctx->options.tolerance = tolerance;
   return status;
@@ -100,7 +100,7 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
   if (ctx->options.method == PENDRES_BLOCK_FIXED)
     return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
   for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, &p[i], periods);
-  return run_tighter(ctx, n, finer, periods, 0.1);
+  return run_tighter(ctx, n, finer, periods, 0.1 * ctx->options.tolerance);
 }
 
 /* |a - b| of two final states, in x and v. */
@@ -125,7 +125,8 @@ static double error_of(double apart, double noise, long turns)
  * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
  * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
  * steps of stiff pendulums), so that a tenth of it may change next to nothing: there all are
- * asked, with a hundredth. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
+ * asked, with a hundredth, or 1e-6 where that is less: up to 1e-4 they may all end in the same wrong
+ * basin. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
  */
 static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                   const double *x, const double *v, long periods,
@@ -133,6 +134,7 @@ static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_
                                   pendres_strobe_lane *room, double *apart)
 {
   const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
+  const double third = fmin(1e-6, 0.01 * ctx->options.tolerance);
   const int fixed = ctx->options.method == PENDRES_BLOCK_FIXED;
   size_t some = 0;
   for (size_t i = 0; i < n; i++) {
@@ -143,7 +145,7 @@ static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_
   }
   const pendres_status status =
     fixed ? pendres_strobe_run(ctx, some, room, after_all_periods, &periods)
-          : run_tighter(ctx, some, room, periods, 0.01);
+          : run_tighter(ctx, some, room, periods, third);
   some = 0;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     if (!fixed || noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));
