@@ -21,7 +21,9 @@
   ITEM(equilibrium)                                                                               \
   ITEM(separatrix)                                                                                \
   ITEM(energy)                                                                                    \
+  ITEM(weak_damping)                                                                              \
   ITEM(stiff)                                                                                     \
+  ITEM(frequency)                                                                                 \
   ITEM(fold)                                                                                      \
   ITEM(cusp)                                                                                      \
   ITEM(boundary)                                                                                  \
