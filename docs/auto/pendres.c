@@ -1,7 +1,7 @@
 /*
- * pendres.c -- the numbers of compare.auto by libpendres.
+ * pendres.c -- the numbers of compare.auto by libpendres: name, value, error.
  *
- *   cc pendres.c $(pkg-config --cflags --libs pendres) -lm -o pendres && ./pendres
+ *   cc pendres.c $(pkg-config --cflags --libs pendres) -o pendres && ./pendres >pendres.txt
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +17,29 @@ static void fail_if(pendres_status status)
   exit(1);
 }
 
-/* The attractor of the largest amplitude, or of the smallest. */
+static void print(const char *name, double value, double error)
+{
+  printf("%-28s %.14g %.1e\n", name, value, error);
+}
+
+/* A name that ends in a number. */
+static void print_at(const char *name, double at, const char *end, double value, double error)
+{
+  char whole[64];
+  snprintf(whole, sizeof whole, "%s%g%s", name, at, end);
+  print(whole, value, error);
+}
+
+static void print_multipliers(const char *name, const pendres_orbit *o)
+{
+  char whole[64];
+  snprintf(whole, sizeof whole, "%s_re", name);
+  print(whole, o->multiplier_re[0], o->multiplier_error);
+  snprintf(whole, sizeof whole, "%s_im", name);
+  if (o->multiplier_im[0] != 0.0) print(whole, o->multiplier_im[0], o->multiplier_error);
+}
+
+/* The attractor of the smallest or of the largest amplitude. */
 static pendres_orbit orbit(double damping, double drive, double frequency, int largest)
 {
   const pendres_pendulum p = {
@@ -30,80 +52,95 @@ static pendres_orbit orbit(double damping, double drive, double frequency, int l
   return o;
 }
 
-static void print_multipliers(const pendres_orbit *o)
+static pendres_branch *branch_of(const pendres_orbit *start, pendres_parameter parameter,
+                                 double low, double high)
 {
-  printf("  multipliers %.6g%+.6gi %.6g%+.6gi\n", o->multiplier_re[0], o->multiplier_im[0],
-         o->multiplier_re[1], o->multiplier_im[1]);
+  const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high};
+  pendres_branch *b = NULL;
+  fail_if(pendres_branch_follow(ctx, 1, start, &options, &b));
+  return b;
 }
 
-/* Follow the branch of an orbit, and that of the pair born where its symmetry breaks. */
-static void symmetry_breaking(const char *where, const pendres_orbit *start,
-                              const pendres_branch_options *options)
+static const pendres_bifurcation *first_of(const pendres_branch *b, pendres_special kind)
 {
-  pendres_branch *b = NULL, *pair = NULL;
-  fail_if(pendres_branch_follow(ctx, 1, start, options, &b));
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
+    if (pendres_branch_bifurcation(b, i)->kind == kind) return pendres_branch_bifurcation(b, i);
+  fprintf(stderr, "a bifurcation is missing\n");
+  exit(1);
+}
+
+/* The branch of a small orbit turns back twice. */
+static void s_shape(double damping)
+{
+  static const char *const folds[] = {"fold_sa_", "fold_la_"};
+  static const char *const orbits[] = {"orbit_sa", "orbit_saddle", "orbit_la"};
+  static const char *const areas[] = {"orbit_sa_area", "orbit_saddle_area", "orbit_la_area"};
+  const pendres_orbit start = orbit(damping, 0.2, 0.75, 0);
+  pendres_branch *b = branch_of(&start, PENDRES_DRIVE_FREQUENCY, 0.6, 0.9);
+  for (size_t i = 0; i < 2 && i < pendres_branch_bifurcations(b); i++) {
     const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
-    pendres_orbit born;
-    if (f->kind != PENDRES_SYMMETRY_BREAKING) continue;
-    printf("symmetry breaking, %-18s %.12f +- %.0e\n", where, f->value, f->value_error);
-    fail_if(pendres_branch_switch(ctx, f, &born));
-    fail_if(pendres_branch_follow(ctx, 1, &born, options, &pair));
-    for (size_t k = 0; k < pendres_branch_bifurcations(pair); k++) {
-      const pendres_bifurcation *d = pendres_branch_bifurcation(pair, k);
-      if (d->kind != PENDRES_PERIOD_DOUBLING) continue;
-      printf("period doubling, %-20s %.12f +- %.0e\n", where, d->value, d->value_error);
-      print_multipliers(&d->orbit);
-    }
-    pendres_branch_free(pair);
-    break;
+    print_at(folds[i], damping, "", f->value, f->value_error);
+    print_at(folds[i], damping, "_area", f->orbit.loop_area, f->orbit.loop_area_error);
   }
+  if (damping == 0.13) {
+    pendres_orbit there[3];
+    size_t found = 0;
+    fail_if(pendres_branch_cross(ctx, b, 0.8, 3, there, &found));
+    for (size_t i = 0; i < found && i < 3; i++) {
+      print(areas[i], there[i].loop_area, there[i].loop_area_error);
+      print_multipliers(orbits[i], &there[i]);
+    }
+  }
+  pendres_branch_free(b);
+}
+
+static void fold_and_cusp(double drive, double frequency)
+{
+  const pendres_orbit start = orbit(0.06, drive, frequency, 0);
+  pendres_fold fold;
+  pendres_cusp cusp;
+  fail_if(pendres_fold_find(ctx, &start, &fold));
+  fail_if(pendres_cusp_find(ctx, &fold, PENDRES_DAMPING, &cusp));
+  print_at("fold_sa_0.06_drive_", drive, "", fold.value, fold.value_error);
+  print_at("cusp_damping_drive_", drive, "", cusp.value[1], cusp.value_error[1]);
+  print_at("cusp_frequency_drive_", drive, "", cusp.value[0], cusp.value_error[0]);
+}
+
+/* The pair of orbits born where symmetry breaks; it doubles its period. */
+static void doubling(const char *name, const pendres_bifurcation *at, double low, double high)
+{
+  char area[64];
+  pendres_orbit born;
+  fail_if(pendres_branch_switch(ctx, at, &born));
+  pendres_branch *b = branch_of(&born, at->parameter, low, high);
+  const pendres_bifurcation *d = first_of(b, PENDRES_PERIOD_DOUBLING);
+  print(name, d->value, d->value_error);
+  snprintf(area, sizeof area, "%s_area", name);
+  print(area, d->orbit.loop_area, d->orbit.loop_area_error);
+  print_multipliers(name, &d->orbit);
   pendres_branch_free(b);
 }
 
 int main(void)
 {
+  static const double s[] = {0.13, 0.14, 0.15}, breaking[] = {0.06, 0.1, 0.12};
   if (pendres_context_create(&(pendres_options){.tolerance = 1e-10}, &ctx)) return 1;
-  const pendres_branch_options frequency = {.low = 0.42, .high = 1.0};
-  const pendres_branch_options drive = {
-    .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 0.8, .high = 1.2};
-  const pendres_curve_options both = {
-    .second = PENDRES_DAMPING, .low = {0.6, 0.05}, .high = {1.0, 0.5}};
-  pendres_orbit start = orbit(0.13, 0.2, 0.8, 0), there[4];
-  pendres_branch *b = NULL;
-  pendres_curve *c = NULL;
-  pendres_fold fold;
-  size_t found = 0;
-
-  fail_if(pendres_branch_follow(ctx, 1, &start, &frequency, &b));
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
-    printf("fold at damping 0.13                  %.12f +- %.0e\n",
-           pendres_branch_bifurcation(b, i)->value, pendres_branch_bifurcation(b, i)->value_error);
-  fail_if(pendres_branch_cross(ctx, b, 0.8, 4, there, &found));
-  for (size_t i = 0; i < found && i < 4; i++) {
-    printf("orbit at frequency 0.8                amplitude %.10f\n", there[i].amplitude);
-    print_multipliers(&there[i]);
+  for (size_t i = 0; i < 3; i++) s_shape(s[i]);
+  fold_and_cusp(0.2, 0.75);
+  fold_and_cusp(0.1, 0.85);
+  for (size_t i = 0; i < 3; i++) {
+    const pendres_orbit la = orbit(breaking[i], 0.2, 0.78, 1);
+    pendres_branch *b = branch_of(&la, PENDRES_DRIVE_FREQUENCY, 0.4, 0.8);
+    const pendres_bifurcation *at = first_of(b, PENDRES_SYMMETRY_BREAKING);
+    print_at("symmetry_", breaking[i], "", at->value, at->value_error);
+    if (breaking[i] == 0.12) doubling("doubling_0.12", at, 0.4, 0.8);
+    pendres_branch_free(b);
   }
-  fail_if(pendres_fold_find(ctx, &start, &fold));
-  fail_if(pendres_curve_follow(ctx, 1, &fold, &both, &c));
-  printf("cusp                                  damping %.12f frequency %.12f\n",
-         pendres_curve_cusp(c, 0)->value[1], pendres_curve_cusp(c, 0)->value[0]);
-  /* The dampings that AUTO stopped at, exactly. */
-  static const double dampings[] = {0.1400000019, 0.1500000011, 0.1599999888, 0.1600000003,
-                                    0.1499971257, 0.1399988730, 0.1295510089, 0.0999734524,
-                                    0.0599919596};
-  for (size_t i = 0; i < sizeof dampings / sizeof *dampings; i++) {
-    pendres_bifurcation at[4];
-    fail_if(pendres_curve_cross(ctx, c, dampings[i], 4, at, &found));
-    for (size_t k = 0; k < found && k < 4; k++)
-      printf("fold at damping %.10f          %.12f +- %.0e\n", dampings[i], at[k].value,
-             at[k].value_error);
-  }
-  start = orbit(0.12, 0.2, 0.78, 1);
-  symmetry_breaking("damping 0.12", &start, &frequency);
-  start = orbit(0.5, 0.9, 2.0 / 3.0, 0);
-  symmetry_breaking("Baker and Gollub", &start, &drive);
-  pendres_curve_free(c);
+  const pendres_orbit start = orbit(0.5, 0.9, 2.0 / 3.0, 0);
+  pendres_branch *b = branch_of(&start, PENDRES_DRIVE_AMPLITUDE, 0.8, 1.2);
+  const pendres_bifurcation *at = first_of(b, PENDRES_SYMMETRY_BREAKING);
+  print("baker_gollub_symmetry", at->value, at->value_error);
+  doubling("baker_gollub_doubling", at, 0.8, 1.2);
   pendres_branch_free(b);
   pendres_context_free(ctx);
   return 0;

@@ -2,7 +2,8 @@
 !
 ! U = (y, v, s, c): angle, velocity, and an oscillator that goes to s = sin(omega t), c = cos(omega t),
 ! which makes the system autonomous. PAR(1..3) = damping, drive amplitude, drive frequency; PAR(11)
-! is the period.
+! is the period. PAR(4), PAR(5): mean of y over the orbit, and the energy dissipated, which is the loop
+! area.
 
 SUBROUTINE FUNC(NDIM,U,ICP,PAR,IJAC,F,DFDU,DFDP)
   IMPLICIT NONE
@@ -35,5 +36,12 @@ END SUBROUTINE ICND
 SUBROUTINE FOPT
 END SUBROUTINE FOPT
 
-SUBROUTINE PVLS
+SUBROUTINE PVLS(NDIM,U,PAR)
+  IMPLICIT NONE
+  INTEGER, INTENT(IN) :: NDIM
+  DOUBLE PRECISION, INTENT(IN) :: U(NDIM)
+  DOUBLE PRECISION, INTENT(INOUT) :: PAR(*)
+  DOUBLE PRECISION, EXTERNAL :: GETP
+  PAR(4) = GETP('INT', 1, U)
+  PAR(5) = PAR(1) * PAR(11) * GETP('NRM', 2, U)**2
 END SUBROUTINE PVLS
