@@ -6,6 +6,7 @@
 #include "scene_fixture.h"
 
 #include <pendres/phase_diagram.h>
+#include <pendres/resonance.h>
 
 static const char branches_deck[] =
   "&scene kind = 'branches' /\n"
@@ -167,11 +168,42 @@ static void diagram_holds_the_regimes(void **state)
   pendres_store_free(store);
 }
 
+/* The resonance curve says of each point what it is, and of an edge which fold makes it. */
+static void edges_name_their_fold(void **state)
+{
+  (void)state;
+  size_t n = 0;
+  scene_run_deck("&scene kind = 'resonance_curve' /\n"
+                 "&pendulum drive_amplitude = 0.2 /\n"
+                 "&sweep damping = 0.13, 0.154, 0.24 /\n",
+                 1, "resonance");
+  pendres_store *store = scene_open("resonance");
+  double *peak = scene_values(store, "peak", &n), *fold = scene_values(store, "fold_frequency", &n);
+  double *error = scene_values(store, "fold_frequency_error", &n);
+  double *frequency = scene_values(store, "resonance_frequency", &n);
+  assert_int_equal(n, 3);
+  assert_int_equal((int)peak[0], PENDRES_PEAK_EDGE);
+  /* The reference's fold, see test_continuation.c. */
+  check_near(fold[0], 0.844925197542337284, error[0]);
+  check_near(frequency[0], fold[0], error[0]);
+  /* At 0.154, below the cusp, there are folds too, but the peak is beside them. */
+  for (int i = 1; i < 3; i++) {
+    assert_int_equal((int)peak[i], PENDRES_PEAK_SMOOTH);
+    assert_true(isnan(fold[i]) && isnan(error[i]));
+  }
+  free(peak);
+  free(fold);
+  free(error);
+  free(frequency);
+  pendres_store_free(store);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
     cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes),
+    cmocka_unit_test(edges_name_their_fold),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }
