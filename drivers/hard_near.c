@@ -23,7 +23,7 @@ enum {
   SCOUTS = 3
 };
 
-static const double tightest = 1e-13;
+static const double tightest = 1e-13, standard = 1e-8;
 /* Orbits closer to the fold's in the (x, v) plane are the ones that meet there; the other attractor
    is more than twice as far away. */
 static const double vicinity = 0.3;
@@ -155,7 +155,7 @@ static pendres_status go_naively(hard_sheet *sheet, const pendres_pendulum *p, d
  */
 static pendres_status add_beyond(hard_sheet *sheet, const place folds[2], double off)
 {
-  static const double tolerances[] = { 1e-8, 1e-13 };
+  const double tolerances[] = { standard, tightest };
   int wrong = 0, naive = 0;
   pendres_status status = PENDRES_OK;
   for (int f = 0; f < 2 && status == PENDRES_OK; f++) {
@@ -212,7 +212,7 @@ static pendres_status worst_orbit(hard_sheet *sheet, const truth *t, double *wor
 {
   double ratio, loose, x = (double)t->node.y + half_pi + 1e-3, v = (double)t->node.v, moved;
   pendres_status status = error_over_claimed(sheet, t, tightest, &ratio);
-  if (status == PENDRES_OK) status = error_over_claimed(sheet, t, 1e-8, &loose);
+  if (status == PENDRES_OK) status = error_over_claimed(sheet, t, standard, &loose);
   if (status == PENDRES_OK) status = go_naively(sheet, &t->p, &x, &v, &moved);
   if (status != PENDRES_OK) return status;
   *worst = fmax(*worst, ratio);
@@ -234,37 +234,39 @@ static double reach_of(const pendres_attractor *a, const truth *t)
 /*
  * Starts on the line from the orbit through the saddle, a tenth and a thousandth of their distance
  * short of the saddle and beyond: the latter do not belong to the orbit, as the basin's boundary
- * crosses the line at the saddle. What the naive way is next to in the end counts as its label.
+ * crosses the line at the saddle.
  */
-static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t, int *wrong,
-                                   int *naive, double *reach)
+static const double beyond[STARTS] = { -0.1, -1e-3, 1e-3, 0.1 };
+
+static void place_starts(const truth *t, double x[STARTS], double v[STARTS])
 {
-  static const double beyond[STARTS] = { -0.1, -1e-3, 1e-3, 0.1 };
   const double dx = (double)(t->saddle.y - t->node.y), dv = (double)(t->saddle.v - t->node.v);
-  const double scout_x[SCOUTS] = { (double)t->node.y + half_pi, half_pi, 0.0 };
-  const double scout_v[SCOUTS] = { (double)t->node.v, 0.0, 0.0 };
-  double x[STARTS], v[STARTS], moved;
-  pendres_outcome outcome[STARTS];
-  pendres_attractors *found = NULL;
-  pendres_context *ctx = NULL;
   for (int i = 0; i < STARTS; i++) {
     x[i] = (double)t->node.y + half_pi + (1.0 + beyond[i]) * dx;
     v[i] = (double)t->node.v + (1.0 + beyond[i]) * dv;
   }
+}
+
+static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t,
+                                   double tolerance, int *wrong, double *reach)
+{
+  const double scout_x[SCOUTS] = { (double)t->node.y + half_pi, half_pi, 0.0 };
+  const double scout_v[SCOUTS] = { (double)t->node.v, 0.0, 0.0 };
+  double x[STARTS], v[STARTS], here = NAN;
+  pendres_outcome outcome[STARTS];
+  pendres_attractors *found = NULL;
+  pendres_context *ctx = NULL;
+  place_starts(t, x, v);
   pendres_status status = hard_context(
-    sheet, &(pendres_options){ .tolerance = tightest, .period_budget = BUDGET }, &ctx);
+    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = BUDGET }, &ctx);
   if (status != PENDRES_OK) return status;
   status = pendres_attractors_find(ctx, &t->p, SCOUTS, scout_x, scout_v, &found);
   if (status == PENDRES_OK)
     status = pendres_attractors_settle(ctx, found, STARTS, x, v, outcome);
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
-  for (int i = 0; i < STARTS && status == PENDRES_OK; i++) {
-    if (outcome[i].attractor >= 0)
-      *wrong += labelled_here(l, found, &outcome[i]) != (beyond[i] < 0.0);
-    status = go_naively(sheet, &t->p, &x[i], &v[i], &moved);
-    *naive += in_vicinity(l, x[i], v[i]) != (beyond[i] < 0.0);
-  }
-  double here = NAN;
+  for (int i = 0; i < STARTS && status == PENDRES_OK; i++)
+    *wrong += outcome[i].attractor >= 0 &&
+              labelled_here(l, found, &outcome[i]) != (beyond[i] < 0.0);
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
     const pendres_attractor *a = pendres_attractors_get(found, i);
     if (in_vicinity(l, a->orbit.x, a->orbit.v)) here = reach_of(a, t);
@@ -275,6 +277,24 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   return status;
 }
 
+/* What the naive way is next to in the end counts as its label. */
+static pendres_status label_naively(hard_sheet *sheet, const place *l, const truth *t, int *wrong)
+{
+  double x[STARTS], v[STARTS], moved;
+  pendres_status status = PENDRES_OK;
+  place_starts(t, x, v);
+  for (int i = 0; i < STARTS && status == PENDRES_OK; i++) {
+    status = go_naively(sheet, &t->p, &x[i], &v[i], &moved);
+    *wrong += in_vicinity(l, x[i], v[i]) != (beyond[i] < 0.0);
+  }
+  return status;
+}
+
+/*
+ * Labels right at the tightest tolerance, and at the standard one while the fold is further than
+ * the ten tolerances that each period is allowed; unresolved is not wrong. A trap is part of the
+ * basin and the saddle on the basin's edge: the trap ends before the saddle.
+ */
 static pendres_status add_before(hard_sheet *sheet, const place folds[2], double off)
 {
   double worst = 0.0, naive_worst = 0.0, reach = 0.0;
@@ -286,13 +306,15 @@ static pendres_status add_before(hard_sheet *sheet, const place folds[2], double
     if (!t.nodes || !t.saddles) return hard_failed(sheet, PENDRES_NOT_FOUND, NULL);
     status = worst_orbit(sheet, &t, &worst, &naive_worst);
     if (status == PENDRES_OK)
-      status = label_starts(sheet, &folds[f], &t, &wrong, &naive, &reach);
+      status = label_starts(sheet, &folds[f], &t, tightest, &wrong, &reach);
+    if (status == PENDRES_OK && off > 9.0 * standard)
+      status = label_starts(sheet, &folds[f], &t, standard, &wrong, &reach);
+    if (status == PENDRES_OK) status = label_naively(sheet, &folds[f], &t, &naive);
   }
   if (status == PENDRES_OK)
     status = hard_sheet_add_at(sheet, "fold_orbit", off,
                                "before folds: the orbit's errors over the claimed", worst, 10.0,
                                naive_worst);
-  /* A trap is part of the basin, and the saddle is on the basin's edge. */
   if (status == PENDRES_OK)
     status = hard_sheet_add_at(sheet, "fold_trap", off, "its trap over the way to the saddle",
                                reach, 1.0, NAN);
