@@ -1,7 +1,8 @@
 # Makefile of libpendres and the program `resonance`. GNU make 4.2 or later.
 #
 #   make            library (static and shared) and program
-#   make check      build and run all tests; CHECKS="test_flow ..." runs some; RUN=valgrind wraps
+#   make check      build and run all tests; CHECKS="test_flow ..." runs some; VALGRIND=1 looks
+#                   for errors of memory alone, for an hour or two
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -38,13 +39,14 @@ AR ?= ar
 PKG_CONFIG ?= pkg-config
 INSTALL ?= install
 LDCONFIG ?= ldconfig
-BUILD ?= build$(if $(SANITIZE),/sanitize-$(subst $(comma),-,$(SANITIZE)))
+BUILD ?= build$(if $(SANITIZE),/sanitize-$(subst $(comma),-,$(SANITIZE)))$(if $(VALGRIND),/valgrind)
 PREFIX ?= /usr/local
 BINDIR ?= $(PREFIX)/bin
 LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 MANDIR ?= $(PREFIX)/share/man
-TEST_TIMEOUT ?= 600
+TEST_TIMEOUT ?= $(if $(VALGRIND),36000,600)
+RUN ?= $(if $(VALGRIND),sh tests/valgrind.sh)
 CFLAGS ?= $(if $(SANITIZE),-O2,-O3) -g -Wall -Wextra -Wpedantic
 
 # ---- What the results rely on, whatever CFLAGS say -------------------------------------------
@@ -56,7 +58,11 @@ SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all \
 ALL_CFLAGS = $(CFLAGS) $(NEEDED) $(SANITIZER) $(if $(filter-out 0,$(WERROR)),-Werror)
 OPENMP := -fopenmp
 
-FLAGS_avx2 := -mavx2 -mfma
+# Valgrind computes fused operations in software: for memory alone two roundings do.
+UNFUSED := '-D__builtin_fma(a,b,c)=((a)*(b)+(c))'
+NEEDED += $(if $(VALGRIND),$(UNFUSED))
+
+FLAGS_avx2 := -mavx2 $(if $(VALGRIND),,-mfma)
 FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 
 # ---- Goals that need no compiler and no libraries --------------------------------------------
@@ -141,12 +147,13 @@ PC := $(BUILD)/pendres.pc
 
 TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
-# Scripts look at what would be installed: nothing for sanitizers.
-SCRIPT_NAMES := $(if $(SANITIZE),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
+# Scripts look at what would be installed: nothing for sanitizers and valgrind.
+SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
 CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all check check-run bench bench-baseline install uninstall deps deps-plots doc style clean help FORCE
+.PHONY: all check check-run bench bench-baseline install uninstall deps deps-plots doc style clean \
+        help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
