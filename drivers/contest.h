@@ -1,6 +1,6 @@
 /*
- * contest.h -- one method at one tolerance on a work unit: how far off, how fast, and how far off it
- * believes to be.
+ * contest.h -- one method at one tolerance on a work unit: how far off it is, how fast, and how far
+ * off it believes to be.
  *
  * Owns: the names of methods in decks, and how a method is timed. Errors are measured against the
  * unit's references. Members that amplify an error of their start more than CONTEST_WILD-fold are

@@ -38,7 +38,7 @@ typedef struct work {
   double settled[3], settled_error[3]; /* periods, seconds a pendulum; share that is resolved */
 } work;
 
-/* What a pendulum costs that is only asked what it settles on: the tolerance of default contexts. */
+/* What a pendulum costs that is only asked what it settles on, with the deck's own tolerance. */
 static pendres_status settle(work *w, pendres_context *ctx)
 {
   const size_t n = w->unit.n;
@@ -356,8 +356,8 @@ done:
 
 const scene_kind scene_work_precision = {
   .kind = DECK_WORK_PRECISION,
-  .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, "
-                "section II.10",
+  .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations "
+                "I, section II.10",
   .plan = plan,
   .run = run_scene
 };

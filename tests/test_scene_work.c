@@ -87,8 +87,12 @@ static void figures_are_plausible(void **state)
       }
       /* The promise of docs/accuracy.md. 3 is twice what the largest estimate is above the largest
          error when the same member has both. */
-      if (m == GSL) assert_true(isnan(estimate[k]) && isnan(least[k]));
-      else assert_true(least[k] >= 0.1 && estimate[k] > 0.1 * e100[k] && estimate[k] < 3.0 * e100[k]);
+      if (m == GSL) {
+        assert_true(isnan(estimate[k]) && isnan(least[k]));
+        continue;
+      }
+      assert_true(least[k] >= 0.1);
+      assert_true(estimate[k] > 0.1 * e100[k] && estimate[k] < 3.0 * e100[k]);
     }
   /* tp8 has 12 stages; ARKODE evaluates once more when a period begins. */
   for (int t = 0; t < TOLERANCES; t++)
