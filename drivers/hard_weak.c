@@ -68,7 +68,8 @@ typedef struct weak {
 } weak;
 
 /* Orbits of small amplitude about the resonance, by linear response; and of large amplitude, where
-   the free pendulum has the drive's frequency (Kittel: 1 - a^2 / 16), swinging with the drive. */
+   the free pendulum has the drive's frequency (Kittel: 1 - a^2 / 16), against the drive: those
+   with it are unstable. */
 static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, double damping, weak *w)
 {
   static const double frequency[WEAK] = { 0.8, 0.9, 0.95, 1.1, 1.2, 0.9, 0.95 };
@@ -76,11 +77,11 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
   for (int i = 0; i < WEAK; i++) {
     pendres_reference_cycle c;
     pendres_harmonic h;
-    w->p[i] = (pendres_pendulum){ .damping = damping, .drive_amplitude = 0.01,
+    w->p[i] = (pendres_pendulum){ .damping = damping, .drive_amplitude = 0.02,
                                   .drive_frequency = frequency[i] };
     pendres_status status = pendres_harmonic_response(&w->p[i], &h);
     if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
-    const double y = i < SMALL ? h.amplitude * cos(h.phase_lag) : 4.0 * sqrt(1.0 - frequency[i]);
+    const double y = i < SMALL ? h.amplitude * cos(h.phase_lag) : -4.0 * sqrt(1.0 - frequency[i]);
     status = find_orbit(sheet, ctx, &w->p[i], 0.5 * pi + y, 0.0, &w->orbit[i]);
     if (status == PENDRES_OK) status = refer(sheet, &w->orbit[i], &c);
     if (status != PENDRES_OK) return status;
@@ -159,8 +160,8 @@ pendres_status hard_weak_damping(hard_sheet *sheet)
   if (status == PENDRES_OK) status = weak_wait(sheet, naive, &w, 1, SMALL - 1, periods, &theirs);
   if (status == PENDRES_OK) status = weak_settle(sheet, ctx, &w, &wrong);
   if (status == PENDRES_OK)
-    status = hard_sheet_add(sheet, "weak_wait", "damping 1e-4: orbits by Newton's method less where "
-                            "pendulums are after 1e5 periods (naive: two of seven)",
+    status = hard_sheet_add(sheet, "weak_wait", "damping 1e-4: orbits by Newton's method less "
+                            "where pendulums are after 1e5 periods (naive: two of seven)",
                             ours, 2.0 * weak_tolerance + left, theirs);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "weak_estimate", "errors of these orbits and of their measures "

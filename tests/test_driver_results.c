@@ -62,10 +62,11 @@ static void check_same_results(const char *a, const char *b)
 
 static void test_run(void **state)
 {
-  static const char *const decks[] = { "small.nml", "orbit.nml" };
+  static const char *const decks[] = { "small.nml", "orbit.nml", "hard.nml" };
   char table[TEXT_ROOM];
   (void)state;
-  for (size_t i = 0; i < 2; i++) {
+  write_text("hard.nml", "&scene kind = 'hard_cases' /\n&sweep case = 'tolerance', 'separatrix' /\n");
+  for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
     check_code(RUN("--quiet", "--threads=1", "-o", "one.h5", decks[i]), DONE);
     assert_string_equal(err, "");
     assert_true(strlen(out) > 100);
@@ -76,7 +77,7 @@ static void test_run(void **state)
     check_same_results("one.h5", "two.h5");
     check_code(RUN("-q", decks[i]), DONE);
   }
-  assert_true(exists("small.h5") && exists("orbit.h5"));
+  assert_true(exists("small.h5") && exists("orbit.h5") && exists("hard.h5"));
   assert_int_equal(count_names(".part"), 0);
   read_text("log.txt", table, sizeof table);
   check_says(table, "two.h5 written");
