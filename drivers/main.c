@@ -34,8 +34,8 @@ typedef struct job {
 } job;
 
 /*
- * A standard stream that came closed is opened the wrong way round, so that its use fails as before:
- * left alone, its number would go to the next file opened, and messages into the results.
+ * A standard stream that came closed is opened the wrong way round, so that its use fails as
+ * before: left alone, its number would go to the next file opened, and messages into the results.
  */
 static int hold_streams(void)
 {

@@ -1,9 +1,10 @@
 /*
  * scene_branches.c -- amplitudes of SA and LA over the drive frequency, with the branches between.
  *
- * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches themselves,
- * unstable parts included, the curves of folds that bound the coexistence region (the figure's
- * thick lines), and two backbones: the free pendulum's, and the driven one's at a lag of pi/2.
+ * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches
+ * themselves, unstable parts included, the curves of folds that bound the coexistence region (the
+ * figure's thick lines), and two backbones: the free pendulum's, and the driven one's at a lag of
+ * pi/2.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -192,12 +193,15 @@ static pendres_status put_points(scene_run *run, const points *p)
     status = scene_curves_put(run, "point", about[k].name, about[k].long_name, about[k].units,
                               p->value[k], k == DAMPING ? NULL : p->error[k], n);
   if (status != PENDRES_OK) return status;
-  const pendres_store_spec re = {.name = "branch_multiplier_re", .dimensions = {"point", "multiplier"},
+  const pendres_store_spec re = {.name = "branch_multiplier_re",
+                                 .dimensions = {"point", "multiplier"},
                                  .long_name = "real part of the Floquet multiplier"};
-  const pendres_store_spec im = {.name = "branch_multiplier_im", .dimensions = {"point", "multiplier"},
+  const pendres_store_spec im = {.name = "branch_multiplier_im",
+                                 .dimensions = {"point", "multiplier"},
                                  .long_name = "imaginary part of the Floquet multiplier"};
   const pendres_store_spec stable = {.name = "branch_stable", .type = PENDRES_STORE_INT8,
-                                     .dimensions = {"point"}, .flag_count = 2, .flag_meanings = no_yes,
+                                     .dimensions = {"point"}, .flag_count = 2,
+                                     .flag_meanings = no_yes,
                                      .long_name = "whether the orbit attracts"};
   const pendres_store_spec kind = {.name = "branch_kind", .type = PENDRES_STORE_INT8,
                                    .dimensions = {"point"}, .flag_count = 4, .flag_meanings = kinds,

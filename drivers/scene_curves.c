@@ -345,7 +345,8 @@ pendres_status scene_curves_write_paper(scene_run *run, const scene_curves *c)
                                   .printed = main_case ? 0.164 : 0.099,
                                   .computed = c->cusp.value[1],
                                   .error = c->cusp.value_error[1]};
-  const pendres_bifurcation *la = scene_curves_fold(c, 0.13, 1), *sa = scene_curves_fold(c, 0.13, 0);
+  const pendres_bifurcation *la = scene_curves_fold(c, 0.13, 1);
+  const pendres_bifurcation *sa = scene_curves_fold(c, 0.13, 0);
   if (main_case && la != NULL)
     values[n++] = (scene_printed){.name = "sa_only_below_frequency_damping_0_13",
                                   .printed = 0.74, .computed = la->value, .error = la->value_error};

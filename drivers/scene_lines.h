@@ -22,7 +22,7 @@ typedef struct scene_lines {
   size_t dampings, drives;
   scene_line *line;    /* [damping] */
   scene_curves curves;
-  void (*look)(void *arg, size_t damping); /* at each line when it is there, in order; may be NULL */
+  void (*look)(void *arg, size_t damping); /* at each line in order, once it is there; or NULL */
   void *arg;
 } scene_lines;
 

@@ -12,8 +12,9 @@
 
 typedef struct diagram {
   scene_lines lines;
-  size_t tally[PENDRES_REGIME_COUNT], differ; /* points of each regime; where scan and curves differ */
-  size_t skipped;
+  size_t tally[PENDRES_REGIME_COUNT]; /* points of each regime */
+  size_t differ;                      /* where scan and curves differ */
+  size_t skipped;                     /* orbits without a branch */
 } diagram;
 
 static void plan(const deck *d, FILE *out)
@@ -21,8 +22,9 @@ static void plan(const deck *d, FILE *out)
   const deck_axis *damping = &d->axis[DECK_AXIS_DAMPING];
   const deck_axis *drive = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
   fprintf(out,
-          "regimes of %lld members at %zu dampings, %g to %g, and %zu drive frequencies, %g to %g,\n"
-          "drive amplitude %g; and the curves of folds and symmetry breakings, with their cusp\n",
+          "regimes of %lld members at %zu dampings, %g to %g, and %zu drive frequencies, %g to "
+          "%g,\ndrive amplitude %g; and the curves of folds and symmetry breakings, with their "
+          "cusp\n",
           (long long)d->ensemble.members, damping->count, damping->value[0],
           damping->value[damping->count - 1], drive->count, drive->value[0],
           drive->value[drive->count - 1], d->pendulum.drive_amplitude);

@@ -54,7 +54,8 @@ static value frequency(const pendres_resonance *r)
 
 static value period(const pendres_resonance *r)
 {
-  return (value){two_pi / r->frequency, two_pi * r->frequency_error / (r->frequency * r->frequency)};
+  const double tau = two_pi / r->frequency;
+  return (value){tau, tau * r->frequency_error / r->frequency};
 }
 
 static value area(const pendres_resonance *r)

@@ -164,7 +164,8 @@ static pendres_status write_results(scene_run *run, const grid *g)
   if (status == PENDRES_OK)
     status = pendres_store_dimension(run->store, "", deck_axis_name(axis), g->drives,
                                      g->d->axis[axis].value,
-                                     axis == DECK_AXIS_DRIVE_PERIOD ? "drive period" : "drive frequency",
+                                     axis == DECK_AXIS_DRIVE_PERIOD ? "drive period"
+                                                                    : "drive frequency",
                                      "1");
   const scene_response_grid grid = {
     .dampings = g->dampings, .drives = g->drives, .damping = "damping",
@@ -258,7 +259,7 @@ done:
 const scene_kind scene_response = {
   .kind = DECK_RESPONSE,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
-                "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; "
-                "H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
+                "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
+                "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .plan = plan,
   .run = run_scene};

@@ -85,7 +85,8 @@ static const char *resolve(pendres_boundary_options *o)
   if (o->spacing == 0.0) o->spacing = 0.05;
   if (o->deviation == 0.0) o->deviation = 1e-5;
   if (o->most_points == 0) o->most_points = 400000;
-  if (!(o->x_high > o->x_low && o->x_high - o->x_low < 1e4)) return "the window in x is empty or absurd";
+  if (!(o->x_high > o->x_low && o->x_high - o->x_low < 1e4))
+    return "the window in x is empty or absurd";
   if (!(o->v_high > o->v_low && fmax(-o->v_low, o->v_high) < 1e4))
     return "the window in v is empty or absurd";
   if (!(o->spacing > 0.0 && o->deviation > 0.0)) return "spacing and deviation must be positive";

@@ -1,4 +1,4 @@
-/* boundary_saddle.c -- the unstable orbit behind the fold of an attractor's branch; see boundary.h. */
+/* boundary_saddle.c -- the unstable orbit behind the fold of a branch; see boundary.h. */
 #include <pendres/boundary.h>
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { MOST_ADVANCES = 300 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
-static const double wildest = 1e3;      /* growth of errors in a map: such orbits do not come back */
+static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
 
 /* Walk until the drive frequency is back where it was; *u is near the orbit there. */
 static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[PENDRES_U_COUNT])
@@ -55,7 +55,8 @@ static pendres_status refine(pendres_context *ctx, const pendres_orbit *attracto
   if (status != PENDRES_OK) return status;
   if (outcome == PENDRES_NOT_CONVERGED || out->stable) return PENDRES_NOT_FOUND;
   if (outcome != PENDRES_OK)
-    return pendres_context_fail(ctx, outcome, "the orbit between two attractors is known to %.1e only",
+    return pendres_context_fail(ctx, outcome,
+                                "the orbit between two attractors is known to %.1e only",
                                 fmax(out->x_error, out->v_error));
   return PENDRES_OK;
 }

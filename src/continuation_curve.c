@@ -228,7 +228,8 @@ done:
 
 /* ---- following ---- */
 
-static const char *check(size_t n, const pendres_bifurcation *starts, const pendres_curve_options *o)
+static const char *check(size_t n, const pendres_bifurcation *starts,
+                         const pendres_curve_options *o)
 {
   if ((unsigned)o->second >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
   for (int i = 0; i < 2; i++)

@@ -9,7 +9,7 @@
 
 enum { MOST_ADVANCES = 200 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
-static const double wildest = 1e3;      /* growth of errors in a map: such orbits do not come back */
+static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
 
 static const int by_frequency[] = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA};
 
@@ -87,7 +87,8 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
   status = walk_to_fold(ctx, &walk[first], &located);
   if (status == PENDRES_NOT_FOUND) status = walk_to_fold(ctx, &walk[1 - first], &located);
   if (status == PENDRES_NOT_FOUND)
-    return pendres_context_fail(ctx, status, "the branch through drive frequency %g has no fold near",
+    return pendres_context_fail(ctx, status,
+                                "the branch through drive frequency %g has no fold near",
                                 near->pendulum.drive_frequency);
   if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
   const pendres_status measured = pendres_continuation_locate_finish(

@@ -90,7 +90,8 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status = pendres_continuation_map_solve(
     ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
-  if (status == PENDRES_OK && !(pendres_continuation_stencil_distance(u, pair->coarse) <= reach)) status = PENDRES_NOT_CONVERGED;
+  if (status == PENDRES_OK && !(pendres_continuation_stencil_distance(u, pair->coarse) <= reach))
+    status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
   status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,

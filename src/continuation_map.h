@@ -27,7 +27,14 @@
 #include <pendres/orbit.h>
 
 /* Places in a point. */
-enum { PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA, PENDRES_U_GAMMA, PENDRES_U_DRIVE, PENDRES_U_COUNT };
+enum {
+  PENDRES_U_Y,
+  PENDRES_U_W,
+  PENDRES_U_OMEGA,
+  PENDRES_U_GAMMA,
+  PENDRES_U_DRIVE,
+  PENDRES_U_COUNT
+};
 
 typedef struct pendres_continuation_map {
   int mirror;  /* q half periods and the reflection; q is odd */

@@ -77,7 +77,8 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
   const double chord = pendres_trail_distance(w, inside->u, outside->u);
-  if (status != PENDRES_OK || isnan(rounding) || pendres_trail_distance(w, inside->u, u[0]) > chord ||
+  if (status != PENDRES_OK || isnan(rounding) ||
+      pendres_trail_distance(w, inside->u, u[0]) > chord ||
       fabs(u[0][place] - bound) > 1e-12)
     return status;
   memcpy(point->u, u[0], sizeof point->u);
@@ -107,7 +108,8 @@ static int passes(const pendres_walk *w, const pendres_walk_point *start,
     along += t * b->tangent[k];
   }
   const double chord = pendres_trail_distance(w, a->u, b->u);
-  return before < 0.0 && behind >= 0.0 && along > 0.9 && pendres_trail_distance(w, a->u, start->u) <= chord &&
+  return before < 0.0 && behind >= 0.0 && along > 0.9 &&
+         pendres_trail_distance(w, a->u, start->u) <= chord &&
          pendres_trail_distance(w, b->u, start->u) <= chord;
 }
 
@@ -135,7 +137,8 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
       if (landed && add(to, &landing) != 0) goto no_memory;
       break;
     }
-    if (p->arclength > 4.0 * pendres_trail_distance(w, last->u, p->u) && passes(w, start, last, p, 1.0)) {
+    if (p->arclength > 4.0 * pendres_trail_distance(w, last->u, p->u) &&
+        passes(w, start, last, p, 1.0)) {
       to->going = 0;
       to->end = PENDRES_END_CLOSED;
       break;
@@ -175,9 +178,10 @@ static pendres_status join(pendres_context *ctx, const pendres_walk *kind,
   t->capacity = t->count;
   /* The end with the lower first parameter comes first. */
   const int place = kind->unknown[2];
-  const double end0 = ways[0].count > 0 ? ways[0].point[ways[0].count - 1].u[place] : start->u[place];
-  const double end1 = ways[1].count > 0 ? ways[1].point[ways[1].count - 1].u[place] : start->u[place];
-  const int back = !t->closed && end0 < end1 ? 0 : 1, forth = 1 - back;
+  double end[2];
+  for (int i = 0; i < 2; i++)
+    end[i] = ways[i].count > 0 ? ways[i].point[ways[i].count - 1].u[place] : start->u[place];
+  const int back = !t->closed && end[0] < end[1] ? 0 : 1, forth = 1 - back;
   size_t n = 0;
   for (size_t i = ways[back].count; i-- > 0;) {
     t->point[n] = ways[back].point[i];

@@ -177,7 +177,8 @@ static int follows(const pendres_walk *w, const pendres_walk_point *last, int ga
     miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_walk_scale[i]);
     turn += last->tangent[k] * point->tangent[k];
   }
-  if (turn < sharpest_turn || way > 2.0 * gap * w->step || miss > farthest_miss * w->step * (c->rank + 1))
+  if (turn < sharpest_turn || way > 2.0 * gap * w->step ||
+      miss > farthest_miss * w->step * (c->rank + 1))
     return 0;
   memcpy(point->u, c->u, sizeof point->u);
   point->held = 0;

@@ -69,7 +69,8 @@ static void three(const pendres_trail *t, pendres_trail_test *test, size_t i, do
 }
 
 /* Share of the way from point i to the next at which the function vanishes. */
-static double part_of(const pendres_trail *t, pendres_trail_test *test, size_t i, double a, double b)
+static double part_of(const pendres_trail *t, pendres_trail_test *test, size_t i, double a,
+                      double b)
 {
   if (i + 1 < t->count) {
     const double from = t->point[i].arclength, to = t->point[i + 1].arclength;

@@ -41,8 +41,8 @@ void pendres_flow_free(pendres_flow *flow);
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
 
 /*
- * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept. The stride
- * (distance between rows) becomes lanes rounded up to a multiple of 8.
+ * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept. The
+ * stride (distance between rows) becomes lanes rounded up to a multiple of 8.
  */
 void pendres_flow_resize(pendres_flow *flow, size_t lanes);
 size_t pendres_flow_stride(const pendres_flow *flow);
@@ -68,8 +68,8 @@ pendres_status pendres_flow_period(pendres_flow *flow);
 pendres_status pendres_flow_half_period(pendres_flow *flow);
 
 /*
- * Like pendres_flow_period, and call sample(arg, step, theta, stride, state) after each step 1..n; fixed steps
- * only, so the samples are equally spaced and the last one is the period's end.
+ * Like pendres_flow_period, and call sample(arg, step, theta, stride, state) after each step
+ * 1..n; fixed steps only, so the samples are equally spaced and the last one is the period's end.
  */
 typedef void pendres_flow_sample(void *arg, int step, double theta, size_t stride,
                                  const double *state);

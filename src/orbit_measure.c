@@ -1,4 +1,4 @@
-/* orbit_measure.c -- measures of a closed orbit from equally spaced samples; see orbit_measure.h. */
+/* orbit_measure.c -- measures of a closed orbit from its samples; see orbit_measure.h. */
 #include "orbit_measure.h"
 
 #include <math.h>

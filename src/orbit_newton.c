@@ -77,8 +77,8 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   const size_t rows = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
   pendres_status status = pendres_context_poll(ctx);
   if (status == PENDRES_OK)
-    status =
-      pendres_context_flow(ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
+    status = pendres_context_flow(
+      ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
   if (status != PENDRES_OK) return status;
 
   const int steps = c[first].steps, q = c[first].guess->period;
@@ -101,7 +101,8 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   if (tape != NULL) record(&r, 0, 0.0, pendres_flow_stride(flow), pendres_flow_state(flow));
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
     r.offset = (size_t)k * (size_t)steps;
-    status = tape != NULL ? pendres_flow_period_sampled(flow, record, &r) : pendres_flow_period(flow);
+    status =
+      tape != NULL ? pendres_flow_period_sampled(flow, record, &r) : pendres_flow_period(flow);
   }
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
   ctx->cost.pendulum_periods += (double)lanes * q;

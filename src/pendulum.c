@@ -14,10 +14,13 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 {
   const char *reason = NULL;
   if (p == NULL) reason = "no pendulum was given";
-  else if (!(isfinite(p->damping) && p->damping >= 0.0)) reason = "the damping must be finite and not negative";
+  else if (!(isfinite(p->damping) && p->damping >= 0.0))
+    reason = "the damping must be finite and not negative";
   else if (!isfinite(p->drive_amplitude)) reason = "the drive amplitude must be finite";
-  else if (!(isfinite(p->drive_frequency) && p->drive_frequency > 0.0)) reason = "the drive frequency must be finite and positive";
-  else if (!(isfinite(p->temperature) && p->temperature >= 0.0)) reason = "the temperature must be finite and not negative";
+  else if (!(isfinite(p->drive_frequency) && p->drive_frequency > 0.0))
+    reason = "the drive frequency must be finite and positive";
+  else if (!(isfinite(p->temperature) && p->temperature >= 0.0))
+    reason = "the temperature must be finite and not negative";
   if (reason == NULL) return PENDRES_OK;
   if (why != NULL) *why = reason;
   return PENDRES_INVALID_ARGUMENT;
@@ -28,7 +31,8 @@ double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double
   return cos(x) - p->damping * v + p->drive_amplitude * cos(p->drive_frequency * t);
 }
 
-void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, double *dx, double *dv)
+void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, double *dx,
+                               double *dv)
 {
   (void)v;
   *dx = -sin(x);
@@ -65,7 +69,8 @@ pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harm
   /* Undamped at resonance the response is infinite: say so with inf, not a trap. */
   out->amplitude = fabs(p->drive_amplitude) / response;
   out->phase_lag = atan2(friction, stiffness);
-  out->loop_area = two_pi / 2.0 * p->drive_amplitude * p->drive_amplitude * (friction / response) / response;
+  out->loop_area =
+    two_pi / 2.0 * p->drive_amplitude * p->drive_amplitude * (friction / response) / response;
   return PENDRES_OK;
 }
 

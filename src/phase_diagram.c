@@ -124,7 +124,8 @@ static pendres_status judge_branches(pendres_context *ctx, const border *b,
   p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
   for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
     if (r->state[i].label != PENDRES_LABEL_CHAOTIC) note_orbit(b, &r->state[i].orbit, &single, p);
-  /* What members have not shown is looked up; where both are known, or only one can be, they have. */
+  /* What members have not shown is looked up; where both are known, or only one can be, they
+     have. */
   const int both = !isnan(p->sa_amplitude) && !isnan(p->la_amplitude);
   const int beyond = b->distinct && p->pendulum.drive_frequency > b->frequency;
   const int enough = both || (beyond && !isnan(p->la_amplitude)) || (!b->distinct && single);

@@ -247,7 +247,7 @@ static pendres_status resolve_jumps(search *s)
   }
 }
 
-/* The best of all smooth peaks and edges. *again: a jump turned up that has to be resolved first. */
+/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
 static pendres_status choose(search *s, pendres_resonance *out, int *again)
 {
   pendres_status status = PENDRES_OK;

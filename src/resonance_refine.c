@@ -31,8 +31,11 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
     for (size_t j = 0; j < points[i].response.states; j++) {
       const pendres_orbit *o = &points[i].response.state[j].orbit;
       if (isfinite(o->loop_area))
-        guess[k++] = (pendres_orbit_guess){
-          .pendulum = o->pendulum, .x = o->x, .v = o->v, .period = o->period, .winding = o->winding};
+        guess[k++] = (pendres_orbit_guess){.pendulum = o->pendulum,
+                                           .x = o->x,
+                                           .v = o->v,
+                                           .period = o->period,
+                                           .winding = o->winding};
     }
   status = pendres_orbit_refine(ctx, k, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome);
   k = 0;
@@ -154,7 +157,8 @@ static double slope_error(const pendres_scan_point *p)
   double error = 0.0, members = 0.0;
   for (size_t j = 0; j < p->response.states; j++) {
     members += (double)p->response.state_members[j];
-    error += (double)p->response.state_members[j] * p->response.state[j].orbit.loop_area_slope_error;
+    error +=
+      (double)p->response.state_members[j] * p->response.state[j].orbit.loop_area_slope_error;
   }
   return members > 0.0 ? error / members : NAN;
 }
@@ -350,7 +354,8 @@ static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p
     on = 0;
     for (size_t i = 0; i < n; i++) {
       const pendres_attractor *a =
-        outcome[i].attractor >= 0 ? pendres_attractors_get(set, (size_t)outcome[i].attractor) : NULL;
+        outcome[i].attractor < 0 ? NULL
+                                 : pendres_attractors_get(set, (size_t)outcome[i].attractor);
       /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
       if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
       if (pass == 1 && *found < most && on * most >= *found * all) x[(*found)++] = x[i];
@@ -423,7 +428,8 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   in[0].at_fold = side < 0.0 ? -1 : 1;
   in[0].fold = fold.value;
   in[0].fold_error = fold.value_error;
-  const double beside = fold.value + side * fmin(1e-3, 0.5 * fabs(fold.value - (side < 0 ? lower : upper)));
+  const double room = fabs(fold.value - (side < 0 ? lower : upper));
+  const double beside = fold.value + side * fmin(1e-3, 0.5 * room);
   status = pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &beside, &in[1]);
   *found = status == PENDRES_OK;
   return status;
@@ -434,7 +440,8 @@ static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *a
                                pendres_resonance *out)
 {
   pendres_scan_point beside;
-  const pendres_status status = follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
+  const pendres_status status =
+    follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
   if (status != PENDRES_OK) return status;
   finish(out, at);
   add_frequency_error(out, &beside);

@@ -17,7 +17,7 @@ typedef struct pendres_steps_memo pendres_steps_memo;
 pendres_status pendres_steps_create(pendres_steps_memo **out);
 void pendres_steps_free(pendres_steps_memo *memo);
 
-/* The steps a period that can be chosen from: a ladder about 1.12 apart. The next rung at or above n. */
+/* The steps a period that can be chosen from are a ladder, 1.12 apart: the rung at or above n. */
 int pendres_steps_rung(int n);
 
 /*

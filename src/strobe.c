@@ -113,7 +113,8 @@ static double distance(const pendres_strobe_lane *a, const pendres_strobe_lane *
 
 /*
  * From the distance of two runs and the standard error of rounding; what is lost in the last sums
- * comes on top. Runs that are a tenth of a radian apart have lost each other: nothing is known then.
+ * comes on top. Runs that are a tenth of a radian apart have lost each other: nothing is known
+ * then.
  */
 static double error_of(double apart, double noise, long turns)
 {
@@ -125,8 +126,8 @@ static double error_of(double apart, double noise, long turns)
  * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
  * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
  * steps of stiff pendulums), so that a tenth of it may change next to nothing: there all are
- * asked, with a hundredth, or 1e-6 where that is less: up to 1e-4 they may all end in the same wrong
- * basin. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
+ * asked, with a hundredth, or 1e-6 where that is less: up to 1e-4 they may all end in the same
+ * wrong basin. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
  */
 static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                   const double *x, const double *v, long periods,

@@ -28,8 +28,9 @@ typedef struct covariance {
 } covariance;
 
 /* One period of a block of n lanes of equal steps. */
-static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n, const pendres_strobe_rank *rank,
-                           pendres_strobe_lane *lanes, covariance *noise)
+static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n,
+                           const pendres_strobe_rank *rank, pendres_strobe_lane *lanes,
+                           covariance *noise)
 {
   pendres_status status = pendres_context_poll(ctx);
   if (status != PENDRES_OK) return status;
@@ -69,7 +70,8 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++) rank[i] = (pendres_strobe_rank){.steps = lanes[i].steps, .index = i};
+  for (size_t i = 0; i < n; i++)
+    rank[i] = (pendres_strobe_rank){.steps = lanes[i].steps, .index = i};
   pendres_strobe_order(n, rank);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     last = first + 1;

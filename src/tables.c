@@ -10,7 +10,10 @@
 
 typedef pendres_tables_entry entry;
 
-/* Tsitouras and Papakostas, Cheap error estimation for Runge-Kutta methods, SIAM J. Sci. Comput. 20 (1999) 2067: 8(7) */
+/*
+ * Tsitouras and Papakostas, Cheap error estimation for Runge-Kutta methods, SIAM J. Sci. Comput. 20
+ * (1999) 2067: 8(7)
+ */
 static const entry tp8_a[] = {
   {1, 0, 0.06338028169014084507042254},
   {2, 0, 0.01943898042733649926684582},
@@ -747,32 +750,18 @@ static const double sh9_c[] = {
   1.0,
 };
 
-#define METHOD(low, source, stages, order, embedded)                                             \
-  {#low, source, stages, order, embedded, low##_a, (int)(sizeof low##_a / sizeof low##_a[0]),       \
-   low##_b, low##_d, low##_c}
+#define METHOD(low, stages, order, embedded)                                                      \
+  {#low, stages, order, embedded, low##_a, (int)(sizeof low##_a / sizeof low##_a[0]), low##_b,     \
+   low##_d, low##_c}
 
 static const pendres_tables_method methods[PENDRES_TABLE_COUNT] = {
-  [PENDRES_TABLE_TP8] =
-    METHOD(tp8, "Tsitouras and Papakostas, Cheap error estimation for Runge-Kutta methods, SIAM J. Sci. Comput. 20 (1999) 2067: 8(7)",
-           13, 8, 7),
-  [PENDRES_TABLE_EV8] =
-    METHOD(ev8, "Enright and Verner, effective explicit Runge-Kutta pairs (1990s): 8(7)",
-           13, 8, 7),
-  [PENDRES_TABLE_VERN8] =
-    METHOD(vern8, "Verner, 8(7) pair, 13 stages",
-           13, 8, 7),
-  [PENDRES_TABLE_DOP853] =
-    METHOD(dop853, "Hairer, Norsett, Wanner, Solving ODEs I (1993): DOP853 main formula, fifth-order estimate only",
-           12, 8, 5),
-  [PENDRES_TABLE_TSIT5] =
-    METHOD(tsit5, "Tsitouras, Comput. Math. Appl. 62 (2011) 770: 5(4)",
-           7, 5, 4),
-  [PENDRES_TABLE_VERN9] =
-    METHOD(vern9, "Verner, most efficient 9(8) pair, 16 stages",
-           16, 9, 8),
-  [PENDRES_TABLE_SH9] =
-    METHOD(sh9, "Sharp, order 9(8) pair",
-           16, 9, 8),
+  [PENDRES_TABLE_TP8] = METHOD(tp8, 13, 8, 7),
+  [PENDRES_TABLE_EV8] = METHOD(ev8, 13, 8, 7),
+  [PENDRES_TABLE_VERN8] = METHOD(vern8, 13, 8, 7),
+  [PENDRES_TABLE_DOP853] = METHOD(dop853, 12, 8, 5),
+  [PENDRES_TABLE_TSIT5] = METHOD(tsit5, 7, 5, 4),
+  [PENDRES_TABLE_VERN9] = METHOD(vern9, 16, 9, 8),
+  [PENDRES_TABLE_SH9] = METHOD(sh9, 16, 9, 8),
 };
 
 const pendres_tables_method *pendres_tables_get(pendres_table table)

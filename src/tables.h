@@ -18,7 +18,6 @@ typedef struct pendres_tables_entry {
 
 typedef struct pendres_tables_method {
   const char *name;
-  const char *source;
   int stages, order, embedded_order;
   const pendres_tables_entry *a;
   int entries;

@@ -51,7 +51,7 @@ typedef struct pendres_attractor {
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
   double lyapunov;          /**< largest Lyapunov exponent a unit time */
-  double lyapunov_error;    /**< a standard error if chaotic; of closed orbits by the multiplier's */
+  double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's */
 } pendres_attractor;
 
 /** Opaque: attractors of one or more parameter sets. */

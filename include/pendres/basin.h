@@ -191,8 +191,8 @@ typedef struct pendres_basin_window {
  * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
  * below the tolerance mean nothing. The states depend on seed alone. statistics' fields
  * states, unresolved, uncertainty_exponent, distance, uncertain are set, others are NaN or 0.
- * PENDRES_NOT_FOUND: at too few distances the boundary is met often enough for a count, and by fewer
- * than half of the states: shares near one are no power of the distance.
+ * PENDRES_NOT_FOUND: at too few distances the boundary is met often enough for a count, and by
+ * fewer than half of the states: shares near one are no power of the distance.
  */
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
                                          const pendres_basin_window *window, size_t n,

@@ -33,8 +33,8 @@ typedef enum pendres_method {
   PENDRES_SINGLE,          /**< one adaptive ARKODE problem a pendulum */
   PENDRES_CVODE_ADAMS,     /**< one CVODE Adams problem a pendulum */
   PENDRES_CVODE_BDF,       /**< one CVODE BDF problem a pendulum, Newton with the exact Jacobian */
-  PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, all but the tolerance as it comes: what
-                                the others are measured against */
+  PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, all but the tolerance as it comes:
+                                what the others are measured against */
   PENDRES_METHOD_COUNT
 } pendres_method;
 
@@ -44,7 +44,7 @@ typedef enum pendres_table {
   PENDRES_TABLE_TP8,    /**< Tsitouras and Papakostas 8(7), SIAM J. Sci. Comput. 20 (1999) 2067 */
   PENDRES_TABLE_EV8,    /**< Enright and Verner 8(7) */
   PENDRES_TABLE_VERN8,  /**< Verner 8(7) */
-  PENDRES_TABLE_DOP853, /**< Dormand-Prince 8, embedded 5; Hairer, Norsett, Wanner, Solving ODEs I */
+  PENDRES_TABLE_DOP853, /**< Dormand-Prince 8, embedded 5; Hairer, Norsett, Wanner, Solving ODEs */
   PENDRES_TABLE_TSIT5,  /**< Tsitouras 5(4), Comput. Math. Appl. 62 (2011) 770 */
   PENDRES_TABLE_VERN9,  /**< Verner 9(8) */
   PENDRES_TABLE_SH9,    /**< Sharp 9(8) */
@@ -74,7 +74,7 @@ typedef struct pendres_options {
 typedef struct pendres_cost {
   double pendulum_periods;  /**< drive periods, summed over lanes in use */
   double rhs_evaluations;   /**< right-hand sides, one a lane, stage and step */
-  double steps;             /**< steps of the integrators, summed over lanes, without rejected ones */
+  double steps;             /**< steps of the integrators, over all lanes, without rejected ones */
   double newton_steps;      /**< Newton iterations on the stroboscopic map */
   double settled_pendulums; /**< pendulums that were asked what they settle on */
 } pendres_cost;

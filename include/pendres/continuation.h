@@ -93,8 +93,9 @@ typedef enum pendres_branch_end {
 typedef struct pendres_branch_point {
   pendres_special kind;
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
-  double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are, the
-                               drive frequency in units of 0.3, damping and drive amplitude of 0.1 */
+  double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are,
+                               the drive frequency in units of 0.3, damping and drive amplitude
+                               of 0.1 */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
 } pendres_branch_point;
@@ -185,7 +186,7 @@ typedef struct pendres_curve_options {
   pendres_parameter second;      /**< beside the one that the start was found in */
   double low[2], high[2];        /**< of the start's parameter and of the second */
   double spacing;                /**< of points in arclength, as for branches; default 0.05 */
-  double wildest;                /**< growth of errors in one map at which a curve is given up; 300 */
+  double wildest;                /**< growth of errors in a map at which a curve is given up; 300 */
   size_t most_points;            /**< each way from the start; default 2000 */
 } pendres_curve_options;
 
@@ -244,8 +245,8 @@ size_t pendres_curves_count(const pendres_curves *curves);
 const pendres_curve *pendres_curves_get(const pendres_curves *curves, size_t i);
 
 /**
- * The cusp that the curve of folds through `near` leads to, as near's parameter and `second` change:
- * first in the direction in which its curvature falls, then in the other.
+ * The cusp that the curve of folds through `near` leads to, as near's parameter and `second`
+ * change: first in the direction in which its curvature falls, then in the other.
  * Errors: PENDRES_NOT_FOUND, PENDRES_TOLERANCE_UNREACHABLE (*out is complete), those of the
  * integration.
  */

@@ -60,7 +60,7 @@ typedef struct pendres_orbit {
   double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi] */
   double cosine[PENDRES_ORBIT_HARMONICS]; /**< cosine[m-1], sine[m-1]: harmonic m of the angle, */
   double sine[PENDRES_ORBIT_HARMONICS];   /**< averaged over the orbit's q drive cycles */
-  double frequency_derivative[2];  /**< d(x, v)/d omega of the Poincaré point, NaN if not asked for */
+  double frequency_derivative[2];  /**< d(x, v)/d omega of the strobe point; NaN unless asked for */
   double loop_area_slope;          /**< dA/d omega along the branch, NaN if not asked for */
   double loop_area_slope_error;
   int steps;                 /**< steps a period of the finer computation */
