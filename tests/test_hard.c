@@ -19,7 +19,9 @@ static const double scale = 0.1;
    does in a hundredth of the time. */
 static const char *const naive_is_worse[] = {
   "equilibrium_1e", "equilibrium_fall", "separatrix_1e", "energy", "weak_wait", "frequency_1e",
-  "frequency_50", "frequency_shaken", "tolerance_missed", "tolerance_orbits", "drive_0",
+  "frequency_50", "frequency_shaken", "stiff_error", "stiff_bdf_rhs", "stiff_remedy_rhs",
+  "fold_orbit", "fold_ghost_1e-12", "fold_label_1e-12", "cusp_orbit", "boundary_1e-9",
+  "cascade_1.0663", "turns_velocity", "tolerance_missed", "tolerance_orbits", "drive_0",
   "drive_1e", "drive_start",
 };
 
