@@ -5,18 +5,29 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "tables.h"
 
-/* Rounding of one step: a unit in the last place of angles up to pi, as measured. */
-static const double step_rounding = 4.4e-16;
+/*
+ * A unit in the last place of angles up to pi, as measured with tables whose weights add up to 13 in
+ * size at most. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
+ */
+double pendres_strobe_noise_of_step(pendres_table table)
+{
+  static const double step_rounding = 4.4e-16, usual_weights = 13.0;
+  const pendres_tables_method *m = pendres_tables_get(table);
+  double weights = 0.0;
+  for (int i = 0; m != NULL && i < m->stages; i++) weights += fabs(m->b[i]);
+  return step_rounding * fmax(1.0, weights / usual_weights);
+}
 
-void pendres_strobe_noise_carry(const double noise[3], int step, size_t stride,
+void pendres_strobe_noise_carry(const double noise[3], double rounding, int step, size_t stride,
                                 const double *state, double out[3])
 {
   const double a = state[2 * stride], c = state[3 * stride];
   const double b = state[4 * stride], d = state[5 * stride];
   const double w = fmax(1.0, fabs(state[stride]));
   /* What is added on the way grows on the way: half of it counts as there from the start. */
-  const double added = 0.5 * step_rounding * step_rounding * step;
+  const double added = 0.5 * rounding * rounding * step;
   const double yy = noise[0] + added, yw = noise[1], ww = noise[2] + added * w * w;
   out[0] = a * a * yy + 2.0 * a * b * yw + b * b * ww + added;
   out[1] = a * c * yy + (a * d + b * c) * yw + b * d * ww;
@@ -42,11 +53,12 @@ static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n,
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
   ctx->cost.pendulum_periods += (double)n;
   const double *state = pendres_flow_state(flow);
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
   const size_t stride = pendres_flow_stride(flow);
   for (size_t i = 0; i < n; i++) {
     pendres_strobe_lane *l = &lanes[rank[i].index];
     covariance *old = &noise[rank[i].index], next;
-    pendres_strobe_noise_carry(old->c, l->steps, stride, state + i, next.c);
+    pendres_strobe_noise_carry(old->c, rounding, l->steps, stride, state + i, next.c);
     *old = next;
     l->y = state[i];
     l->w = state[stride + i];

@@ -10,11 +10,14 @@
 
 #include "strobe_run.h"
 
+/* What one step of a table rounds away, at random: the standard error of the angle. */
+double pendres_strobe_noise_of_step(pendres_table table);
+
 /*
- * C_yy, C_yw, C_ww after `step` steps from a state where they were noise[]. state points at a lane
- * of a block with variational rows that began as the identity.
+ * C_yy, C_yw, C_ww after `step` steps from a state where they were noise[]; rounding is that of a
+ * step. state points at a lane of a block with variational rows that began as the identity.
  */
-void pendres_strobe_noise_carry(const double noise[3], int step, size_t stride,
+void pendres_strobe_noise_carry(const double noise[3], double rounding, int step, size_t stride,
                                 const double *state, double out[3]);
 
 /*

@@ -27,6 +27,7 @@ typedef struct recorder {
   double noise[3];           /* C_yy, C_yw, C_ww at the period's start */
   int stretch;               /* steps between two points */
   double omega, turned;
+  double rounding;           /* of a step */
 } recorder;
 
 static void keep(void *arg, int step, double theta, size_t stride, const double *state)
@@ -39,7 +40,7 @@ static void keep(void *arg, int step, double theta, size_t stride, const double 
   r->v[k] = r->omega * state[stride];
   if (r->x_noise != NULL) {
     double noise[3];
-    pendres_strobe_noise_carry(r->noise, step, stride, state, noise);
+    pendres_strobe_noise_carry(r->noise, r->rounding, step, stride, state, noise);
     r->x_noise[k] = sqrt(noise[0]);
     r->v_noise[k] = r->omega * sqrt(noise[2]);
   }
@@ -60,7 +61,8 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
   pendres_flow *flow = NULL;
   const double omega = what->p->drive_frequency;
   double y = what->x0 - half_pi, w = what->v0 / omega;
-  recorder r = { .stretch = stretch, .omega = omega };
+  recorder r = { .stretch = stretch, .omega = omega,
+                 .rounding = pendres_strobe_noise_of_step(ctx->options.table) };
   long turns = 0;
   pendres_status status = pendres_context_flow(
     ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
@@ -87,7 +89,8 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     const size_t stride = pendres_flow_stride(flow);
     double noise[3] = { 0.0 };
     if (x_noise != NULL)
-      pendres_strobe_noise_carry(r.noise, what->samples * stretch, stride, state, noise);
+      pendres_strobe_noise_carry(r.noise, r.rounding, what->samples * stretch, stride, state,
+                                 noise);
     for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
     y = state[0];
     w = state[stride];
