@@ -8,8 +8,8 @@
 #include "tables.h"
 
 /*
- * A unit in the last place of angles up to pi, as measured with tables whose weights add up to 13 in
- * size at most. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
+ * A unit in the last place of angles up to pi, as measured with tables whose weights add up to 13
+ * in size at most. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
  */
 double pendres_strobe_noise_of_step(pendres_table table)
 {
