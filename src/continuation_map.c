@@ -285,7 +285,7 @@ pendres_status pendres_continuation_map_equations(pendres_context *ctx,
   }
   for (size_t i = 0; i < n; i++) {
     const pendres_continuation_image *image = w.image + i * each;
-    double value[PENDRES_U_COUNT + 1];
+    double value[PENDRES_U_COUNT + 1] = {0.0};
     plain_rows(image, &out[i]);
     if (condition == PENDRES_CONDITION_NONE) continue;
     for (size_t k = 0; k < each; k++)
