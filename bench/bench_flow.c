@@ -11,6 +11,7 @@
  * 8, its amplitude 0.2; 100 drive periods. Error: the largest over the ensemble in position and
  * velocity against extended precision, without members that amplify a change over 1000-fold.
  */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
