@@ -276,6 +276,30 @@ static pendres_status put_strong_drive(hard_sheet *sheet, pendres_context *ctx,
                         "phase lag over its estimate, the worst", worst, 10.0, NAN);
 }
 
+/* The same drive at the tightest tolerance, far below its rounding: an answer and its error, not a
+   search for steps that would help. */
+static pendres_status put_strong_and_tight(hard_sheet *sheet)
+{
+  const pendres_options options = { .tolerance = tightest };
+  const pendres_pendulum p = driven_by(1e3);
+  const double x0 = 0.5 * pi + 0.3;
+  long double y = (long double)x0 - half_pi_exact, w = 0.0L;
+  long turns = 0;
+  double x = x0, v = 0.0, estimate = NAN;
+  pendres_context *ctx = NULL;
+  pendres_status status = hard_context(sheet, &options, &ctx);
+  if (status != PENDRES_OK) return status;
+  status = pendres_strobe_advance(ctx, 1, &p, &x, &v, 1, &estimate);
+  if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
+  pendres_context_free(ctx);
+  if (status == PENDRES_OK) status = pendres_reference_advance(&p, &y, &w, &turns, 1);
+  if (status != PENDRES_OK) return status;
+  y += half_pi_exact * (1.0L + 4.0L * (long double)turns);
+  const double error = fmax((double)fabsl((long double)x - y), (double)fabsl((long double)v - w));
+  return hard_sheet_add(sheet, "drive_1e3_tight", "such a drive at tolerance 1e-13: error after a "
+                        "period over its estimate", error / estimate, 10.0, NAN);
+}
+
 /*
  * A free pendulum, undamped, started with a speed that only denormal numbers hold: v = v0 cos t, to
  * the tolerance as any other of order one, and a last place of denormals each step.
@@ -313,6 +337,7 @@ pendres_status hard_drive(hard_sheet *sheet)
   if (status == PENDRES_OK) status = put_small_drive(sheet, ctx, naive, 1e-310);
   if (status == PENDRES_OK) status = put_denormal_start(sheet, ctx, naive);
   if (status == PENDRES_OK) status = put_strong_drive(sheet, ctx, naive);
+  if (status == PENDRES_OK) status = put_strong_and_tight(sheet);
   pendres_context_free(naive);
   pendres_context_free(ctx);
   return status;

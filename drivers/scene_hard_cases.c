@@ -116,12 +116,12 @@ static pendres_status write_rows(scene_run *run, const work *w, const columns *c
 
 static void print_table(FILE *out, const work *w)
 {
-  fprintf(out, "%-24s %9s %9s %5s %9s  %s\n", "case", "bound", "figure", "holds", "naive",
+  fprintf(out, "%-26s %9s %9s %5s %9s  %s\n", "case", "bound", "figure", "holds", "naive",
           "quantity");
   for (size_t i = 0; i < w->count; i++)
     for (size_t r = 0; r < w->sheet[i].count; r++) {
       const hard_row *row = &w->sheet[i].row[r];
-      fprintf(out, "%-24s %9.2e %9.2e %5s %9.2e  %s\n", row->name, row->bound, row->figure,
+      fprintf(out, "%-26s %9.2e %9.2e %5s %9.2e  %s\n", row->name, row->bound, row->figure,
               hard_row_holds(row) ? "yes" : "NO", row->naive, row->quantity);
     }
 }

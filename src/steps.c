@@ -202,16 +202,6 @@ static double largest_error(const sight *coarse, const sight *fine)
   return largest;
 }
 
-/* The largest angle or speed seen: what rounding is relative to. */
-static double largest_size(const sight *s)
-{
-  double largest = 0.0;
-  for (int k = 0; k < s->points; k++)
-    for (size_t i = 0; i < PROBES; i++)
-      largest = fmax(largest, fmax(fabs(s->y[k][i]), fabs(s->v[k][i])));
-  return largest;
-}
-
 /* Least steps that resolve the drive's period, the pendulum's own and explicit stability. */
 static double least_steps(const pendres_pendulum *p, double speed)
 {
@@ -240,8 +230,7 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
     if (status != PENDRES_OK) return status;
     const double error = largest_error(&coarse, &fine);
     /* Where the error no longer falls it is rounding alone: more steps would not help. */
-    const int rounding = error < fmax(1e-9, 1e-11 * largest_size(&fine)) &&
-                         error > 0.5 * last_error;
+    const int rounding = error < 1e-9 && error > 0.5 * last_error;
     if (error <= tolerance || rounding) {
       *steps = n;
       return PENDRES_OK;
