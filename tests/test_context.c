@@ -1,0 +1,153 @@
+/*
+ * test_context.c -- options and their defaults, what is refused and why, costs, and being told to
+ * stop.
+ */
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pendres/context.h>
+#include <pendres/strobe.h>
+
+static const pendres_pendulum fig7 = {
+  .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
+
+static void defaults(void **state)
+{
+  pendres_context *ctx = NULL;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  const pendres_options *o = pendres_context_options(ctx);
+  assert_true(o->tolerance == 1e-8);
+  assert_int_equal(o->method, PENDRES_BLOCK_FIXED);
+  assert_int_equal(o->table, PENDRES_TABLE_TP8);
+  assert_int_equal(o->block_lanes, 512);
+  assert_string_equal(pendres_context_message(ctx), "");
+  pendres_context_free(ctx);
+  pendres_context_free(NULL);
+}
+
+/* Options are copied: the caller's may go. */
+static void options_are_copied(void **state)
+{
+  pendres_context *ctx = NULL;
+  (void)state;
+  {
+    pendres_options o = {.tolerance = 1e-5, .table = PENDRES_TABLE_TSIT5, .block_lanes = 64};
+    check_ok(pendres_context_create(&o, &ctx));
+    memset(&o, 0xff, sizeof o);
+  }
+  assert_true(pendres_context_options(ctx)->tolerance == 1e-5);
+  assert_int_equal(pendres_context_options(ctx)->table, PENDRES_TABLE_TSIT5);
+  assert_int_equal(pendres_context_options(ctx)->block_lanes, 64);
+  pendres_context_free(ctx);
+}
+
+static void bad_options(void **state)
+{
+  static const struct {
+    pendres_options options;
+    const char *word; /* in what is said of it */
+  } bad[] = {
+    {{.tolerance = 0.1}, "tolerance"},       {{.tolerance = -1e-8}, "tolerance"},
+    {{.tolerance = 1e-14}, "1e-13"},         {{.tolerance = NAN}, "tolerance"},
+    {{.tolerance = INFINITY}, "tolerance"},  {{.method = PENDRES_METHOD_COUNT}, "method"},
+    {{.table = PENDRES_TABLE_COUNT}, "table"}, {{.steps_per_period = -1}, "steps"},
+    {{.steps_per_period = 1000001}, "steps"}, {{.block_lanes = 12}, "lanes"},
+    {{.block_lanes = -8}, "lanes"},          {{.block_lanes = 4104}, "lanes"},
+    {{.period_budget = -1}, "budget"},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    pendres_context *ctx = (pendres_context *)&bad;
+    const char *why = pendres_options_check(&bad[i].options);
+    assert_non_null(why);
+    assert_non_null(strstr(why, bad[i].word));
+    assert_int_equal(pendres_context_create(&bad[i].options, &ctx), PENDRES_INVALID_ARGUMENT);
+    assert_null(ctx);
+  }
+  assert_null(pendres_options_check(NULL));
+  assert_non_null(strstr(pendres_context_message(NULL), "pendres_options_check"));
+}
+
+static void names(void **state)
+{
+  static const char *const methods[] = {"block_fixed", "block_adaptive", "single",
+                                        "cvode_adams", "cvode_bdf",      "naive"};
+  static const struct {
+    const char *name;
+    int order;
+  } tables[] = {{"tp8", 8},    {"tp8", 8},   {"ev8", 8}, {"vern8", 8}, {"dop853", 8},
+                {"tsit5", 5},  {"vern9", 9}, {"sh9", 9}, {"dp5", 5}};
+  (void)state;
+  for (int i = 0; i < PENDRES_METHOD_COUNT; i++)
+    assert_string_equal(pendres_method_name((pendres_method)i), methods[i]);
+  assert_null(pendres_method_name(PENDRES_METHOD_COUNT));
+  for (int i = 0; i < PENDRES_TABLE_COUNT; i++) {
+    assert_string_equal(pendres_table_name((pendres_table)i), tables[i].name);
+    assert_int_equal(pendres_table_order((pendres_table)i), tables[i].order);
+  }
+  assert_null(pendres_table_name(PENDRES_TABLE_COUNT));
+  assert_int_equal(pendres_table_order(PENDRES_TABLE_COUNT), 0);
+}
+
+/* Three pendulums, four periods, ten steps each of thirteen stages (tp8's last serves no other). */
+static void costs_are_counted(void **state)
+{
+  pendres_context *ctx = NULL;
+  pendres_cost cost;
+  const pendres_pendulum p[3] = {fig7, fig7, fig7};
+  double x[3] = {0.1, 0.2, 0.3}, v[3] = {0.0, 0.0, 0.0};
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.steps_per_period = 10}, &ctx));
+  check_ok(pendres_strobe_advance(ctx, 3, p, x, v, 4, NULL));
+  pendres_context_cost(ctx, &cost);
+  assert_true(cost.pendulum_periods == 12.0);
+  assert_true(cost.steps == 120.0);
+  assert_true(cost.rhs_evaluations >= 12.0 * 120.0 && cost.rhs_evaluations <= 13.0 * 120.0 + 12.0);
+  pendres_context_cost_reset(ctx);
+  pendres_context_cost(ctx, &cost);
+  assert_true(cost.pendulum_periods == 0.0 && cost.steps == 0.0 && cost.rhs_evaluations == 0.0);
+  check_ok(pendres_strobe_advance(ctx, 1, p, x, v, 1, NULL));
+  pendres_context_cost(ctx, &cost);
+  assert_true(cost.pendulum_periods == 1.0 && cost.steps == 10.0);
+  pendres_context_free(ctx);
+}
+
+static int after_some(void *arg)
+{
+  int *left = arg;
+  return --*left < 0;
+}
+
+/* A run that is stopped says so and leaves its arrays alone; the context goes on. */
+static void interrupted(void **state)
+{
+  for (int m = 0; m < PENDRES_METHOD_COUNT; m++) {
+    pendres_context *ctx = NULL;
+    int left = 3;
+    double x = 1.0, v = 0.0;
+    (void)state;
+    check_ok(pendres_context_create(&(pendres_options){.method = (pendres_method)m}, &ctx));
+    pendres_context_set_interrupt(ctx, after_some, &left);
+    assert_int_equal(pendres_strobe_advance(ctx, 1, &fig7, &x, &v, 1000000, NULL),
+                     PENDRES_INTERRUPTED);
+    assert_true(x == 1.0 && v == 0.0);
+    assert_non_null(strstr(pendres_context_message(ctx), "interrupted"));
+    pendres_context_set_interrupt(ctx, NULL, NULL);
+    check_ok(pendres_strobe_advance(ctx, 1, &fig7, &x, &v, 2, NULL));
+    assert_true(x != 1.0);
+    pendres_context_free(ctx);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(defaults),    cmocka_unit_test(options_are_copied),
+    cmocka_unit_test(bad_options), cmocka_unit_test(names),
+    cmocka_unit_test(costs_are_counted), cmocka_unit_test(interrupted),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
