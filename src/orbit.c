@@ -10,7 +10,7 @@
 #include "orbit_measure.h"
 #include "orbit_newton.h"
 #include "steps.h"
-#include "strobe_run.h"
+#include "strobe_noise.h"
 
 static const double pi = 3.14159265358979323846;
 static const double two_pi = 6.28318530717958647693;
@@ -87,8 +87,9 @@ static double error_of(double coarse, double fine, double point, double floor)
   return 0.25 * fabs(fine - coarse) + 0.02 * point + floor;
 }
 
+/* rounding: of a step, of an angle of order one. */
 static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
-                 pendres_orbit *o)
+                 double rounding, pendres_orbit *o)
 {
   const pendres_pendulum *p = &c->guess->pendulum;
   const double omega = p->drive_frequency, q = c->guess->period;
@@ -97,10 +98,10 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
 
   (void)solve(fine->m, unit, z, &stretch);
-  /* Each step rounds the state by half a unit in the last place; the errors add at random, and
-     the fixed point feels them amplified by (I - M)^-1. */
+  /* Rounding errors of steps add at random, and the fixed point feels them amplified by
+     (I - M)^-1. */
   const double size = fmax(b->amplitude, fmax(fabs(fine->y), fabs(fine->w)));
-  const double last_place = fmax(1.2e-16 * size, DBL_TRUE_MIN);
+  const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
   const double floor = last_place * sqrt(c->steps * q) * fmax(1.0, stretch);
 
   memset(o, 0, sizeof *o);
@@ -227,6 +228,8 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
                                   pendres_orbit_want want, result *coarse, result *fine,
                                   pendres_orbit *out, pendres_status *outcome)
 {
+  /* Periodic orbits keep below what the worst of pendulums round. */
+  const double rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table);
   pendres_status status = pendres_newton_converge(ctx, n, c);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, coarse);
   if (status != PENDRES_OK) return status;
@@ -247,7 +250,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
       outcome[k] = PENDRES_NOT_CONVERGED;
       continue;
     }
-    fill(&c[i], &coarse[k], &fine[k], &out[k]);
+    fill(&c[i], &coarse[k], &fine[k], rounding, &out[k]);
     outcome[k] =
       accurate(&out[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
   }

@@ -8,12 +8,12 @@
 #include "tables.h"
 
 /*
- * A unit in the last place of angles up to pi, as measured with tables whose weights add up to 13
- * in size at most. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
+ * A unit in the last place of angles up to pi, as measured with tp8, whose weights add up to 7 in
+ * size. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
  */
 double pendres_strobe_noise_of_step(pendres_table table)
 {
-  static const double step_rounding = 4.4e-16, usual_weights = 13.0;
+  static const double step_rounding = 4.4e-16, usual_weights = 7.2;
   const pendres_tables_method *m = pendres_tables_get(table);
   double weights = 0.0;
   for (int i = 0; m != NULL && i < m->stages; i++) weights += fabs(m->b[i]);
