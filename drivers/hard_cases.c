@@ -46,7 +46,8 @@ pendres_status hard_sheet_add_at(hard_sheet *sheet, const char *name, double num
 {
   char full[sizeof sheet->row->name];
   char digits[24];
-  (void)snprintf(digits, sizeof digits, number != 0.0 && fabs(number) < 0.01 ? "%.0e" : "%g", number);
+  const int tiny = number != 0.0 && fabs(number) < 0.01;
+  (void)snprintf(digits, sizeof digits, tiny ? "%.0e" : "%g", number);
   /* 1e-9, not 1e-09. */
   char *e = strchr(digits, 'e');
   if (e != NULL && e[2] == '0') memmove(e + 2, e + 3, strlen(e + 3) + 1);

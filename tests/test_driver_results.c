@@ -65,7 +65,8 @@ static void test_run(void **state)
   static const char *const decks[] = { "small.nml", "orbit.nml", "hard.nml" };
   char table[TEXT_ROOM];
   (void)state;
-  write_text("hard.nml", "&scene kind = 'hard_cases' /\n&sweep case = 'tolerance', 'separatrix' /\n");
+  write_text("hard.nml", "&scene kind = 'hard_cases' /\n"
+                         "&sweep case = 'tolerance', 'separatrix' /\n");
   for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
     check_code(RUN("--quiet", "--threads=1", "-o", "one.h5", decks[i]), DONE);
     assert_string_equal(err, "");

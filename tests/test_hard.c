@@ -115,8 +115,9 @@ static double seconds(double damping, double v0)
 }
 
 /*
- * Denormal numbers take processors some 150 cycles an operation, 40 times a block's usual pace. What
- * has come to rest must not pay for that: a factor of 4 leaves room for neighbours on the machine.
+ * Denormal numbers take processors some 150 cycles an operation, 40 times a block's usual pace.
+ * What has come to rest must not pay for that: a factor of 4 leaves room for neighbours on the
+ * machine.
  * What really swings that little must be no more than 100 times slower, as strobe.h says.
  */
 static void denormal_numbers_do_not_stall(void **state)
