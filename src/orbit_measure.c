@@ -98,7 +98,8 @@ pendres_status pendres_orbit_half_range(const double *y, size_t n, double *work,
     if (y[k] > y[top]) top = k;
     if (y[k] < y[bottom]) bottom = k;
   }
-  *out = 0.5 * (extreme_near(work, n, top) - extreme_near(work, n, bottom));
+  /* At rest rounding may put the top below the bottom. */
+  *out = fmax(0.0, 0.5 * (extreme_near(work, n, top) - extreme_near(work, n, bottom)));
   return PENDRES_OK;
 }
 
