@@ -72,7 +72,8 @@ pendres_status scene_curves_follow(scene_run *run, scene_curves *c)
   pendres_context *ctx = farm_context(run->farm);
   if (ctx == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a context");
   const pendres_status status =
-    pendres_curves_find(ctx, c->count, c->list, &options, &c->curves);
+    c->curves == NULL ? pendres_curves_find(ctx, c->count, c->list, &options, &c->curves)
+                      : pendres_curves_extend(ctx, c->count, c->list, &options, c->curves);
   if (status != PENDRES_OK) return scene_fail(run, status, "%s", pendres_context_message(ctx));
   find_cusp(c);
   return status;

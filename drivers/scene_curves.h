@@ -23,7 +23,8 @@ void scene_curves_free(scene_curves *c);
 /* Take the bifurcations of a line's branches over. */
 pendres_status scene_curves_add(scene_curves *c, const pendres_branches *branches);
 
-/* Follow the curves through all bifurcations, within and around the deck's axes; find the cusp. */
+/* Follow the curves through all bifurcations, within and around the deck's axes, beside those that
+   are known already; find the cusp. */
 pendres_status scene_curves_follow(scene_run *run, scene_curves *c);
 
 /* Write the dimensions `fold`, `flip` and `bifurcation` with their arrays, and the cusp. */

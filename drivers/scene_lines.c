@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+enum { MOST_ROUNDS = 4 }; /* of following curves, see below */
+
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
 {
   scene_lines *l = arg;
@@ -20,14 +22,40 @@ done:
   return status;
 }
 
-static pendres_status collect(void *arg, size_t task)
+static pendres_status complete(void *arg, size_t task, pendres_context *ctx)
 {
   scene_lines *l = arg;
   const scene_line *line = &l->line[task];
-  const pendres_status status = scene_curves_add(&l->curves, line->branches);
-  for (size_t k = 0; k < l->drives; k++)
-    l->run->failed_points += line->points[k].unresolved > 0;
-  if (l->look != NULL) l->look(l->arg, task);
+  return pendres_phase_line_complete(ctx, l->drives, l->curves.curves, &l->ensemble, l->spacing,
+                                     line->points, line->branches);
+}
+
+/* The bifurcations of all lines. */
+static pendres_status gather(scene_lines *l)
+{
+  l->curves.count = 0;
+  for (size_t i = 0; i < l->dampings; i++)
+    if (scene_curves_add(&l->curves, l->line[i].branches) != PENDRES_OK)
+      return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  return PENDRES_OK;
+}
+
+/*
+ * Curves through the lines' bifurcations show branches that some lines have missed, whose own
+ * bifurcations may lie on further curves; mostly the first round has shown all.
+ */
+static pendres_status follow_curves(scene_lines *l)
+{
+  pendres_status status = gather(l);
+  size_t before = 0;
+  for (int i = 0; i < MOST_ROUNDS && status == PENDRES_OK && l->curves.count > before; i++) {
+    before = l->curves.count;
+    status = scene_curves_follow(l->run, &l->curves);
+    if (status != PENDRES_OK) return status;
+    status = farm_run(l->run->farm, "lines", l->dampings, complete, NULL, l);
+    if (status != PENDRES_OK) return scene_farm_failed(l->run, status);
+    status = gather(l);
+  }
   return status;
 }
 
@@ -42,9 +70,12 @@ pendres_status scene_lines_compute(scene_run *run, scene_lines *l)
   l->line = calloc(l->dampings, sizeof *l->line);
   if (l->line == NULL)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lines", l->dampings);
-  const pendres_status status = farm_run(run->farm, "dampings", l->dampings, compute, collect, l);
+  pendres_status status = farm_run(run->farm, "dampings", l->dampings, compute, NULL, l);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
-  return scene_curves_follow(run, &l->curves);
+  for (size_t i = 0; i < l->dampings; i++)
+    for (size_t k = 0; k < l->drives; k++)
+      run->failed_points += l->line[i].points[k].unresolved > 0;
+  return follow_curves(l);
 }
 
 void scene_lines_free(scene_lines *l)

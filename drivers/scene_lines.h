@@ -2,7 +2,8 @@
  * scene_lines.h -- points over damping and drive frequency, a line a damping, with the branches
  * that they lie on: what phase_diagram and branches both compute.
  *
- * Owns: the lines, one task each, and the curves of bifurcations through all of them.
+ * Owns: the lines, one task each, the curves of bifurcations through all of them, and what these
+ * tell each line in turn.
  */
 #ifndef SCENE_LINES_H
 #define SCENE_LINES_H
@@ -22,11 +23,10 @@ typedef struct scene_lines {
   size_t dampings, drives;
   scene_line *line;    /* [damping] */
   scene_curves curves;
-  void (*look)(void *arg, size_t damping); /* at each line in order, once it is there; or NULL */
-  void *arg;
 } scene_lines;
 
-/* Compute all lines and follow the curves. l holds spacing, look and arg; free it in any case. */
+/* Compute all lines, follow the curves and complete the lines by them. l holds spacing; free it in
+   any case. */
 pendres_status scene_lines_compute(scene_run *run, scene_lines *l);
 
 void scene_lines_free(scene_lines *l);

@@ -3,7 +3,8 @@
  *
  * The paper's Fig. 8, and its loop area as a surface (section III D). One task a damping: its line
  * of drive frequencies, the branches that the members' orbits lie on, and their bifurcations;
- * from these the curves of folds are followed down from the cusp.
+ * from these the curves of folds are followed down from the cusp, and show each line what its
+ * members have missed.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,16 +31,12 @@ static void plan(const deck *d, FILE *out)
           drive->value[drive->count - 1], d->pendulum.drive_amplitude);
 }
 
-/* Keep what is needed of a line's branches, which are large. */
-static void look(void *arg, size_t damping)
+static void count_points(diagram *g)
 {
-  diagram *g = arg;
-  scene_line *l = &g->lines.line[damping];
-  g->skipped += pendres_branches_skipped(l->branches);
-  pendres_branches_free(l->branches);
-  l->branches = NULL;
-  for (size_t k = 0; k < g->lines.drives; k++) {
-    const pendres_phase_point *p = &l->points[k];
+  for (size_t i = 0; i < g->lines.dampings; i++)
+    g->skipped += pendres_branches_skipped(g->lines.line[i].branches);
+  for (size_t i = 0; i < g->lines.dampings * g->lines.drives; i++) {
+    const pendres_phase_point *p = scene_lines_point(&g->lines, i);
     g->tally[p->regime]++;
     g->differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
   }
@@ -151,8 +148,9 @@ static void print_table(FILE *out, const diagram *g)
 static pendres_status run_scene(scene_run *run)
 {
   /* Nobody sees the branches themselves: their points may be sparse. */
-  diagram g = {.lines = {.spacing = 0.1, .look = look, .arg = &g}};
+  diagram g = {.lines = {.spacing = 0.1}};
   pendres_status status = scene_lines_compute(run, &g.lines);
+  if (status == PENDRES_OK) count_points(&g);
   if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
   scene_lines_free(&g.lines);

@@ -187,6 +187,41 @@ pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendr
   return status;
 }
 
+/* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
+   opposite curvature: where two branches part or where they meet in a cusp. */
+static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcation *b)
+{
+  const double e = 1e-6 + 10.0 * (a->value_error + b->value_error);
+  const double apart = 1e-5 + 10.0 * (a->orbit.amplitude_error + b->orbit.amplitude_error);
+  return a->kind == b->kind && a->orbit.period == b->orbit.period &&
+         abs(a->orbit.winding) == abs(b->orbit.winding) && !(a->curvature * b->curvature < 0.0) &&
+         fabs(a->value - b->value) < e && fabs(a->orbit.amplitude - b->orbit.amplitude) < apart;
+}
+
+static int met_already(const pendres_branches *set, const pendres_bifurcation *b)
+{
+  for (size_t i = 0; i < set->count; i++)
+    for (size_t k = 0; k < set->branch[i]->bifurcations; k++)
+      if (same_bifurcation(&set->branch[i]->bifurcation[k], b)) return 1;
+  return 0;
+}
+
+pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
+                                       const pendres_bifurcation *bifurcations,
+                                       const pendres_branch_options *options,
+                                       pendres_branches *branches)
+{
+  if (ctx == NULL || options == NULL || branches == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_bifurcation *b = &bifurcations[i];
+    if (b->value < options->low || b->value > options->high || met_already(branches, b)) continue;
+    status = add_branch(ctx, branches, &b->orbit, options);
+  }
+  return status;
+}
+
 /* ---- curves ---- */
 
 static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
@@ -211,6 +246,47 @@ static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendre
   return 0;
 }
 
+static pendres_status add_curve(pendres_context *ctx, pendres_curves *set,
+                                const pendres_bifurcation *b, const pendres_curve_options *options)
+{
+  pendres_curve *c = NULL;
+  const pendres_status status = pendres_curve_follow(ctx, 1, b, options, &c);
+  if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+  /* Of a bifurcation among wild orbits nothing but itself can be followed. */
+  if (pendres_curve_count(c) < 3) {
+    pendres_curve_free(c);
+    return PENDRES_OK;
+  }
+  if (set->count == set->capacity) {
+    const size_t capacity = 2 * set->capacity + 4;
+    pendres_curve **grown = realloc(set->curve, capacity * sizeof *grown);
+    if (grown == NULL) {
+      pendres_curve_free(c);
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
+    }
+    set->curve = grown;
+    set->capacity = capacity;
+  }
+  set->curve[set->count++] = c;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
+                                     const pendres_bifurcation *bifurcations,
+                                     const pendres_curve_options *options, pendres_curves *curves)
+{
+  if (ctx == NULL || options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    int yes = 0;
+    for (size_t k = 0; k < curves->count && !yes; k++)
+      yes = on_curve(curves->curve[k], &bifurcations[i], options->second);
+    if (!yes) status = add_curve(ctx, curves, &bifurcations[i], options);
+  }
+  return status;
+}
+
 pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
                                    const pendres_bifurcation *bifurcations,
                                    const pendres_curve_options *options, pendres_curves **out)
@@ -218,32 +294,13 @@ pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
   if (ctx == NULL || options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
     return PENDRES_INVALID_ARGUMENT;
   *out = NULL;
-  pendres_status status = PENDRES_OK;
   pendres_curves *set = calloc(1, sizeof *set);
-  if (set == NULL) goto no_memory;
-  set->curve = calloc(n + 1, sizeof *set->curve);
-  if (set->curve == NULL) goto no_memory;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    int known_already = 0;
-    for (size_t k = 0; k < set->count && !known_already; k++)
-      known_already = on_curve(set->curve[k], &bifurcations[i], options->second);
-    if (known_already) continue;
-    status = pendres_curve_follow(ctx, 1, &bifurcations[i], options, &set->curve[set->count]);
-    if (status == PENDRES_NOT_CONVERGED) status = PENDRES_OK;
-    /* Of a bifurcation among wild orbits nothing but itself can be followed. */
-    if (status == PENDRES_OK && pendres_curve_count(set->curve[set->count]) < 3) {
-      pendres_curve_free(set->curve[set->count]);
-      set->curve[set->count] = NULL;
-    }
-    set->count += set->curve[set->count] != NULL;
-  }
-  if (status == PENDRES_OK) {
+  if (set == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
+  const pendres_status status = pendres_curves_extend(ctx, n, bifurcations, options, set);
+  if (status == PENDRES_OK)
     *out = set;
-    set = NULL;
-  }
-  pendres_curves_free(set);
+  else
+    pendres_curves_free(set);
   return status;
-no_memory:
-  pendres_curves_free(set);
-  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
 }

@@ -309,7 +309,9 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
     for (size_t r = 0; r < roots; r++) {
       pendres_located located;
       pendres_continuation_stencil_at(&s, t[r], guess);
-      guess[second] = value;
+      /* What stays as it is along the curve does so to the last bit. */
+      for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
+        if (k != unknown[2]) guess[k] = k == second ? value : c->u[i][k];
       pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown,
                                                           guess, 2.0 * s.length + 1e-3, &located);
       if (status == PENDRES_NOT_CONVERGED) continue;

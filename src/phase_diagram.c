@@ -114,28 +114,8 @@ static void note_orbit(const border *b, const pendres_orbit *o, int *single, pen
   }
 }
 
-/* All orbits at one point: those that members reach, and those of the branches. */
-static pendres_status judge_branches(pendres_context *ctx, const border *b,
-                                     const pendres_branches *branches, const pendres_response *r,
-                                     pendres_orbit *there, pendres_phase_point *p)
+static void judge_amplitudes(const border *b, int single, pendres_phase_point *p)
 {
-  pendres_status status = PENDRES_OK;
-  int single = 0;
-  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
-  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
-    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) note_orbit(b, &r->state[i].orbit, &single, p);
-  /* What members have not shown is looked up; where both are known, or only one can be, they
-     have. */
-  const int both = !isnan(p->sa_amplitude) && !isnan(p->la_amplitude);
-  const int beyond = b->distinct && p->pendulum.drive_frequency > b->frequency;
-  const int enough = both || (beyond && !isnan(p->la_amplitude)) || (!b->distinct && single);
-  for (size_t i = 0; i < pendres_branches_count(branches) && !enough && status == PENDRES_OK; i++) {
-    size_t found = 0;
-    status = pendres_branch_cross(ctx, pendres_branches_get(branches, i),
-                                  p->pendulum.drive_frequency, MOST_CROSSINGS, there, &found);
-    for (size_t k = 0; k < found && k < MOST_CROSSINGS && status == PENDRES_OK; k++)
-      note_orbit(b, &there[k], &single, p);
-  }
   const int sa = !isnan(p->sa_amplitude), la = !isnan(p->la_amplitude);
   if (!b->distinct)
     p->exact = single ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
@@ -144,7 +124,40 @@ static pendres_status judge_branches(pendres_context *ctx, const border *b,
                : sa     ? PENDRES_REGIME_SA
                : la     ? PENDRES_REGIME_LA
                         : PENDRES_REGIME_OTHER;
+}
+
+/* What is not known yet of a point is looked up on the branches from number `first` on; where both
+   states are known, or only one can be, nothing is missing. */
+static pendres_status look_up(pendres_context *ctx, const border *b,
+                              const pendres_branches *branches, size_t first, int single,
+                              pendres_orbit *there, pendres_phase_point *p)
+{
+  pendres_status status = PENDRES_OK;
+  const int both = !isnan(p->sa_amplitude) && !isnan(p->la_amplitude);
+  const int beyond = b->distinct && p->pendulum.drive_frequency > b->frequency;
+  const int enough = both || (beyond && !isnan(p->la_amplitude)) || (!b->distinct && single);
+  for (size_t i = first; i < pendres_branches_count(branches) && !enough; i++) {
+    size_t found = 0;
+    status = pendres_branch_cross(ctx, pendres_branches_get(branches, i),
+                                  p->pendulum.drive_frequency, MOST_CROSSINGS, there, &found);
+    if (status != PENDRES_OK) return status;
+    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++)
+      note_orbit(b, &there[k], &single, p);
+  }
+  judge_amplitudes(b, single, p);
   return status;
+}
+
+/* All orbits at one point: those that members reach, and those of the branches. */
+static pendres_status judge_branches(pendres_context *ctx, const border *b,
+                                     const pendres_branches *branches, const pendres_response *r,
+                                     pendres_orbit *there, pendres_phase_point *p)
+{
+  int single = 0;
+  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
+  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
+    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) note_orbit(b, &r->state[i].orbit, &single, p);
+  return look_up(ctx, b, branches, 0, single, there, p);
 }
 
 /* ---- lines ---- */
@@ -164,18 +177,24 @@ static pendres_status check_line(pendres_context *ctx, size_t n, const pendres_p
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
 }
 
+static pendres_branch_options options_of(const pendres_pendulum *first,
+                                         const pendres_pendulum *last, double spacing)
+{
+  /* The fold that makes the distinction lies below the small oscillations' frequency, 1. */
+  return (pendres_branch_options){.parameter = PENDRES_DRIVE_FREQUENCY,
+                                  .low = fmin(0.8 * first->drive_frequency, 0.7),
+                                  .high = fmax(1.1 * last->drive_frequency, 1.1),
+                                  .spacing = spacing};
+}
+
 /* The orbits of all responses, those of the largest number of members first at each point. */
 static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
                                     double spacing, pendres_branches **out)
 {
   size_t count = 0;
   pendres_status status = PENDRES_OK;
-  const double low = r[0].pendulum.drive_frequency, high = r[n - 1].pendulum.drive_frequency;
-  /* The fold that makes the distinction lies below the small oscillations' frequency, 1. */
-  const pendres_branch_options options = {.parameter = PENDRES_DRIVE_FREQUENCY,
-                                          .low = fmin(0.8 * low, 0.7),
-                                          .high = fmax(1.1 * high, 1.1),
-                                          .spacing = spacing};
+  const pendres_branch_options options =
+    options_of(&r[0].pendulum, &r[n - 1].pendulum, spacing);
   pendres_orbit *orbits = malloc((n * PENDRES_RESPONSE_STATES + 1) * sizeof *orbits);
   if (orbits == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
@@ -184,6 +203,45 @@ static pendres_status find_branches(pendres_context *ctx, size_t n, const pendre
       if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
   status = pendres_branches_find(ctx, count, orbits, &options, out);
   free(orbits);
+  return status;
+}
+
+/* All points of a line whose branches are known, from its responses. */
+static pendres_status judge_line(pendres_context *ctx, size_t n, const pendres_ensemble *ensemble,
+                                 const pendres_response *r, const pendres_branches *branches,
+                                 pendres_orbit *there, pendres_phase_point *out)
+{
+  pendres_status status = PENDRES_OK;
+  const border b = find_border(branches);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    out[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
+    judge_ensemble(&b, ensemble, &r[i], &out[i]);
+    status = judge_branches(ctx, &b, branches, &r[i], there, &out[i]);
+  }
+  return status;
+}
+
+/* Compute the members of a line and judge its points by them and by its branches; those
+   are looked for if *branches is NULL. */
+static pendres_status compute_line(pendres_context *ctx, size_t n,
+                                   const pendres_pendulum *pendulums,
+                                   const pendres_ensemble *ensemble, double spacing,
+                                   pendres_phase_point *out, pendres_branches **branches)
+{
+  pendres_status status;
+  pendres_response *r = malloc(n * sizeof *r);
+  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
+  if (r == NULL || there == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+    goto done;
+  }
+  status = pendres_response_compute(ctx, n, pendulums, ensemble, r);
+  if (status == PENDRES_OK && *branches == NULL)
+    status = find_branches(ctx, n, r, spacing, branches);
+  if (status == PENDRES_OK) status = judge_line(ctx, n, ensemble, r, *branches, there, out);
+done:
+  free(r);
+  free(there);
   return status;
 }
 
@@ -197,27 +255,117 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
   pendres_status status = check_line(ctx, n, pendulums, ensemble);
   if (status != PENDRES_OK || n == 0) return status;
   pendres_branches *found = NULL;
-  pendres_response *r = malloc(n * sizeof *r);
-  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
-  if (r == NULL || there == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-    goto done;
-  }
-  status = pendres_response_compute(ctx, n, pendulums, ensemble, r);
-  if (status == PENDRES_OK) status = find_branches(ctx, n, r, spacing, &found);
-  const border b = status == PENDRES_OK ? find_border(found) : (border){.distinct = 0};
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    out[i] = (pendres_phase_point){.pendulum = pendulums[i]};
-    judge_ensemble(&b, ensemble, &r[i], &out[i]);
-    status = judge_branches(ctx, &b, found, &r[i], there, &out[i]);
-  }
+  status = compute_line(ctx, n, pendulums, ensemble, spacing, out, &found);
   if (status == PENDRES_OK && branches != NULL) {
     *branches = found;
     found = NULL;
   }
-done:
   pendres_branches_free(found);
-  free(r);
+  return status;
+}
+
+/* ---- what neighbouring lines know ---- */
+
+/* Curves of what bounds the orbits that can be SA or LA. */
+static int bounds_named(const pendres_curve *c)
+{
+  const pendres_special kind = pendres_curve_kind(c);
+  return (kind == PENDRES_FOLD || kind == PENDRES_SYMMETRY_BREAKING) &&
+         pendres_curve_count(c) > 0 && named_family(&pendres_curve_get(c, 0)->orbit);
+}
+
+/* Beyond all cusps no small orbit ends, whatever folds there are. */
+static int above_cusps(const pendres_curves *curves, double damping)
+{
+  size_t cusps = 0;
+  for (size_t i = 0; i < pendres_curves_count(curves); i++) {
+    const pendres_curve *c = pendres_curves_get(curves, i);
+    for (size_t k = 0; bounds_named(c) && k < pendres_curve_cusps(c); k++, cusps++)
+      if (damping < pendres_curve_cusp(c, k)->value[1]) return 0;
+  }
+  return cusps > 0;
+}
+
+/* The branches through all points at which a curve crosses the line. */
+static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *curve,
+                                  const pendres_pendulum *line,
+                                  const pendres_branch_options *options,
+                                  pendres_branches *branches)
+{
+  size_t found = 0;
+  pendres_bifurcation *at = malloc(MOST_CROSSINGS * sizeof *at);
+  if (at == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  pendres_status status =
+    pendres_curve_cross(ctx, curve, line->damping, MOST_CROSSINGS, at, &found);
+  if (found > MOST_CROSSINGS) found = MOST_CROSSINGS;
+  for (size_t i = 0; i < found && status == PENDRES_OK; i++) {
+    const pendres_pendulum *p = &at[i].orbit.pendulum;
+    if (at[i].parameter != PENDRES_DRIVE_FREQUENCY || p->damping != line->damping ||
+        p->drive_amplitude != line->drive_amplitude)
+      status = pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                    "phase diagram: the curves are not of drive frequency and "
+                                    "damping at the line's drive amplitude");
+  }
+  if (status == PENDRES_OK) status = pendres_branches_extend(ctx, found, at, options, branches);
+  free(at);
+  return status;
+}
+
+/* All points again, now that there are branches from number `first` on. */
+static pendres_status judge_again(pendres_context *ctx, size_t n, const border *b,
+                                  const pendres_branches *branches, size_t first,
+                                  pendres_phase_point *points)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
+  if (there == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = look_up(ctx, b, branches, first, points[i].exact == PENDRES_REGIME_SINGLE, there,
+                     &points[i]);
   free(there);
   return status;
+}
+
+/* The fold at which SA ends has become known: members count anew. */
+static pendres_status compute_again(pendres_context *ctx, size_t n,
+                                    const pendres_ensemble *ensemble, double spacing,
+                                    pendres_phase_point *points, pendres_branches *branches)
+{
+  pendres_pendulum *p = malloc(n * sizeof *p);
+  if (p == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+  for (size_t i = 0; i < n; i++) p[i] = points[i].pendulum;
+  const pendres_status status = compute_line(ctx, n, p, ensemble, spacing, points, &branches);
+  free(p);
+  return status;
+}
+
+pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
+                                           const pendres_curves *curves,
+                                           const pendres_ensemble *ensemble, double spacing,
+                                           pendres_phase_point *points,
+                                           pendres_branches *branches)
+{
+  if (ctx == NULL || ensemble == NULL || (n > 0 && (points == NULL || branches == NULL)))
+    return PENDRES_INVALID_ARGUMENT;
+  if (n == 0) return PENDRES_OK;
+  pendres_status status = PENDRES_OK;
+  const size_t first = pendres_branches_count(branches);
+  /* What the points were judged by. */
+  const border before =
+    isnan(points[0].sa_fraction) ? (border){.distinct = 0} : find_border(branches);
+  const pendres_branch_options options =
+    options_of(&points[0].pendulum, &points[n - 1].pendulum, spacing);
+  for (size_t i = 0; i < pendres_curves_count(curves) && status == PENDRES_OK; i++) {
+    const pendres_curve *c = pendres_curves_get(curves, i);
+    if (bounds_named(c)) status = add_crossed(ctx, c, &points[0].pendulum, &options, branches);
+  }
+  if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
+  const border b =
+    above_cusps(curves, points[0].pendulum.damping) ? before : find_border(branches);
+  if (b.distinct != before.distinct || b.frequency != before.frequency)
+    return compute_again(ctx, n, ensemble, spacing, points, branches);
+  return judge_again(ctx, n, &b, branches, first, points);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <pendres/phase_diagram.h>
+#include <pendres/reference.h>
 
 #include "check.h"
 
@@ -182,6 +183,191 @@ static void others_are_told(void **state)
   pendres_context_free(ctx);
 }
 
+/* ---- what curves through other dampings know ---- */
+
+enum { DRIVES = 7 };
+
+typedef struct line {
+  pendres_phase_point points[DRIVES];
+  pendres_branches *branches;
+} line;
+
+static const pendres_ensemble *members(void)
+{
+  static pendres_ensemble e;
+  e = pendres_ensemble_default();
+  return &e;
+}
+
+static line line_of(pendres_context *ctx, double drive, double damping, double from, double step)
+{
+  pendres_pendulum p[DRIVES];
+  line l;
+  for (int i = 0; i < DRIVES; i++)
+    p[i] = (pendres_pendulum){
+      .damping = damping, .drive_amplitude = drive, .drive_frequency = from + step * i};
+  memset(&l, 0, sizeof l);
+  check_ok(pendres_phase_line(ctx, DRIVES, p, members(), 0.0, l.points, &l.branches));
+  return l;
+}
+
+/* The curves of a line's bifurcations. */
+static pendres_curves *curves_of(pendres_context *ctx, const line *l)
+{
+  const pendres_curve_options options = {
+    .second = PENDRES_DAMPING, .low = {0.28, 0.06}, .high = {1.1, 1.0}};
+  pendres_curves *curves = NULL;
+  check_ok(pendres_curves_find(ctx, 0, NULL, &options, &curves));
+  for (size_t i = 0; i < pendres_branches_count(l->branches); i++) {
+    const pendres_branch *b = pendres_branches_get(l->branches, i);
+    if (pendres_branch_bifurcations(b) > 0)
+      check_ok(pendres_curves_extend(ctx, pendres_branch_bifurcations(b),
+                                     pendres_branch_bifurcation(b, 0), &options, curves));
+  }
+  return curves;
+}
+
+static void complete(pendres_context *ctx, const pendres_curves *curves, line *l)
+{
+  check_ok(
+    pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, l->points, l->branches));
+}
+
+/*
+ * At damping 0.13 there is a second piece of LA that does not join SA's branch; it attracts from
+ * where it has its mirror symmetry, 0.41063921, to a fold at 0.43198651. None of 200 members comes
+ * to it. The curve of folds goes from the line's own folds through lower dampings back to it.
+ */
+static void curves_tell_what_members_miss(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-9);
+  line l = line_of(ctx, 0.2, 0.13, 0.40, 0.01);
+  const line before = l;
+  for (int i = 0; i < DRIVES; i++) assert_int_equal(l.points[i].exact, PENDRES_REGIME_SA);
+  assert_int_equal(pendres_branches_count(l.branches), 1);
+  pendres_curves *curves = curves_of(ctx, &l);
+  complete(ctx, curves, &l);
+  assert_int_equal(pendres_branches_count(l.branches), 2);
+  for (int i = 0; i < DRIVES; i++) {
+    const pendres_phase_point *p = &l.points[i], *q = &before.points[i];
+    if (i == 2 || i == 3) { /* 0.42 and 0.43 */
+      assert_int_equal(p->exact, PENDRES_REGIME_COEXISTENCE);
+      assert_int_equal(p->regime, PENDRES_REGIME_SA);
+      check_near(p->sa_amplitude, q->sa_amplitude, 0.0);
+      assert_true(p->la_amplitude > 2.9 && p->la_amplitude_error <= 1e-9);
+    } else {
+      assert_memory_equal(p, q, sizeof *p);
+    }
+  }
+
+  /* Both ends by the reference, which is good to 15 digits. */
+  const pendres_branch *b = pendres_branches_get(l.branches, 1);
+  assert_int_equal(pendres_branch_bifurcations(b), 2);
+  for (int i = 0; i < 2; i++) {
+    const pendres_bifurcation *at = pendres_branch_bifurcation(b, (size_t)i);
+    const pendres_pendulum *p = &at->orbit.pendulum;
+    const long double y = at->orbit.x - 1.57079632679489661923L, v = at->orbit.v;
+    pendres_reference_cycle want;
+    assert_int_equal(at->kind, i == 0 ? PENDRES_SYMMETRY_BREAKING : PENDRES_FOLD);
+    check_near(at->value, i == 0 ? 0.41063921 : 0.43198651, 5e-9);
+    if (i == 0) check_ok(pendres_reference_symmetry_breaking(p, at->value, y, v, &want));
+    else check_ok(pendres_reference_fold(p, at->value, y, v, &want));
+    check_near(at->value, (double)want.drive_frequency, 10.0 * at->value_error);
+    assert_true(at->value_error <= 1e-9);
+  }
+
+  /* Of 5000 members a few find it: the same orbit. */
+  pendres_ensemble dense = *members();
+  pendres_phase_point seen;
+  dense.members = 5000;
+  check_ok(pendres_phase_line(ctx, 1, &l.points[2].pendulum, &dense, 0.0, &seen, NULL));
+  assert_int_equal(seen.regime, PENDRES_REGIME_COEXISTENCE);
+  assert_true(seen.la_fraction > 0.0 && seen.la_fraction < 0.005);
+  check_near(seen.la_amplitude, l.points[2].la_amplitude,
+             seen.la_amplitude_error + l.points[2].la_amplitude_error);
+
+  /* Nothing is added twice. */
+  complete(ctx, curves, &l);
+  assert_int_equal(pendres_branches_count(l.branches), 2);
+  pendres_curves_free(curves);
+  pendres_branches_free(l.branches);
+  pendres_context_free(ctx);
+}
+
+/* Neighbours of it: what members reach, or what does not exist, stays as it was. */
+static void curves_change_nothing_else(void **state)
+{
+  (void)state;
+  static const double damping[] = {0.12, 0.125, 0.14};
+  pendres_context *ctx = context_of(1e-8);
+  line source = line_of(ctx, 0.2, 0.13, 0.40, 0.01);
+  pendres_curves *curves = curves_of(ctx, &source);
+  for (int k = 0; k < 3; k++) {
+    line l = line_of(ctx, 0.2, damping[k], 0.40, 0.01);
+    const line before = l;
+    complete(ctx, curves, &l);
+    for (int i = 0; i < DRIVES; i++)
+      assert_memory_equal(&l.points[i], &before.points[i], sizeof l.points[i]);
+    pendres_branches_free(l.branches);
+  }
+  pendres_branches_free(source.branches);
+  pendres_curves_free(curves);
+  pendres_context_free(ctx);
+}
+
+/* Where LA goes on below SA's fold, its branch alone does not show that there are two states: at
+   high frequencies its members are LA all the same. */
+static void curves_tell_where_sa_ends(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-8);
+  line source = line_of(ctx, 0.2, 0.13, 0.90, 0.02), weak = line_of(ctx, 0.2, 0.1, 0.90, 0.02);
+  pendres_curves *curves = curves_of(ctx, &source);
+  for (int i = 0; i < DRIVES; i++) assert_int_equal(weak.points[i].exact, PENDRES_REGIME_SINGLE);
+  complete(ctx, curves, &weak);
+  for (int i = 0; i < DRIVES; i++) {
+    assert_int_equal(weak.points[i].exact, PENDRES_REGIME_LA);
+    assert_int_equal(weak.points[i].regime, PENDRES_REGIME_LA);
+    check_near(weak.points[i].la_fraction, 1.0, 0.0);
+  }
+  /* Curves of other pendulums are refused. */
+  for (int i = 0; i < DRIVES; i++) weak.points[i].pendulum.drive_amplitude = 0.19;
+  assert_int_equal(pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, weak.points,
+                                               weak.branches),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_true(strlen(pendres_context_message(ctx)) > 0);
+  assert_int_equal(
+    pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, weak.points, NULL),
+    PENDRES_INVALID_ARGUMENT);
+  pendres_curves_free(curves);
+  pendres_branches_free(source.branches);
+  pendres_branches_free(weak.branches);
+  pendres_context_free(ctx);
+}
+
+/* For stronger drives the second piece reaches beyond the cusp (0.45: to damping 0.315, from 0.310):
+   its fold is none at which a small orbit ends, and there is one state without a name. */
+static void above_the_cusp_there_is_no_distinction(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-7);
+  line source = line_of(ctx, 0.45, 0.29, 0.36, 0.09), above = line_of(ctx, 0.45, 0.312, 0.36, 0.09);
+  const line before = above;
+  const size_t count = pendres_branches_count(above.branches);
+  pendres_curves *curves = curves_of(ctx, &source);
+  complete(ctx, curves, &above);
+  assert_true(pendres_branches_count(above.branches) > count);
+  for (int i = 0; i < DRIVES; i++) {
+    assert_int_equal(before.points[i].exact, PENDRES_REGIME_SINGLE);
+    assert_memory_equal(&above.points[i], &before.points[i], sizeof before.points[i]);
+  }
+  pendres_curves_free(curves);
+  pendres_branches_free(source.branches);
+  pendres_branches_free(above.branches);
+  pendres_context_free(ctx);
+}
+
 static void mistakes_are_told(void **state)
 {
   (void)state;
@@ -209,7 +395,9 @@ int main(void)
     cmocka_unit_test(names_are_the_files),    cmocka_unit_test(regimes_of_the_paper),
     cmocka_unit_test(ghosts_are_not_attractors), cmocka_unit_test(cusp_parts_the_regimes),
     cmocka_unit_test(basins_can_miss_the_members), cmocka_unit_test(others_are_told),
-    cmocka_unit_test(mistakes_are_told),
+    cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(curves_change_nothing_else),
+    cmocka_unit_test(curves_tell_where_sa_ends),
+    cmocka_unit_test(above_the_cusp_there_is_no_distinction), cmocka_unit_test(mistakes_are_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

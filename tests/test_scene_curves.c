@@ -168,6 +168,50 @@ static void diagram_holds_the_regimes(void **state)
   pendres_store_free(store);
 }
 
+/* What all members miss is told by the curves, in both scenes (test_phase_diagram.c has the
+   figures): LA's second piece at damping 0.13, between 0.41063921 and 0.43198651. */
+static void curves_tell_what_members_miss(void **state)
+{
+  (void)state;
+  static const char rest[] = "&pendulum drive_amplitude = 0.2 /\n"
+                             "&sweep damping = 0.13, 0.14, drive_frequency = 0.405, 0.42, 0.44 /\n"
+                             "&ensemble members = 200 /\n";
+  static const int want[6] = {PENDRES_REGIME_SA, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_SA,
+                              PENDRES_REGIME_SA, PENDRES_REGIME_SA,          PENDRES_REGIME_SA};
+  static const char *const kinds[] = {"phase_diagram", "branches"};
+  size_t n = 0, m = 0;
+  for (int i = 0; i < 2; i++) {
+    char deck[512], again[32];
+    snprintf(deck, sizeof deck, "&scene kind = '%s' /\n%s", kinds[i], rest);
+    snprintf(again, sizeof again, "%s-again", kinds[i]);
+    scene_run_deck(deck, 1, kinds[i]);
+    scene_run_deck(deck, 2, again);
+    scene_check_same_bytes(kinds[i], again);
+    pendres_store *store = scene_open(kinds[i]);
+    double *regime = scene_values(store, "regime", &n);
+    double *exact = scene_values(store, i == 0 ? "regime_exact" : "la_amplitude", &m);
+    double *frequency = scene_values(store, "bifurcation_frequency", &m);
+    assert_int_equal(n, 6);
+    for (int k = 0; k < 6; k++) {
+      assert_int_equal((int)regime[k], PENDRES_REGIME_SA);
+      if (i == 0) assert_int_equal((int)exact[k], want[k]);
+      else assert_int_equal(!isnan(exact[k]), want[k] == PENDRES_REGIME_COEXISTENCE);
+    }
+    int ends = 0;
+    for (size_t k = 0; k < m; k++)
+      ends += fabs(frequency[k] - 0.41063921) < 1e-8 || fabs(frequency[k] - 0.43198651) < 1e-8;
+    assert_int_equal(ends, 2);
+    /* The curve along which the piece loses its symmetry starts from there. */
+    double *flip = scene_values(store, "flip_frequency", &m);
+    assert_true(m > 10);
+    free(flip);
+    free(regime);
+    free(exact);
+    free(frequency);
+    pendres_store_free(store);
+  }
+}
+
 /* The resonance curve says of each point what it is, and of an edge which fold makes it. */
 static void edges_name_their_fold(void **state)
 {
@@ -203,7 +247,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
     cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes),
-    cmocka_unit_test(edges_name_their_fold),
+    cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(edges_name_their_fold),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

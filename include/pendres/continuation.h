@@ -146,13 +146,26 @@ typedef struct pendres_branches pendres_branches;
 /**
  * The branches that n orbits lie on, each once: an orbit that lies on a branch found already, or
  * whose mirror image does, is passed over. So what an ensemble settles on leads to all branches
- * that it can reach, those included that are born away from the others (isolas).
+ * that it can reach, those included that are born away from the others (isolas); what it misses,
+ * pendres_branches_extend may find.
  * The orbits may differ in the parameter alone. *out is to be freed by pendres_branches_free.
  * An orbit that no branch can be followed from (hardly an orbit any more) is passed over and
  * counted as skipped. Errors as for pendres_branch_follow.
  */
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out);
+/**
+ * Add the branches that n bifurcations lie on, each once: one that a branch of the set has met
+ * already is passed over. So where curves in two parameters cross a value of the second, they
+ * lead to branches that none of the orbits at hand lies on.
+ * options: those that the set was found with. A bifurcation that no branch can be followed from
+ * counts as skipped. On failure the set holds what was added so far. Errors as for
+ * pendres_branch_follow.
+ */
+pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
+                                       const pendres_bifurcation *bifurcations,
+                                       const pendres_branch_options *options,
+                                       pendres_branches *branches);
 void pendres_branches_free(pendres_branches *branches);
 size_t pendres_branches_count(const pendres_branches *branches);
 /** Branch number i, owned by the set; NULL out of range. */
@@ -239,6 +252,11 @@ typedef struct pendres_curves pendres_curves;
 pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
                                    const pendres_bifurcation *bifurcations,
                                    const pendres_curve_options *options, pendres_curves **out);
+/** Add the curves of n more bifurcations, with the options that the set was found with. On failure
+    the set holds what was added so far. Errors as for pendres_curve_follow. */
+pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
+                                     const pendres_bifurcation *bifurcations,
+                                     const pendres_curve_options *options, pendres_curves *curves);
 void pendres_curves_free(pendres_curves *curves);
 size_t pendres_curves_count(const pendres_curves *curves);
 /** Curve number i, owned by the set; NULL out of range. */

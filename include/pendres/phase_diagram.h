@@ -4,12 +4,14 @@
  * Owns: the regimes of the paper's Fig. 8, found in two ways: from what the members of an
  * ensemble settle on (the paper's way), and from the branches on which these orbits lie with the
  * folds and symmetry breakings that bound them (the exact way). The two differ where a
- * state exists but its basin misses all members.
+ * state exists but its basin misses all members. A branch that no member of a line reaches at all
+ * is found from neighbouring lines, see pendres_phase_line_complete.
  *
  * SA and LA are the orbits of period one, each its own mirror image, on the two sheets that meet in
  * a cusp. At a given damping with a fold at which the small orbit ends, an orbit beyond that
  * frequency is LA; below it, it is SA if its amplitude is less than the fold's, else LA. Where
- * no such fold exists there is only one state, and no distinction.
+ * no such fold exists there is only one state, and no distinction. (A line by itself can miss that
+ * fold, if its members are on LA alone and LA's branch does not lead to it.)
  */
 #ifndef PENDRES_PHASE_DIAGRAM_H
 #define PENDRES_PHASE_DIAGRAM_H
@@ -68,6 +70,25 @@ typedef struct pendres_phase_point {
 pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
                                   const pendres_ensemble *ensemble, double spacing,
                                   pendres_phase_point *out, pendres_branches **branches);
+
+/**
+ * Complete a line with what curves of bifurcations know of it, found at other dampings. Where such
+ * a curve crosses the line's damping at a fold or a symmetry breaking of orbits that can be SA or
+ * LA and the line's branches have none there, the branch through it is added and the points
+ * are judged anew. So a branch born away from the others whose basin all members miss is known if
+ * it joins, through other dampings, one that members reach: of this line, or of another that the
+ * curves were started from. A branch that no such curve bounds stays unknown.
+ *
+ * points[n] and *branches: of pendres_phase_line(), with the same ensemble and spacing; both are
+ * brought up to date. Members are computed once more only where the fold at which SA ends was
+ * unknown. curves: in drive frequency and, second, damping, of the line's drive amplitude.
+ * Errors: PENDRES_INVALID_ARGUMENT, and those of the integration; then points are not meaningful.
+ */
+pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
+                                           const pendres_curves *curves,
+                                           const pendres_ensemble *ensemble, double spacing,
+                                           pendres_phase_point *points,
+                                           pendres_branches *branches);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus
