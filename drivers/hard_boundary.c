@@ -4,9 +4,9 @@
  * Boundary points are found by bisection in extended precision, and starts set at distances from
  * them; where each goes is decided in extended precision, too: it is followed until it is inside a
  * trapping ellipse of an attractor (attractor.h). Two systems: the paper's figure 7, where a curve
- * of endless strands, but no fractal, separates two basins, and the forced pendulum in which the boundary of every basin is that
- * of all others (Kennedy and Yorke, Physica D 51 (1991) 213; Nusse, Ott and Yorke, Phys. Rev. Lett.
- * 75 (1995) 2482), where starts wander for long.
+ * of endless strands, but no fractal, separates two basins, and the forced pendulum in which the
+ * boundary of every basin is that of all others (Kennedy and Yorke, Physica D 51 (1991) 213; Nusse,
+ * Ott and Yorke, Phys. Rev. Lett. 75 (1995) 2482), where starts wander for long.
  */
 #include <math.h>
 #include <stdio.h>
