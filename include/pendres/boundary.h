@@ -48,8 +48,9 @@ pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *at
  * period) within a window of Poincaré points at drive phase 0, all its translations by whole
  * turns included. options may be NULL. *out is to be freed by pendres_boundary_free.
  *
- * A manifold that accumulates on itself (a fractal boundary) has no end: what fits into
- * most_points is given, and pendres_boundary_complete says 0.
+ * A manifold that accumulates on itself or on another one (in a fractal boundary or in endless
+ * strands) has no end: what fits into most_points, and starts at points that doubles tell apart,
+ * is given, and pendres_boundary_complete says 0.
  * Errors: PENDRES_INVALID_ARGUMENT (no saddle, or an empty window), those of the integration.
  */
 pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
