@@ -346,8 +346,8 @@ static void curves_tell_where_sa_ends(void **state)
   pendres_context_free(ctx);
 }
 
-/* For stronger drives the second piece reaches beyond the cusp (0.45: to damping 0.315, from 0.310):
-   its fold is none at which a small orbit ends, and there is one state without a name. */
+/* For stronger drives the second piece reaches beyond the cusp (for 0.45 to damping 0.315, the cusp
+   is at 0.310): its fold is none at which a small orbit ends, and states have no names there. */
 static void above_the_cusp_there_is_no_distinction(void **state)
 {
   (void)state;
