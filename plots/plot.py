@@ -326,6 +326,25 @@ def draw_work_precision(h, path):
     return fig
 
 
+def draw_hard_cases(h, path):
+    """Figures and the naive way's over their bounds; where nothing at all is allowed, as counts."""
+    names, bound = text(h["case_name"]), h["bound"]
+    figure, naive = h["figure"], h["naive_figure"]
+    unit = np.where(bound > 0, bound, 1)
+    least, most = 1e-8, 1e8
+    fig, ax = plt.subplots(figsize=(7, 0.16 * len(names) + 1.5))
+    y = np.arange(len(names))
+    ax.axvline(1, color=EXACT, lw=1)
+    ax.plot(np.clip(naive / unit, least, most), y, "x", ms=4, color=LA, label="plain adaptive ARKODE")
+    ax.plot(np.clip(figure / unit, least, most), y, "o", ms=3.5, color=SA, label="libpendres")
+    ax.set_yticks(y, [n if b > 0 else n + " (count)" for n, b in zip(names, bound)], fontsize=6)
+    ax.set(xscale="log", ylim=(len(names), -1), xlim=(least / 3, most * 3),
+           xlabel="figure over its bound; at either end: that or beyond")
+    ax.grid(axis="y", lw=0.3)
+    ax.legend(loc="lower right", fontsize=8)
+    return fig
+
+
 def draw_switching(h, path):
     fig, ax = plt.subplots(figsize=(6.5, 5))
     t = h["temperature"]
@@ -346,6 +365,7 @@ DRAWERS = [  # the first whose variable is there draws the file
     ("branch_frequency", draw_branches),
     ("regime", draw_phase_diagram),
     ("throughput", draw_work_precision),
+    ("naive_figure", draw_hard_cases),
     ("rate_sa_la", draw_switching),
 ]
 
