@@ -213,16 +213,21 @@ static pendres_status all_points(pendres_context *ctx, const pendres_orbit *o,
 }
 
 /*
- * The larger multiplier's logarithm in time. A complex pair has the modulus exp(-damping time / 2),
- * whatever its error; of a real one the relative error counts.
+ * The larger multiplier's logarithm in time, with an error from the interval of its modulus. That
+ * is exp(-damping time / 2) at least, since the product of both is its square, and exactly so if
+ * the pair is complex for certain. Below DBL_MIN, as strong damping makes it, it has no digits.
  */
 static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 {
   const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  const double least = -0.5 * o->pendulum.damping, off = fmax(DBL_MIN, o->multiplier_error);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
-  const double error = o->multiplier_im[0] != 0.0 ? 0.0 : o->multiplier_error / size;
-  a->lyapunov = log(size) / time;
-  a->lyapunov_error = error / time + 4.0 * DBL_EPSILON * fabs(a->lyapunov);
+  a->lyapunov = fmax(least, log(size) / time);
+  a->lyapunov_error = 4.0 * DBL_EPSILON * fabs(a->lyapunov);
+  if (fabs(o->multiplier_im[0]) > off) return;
+  const double high = log(size + off) / time;
+  const double low = fmax(least, log(fmax(0.0, size - off)) / time);
+  a->lyapunov_error += fmax(0.0, fmax(high - a->lyapunov, a->lyapunov - low));
 }
 
 /* The point with the largest x represents the orbit. */

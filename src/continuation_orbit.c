@@ -111,11 +111,11 @@ done:
   return status;
 }
 
-static void multipliers(const reading *coarse, const reading *fine, double product,
+static void multipliers(const reading *coarse, const reading *fine, double modulus,
                         double rounding, pendres_orbit *o)
 {
   const double trace = fine->m[0][0] + fine->m[1][1];
-  pendres_orbit_set_multipliers(trace, product, o);
+  pendres_orbit_set_multipliers(trace, modulus, o);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);
@@ -155,7 +155,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   o->monodromy[0][1] = b->m[0][1] / omega;
   o->monodromy[1][0] = b->m[1][0] * omega;
   o->monodromy[1][1] = b->m[1][1];
-  multipliers(a, b, exp(-p.damping * o->period * two_pi / omega), 100.0 * floor, o);
+  multipliers(a, b, exp(-p.damping * o->period * pi / omega), 100.0 * floor, o);
   o->loop_area = f->loop_area;
   o->loop_area_error =
     pendres_continuation_orbit_error(c->loop_area, f->loop_area, pi * drive * floor);

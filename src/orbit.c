@@ -122,7 +122,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->monodromy[0][1] = fine->m[0][1] / omega;
   o->monodromy[1][0] = fine->m[1][0] * omega;
   o->monodromy[1][1] = fine->m[1][1];
-  pendres_orbit_set_multipliers(fine->trace, exp(-p->damping * q * two_pi / omega), o);
+  pendres_orbit_set_multipliers(fine->trace, exp(-p->damping * q * pi / omega), o);
   /* The trace's error moves a multiplier mu by trace' mu / (mu - other). */
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);

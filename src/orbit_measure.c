@@ -172,19 +172,21 @@ double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amp
   return drive_amplitude > 0.0 ? atan2(sine, cosine) : atan2(-sine, -cosine);
 }
 
-void pendres_orbit_set_multipliers(double trace, double product, pendres_orbit *o)
+void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o)
 {
-  const double half = 0.5 * trace, discriminant = half * half - product;
-  if (discriminant < 0.0) {
-    o->multiplier_re[0] = o->multiplier_re[1] = half;
-    o->multiplier_im[0] = sqrt(-discriminant);
+  /* The product of the two, the square of modulus, may be too small for a double: do without. */
+  const double half = 0.5 * trace;
+  o->multiplier_re[0] = o->multiplier_re[1] = half;
+  o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
+  if (fabs(half) < modulus) {
+    const double share = half / modulus;
+    o->multiplier_im[0] = modulus * sqrt((1.0 - share) * (1.0 + share));
     o->multiplier_im[1] = -o->multiplier_im[0];
-  } else {
+  } else if (half != 0.0) {
     /* The larger root first, the other from the product: no cancellation. */
-    const double large = half + copysign(sqrt(discriminant), half);
-    o->multiplier_re[0] = large;
-    o->multiplier_re[1] = large != 0.0 ? product / large : 0.0;
-    o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
+    const double share = modulus / half, larger = 1.0 + sqrt((1.0 - share) * (1.0 + share));
+    o->multiplier_re[0] = half * larger;
+    o->multiplier_re[1] = modulus * share / larger;
   }
   o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
 }

@@ -32,10 +32,10 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
 double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amplitude);
 
 /*
- * Multipliers from the trace of the monodromy matrix and their product, which is known exactly
- * (Liouville), and whether both are inside the unit circle.
+ * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which is
+ * known exactly (Liouville): exp(-damping time / 2); and whether both are inside the unit circle.
  */
-void pendres_orbit_set_multipliers(double trace, double product, pendres_orbit *o);
+void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o);
 
 /* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
 double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],

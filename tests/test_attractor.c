@@ -449,6 +449,33 @@ static void rest(void **state)
   pendres_attractors_free(e.set);
 }
 
+/*
+ * At rest the exponent is -damping / 2, with the root of damping^2 / 4 - 1 on top if that is real:
+ * next to two equal roots, and where the multipliers are too small for a double's digits or for
+ * a double at all, it is within ten times its error, as all results claim, and both are numbers.
+ * More than damping / 2 it cannot be off: that far are the bounds of a decaying motion apart.
+ */
+static void strong_damping(void **state)
+{
+  static const double damping[] = {0.5, 1.0, 2.0 - 1e-13, 2.0, 2.0 + 1e-13, 3.0, 24.0};
+  static const double frequency[] = {1.0, 0.02, 0.003};
+  for (size_t i = 0; i < sizeof damping / sizeof *damping * 3; i++) {
+    const double half = 0.5 * damping[i / 3], root2 = (half - 1.0) * (half + 1.0);
+    const double exact = root2 > 0.0 ? -1.0 / (half + sqrt(root2)) : -half;
+    const pendres_pendulum p = {.damping = damping[i / 3], .drive_frequency = frequency[i % 3]};
+    const double x = 0.5 * pi + 0.1, v = 0.0;
+    pendres_outcome outcome;
+    pendres_attractors *set = NULL;
+    check_ok(pendres_settle(*state, 1, &p, &x, &v, &outcome, &set));
+    assert_int_equal(pendres_attractors_count(set), 1);
+    const pendres_attractor *a = pendres_attractors_get(set, 0);
+    check_near(a->lyapunov, exact, 10.0 * a->lyapunov_error);
+    assert_true(a->lyapunov_error <= half * (1.0 + 1e-12));
+    if (damping[i / 3] == 0.5) assert_true(a->lyapunov_error < 1e-13); /* a pair, though 1e-228 */
+    pendres_attractors_free(set);
+  }
+}
+
 /* A pendulum that runs out of its budget is unresolved, whatever it may look like. */
 static void budget(void **state)
 {
@@ -530,6 +557,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(known_attractors, setup, teardown),
     cmocka_unit_test_setup_teardown(ghost_of_a_fold, setup, teardown),
     cmocka_unit_test_setup_teardown(rest, setup, teardown),
+    cmocka_unit_test_setup_teardown(strong_damping, setup, teardown),
     cmocka_unit_test_setup_teardown(budget, setup, teardown),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
     cmocka_unit_test(names),
