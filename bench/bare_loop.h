@@ -2,10 +2,11 @@
  * bare_loop.h -- the opponent of the blocks: the same Runge-Kutta method in a plain SIMD loop.
  *
  * Owns: one function, BARE_RUN, for vectors of BARE_LANES doubles; included once for each
- * instruction set. No ARKODE, no vectors in memory but the slopes of one group: a group of
- * lanes goes through all steps of all periods with its state in registers and its slopes in
- * the nearest cache, several vectors at once so that no operation waits for the one before.
- * Coefficients that are zero are left out, h is multiplied in, and the cosines are known.
+ * instruction set, which BARE_TARGET names to the compiler. No ARKODE, no vectors in memory but the
+ * slopes of one group: a group of lanes goes through all steps of all periods with its state in
+ * registers and its slopes in the nearest cache, several vectors at once so that no operation waits
+ * for the one before. Coefficients that are zero are left out, h is multiplied in, and the cosines
+ * are known.
  */
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +16,7 @@
 #define BARE_JOIN_(a, b) a##_##b
 #define BARE_JOIN(a, b) BARE_JOIN_(a, b)
 #define BARE(name) BARE_JOIN(name, BARE_RUN)
-#define BARE_INLINE static inline __attribute__((always_inline))
+#define BARE_INLINE BARE_TARGET static inline __attribute__((always_inline))
 #define BARE_EACH _Pragma("GCC unroll 8") for (int v = 0; v < count; v++)
 
 typedef double BARE(vec) __attribute__((vector_size(BARE_LANES * 8), may_alias));
@@ -99,8 +100,8 @@ BARE_INLINE void BARE(group)(const bare_method *m, const bare_block *b, long per
 }
 
 #define BARE_GROUP(count)                                                                \
-  static void BARE(BARE_JOIN(group, count))(const bare_method *m, const bare_block *b,   \
-                                            long periods, size_t lane)                   \
+  BARE_TARGET static void BARE(BARE_JOIN(group, count))(                                 \
+    const bare_method *m, const bare_block *b, long periods, size_t lane)                \
   {                                                                                      \
     BARE(group)(m, b, periods, lane, count);                                             \
   }
@@ -114,7 +115,7 @@ BARE_GROUP(7)
 BARE_GROUP(8)
 
 /* b->lanes a multiple of 8. */
-static void BARE_RUN(const bare_method *m, const bare_block *b, long periods)
+BARE_TARGET static void BARE_RUN(const bare_method *m, const bare_block *b, long periods)
 {
   static void (*const groups[])(const bare_method *, const bare_block *, long, size_t) = {
     NULL,

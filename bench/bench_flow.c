@@ -63,24 +63,23 @@ typedef struct bare_block {
 
 #define BARE_LANES 2
 #define BARE_RUN bare_base
+#define BARE_TARGET
 #include "bare_loop.h"
 #undef BARE_LANES
 #undef BARE_RUN
+#undef BARE_TARGET
 #if defined(__x86_64__)
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
 #define BARE_LANES 4
 #define BARE_RUN bare_avx2
+#define BARE_TARGET __attribute__((target("avx2,fma")))
 #include "bare_loop.h"
 #undef BARE_LANES
 #undef BARE_RUN
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512")
+#undef BARE_TARGET
 #define BARE_LANES 8
 #define BARE_RUN bare_avx512
+#define BARE_TARGET __attribute__((target("avx512f,avx512dq,avx512vl,fma")))
 #include "bare_loop.h"
-#pragma GCC pop_options
 #endif
 
 static void bare_run(const bare_method *m, const bare_block *b, long periods)
