@@ -313,7 +313,7 @@ pendres_status pendres_flow_period(pendres_flow *flow)
 
 pendres_status pendres_flow_half_period(pendres_flow *flow)
 {
-  if (flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
+  if (flow->steps < 1 || flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
   return advance_to(flow, flow->half);
 }
 

@@ -241,6 +241,7 @@ static void test_refusals(void **state)
   check_ok(pendres_context_flow(ctx, PENDRES_FLOW_ADAPTIVE, &flow));
   assert_int_equal(pendres_flow_set_steps(flow, 20), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_flow_period_sampled(flow, keep, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_flow_half_period(flow), PENDRES_INVALID_ARGUMENT);
   pendres_context_free(ctx);
 }
 
