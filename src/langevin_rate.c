@@ -24,7 +24,7 @@ static double beyond(double log_x, void *arg)
                   : gsl_cdf_gamma_P(x, g->shape, 1.0) - g->tail;
 }
 
-/* Wilson and Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684: to 1e-4 of the width and better. */
+/* Wilson and Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684: see langevin.h on its error. */
 static double gamma_point_of_many(const gamma_tail *g)
 {
   const double z = gsl_cdf_ugaussian_Pinv(g->tail) * (g->upper ? -1.0 : 1.0);

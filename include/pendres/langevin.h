@@ -217,8 +217,9 @@ pendres_status pendres_langevin_choose_steps(pendres_langevin *lv,
 /**
  * Rate of rare independent events: events / exposure, and the exact (Poisson) confidence
  * interval of the given level, 0 < level < 1. Garwood, Biometrika 28 (1936) 437; from 500 events
- * on by Wilson and Hilferty's approximation, whose error is 1e-4 of the interval's width. events
- * may be a fraction: a count over its dispersion.
+ * on by Wilson and Hilferty's approximation, whose error is below 1e-4 of the interval's width at
+ * levels from 0.1 to 0.999, below 1e-3 beyond. events may be a fraction: a count over its
+ * dispersion.
  */
 pendres_status pendres_langevin_rate(double events, double exposure, double level, double *rate,
                                      double *lower, double *upper);

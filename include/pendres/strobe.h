@@ -28,7 +28,7 @@ extern "C" {
  * method's steps are adaptive, are compared with the first. It covers discretisation and rounding,
  * amplified along each trajectory as the trajectory itself amplifies them; where that is by more
  * than the tolerance allows, the estimate says so (infinite: nothing is known), it is not an error
- * of the function. It costs about four times as much as the first run.
+ * of the function. It costs four to five times as much as the first run.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.
