@@ -24,8 +24,9 @@ extern "C" {
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
  * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: a second run
- * with more steps a period, or runs with a tenth and a hundredth of the tolerance where the
- * method's steps are adaptive, are compared with the first. It covers discretisation and rounding,
+ * with more steps a period and, where errors have grown, a third with still more are compared with
+ * the first; or, where the method's steps are adaptive, runs with a tenth and a hundredth of the
+ * tolerance (1e-6 at most). It covers discretisation and rounding,
  * amplified along each trajectory as the trajectory itself amplifies them; where that is by more
  * than the tolerance allows, the estimate says so (infinite: nothing is known), it is not an error
  * of the function. It costs four to five times as much as the first run.
