@@ -113,18 +113,26 @@ static void an_edge_is_a_jump(void **state)
 }
 
 /*
- * Linear limit: A is proportional to w / ((1 - w^2)^2 + g^2 w^2); its maximum solves
- * 3 u^2 - (2 - g^2) u - 1 = 0 in u = w^2. The pendulum differs by the square of its amplitude
- * (at F0 = 1e-4 and g = 0.5 about 4e-8 / 16); the resonance's own error comes on top.
+ * Linear limit: A is proportional to w / ((k - w^2)^2 + g^2 w^2); its maximum solves
+ * 3 u^2 - (2 k - g^2) u - k^2 = 0 in u = w^2. A pendulum of small amplitude a has
+ * k = 1 - a^2 / 8; that a changes along the peak matters less: a tenth of the shift is allowed
+ * for that, and the resonance's own error comes on top.
  */
 static void linear_limit(void **state)
 {
-  const double g = 0.5, b = 2.0 - g * g;
-  const double exact = sqrt((b + sqrt(b * b + 12.0)) / 6.0);
+  const double g = 0.5, drive = 1e-4;
+  double frequency[2], shift = 0.0;
   pendres_context *ctx = context_with(1e-9, 0);
-  const pendres_resonance r = find(ctx, g, 1e-4);
+  const pendres_resonance r = find(ctx, g, drive);
   (void)state;
-  check_near(r.frequency, exact, 4e-8 / 16.0 + 10.0 * r.frequency_error);
+  for (int i = 0; i < 2; i++) {
+    const double k = 1.0 - shift, b = 2.0 * k - g * g;
+    const double u = (b + sqrt(b * b + 12.0 * k * k)) / 6.0;
+    frequency[i] = sqrt(u);
+    shift = drive * drive / ((1.0 - u) * (1.0 - u) + g * g * u) / 8.0;
+  }
+  check_near(r.frequency, frequency[1],
+             0.1 * (frequency[0] - frequency[1]) + 10.0 * r.frequency_error);
   pendres_context_free(ctx);
 }
 
