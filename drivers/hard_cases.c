@@ -60,6 +60,11 @@ int hard_row_holds(const hard_row *row)
   return row->figure <= row->bound; /* not if either is NaN */
 }
 
+double hard_larger(double a, double b)
+{
+  return isnan(a) || a > b ? a : b;
+}
+
 void hard_sheet_clear(hard_sheet *sheet)
 {
   free(sheet->row);

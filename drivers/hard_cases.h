@@ -70,6 +70,8 @@ pendres_status hard_sheet_add(hard_sheet *sheet, const char *name, const char *q
 pendres_status hard_sheet_add_at(hard_sheet *sheet, const char *name, double number,
                                  const char *quantity, double figure, double bound, double naive);
 int hard_row_holds(const hard_row *row);
+/* The larger of two figures, NaN if either is: fmax would lose a NaN, and the row would hold. */
+double hard_larger(double a, double b);
 /* Let go of the rows; scale and stop remain. */
 void hard_sheet_clear(hard_sheet *sheet);
 

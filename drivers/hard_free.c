@@ -56,7 +56,7 @@ static pendres_status error_from_rest(const pendres_pendulum *p, double x0, long
   long turns = 0;
   const pendres_status status = pendres_reference_advance(p, &y, &w, &turns, periods);
   const long double at = y + half_pi_exact * (1.0L + 4.0L * (long double)turns);
-  *error = fmax((double)fabsl((long double)x - at), (double)fabsl((long double)v - w));
+  *error = hard_larger((double)fabsl((long double)x - at), (double)fabsl((long double)v - w));
   return status;
 }
 
@@ -71,9 +71,9 @@ static pendres_status watch(pendres_context *ctx, const pendres_pendulum *p, dou
     double x = x0, v = 0.0, estimate, error = 0.0;
     status = pendres_strobe_advance(ctx, 1, p, &x, &v, k, &estimate);
     if (status == PENDRES_OK) status = error_from_rest(p, x0, k, x, v, &error);
-    f->left = fmax(f->left, (double)fabsl((long double)x - top) * shrink);
-    f->off = fmax(f->off, error * shrink);
-    f->underestimated = fmax(f->underestimated, error / estimate);
+    f->left = hard_larger(f->left, (double)fabsl((long double)x - top) * shrink);
+    f->off = hard_larger(f->off, error * shrink);
+    f->underestimated = hard_larger(f->underestimated, error / estimate);
   }
   return status;
 }
@@ -217,8 +217,8 @@ pendres_status hard_separatrix(hard_sheet *sheet)
                                fabs(ours / exact - 1.0),
                                tolerance + moved / (d * quarter) + 4.0 * last_place,
                                fabs(theirs / exact - 1.0));
-    worst = fmax(worst, fabs(ours - exact) / error);
-    worst_naive = fmax(worst_naive, fabs(theirs - exact) / their_error);
+    worst = hard_larger(worst, fabs(ours - exact) / error);
+    worst_naive = hard_larger(worst_naive, fabs(theirs - exact) / their_error);
   }
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "separatrix_estimate", "error over its estimate, the worst of "
@@ -246,7 +246,7 @@ static pendres_status drift(hard_sheet *sheet, pendres_context *ctx, const pendr
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
   *largest = 0.0;
   for (int i = 0; i < SWINGS; i++)
-    *largest = fmax(*largest, fabs(pendres_pendulum_energy(x[i], v[i]) - before[i]));
+    *largest = hard_larger(*largest, fabs(pendres_pendulum_energy(x[i], v[i]) - before[i]));
   return status;
 }
 

@@ -57,8 +57,8 @@ static pendres_status follow(hard_sheet *sheet, pendres_context *ctx, int estima
     long turns = 0;
     status = pendres_reference_advance(&c->p[i], &y, &v, &turns, PERIODS);
     y += half_pi_exact * (1.0L + 4.0L * (long double)turns);
-    c->error[i] = fmax((double)fabsl((long double)c->x[i] - y),
-                       (double)fabsl((long double)c->v[i] - v));
+    c->error[i] = hard_larger((double)fabsl((long double)c->x[i] - y),
+                              (double)fabsl((long double)c->v[i] - v));
   }
   return status == PENDRES_OK ? status : hard_failed(sheet, status, NULL);
 }
@@ -71,7 +71,7 @@ static pendres_status put_advanced(hard_sheet *sheet, pendres_context *ctx, pend
   if (status == PENDRES_OK) status = follow(sheet, naive, 0, &theirs);
   for (int i = 0; i < STARTS && status == PENDRES_OK; i++) {
     silent += ours.error[i] > tightest && !(ours.estimate[i] > tightest);
-    worst = fmax(worst, ours.error[i] / ours.estimate[i]);
+    worst = hard_larger(worst, ours.error[i] / ours.estimate[i]);
     missed += theirs.error[i] > tightest;
   }
   if (status == PENDRES_OK)
@@ -86,7 +86,8 @@ static pendres_status put_advanced(hard_sheet *sheet, pendres_context *ctx, pend
 /* Largest difference of a Poincaré point from the reference's orbit next to it. */
 static double point_error(const pendres_reference_cycle *c, double x, double v)
 {
-  return fmax((double)fabsl((long double)x - half_pi_exact - c->y), (double)fabsl(v - c->v));
+  return hard_larger((double)fabsl((long double)x - half_pi_exact - c->y),
+                     (double)fabsl(v - c->v));
 }
 
 /* An orbit that claims to meet the tolerance against the reference; 0 if it makes no claim. */
@@ -97,12 +98,13 @@ static pendres_status orbit_error(pendres_context *ctx, const pendres_orbit_gues
   pendres_status outcome = PENDRES_OK;
   *error = 0.0;
   pendres_status status = pendres_orbit_refine(ctx, 1, guess, PENDRES_ORBIT_PLAIN, &o, &outcome);
-  if (status != PENDRES_OK || outcome == PENDRES_NOT_CONVERGED) return status;
+  if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED) status = outcome; /* there is one */
+  if (status != PENDRES_OK) return status;
   status = pendres_reference_orbit(&o.pendulum, (long double)o.x - half_pi_exact, o.v, 1, 0, cycle);
   if (status != PENDRES_OK || outcome != PENDRES_OK) return status;
-  *error = fmax(point_error(cycle, o.x, o.v),
-                fmax((double)fabsl(o.loop_area - cycle->loop_area),
-                     (double)fabsl(o.amplitude - cycle->amplitude)));
+  *error = hard_larger(point_error(cycle, o.x, o.v),
+                       hard_larger((double)fabsl(o.loop_area - cycle->loop_area),
+                                   (double)fabsl(o.amplitude - cycle->amplitude)));
   return status;
 }
 
@@ -129,12 +131,12 @@ static pendres_status put_orbits(hard_sheet *sheet, pendres_context *ctx, pendre
     g.v = g.pendulum.drive_frequency * h.amplitude * sin(h.phase_lag);
     status = orbit_error(ctx, &g, &error, &cycle);
     if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
-    ours = fmax(ours, error);
+    ours = hard_larger(ours, error);
     if (g.pendulum.damping != 1.0) continue;
     double x = g.x, v = g.v;
     status = pendres_strobe_advance(naive, 1, &g.pendulum, &x, &v, SETTLED, NULL);
     if (status != PENDRES_OK) return hard_failed(sheet, status, naive);
-    theirs = fmax(theirs, point_error(&cycle, x, v));
+    theirs = hard_larger(theirs, point_error(&cycle, x, v));
   }
   return hard_sheet_add(sheet, "tolerance_orbits", "largest error of orbits said to be good to "
                         "1e-13 (naive: where damping is 1, by waiting)", ours, tightest, theirs);
@@ -201,10 +203,10 @@ static pendres_status put_no_drive(hard_sheet *sheet, pendres_context *ctx, pend
   const pendres_status status =
     both_ways(sheet, ctx, naive, 0.0, 0.5 * pi + 0.3, 0.0, until_gone(), &o, &x, &v);
   if (status != PENDRES_OK) return status;
-  const double off = fmax(o.amplitude, fmax(fabs(o.x - 0.5 * pi), fabs(o.v)));
+  const double off = hard_larger(o.amplitude, hard_larger(fabs(o.x - 0.5 * pi), fabs(o.v)));
   return hard_sheet_add(sheet, "drive_0", "no drive: how far the orbit is from rest, if it has no "
                         "phase lag", isnan(o.phase_lag) ? off : INFINITY, 1e-7 * DBL_EPSILON,
-                        fmax(fabs(x - 0.5 * pi), fabs(v)));
+                        hard_larger(fabs(x - 0.5 * pi), fabs(v)));
 }
 
 /*
@@ -228,8 +230,8 @@ static pendres_status put_small_drive(hard_sheet *sheet, pendres_context *ctx,
   const double wanted_v = drive_frequency * h.amplitude * sin(h.phase_lag);
   return hard_sheet_add_at(sheet, "drive", drive_amplitude,
                            "a drive so small: error of amplitude (relative) and phase lag",
-                           fmax(fabs(o.amplitude / h.amplitude - 1.0),
-                                fabs(o.phase_lag - h.phase_lag)),
+                           hard_larger(fabs(o.amplitude / h.amplitude - 1.0),
+                                       fabs(o.phase_lag - h.phase_lag)),
                            resolvent * (10.0 * drive_tolerance +
                                         o.steps * DBL_TRUE_MIN / h.amplitude),
                            fabs(v - wanted_v) / h.amplitude);
@@ -270,8 +272,9 @@ static pendres_status put_strong_drive(hard_sheet *sheet, pendres_context *ctx,
                           hypot(remainder(x - 0.5 * pi - (double)c.y, 2.0 * pi),
                                 v - (double)c.v) / a);
   if (status != PENDRES_OK) return status;
-  const double worst = fmax(off[0] / o.amplitude_error,
-                            fmax(off[1] / o.loop_area_error, off[2] / o.phase_lag_error));
+  const double worst =
+    hard_larger(off[0] / o.amplitude_error,
+                hard_larger(off[1] / o.loop_area_error, off[2] / o.phase_lag_error));
   return hard_sheet_add(sheet, "drive_1e3_estimate", "the same: error of amplitude, loop area and "
                         "phase lag over its estimate, the worst", worst, 10.0, NAN);
 }
@@ -295,7 +298,8 @@ static pendres_status put_strong_and_tight(hard_sheet *sheet)
   if (status == PENDRES_OK) status = pendres_reference_advance(&p, &y, &w, &turns, 1);
   if (status != PENDRES_OK) return status;
   y += half_pi_exact * (1.0L + 4.0L * (long double)turns);
-  const double error = fmax((double)fabsl((long double)x - y), (double)fabsl((long double)v - w));
+  const double error =
+    hard_larger((double)fabsl((long double)x - y), (double)fabsl((long double)v - w));
   return hard_sheet_add(sheet, "drive_1e3_tight", "such a drive at tolerance 1e-13: error after a "
                         "period over its estimate", error / estimate, 10.0, NAN);
 }

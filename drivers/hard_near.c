@@ -194,9 +194,9 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
     const pendres_reference_cycle *e = t->saddles && !o.stable ? &t->saddle : &t->node;
     const long double exact_x = e->y + 1.57079632679489661923132169163975144L;
     *ratio = (double)fabsl(o.x - exact_x) / o.x_error;
-    *ratio = fmax(*ratio, (double)fabsl(o.v - e->v) / o.v_error);
-    *ratio = fmax(*ratio, (double)fabsl(o.amplitude - e->amplitude) / o.amplitude_error);
-    *ratio = fmax(*ratio, (double)fabsl(o.loop_area - e->loop_area) / o.loop_area_error);
+    *ratio = hard_larger(*ratio, (double)fabsl(o.v - e->v) / o.v_error);
+    *ratio = hard_larger(*ratio, (double)fabsl(o.amplitude - e->amplitude) / o.amplitude_error);
+    *ratio = hard_larger(*ratio, (double)fabsl(o.loop_area - e->loop_area) / o.loop_area_error);
   }
   pendres_context_free(ctx);
   return status;
@@ -215,10 +215,10 @@ static pendres_status worst_orbit(hard_sheet *sheet, const truth *t, double *wor
   if (status == PENDRES_OK) status = error_over_claimed(sheet, t, standard, &loose);
   if (status == PENDRES_OK) status = go_naively(sheet, &t->p, &x, &v, &moved);
   if (status != PENDRES_OK) return status;
-  *worst = fmax(*worst, ratio);
-  if (isfinite(loose)) *worst = fmax(*worst, loose);
+  *worst = hard_larger(*worst, ratio);
+  if (loose != INFINITY) *worst = hard_larger(*worst, loose);
   const double off = hypot(x - half_pi - (double)t->node.y, v - (double)t->node.v);
-  *naive = fmax(*naive, off / fmax(moved, naive_tolerance));
+  *naive = hard_larger(*naive, off / fmax(moved, naive_tolerance));
   return status;
 }
 

@@ -65,9 +65,10 @@ static pendres_status measure(hard_sheet *sheet, double damping, pendres_method 
     status = pendres_reference_advance(&p[i], &y, &w, &turns, PERIODS);
     if (status != PENDRES_OK) break;
     const long double angle = x[i] - 0.5L * pi - 2.0L * pi * (long double)turns;
-    const double error = (double)fmaxl(fabsl(angle - y), fabsl((long double)v[i] - w));
-    out->error = fmax(out->error, error);
-    out->over_claimed = fmax(out->over_claimed, error / claimed[i]);
+    const double error =
+      hard_larger((double)fabsl(angle - y), (double)fabsl((long double)v[i] - w));
+    out->error = hard_larger(out->error, error);
+    out->over_claimed = hard_larger(out->over_claimed, error / claimed[i]);
   }
 done:
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
@@ -147,8 +148,8 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
   if (!wrong) {
     const pendres_orbit *o = &pendres_attractors_get(found, 0)->orbit;
     off = (double)fabsl(o->amplitude - exact.amplitude) / o->amplitude_error;
-    off = fmax(off, (double)fabsl(o->loop_area - exact.loop_area) / o->loop_area_error);
-    off = fmax(off, (double)fabsl(o->x - 0.5L * pi - exact.y) / o->x_error);
+    off = hard_larger(off, (double)fabsl(o->loop_area - exact.loop_area) / o->loop_area_error);
+    off = hard_larger(off, (double)fabsl(o->x - 0.5L * pi - exact.y) / o->x_error);
   }
   status = hard_sheet_add_at(sheet, "stiff_settled", damping,
                              "pendulums that did not settle on the only orbit", wrong, 0.0, NAN);

@@ -16,7 +16,7 @@ static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 static double off_point(const pendres_reference_cycle *c, double x, double v)
 {
   const long double y = (long double)x - half_pi_exact - c->y;
-  return fmax((double)fabsl(remainderl(y, 4.0L * half_pi_exact)), (double)fabsl(v - c->v));
+  return hard_larger((double)fabsl(remainderl(y, 4.0L * half_pi_exact)), (double)fabsl(v - c->v));
 }
 
 /* Newton's orbit next to a guess; out->stable = -1 if there is none. */
@@ -49,7 +49,7 @@ static double orbit_underestimated(const pendres_orbit *o, const pendres_referen
   };
   double worst = 0.0;
   for (size_t i = 0; i < sizeof ratio / sizeof *ratio; i++)
-    worst = isnan(ratio[i]) ? INFINITY : fmax(worst, ratio[i]);
+    worst = hard_larger(worst, ratio[i]);
   return worst;
 }
 
@@ -85,7 +85,7 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
     status = find_orbit(sheet, ctx, &w->p[i], 0.5 * pi + y, 0.0, &w->orbit[i]);
     if (status == PENDRES_OK) status = refer(sheet, &w->orbit[i], &c);
     if (status != PENDRES_OK) return status;
-    w->estimate = fmax(w->estimate, orbit_underestimated(&w->orbit[i], &c));
+    w->estimate = hard_larger(w->estimate, orbit_underestimated(&w->orbit[i], &c));
     w->x[i] = w->orbit[i].x + weak_beside;
     w->v[i] = w->orbit[i].v;
   }
@@ -110,7 +110,7 @@ static pendres_status weak_wait(hard_sheet *sheet, pendres_context *ctx, const w
   *off = 0.0;
   for (size_t k = 0; k < n; k++) {
     const pendres_orbit *o = &w->orbit[(size_t)first + k * (size_t)stride];
-    *off = fmax(*off, fmax(fabs(x[k] - o->x), fabs(v[k] - o->v)));
+    *off = hard_larger(*off, hard_larger(fabs(x[k] - o->x), fabs(v[k] - o->v)));
   }
   return PENDRES_OK;
 }
@@ -196,9 +196,9 @@ static pendres_status both_ways(hard_sheet *sheet, pendres_context *ctx, pendres
   pendres_status status = find_orbit(sheet, ctx, &p, x, v, &w->orbit);
   if (status == PENDRES_OK) status = refer(sheet, &w->orbit, &w->cycle);
   if (status != PENDRES_OK) return status;
-  w->error = fmax(off_point(&w->cycle, w->orbit.x, w->orbit.v),
-                  fmax((double)fabsl(w->orbit.loop_area - w->cycle.loop_area),
-                       (double)fabsl(w->orbit.amplitude - w->cycle.amplitude)));
+  w->error = hard_larger(off_point(&w->cycle, w->orbit.x, w->orbit.v),
+                         hard_larger((double)fabsl(w->orbit.loop_area - w->cycle.loop_area),
+                                     (double)fabsl(w->orbit.amplitude - w->cycle.amplitude)));
   /* Until a free oscillation has died down to a double's last digit. */
   const double gone = -log(DBL_EPSILON) / (0.5 * frequency_damping);
   status = pendres_strobe_advance(naive, 1, &p, &x, &v,

@@ -87,6 +87,8 @@ static void rows(void **state)
   assert_false(hard_row_holds(&(hard_row){ .figure = 1.1, .bound = 1.0 }));
   assert_false(hard_row_holds(&(hard_row){ .figure = NAN, .bound = 1.0 }));
   assert_false(hard_row_holds(&(hard_row){ .figure = 1.0, .bound = NAN }));
+  assert_true(isnan(hard_larger(NAN, 1.0)) && isnan(hard_larger(1.0, NAN)));
+  assert_true(hard_larger(1.0, 2.0) == 2.0 && hard_larger(2.0, 1.0) == 2.0);
   assert_null(hard_case_find("no such case"));
   hard_sheet_clear(&sheet);
 }
