@@ -10,10 +10,11 @@ trap 'rm -rf "$folder"' EXIT
 export OMP_WAIT_POLICY=passive
 valgrind -q --fair-sched=yes --leak-check=full --errors-for-leak-kinds=none --error-exitcode=99 \
   --trace-children=yes --trace-children-skip='*/sh,*python*' --log-file="$folder/%p" \
-  --suppressions=tests/valgrind.supp "$@"
+  --suppressions="$PWD/tests/valgrind.supp" "$@"
 code=$?
 cat "$folder"/*
-if grep -q 'Invalid\|ninitialised\|Mismatched\|overlap' "$folder"/*; then exit 99; fi
+# FATAL: valgrind did not even start, as in a child where it finds a file of its own no more.
+if grep -q 'Invalid\|ninitialised\|Mismatched\|overlap\|FATAL' "$folder"/*; then exit 99; fi
 if [ "$code" -eq 77 ] || [ "$code" -ge 99 ]; then exit "$code"; fi
 if [ "$code" -ne 0 ]; then
   echo "values differ; no error of memory"
