@@ -191,7 +191,7 @@ static pendres_status put_points(scene_run *run, const points *p)
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   for (int k = 0; k < VALUES && status == PENDRES_OK; k++)
     status = scene_curves_put(run, "point", about[k].name, about[k].long_name, about[k].units,
-                              p->value[k], k == DAMPING ? NULL : p->error[k], n);
+                              p->value[k], p->error[k], n);
   if (status != PENDRES_OK) return status;
   const pendres_store_spec re = {.name = "branch_multiplier_re",
                                  .dimensions = {"point", "multiplier"},
@@ -312,16 +312,17 @@ done:
 /* The free pendulum, without damping and drive: exact. */
 static pendres_status write_free(scene_run *run)
 {
-  double amplitude[FREE], frequency[FREE];
+  double amplitude[FREE], frequency[FREE], error[FREE];
   for (int i = 0; i < FREE; i++) {
     amplitude[i] = 0.02 * (i + 1);
     frequency[i] = pendres_free_frequency(amplitude[i]);
+    error[i] = 2e-15 * frequency[i]; /* some units in the last place */
   }
   const pendres_status status = pendres_store_dimension(
     run->store, "", "free_amplitude", FREE, amplitude, "amplitude of the free pendulum", "rad");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   return scene_curves_put(run, "free_amplitude", "free_frequency",
-                          "frequency of the undamped, undriven pendulum", "1", frequency, NULL,
+                          "frequency of the undamped, undriven pendulum", "1", frequency, error,
                           FREE);
 }
 

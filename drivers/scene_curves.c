@@ -87,9 +87,7 @@ pendres_status scene_curves_put(scene_run *run, const char *dimension, const cha
 {
   const pendres_store_spec spec = {
     .name = name, .dimensions = {dimension}, .long_name = long_name, .units = units};
-  const pendres_status status = error != NULL
-                                  ? pendres_store_put_result(run->store, &spec, value, error, n)
-                                  : pendres_store_put(run->store, &spec, value, n);
+  const pendres_status status = pendres_store_put_result(run->store, &spec, value, error, n);
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
@@ -122,7 +120,8 @@ static const char *const kind_meanings[] = {"regular", "fold", "period_doubling"
 
 /* Columns of a table of points, each of n. */
 enum { DAMPING, DAMPING_ERROR, FREQUENCY, FREQUENCY_ERROR, AMPLITUDE, AMPLITUDE_ERROR, CURVATURE,
-       LARGER_MULTIPLIER, SMALLER_MULTIPLIER, COLUMNS };
+       CURVATURE_ERROR, LARGER_MULTIPLIER, LARGER_MULTIPLIER_ERROR, SMALLER_MULTIPLIER,
+       SMALLER_MULTIPLIER_ERROR, COLUMNS };
 
 typedef struct table {
   size_t n;
@@ -158,7 +157,7 @@ no_memory:
 }
 
 static void table_add(table *t, const pendres_orbit *o, double damping_error,
-                      double frequency_error, double curvature)
+                      double frequency_error)
 {
   const size_t i = t->n++;
   t->column[DAMPING][i] = o->pendulum.damping;
@@ -167,20 +166,20 @@ static void table_add(table *t, const pendres_orbit *o, double damping_error,
   t->column[FREQUENCY_ERROR][i] = frequency_error;
   t->column[AMPLITUDE][i] = o->amplitude;
   t->column[AMPLITUDE_ERROR][i] = o->amplitude_error;
-  t->column[CURVATURE][i] = curvature;
   t->column[LARGER_MULTIPLIER][i] = o->multiplier_re[0];
+  t->column[LARGER_MULTIPLIER_ERROR][i] = o->multiplier_error;
   t->column[SMALLER_MULTIPLIER][i] = o->multiplier_re[1];
+  t->column[SMALLER_MULTIPLIER_ERROR][i] = o->multiplier_error;
   t->period[i] = o->period;
 }
 
 static pendres_status put_column(scene_run *run, const table *t, const char *dimension, int column,
-                                 const char *what, const char *words, const char *units, int error)
+                                 const char *what, const char *words, const char *units)
 {
-  char name[64], long_name[128];
+  char name[64];
   (void)snprintf(name, sizeof name, "%s_%s", dimension, what);
-  (void)snprintf(long_name, sizeof long_name, "%s", words);
-  return scene_curves_put(run, dimension, name, long_name, units, t->column[column],
-                          error ? t->column[column + 1] : NULL, t->n);
+  return scene_curves_put(run, dimension, name, words, units, t->column[column],
+                          t->column[column + 1], t->n);
 }
 
 /* What all three tables have. */
@@ -190,18 +189,18 @@ static pendres_status put_table(scene_run *run, const table *t, const char *dime
   pendres_status status =
     pendres_store_dimension(run->store, "", dimension, t->n, NULL, "number of the point", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = put_column(run, t, dimension, DAMPING, "damping", "friction coefficient there", "1", 1);
+  status = put_column(run, t, dimension, DAMPING, "damping", "friction coefficient there", "1");
   if (status == PENDRES_OK)
-    status = put_column(run, t, dimension, FREQUENCY, "frequency", "drive frequency there", "1", 1);
+    status = put_column(run, t, dimension, FREQUENCY, "frequency", "drive frequency there", "1");
   if (status == PENDRES_OK)
     status = put_column(run, t, dimension, AMPLITUDE, "amplitude",
-                        "amplitude of the orbit there", "rad", 1);
+                        "amplitude of the orbit there", "rad");
   if (status == PENDRES_OK)
     status = put_column(run, t, dimension, LARGER_MULTIPLIER, "multiplier",
-                        "Floquet multiplier of the larger modulus", "1", 0);
+                        "Floquet multiplier of the larger modulus", "1");
   if (status == PENDRES_OK)
     status = put_column(run, t, dimension, SMALLER_MULTIPLIER, "other_multiplier",
-                        "Floquet multiplier of the smaller modulus", "1", 0);
+                        "Floquet multiplier of the smaller modulus", "1");
   (void)snprintf(name, sizeof name, "%s_period", dimension);
   if (status == PENDRES_OK)
     status = put_integers(run, dimension, name, "drive periods until the orbit closes", t->period,
@@ -242,7 +241,7 @@ static pendres_status write_points(scene_run *run, const scene_curves *c, int fo
       t.flag[t.n] = branch_ending(c, &p->orbit, p->curvature);
       t.kind[t.n] = (int8_t)pendres_curve_kind(curve);
       t.number[t.n] = number;
-      table_add(&t, &p->orbit, p->value_error[1], p->value_error[0], p->curvature);
+      table_add(&t, &p->orbit, p->value_error[1], p->value_error[0]);
     }
     number++;
   }
@@ -253,11 +252,6 @@ static pendres_status write_points(scene_run *run, const scene_curves *c, int fo
   if (status == PENDRES_OK && folds)
     status = put_flags(run, dimension, "fold_branch", "which branch ends there", 3,
                        branch_meanings, t.flag, t.n);
-  if (status == PENDRES_OK && folds)
-    status = scene_curves_put(
-      run, dimension, "fold_curvature",
-      "second derivative of the frequency by arclength in (x, v); below 0: orbits exist below",
-      "1", t.column[CURVATURE], NULL, t.n);
   if (status == PENDRES_OK && !folds)
     status = put_flags(run, dimension, "flip_kind", "what happens there", 4, kind_meanings, t.kind,
                        t.n);
@@ -274,9 +268,15 @@ static pendres_status write_bifurcations(scene_run *run, const scene_curves *c)
     const pendres_bifurcation *b = &c->list[i];
     t.flag[t.n] = b->kind == PENDRES_FOLD ? branch_ending(c, &b->orbit, b->curvature) : 2;
     t.kind[t.n] = (int8_t)b->kind;
-    table_add(&t, &b->orbit, 0.0, b->value_error, b->curvature);
+    t.column[CURVATURE][t.n] = b->curvature;
+    t.column[CURVATURE_ERROR][t.n] = b->curvature_error;
+    table_add(&t, &b->orbit, 0.0, b->value_error);
   }
   if (status == PENDRES_OK) status = put_table(run, &t, "bifurcation");
+  if (status == PENDRES_OK)
+    status = put_column(run, &t, "bifurcation", CURVATURE, "curvature", "of a fold: second "
+                        "derivative of the frequency by arclength in (x, v); below 0: orbits "
+                        "exist below", "1");
   if (status == PENDRES_OK)
     status = put_flags(run, "bifurcation", "bifurcation_kind", "what happens there", 4,
                        kind_meanings, t.kind, t.n);

@@ -36,7 +36,7 @@ const pendres_bifurcation *scene_curves_fold(const scene_curves *c, double dampi
 /* What the paper prints on these, where the deck has it. */
 pendres_status scene_curves_write_paper(scene_run *run, const scene_curves *c);
 
-/* Write n values, with their errors unless NULL, along a dimension. */
+/* Write n values and their errors along a dimension. */
 pendres_status scene_curves_put(scene_run *run, const char *dimension, const char *name,
                                 const char *long_name, const char *units, const double *value,
                                 const double *error, size_t n);

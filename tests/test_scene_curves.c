@@ -51,10 +51,12 @@ static void errors_stand_beside(void **state)
     "sa_amplitude", "la_amplitude", "mean_loop_amplitude", "sa_fraction", "branch_frequency",
     "branch_amplitude", "branch_phase_lag", "branch_loop_area", "branch_multiplier_re",
     "branch_multiplier_im", "fold_damping", "fold_frequency", "fold_amplitude", "cusp_damping",
-    "cusp_frequency", "backbone_frequency", "backbone_amplitude", "bifurcation_frequency"};
+    "cusp_frequency", "backbone_frequency", "backbone_amplitude", "bifurcation_frequency",
+    "bifurcation_curvature", "bifurcation_multiplier", "branch_damping", "free_frequency"};
   static const char *const diagram[] = {
     "sa_fraction", "la_fraction", "mean_loop_area", "fold_damping", "fold_frequency",
-    "fold_amplitude", "flip_frequency", "cusp_damping", "cusp_frequency"};
+    "fold_amplitude", "fold_multiplier", "fold_other_multiplier", "flip_frequency",
+    "flip_multiplier", "cusp_damping", "cusp_frequency"};
   for (int which = 0; which < 2; which++) {
     const char *const *names = which == 0 ? branches : diagram;
     const size_t count =
