@@ -1,6 +1,6 @@
 /*
  * scene_basins.h -- what the parts of scene `basins` share: computing in scene_basins.c, writing in
- * scene_basins_write.c.
+ * scene_basins_write.c, the boundary as a curve in scene_basins_boundary.c.
  */
 #ifndef SCENE_BASINS_H
 #define SCENE_BASINS_H
@@ -38,5 +38,9 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
 
 /* Everything that is not a state of the grid. */
 pendres_status basins_write_results(basins *b);
+
+/* Find and write the stable manifold of the orbit between the first attractor and its neighbour,
+   if any; b->curve says what was found. */
+pendres_status basins_write_boundary(basins *b);
 
 #endif
