@@ -143,7 +143,9 @@ static void judge(runner *r, contest *c)
     const double error = work_unit_error(r->unit, i, mark, r->x[k], r->v[k]);
     if (isnan(r->estimate[k])) return;
     if (r->unit->growth[mark][i] <= CONTEST_WILD) c->estimate = fmax(c->estimate, r->estimate[k]);
-    r->ratio[k] = r->estimate[k] / fmax(error, end_rounding);
+    /* "Nothing is known" is true of whatever came out. */
+    r->ratio[k] =
+      isinf(r->estimate[k]) ? INFINITY : r->estimate[k] / fmax(error, end_rounding);
   }
   qsort(r->ratio, r->n, sizeof *r->ratio, by_value);
   c->honesty = r->ratio[0];

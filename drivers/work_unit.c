@@ -114,6 +114,6 @@ double work_unit_error(const work_unit *w, size_t i, int mark, double x, double 
 {
   const double dx = (double)((long double)x - pi / 2.0L - w->angle[mark][i]);
   const double dv = (double)((long double)v - w->velocity[mark][i]);
-  if (isnan(dx) || isnan(dv)) return NAN;
+  if (isnan(dx) || isnan(dv)) return INFINITY;
   return fmax(fabs(dx), fabs(dv));
 }

@@ -39,7 +39,8 @@ pendres_status work_unit_refer(work_unit *w, farm *f);
 /* Pendulum number k of `some` that stand for all, evenly chosen. */
 size_t work_unit_pick(const work_unit *w, size_t some, size_t k);
 
-/* Error of a state (x, v) of pendulum i at a mark: the larger of both; NaN for NaN. */
+/* Error of a state (x, v) of pendulum i at a mark: the larger of both; infinite for NaN, which no
+   maximum over pendulums would notice. */
 double work_unit_error(const work_unit *w, size_t i, int mark, double x, double v);
 
 #endif

@@ -125,6 +125,17 @@ static void threads_change_no_figure(void **state)
   pendres_store_free(b);
 }
 
+/* A state that is no number is off by more than any other, and a maximum must show it. */
+static void lost_states_are_errors(void **state)
+{
+  long double zero = 0.0L;
+  const work_unit w = { .n = 1, .angle = { &zero, &zero }, .velocity = { &zero, &zero } };
+  (void)state;
+  assert_true(fmax(1.0, work_unit_error(&w, 0, 0, NAN, 0.0)) == INFINITY);
+  assert_true(fmax(1.0, work_unit_error(&w, 0, 0, 0.5 * pi, NAN)) == INFINITY);
+  check_near(work_unit_error(&w, 0, 0, 0.5 * pi, 0.25), 0.25, 0.0);
+}
+
 /* 'sweep': in its ranges, no two alike, and spread evenly (means within a hundredth of the range:
    additive recurrences of 1000 points are far better than chance's third of a hundredth). */
 static void sweep_covers_its_ranges(void **state)
@@ -213,6 +224,7 @@ static void failures_are_said(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(lost_states_are_errors),
     cmocka_unit_test(sweep_covers_its_ranges),
     cmocka_unit_test(failures_are_said),
     cmocka_unit_test(every_table_is_honest),
