@@ -214,6 +214,9 @@ static void check_size(deck_builder *b)
   if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
     complain(b, given(b, "orbit", "periods"), "periods",
              "'periods' times 'samples' must not exceed 1e8");
+  if (d->basins.boundary && (d->axis[DECK_AXIS_X].count == 1 || d->axis[DECK_AXIS_V].count == 1))
+    complain(b, given(b, "basins", "boundary"), "boundary",
+             "'boundary' is looked for in a window: give x and v at least two values");
 }
 
 static void check_output(deck_builder *b)

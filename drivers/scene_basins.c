@@ -310,9 +310,6 @@ static pendres_status run_scene(scene_run *run)
               .grid = {.nx = d->axis[DECK_AXIS_X].count, .nv = d->axis[DECK_AXIS_V].count,
                        .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value}};
   size_t grown = 1;
-  if (d->basins.boundary && (b.grid.nx < 2 || b.grid.nv < 2))
-    return scene_fail(run, PENDRES_INVALID_ARGUMENT,
-                      "a boundary is looked for in a window: give x and v at least two values");
   pendres_status status = find_attractors(&b);
   if (status == PENDRES_OK) status = basins_define(&b);
   for (int pass = 0; grown > 0 && status == PENDRES_OK; pass++) {

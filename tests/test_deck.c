@@ -10,7 +10,7 @@
 
 #include "deck.h"
 
-/* ---- helpers ------------------------------------------------------------------------------- */
+/* ---- what tests share ---------------------------------------------------------------------- */
 
 /* Read a deck that must be good. The caller frees it. */
 static deck read_good(const char *text)
@@ -440,6 +440,7 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { ORBIT "&orbit start='sa' x=1 v=0 /", { "3:19 'x' is not used: 'start' names", "3:23 'v' is not used" } },
   { BASINS "&sweep x=0 v=0 /\n&basins seed=1 /", { "4:9 'seed' is not used: it concerns noise" } },
   { BASINS "&sweep x=0 v=0 temperature=0 /\n&basins strobes=1 /", { "4:9 'strobes' is not used" } },
+  { BASINS "&sweep x=1 v=0,1 /\n&basins boundary=.true. /", { "4:9 at least two values" } },
   /* types */
   { CURVE "&sweep damping='a' /", { "3:16 'damping' wants a number, not 'a'" } },
   { CURVE "&sweep damping=0.1, 0.2, x /", { "3:26 'damping' wants a number, not x" } },

@@ -12,7 +12,7 @@
 
 #include "namelist.h"
 
-/* ---- helpers ------------------------------------------------------------------------------- */
+/* ---- what tests share ---------------------------------------------------------------------- */
 
 /* The tree as text: "g: x=1.5 s='a' xv(2:4:1)=3*1,_,2 / h: /". Free the result. */
 static char *show(const namelist *nl)
