@@ -4,6 +4,11 @@
  * Owns: the list of status codes and their messages. Zero is success; every
  * other code is a failure, and the context (context.h) holds a sentence that
  * says which pendulum failed, where and why. Thread safe: no state.
+ *
+ * Out of memory is a status where the library itself asks for memory. Where GSL (2.7) or SUNDIALS
+ * (6.4) ask, they may end the program: GSL's default error handler does, and is not touched here;
+ * with gsl_set_error_handler_off() some of its functions, and some of SUNDIALS', still follow a
+ * null pointer.
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H
