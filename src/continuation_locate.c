@@ -99,9 +99,12 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   if (status != PENDRES_OK) return status;
   if (!rounding_of(&at, unknown, pair->fine_steps, map->period, rounding))
     return PENDRES_NOT_CONVERGED;
+  /* Where two values of a parameter agree by chance, it is not known better than its point. */
+  const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
+                             pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
   for (int i = 0; i < n; i++)
-    out->error[i] = pendres_continuation_orbit_error(pair->coarse[unknown[i]],
-                                                     pair->fine[unknown[i]], rounding[i]);
+    out->error[i] = pendres_continuation_orbit_error(
+      pair->coarse[unknown[i]], pair->fine[unknown[i]], rounding[i] + 0.005 * point);
   pair->rounding = hypot(rounding[0], rounding[1]);
   return PENDRES_OK;
 }
