@@ -99,7 +99,7 @@ static void nap(long milliseconds)
 
 static void wait_for(const char *path)
 {
-  for (int k = 0; k < 500 && !exists(path); k++) nap(20);
+  for (int k = 0; k < 3000 && !exists(path); k++) nap(20);
 }
 
 /* ---- what disks and pipes do --------------------------------------------------------------- */
@@ -145,16 +145,17 @@ static void test_streams_closed(void **state)
   const char *const arguments[] = { "-o", "kept.h5", "long.nml", NULL };
   (void)state;
   if (access("/proc/self/fd", R_OK) != 0) skip();
+  char link[64], target[3][32] = { "" };
   const pid_t pid = start(NULL, 0, arguments);
   wait_for("kept.h5.part");
   for (int fd = 0; fd <= 2; fd++) {
-    char link[64], target[32] = "";
     snprintf(link, sizeof link, "/proc/%ld/fd/%d", (long)pid, fd);
-    assert_true(readlink(link, target, sizeof target - 1) > 0);
-    assert_string_equal(target, "/dev/null");
+    if (readlink(link, target[fd], sizeof target[fd] - 1) < 0) target[fd][0] = '\0';
   }
+  /* Judged when it has ended: a test that fails leaves nothing running. */
   assert_int_equal(kill(pid, SIGTERM), 0);
   check_code(finish(pid), 75);
+  for (int fd = 0; fd <= 2; fd++) assert_string_equal(target[fd], "/dev/null");
   check_code(finish(start(NULL, 0, (const char *const[]){ "orbit.nml", NULL })), 1);
   assert_true(exists("orbit.h5"));
   assert_string_equal(err, "");
