@@ -107,21 +107,32 @@ static int labelled_here(const place *l, const pendres_attractors *set, const pe
 
 /* ---- beyond: ghosts ------------------------------------------------------------------------ */
 
+/* What these starts settle on; *found is freed by the caller, also after a failure. */
+static pendres_status settle_starts(hard_sheet *sheet, const truth *t, double tolerance,
+                                    const double x[STARTS], const double v[STARTS],
+                                    pendres_outcome outcome[STARTS], pendres_attractors **found)
+{
+  const pendres_pendulum p[STARTS] = { t->p, t->p, t->p, t->p };
+  pendres_context *ctx = NULL;
+  *found = NULL;
+  pendres_status status = hard_context(
+    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = BUDGET }, &ctx);
+  if (status != PENDRES_OK) return status;
+  status = pendres_settle(ctx, STARTS, p, x, v, outcome, found);
+  if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
+  pendres_context_free(ctx);
+  return status;
+}
+
 /* Attractors found where there is none, and pendulums labelled to settle there. */
 static pendres_status count_ghosts(hard_sheet *sheet, const place *l, const truth *t,
                                    double tolerance, int *wrong)
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
   const double x[STARTS] = { x0, x0 + 0.02, x0 - 0.02, x0 + 1e-6 }, v[STARTS] = { v0, v0, v0, v0 };
-  const pendres_pendulum p[STARTS] = { t->p, t->p, t->p, t->p };
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
-  pendres_context *ctx = NULL;
-  pendres_status status = hard_context(
-    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = BUDGET }, &ctx);
-  if (status != PENDRES_OK) return status;
-  status = pendres_settle(ctx, STARTS, p, x, v, outcome, &found);
-  if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
+  const pendres_status status = settle_starts(sheet, t, tolerance, x, v, outcome, &found);
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
     const pendres_orbit *o = &pendres_attractors_get(found, i)->orbit;
     *wrong += in_vicinity(l, o->x, o->v);
@@ -129,7 +140,6 @@ static pendres_status count_ghosts(hard_sheet *sheet, const place *l, const trut
   for (int i = 0; status == PENDRES_OK && i < STARTS; i++)
     *wrong += labelled_here(l, found, &outcome[i]);
   pendres_attractors_free(found);
-  pendres_context_free(ctx);
   return status;
 }
 
@@ -347,18 +357,12 @@ static pendres_status count_others(hard_sheet *sheet, const place *l, const trut
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
   const double x[STARTS] = { x0, x0 + 0.05, x0 - 0.05, half_pi }, v[STARTS] = { v0, v0, v0, 0.0 };
-  const pendres_pendulum p[STARTS] = { t->p, t->p, t->p, t->p };
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
-  pendres_context *ctx = NULL;
-  pendres_status status = hard_context(
-    sheet, &(pendres_options){ .tolerance = tightest, .period_budget = BUDGET }, &ctx);
-  if (status != PENDRES_OK) return status;
-  status = pendres_settle(ctx, STARTS, p, x, v, outcome, &found);
-  if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
-  else if (pendres_attractors_count(found) > 1) *wrong += (int)pendres_attractors_count(found) - 1;
+  const pendres_status status = settle_starts(sheet, t, tightest, x, v, outcome, &found);
+  if (status == PENDRES_OK && pendres_attractors_count(found) > 1)
+    *wrong += (int)pendres_attractors_count(found) - 1;
   pendres_attractors_free(found);
-  pendres_context_free(ctx);
   return status;
 }
 

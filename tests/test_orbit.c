@@ -51,6 +51,15 @@ static double nearest_turn(double x, double to)
   return x - two_pi * rint((x - to) / two_pi);
 }
 
+/* Strobe point and loop area against the reference, within ten times what is claimed. */
+static void check_point(const pendres_orbit *o, const pendres_reference_cycle *g)
+{
+  const double x = (double)g->y + half_pi;
+  check_near(nearest_turn(o->x, x), x, 10.0 * o->x_error);
+  check_near(o->v, (double)g->v, 10.0 * o->v_error);
+  check_near(o->loop_area, (double)g->loop_area, 10.0 * o->loop_area_error);
+}
+
 /*
  * The promise of the error estimates: never smaller than a tenth of the true error; and what is
  * asked for is met.
@@ -66,10 +75,7 @@ static void honest_against_reference(void **state)
     for (size_t i = 0; i < n; i++) {
       const pendres_reference_cycle *g = &golden_orbits[i];
       const pendres_orbit *o = &orbit[i];
-      const double x = (double)g->y + half_pi;
-      check_near(nearest_turn(o->x, x), x, 10.0 * o->x_error);
-      check_near(o->v, (double)g->v, 10.0 * o->v_error);
-      check_near(o->loop_area, (double)g->loop_area, 10.0 * o->loop_area_error);
+      check_point(o, g);
       check_near(o->dissipation, (double)g->dissipation, 10.0 * o->dissipation_error);
       check_near(o->amplitude, (double)g->amplitude, 10.0 * o->amplitude_error);
       check_near(o->first_harmonic_amplitude, (double)g->first_harmonic_amplitude,
@@ -145,14 +151,7 @@ static void honest_with_every_table(void **state)
         &(pendres_options){.tolerance = tolerance, .table = (pendres_table)table}, &ctx));
       size_t n = 0;
       pendres_orbit *orbit = golden_refined(ctx, &n);
-      for (size_t i = 0; i < n; i++) {
-        const pendres_reference_cycle *g = &golden_orbits[i];
-        const pendres_orbit *o = &orbit[i];
-        const double x = (double)g->y + half_pi;
-        check_near(nearest_turn(o->x, x), x, 10.0 * o->x_error);
-        check_near(o->v, (double)g->v, 10.0 * o->v_error);
-        check_near(o->loop_area, (double)g->loop_area, 10.0 * o->loop_area_error);
-      }
+      for (size_t i = 0; i < n; i++) check_point(&orbit[i], &golden_orbits[i]);
       free(orbit);
       pendres_context_free(ctx);
     }
