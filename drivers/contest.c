@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include "peer_gsl.h"
+#include "scene.h"
 
 enum { MOST_REPEATS = 50 };
 
@@ -26,13 +27,6 @@ double contest_clock(void)
 
 /* ---- Methods by name ------------------------------------------------------------------------- */
 
-static pendres_table table_named(const char *name)
-{
-  for (int t = PENDRES_TABLE_DEFAULT + 1; t < PENDRES_TABLE_COUNT; t++)
-    if (strcmp(name, pendres_table_name((pendres_table)t)) == 0) return (pendres_table)t;
-  return PENDRES_TABLE_DEFAULT;
-}
-
 /* "block_fixed", "block_adaptive_tsit5", "single_order8", "cvode_bdf", ... */
 static pendres_options options_named(const char *name)
 {
@@ -43,8 +37,10 @@ static pendres_options options_named(const char *name)
     if (strncmp(name, method, length) != 0) continue;
     if (name[length] != '\0' && name[length] != '_') continue;
     o.method = (pendres_method)m;
+    if (name[length] == '\0') continue;
+    const pendres_table table = scene_table_named(name + length + 1);
     if (strcmp(name + length, "_order5") == 0) o.table = PENDRES_TABLE_DP5;
-    else if (name[length] == '_') o.table = table_named(name + length + 1);
+    else if (table < PENDRES_TABLE_COUNT) o.table = table;
   }
   return o;
 }

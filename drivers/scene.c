@@ -46,7 +46,7 @@ static pendres_method method_named(const char *name)
   return (pendres_method)i;
 }
 
-static pendres_table table_named(const char *name)
+pendres_table scene_table_named(const char *name)
 {
   int i = PENDRES_TABLE_DEFAULT + 1;
   while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
@@ -60,7 +60,7 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
                             .block_lanes = (int)d->precision.block_lanes,
                             .period_budget = (long)d->precision.period_budget };
   if (d->precision.method[0] != '\0') out->method = method_named(d->precision.method);
-  if (d->precision.table[0] != '\0') out->table = table_named(d->precision.table);
+  if (d->precision.table[0] != '\0') out->table = scene_table_named(d->precision.table);
   *why = pendres_options_check(out);
   return *why == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
 }

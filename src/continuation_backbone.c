@@ -46,11 +46,13 @@ static double start_amplitude(const pendres_pendulum *p)
 {
   /* What is asked for grows up to a >= 2 and falls towards the top: the lower root is meant. */
   double low = 0.0, high = 0.0, best = 0.0;
-  for (double a = 0.05; a < 3.14; a += 0.05)
-    if (balance(a) > best) {
-      best = balance(a);
+  for (double a = 0.05; a < 3.14; a += 0.05) {
+    const double asked = balance(a);
+    if (asked > best) {
+      best = asked;
       high = a;
     }
+  }
   const double wanted = p->drive_amplitude / p->damping;
   if (!(wanted < best)) return NAN;
   for (int i = 0; i < 60; i++) {

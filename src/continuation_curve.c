@@ -318,8 +318,8 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
       if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
       const int again = *found > 0 &&
-                        pendres_continuation_stencil_distance(located.pair.fine, last) <
-                          0.1 * pendres_continuation_stencil_distance(guess, last_guess);
+                        pendres_walk_distance(located.pair.fine, last) <
+                          0.1 * pendres_walk_distance(guess, last_guess);
       memcpy(last_guess, guess, sizeof last_guess);
       memcpy(last, located.pair.fine, sizeof last);
       if (again) continue;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "context_internal.h"
-#include "continuation_stencil.h"
+#include "continuation_walk.h"
 #include "steps.h"
 
 /* Rounding of a step, three times its usual size: errors claim to be bounds. */
@@ -90,7 +90,7 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status = pendres_continuation_map_solve(
     ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
-  if (status == PENDRES_OK && !(pendres_continuation_stencil_distance(u, pair->coarse) <= reach))
+  if (status == PENDRES_OK && !(pendres_walk_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);

@@ -171,10 +171,10 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   o->first_harmonic_amplitude = hypot(f->cosine[0], f->sine[0]);
   o->first_harmonic_amplitude_error = pendres_continuation_orbit_error(
     hypot(c->cosine[0], c->sine[0]), o->first_harmonic_amplitude, floor);
-  o->phase_lag = pendres_orbit_phase_lag(f, p.drive_amplitude);
-  o->phase_lag_error =
-    pendres_continuation_orbit_error(pendres_orbit_phase_lag(c, p.drive_amplitude), o->phase_lag,
-                                     floor / o->first_harmonic_amplitude);
+  o->phase_lag = pendres_orbit_phase_lag(f->cosine[0], f->sine[0], p.drive_amplitude);
+  o->phase_lag_error = pendres_continuation_orbit_error(
+    pendres_orbit_phase_lag(c->cosine[0], c->sine[0], p.drive_amplitude), o->phase_lag,
+    floor / o->first_harmonic_amplitude);
   o->symmetric = o->winding == 0 && f->symmetry_defect <= 1e-7 * fmax(1.0, f->amplitude);
   o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;
   o->loop_area_slope = o->loop_area_slope_error = NAN;

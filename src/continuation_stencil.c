@@ -8,15 +8,6 @@
 
 enum { PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 
-double pendres_continuation_stencil_distance(const double a[PENDRES_U_COUNT],
-                                             const double b[PENDRES_U_COUNT])
-{
-  double sum = 0.0;
-  for (int m = 0; m < PENDRES_U_COUNT; m++)
-    sum = hypot(sum, (a[m] - b[m]) / pendres_walk_scale[m]);
-  return sum;
-}
-
 /* A third and a fourth node: the first points beyond the chord that are not too close to it. */
 static void add_beyond(pendres_continuation_stencil *s, size_t count,
                        const double (*u)[PENDRES_U_COUNT], int closed, size_t from, size_t other,
@@ -30,7 +21,7 @@ static void add_beyond(pendres_continuation_stencil *s, size_t count,
     if (end && !closed) return;
     const size_t next = (at + count + (size_t)(side < 0 ? count - 1 : 1)) % count;
     if (next == other) return;
-    away += pendres_continuation_stencil_distance(u[at], u[next]);
+    away += pendres_walk_distance(u[at], u[next]);
     at = next;
   }
   s->u[s->nodes] = u[at];
@@ -41,7 +32,7 @@ void pendres_continuation_stencil_init(pendres_continuation_stencil *s, size_t c
                                        const double (*u)[PENDRES_U_COUNT], int closed, size_t i)
 {
   const size_t k = (i + 1) % count;
-  s->length = pendres_continuation_stencil_distance(u[i], u[k]);
+  s->length = pendres_walk_distance(u[i], u[k]);
   s->nodes = 2;
   s->u[0] = u[i];
   s->t[0] = 0.0;

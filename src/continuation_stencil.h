@@ -21,9 +21,6 @@ typedef struct pendres_continuation_stencil {
   double length;
 } pendres_continuation_stencil;
 
-double pendres_continuation_stencil_distance(const double a[PENDRES_U_COUNT],
-                                             const double b[PENDRES_U_COUNT]);
-
 /* The chord from point i to the next (after the last one the first, if closed). Keeps u. */
 void pendres_continuation_stencil_init(pendres_continuation_stencil *s, size_t count,
                                        const double (*u)[PENDRES_U_COUNT], int closed, size_t i);

@@ -45,16 +45,6 @@ static int out_of_bounds(const pendres_walk *w, const pendres_trail_bounds *b,
   return -1;
 }
 
-double pendres_trail_distance(const pendres_walk *w, const double *a, const double *b)
-{
-  double sum = 0.0;
-  for (int k = 0; k < w->unknowns; k++) {
-    const int i = w->unknown[k];
-    sum = hypot(sum, (a[i] - b[i]) / pendres_walk_scale[i]);
-  }
-  return sum;
-}
-
 /* The point of the curve on a bound, between the last point inside and the first outside. */
 static pendres_status land(pendres_context *ctx, const pendres_walk *w,
                            const pendres_walk_point *inside, const pendres_walk_point *outside,
@@ -76,15 +66,15 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   pendres_status status = pendres_continuation_map_steps(ctx, u[0], w->tolerance, &steps);
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
-  const double chord = pendres_trail_distance(w, inside->u, outside->u);
+  const double chord = pendres_walk_distance(inside->u, outside->u);
   if (status != PENDRES_OK || isnan(rounding) ||
-      pendres_trail_distance(w, inside->u, u[0]) > chord ||
+      pendres_walk_distance(inside->u, u[0]) > chord ||
       fabs(u[0][place] - bound) > 1e-12)
     return status;
   memcpy(point->u, u[0], sizeof point->u);
   point->u[place] = bound;
   point->held = k + 1;
-  point->arclength = inside->arclength + pendres_trail_distance(w, inside->u, u[0]);
+  point->arclength = inside->arclength + pendres_walk_distance(inside->u, u[0]);
   point->bending = inside->bending + part * (outside->bending - inside->bending);
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
@@ -107,10 +97,10 @@ static int passes(const pendres_walk *w, const pendres_walk_point *start,
     behind += t * (b->u[i] - start->u[i]) / pendres_walk_scale[i];
     along += t * b->tangent[k];
   }
-  const double chord = pendres_trail_distance(w, a->u, b->u);
+  const double chord = pendres_walk_distance(a->u, b->u);
   return before < 0.0 && behind >= 0.0 && along > 0.9 &&
-         pendres_trail_distance(w, a->u, start->u) <= chord &&
-         pendres_trail_distance(w, b->u, start->u) <= chord;
+         pendres_walk_distance(a->u, start->u) <= chord &&
+         pendres_walk_distance(b->u, start->u) <= chord;
 }
 
 /* Take over what a walk has found ahead of it. */
@@ -137,7 +127,7 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
       if (landed && add(to, &landing) != 0) goto no_memory;
       break;
     }
-    if (p->arclength > 4.0 * pendres_trail_distance(w, last->u, p->u) &&
+    if (p->arclength > 4.0 * pendres_walk_distance(last->u, p->u) &&
         passes(w, start, last, p, 1.0)) {
       to->going = 0;
       to->end = PENDRES_END_CLOSED;

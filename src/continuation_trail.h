@@ -70,9 +70,6 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *trail,
 size_t pendres_trail_zeros(const pendres_trail *trail, pendres_trail_test *test, size_t room,
                            pendres_trail_zero *zeros);
 
-/* Distance in the scale of arclength, of the walk's unknowns. */
-double pendres_trail_distance(const pendres_walk *walk, const double *a, const double *b);
-
 /* The point between, linearly, and the length of the chord. */
 double pendres_trail_between(const pendres_trail *trail, const pendres_trail_zero *zero,
                              double u[PENDRES_U_COUNT]);

@@ -9,6 +9,14 @@
 
 const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1};
 
+double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
+{
+  double sum = 0.0;
+  for (int i = 0; i < PENDRES_U_COUNT; i++)
+    sum = hypot(sum, (a[i] - b[i]) / pendres_walk_scale[i]);
+  return sum;
+}
+
 enum { MOST_ITERATIONS = 6 };
 /* A Newton step below this leaves an error of its square. */
 static const double last_step = 1e-8;

@@ -45,6 +45,9 @@ typedef struct pendres_walk {
 /* Lengths that count as one in arclength: y, w, omega, gamma, F0. */
 extern const double pendres_walk_scale[PENDRES_U_COUNT];
 
+/* Distance in the scale of arclength; what is held does not count, as it does not differ. */
+double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
+
 /*
  * Start a walk at u, corrected to the curve across its tangent, towards growing (direction > 0) or
  * falling values of the last unknown; where that stands still, the two directions are opposite.

@@ -19,7 +19,7 @@ double pendres_trail_between(const pendres_trail *t, const pendres_trail_zero *z
 {
   const pendres_walk_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (b->u[i] - a->u[i]);
-  return pendres_trail_distance(&t->kind, a->u, b->u);
+  return pendres_walk_distance(a->u, b->u);
 }
 
 /* ---- parabolas through three points ---- */

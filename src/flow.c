@@ -11,6 +11,7 @@
 #include "compat.h"
 #include "flow_table.h"
 #include "lanes.h"
+#include "tables.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -20,13 +21,11 @@ typedef struct drive_memo {
   size_t size, next;
 } drive_memo;
 
-enum { MOST_STAGES = 32 };
-
 struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
   int steps, stages;
-  double node[MOST_STAGES]; /* of the stages of a step */
+  double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
   double end, half;         /* ARKODE's clock after a period and half of one */
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
@@ -127,7 +126,7 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   pendres_compat_silence(sun, flow->arkode, NULL);
   butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
   if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
-  if (flow->stages > MOST_STAGES) {
+  if (flow->stages > PENDRES_TABLES_MOST_STAGES) {
     ARKodeButcherTable_Free(butcher);
     return PENDRES_INTERNAL;
   }

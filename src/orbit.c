@@ -147,8 +147,9 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
   o->first_harmonic_amplitude_error =
     error_of(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, point, floor);
-  o->phase_lag = pendres_orbit_phase_lag(b, p->drive_amplitude);
-  o->phase_lag_error = error_of(pendres_orbit_phase_lag(a, p->drive_amplitude), o->phase_lag,
+  o->phase_lag = pendres_orbit_phase_lag(b->cosine[0], b->sine[0], p->drive_amplitude);
+  o->phase_lag_error = error_of(pendres_orbit_phase_lag(a->cosine[0], a->sine[0],
+                                                        p->drive_amplitude), o->phase_lag,
                                 point / o->first_harmonic_amplitude,
                                 floor / o->first_harmonic_amplitude);
   o->symmetric = o->winding == 0 && b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);

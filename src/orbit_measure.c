@@ -164,9 +164,8 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
   return PENDRES_OK;
 }
 
-double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amplitude)
+double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude)
 {
-  const double cosine = m->cosine[0], sine = m->sine[0];
   if (hypot(cosine, sine) == 0.0 || drive_amplitude == 0.0) return NAN;
   /* The drive is F0 cos theta: with F0 < 0 it leads by half a turn. */
   return drive_amplitude > 0.0 ? atan2(sine, cosine) : atan2(-sine, -cosine);

@@ -28,8 +28,8 @@ typedef struct pendres_orbit_measures {
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out);
 
-/* Lag of the first harmonic behind a drive of that amplitude; NaN if either vanishes. */
-double pendres_orbit_phase_lag(const pendres_orbit_measures *m, double drive_amplitude);
+/* Lag of a first harmonic behind a drive of that amplitude; NaN if either vanishes. */
+double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude);
 
 /*
  * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which is

@@ -91,12 +91,10 @@ void pendres_response_average(pendres_response *r)
   r->mean_loop_amplitude = pendres_orbit_series_half_range(s.cosine, s.sine);
   r->mean_loop_amplitude_error =
     fmax(s.loop_error, s.amplitude_error) / s.loop_share + lost * r->mean_amplitude;
-  const double first = hypot(s.cosine[0], s.sine[0]);
-  if (first > 0.0 && r->pendulum.drive_amplitude != 0.0) {
-    const double sign = r->pendulum.drive_amplitude > 0.0 ? 1.0 : -1.0;
-    r->phase_lag = atan2(sign * s.sine[0], sign * s.cosine[0]);
-    r->phase_lag_error = r->mean_loop_amplitude_error / first;
-  }
+  r->phase_lag =
+    pendres_orbit_phase_lag(s.cosine[0], s.sine[0], r->pendulum.drive_amplitude);
+  if (!isnan(r->phase_lag))
+    r->phase_lag_error = r->mean_loop_amplitude_error / hypot(s.cosine[0], s.sine[0]);
 }
 
 /* Members of each state, from their outcomes. */

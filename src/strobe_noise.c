@@ -63,8 +63,7 @@ static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n,
     l->y = state[i];
     l->w = state[stride + i];
     l->period++;
-    pendres_strobe_wrap(&l->y, &l->turns);
-    pendres_strobe_rest(l->pendulum, &l->y, &l->w);
+    pendres_strobe_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   }
   return PENDRES_OK;
 }

@@ -94,8 +94,7 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
     y = state[0];
     w = state[stride];
-    pendres_strobe_wrap(&y, &turns);
-    pendres_strobe_rest(what->p, &y, &w);
+    pendres_strobe_arrive(what->p, &y, &w, &turns);
   }
   return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, flow, status);
 }

@@ -18,9 +18,10 @@ void pendres_strobe_wrap(double *y, long *turns)
   *turns += (long)k;
 }
 
-void pendres_strobe_rest(const pendres_pendulum *p, double *y, double *w)
+void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
 {
   static const double nothing = 1e-290;
+  pendres_strobe_wrap(y, turns);
   if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
     *y = *w = 0.0;
 }
@@ -65,8 +66,7 @@ static int look(block *b, size_t slot)
   l->y = state[slot];
   l->w = state[stride + slot];
   l->period++;
-  pendres_strobe_wrap(&l->y, &l->turns);
-  pendres_strobe_rest(l->pendulum, &l->y, &l->w);
+  pendres_strobe_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   state[slot] = l->y;
   state[stride + slot] = l->w;
   return b->visit(b->arg, b->slot[slot], l);

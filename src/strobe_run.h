@@ -44,9 +44,10 @@ pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe
 void pendres_strobe_wrap(double *y, long *turns);
 
 /*
- * A damped pendulum without a drive dies down to denormal numbers and stays there, in steps that
- * take forty times as long. Below 1e-290 it is put to rest.
+ * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies
+ * down to denormal numbers and stays there, in steps that take forty times as long: below 1e-290 it
+ * is put to rest.
  */
-void pendres_strobe_rest(const pendres_pendulum *p, double *y, double *w);
+void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long *turns);
 
 #endif

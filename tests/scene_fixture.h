@@ -130,4 +130,14 @@ static inline double *scene_values(pendres_store *store, const char *name, size_
   return v;
 }
 
+static inline double scene_scalar(pendres_store *store, const char *name)
+{
+  size_t n = 0;
+  double *v = scene_values(store, name, &n);
+  assert_int_equal(n, 1);
+  const double value = v[0];
+  free(v);
+  return value;
+}
+
 #endif

@@ -19,16 +19,6 @@ static const char diagram_deck[] =
   "&sweep damping = 0.08, 0.13, 0.17, drive_frequency = 0.536, 0.65, 0.8, 0.9 /\n"
   "&ensemble members = 200 /\n";
 
-static double scalar(pendres_store *store, const char *name)
-{
-  size_t n = 0;
-  double *v = scene_values(store, name, &n);
-  assert_int_equal(n, 1);
-  const double value = v[0];
-  free(v);
-  return value;
-}
-
 static void same_bytes_on_any_threads(void **state)
 {
   (void)state;
@@ -84,8 +74,8 @@ static void branches_hold_the_figures(void **state)
   (void)state;
   size_t n = 0, m = 0;
   pendres_store *store = scene_open("branches");
-  check_near(scalar(store, "cusp_damping"), 0.163656902031172567, 1e-8);
-  check_near(scalar(store, "cusp_frequency"), 0.862157913509009358, 1e-8);
+  check_near(scene_scalar(store, "cusp_damping"), 0.163656902031172567, 1e-8);
+  check_near(scene_scalar(store, "cusp_frequency"), 0.862157913509009358, 1e-8);
   /* SA at 0.7 and 0.8 for both, LA from 0.8 for damping 0.13, from 0.845 for 0.15. */
   static const int sa_lives[8] = {1, 1, 0, 0, 1, 1, 1, 0}, la_lives[8] = {0, 1, 1, 1, 0, 0, 1, 1};
   double *sa = scene_values(store, "sa_amplitude", &n), *la = scene_values(store, "la_amplitude", &m);

@@ -9,16 +9,6 @@
 
 static const double pi = 3.14159265358979323846;
 
-static double scalar(pendres_store *store, const char *name)
-{
-  size_t n = 0;
-  double *v = scene_values(store, name, &n);
-  assert_int_equal(n, 1);
-  const double value = v[0];
-  free(v);
-  return value;
-}
-
 /*
  * Baker and Gollub, Chaotic Dynamics (1996), chapters 3 and 4: q = 2 (damping 1/2), drive frequency
  * 2/3. Orbits that are not their own mirror image come in pairs.
@@ -54,8 +44,8 @@ static void check_closed_orbit(pendres_store *store, const struct fact *f)
   pendres_reference_cycle c;
   size_t n = 0;
   double *x = scene_values(store, "x", &n), *v = scene_values(store, "v", &n);
-  const int winding = (int)scalar(store, "winding");
-  assert_int_equal(scalar(store, "period"), f->period);
+  const int winding = (int)scene_scalar(store, "winding");
+  assert_int_equal(scene_scalar(store, "period"), f->period);
   assert_int_equal(abs(winding), f->winding);
   check_ok(pendres_reference_orbit(&p, x[0] - 0.5 * pi, v[0], f->period, winding, &c));
   const double time = 2.0 * pi * f->period / p.drive_frequency;
@@ -65,8 +55,8 @@ static void check_closed_orbit(pendres_store *store, const struct fact *f)
   for (int i = 0; i < 4; i++) {
     char error[64];
     snprintf(error, sizeof error, "%s_error", names[i]);
-    check_near(scalar(store, names[i]), want[i], 10.0 * scalar(store, error));
-    assert_true(scalar(store, error) < 1e-7);
+    check_near(scene_scalar(store, names[i]), want[i], 10.0 * scene_scalar(store, error));
+    assert_true(scene_scalar(store, error) < 1e-7);
   }
   free(x);
   free(v);
@@ -82,14 +72,14 @@ static void orbits_of_baker_and_gollub(void **state)
     double *x = scene_values(store, "x", &n);
     assert_int_equal(n, 128);
     for (size_t k = 0; k < n; k++) assert_true(isfinite(x[k]));
-    assert_int_equal(scalar(store, "label"), facts[i].label);
+    assert_int_equal(scene_scalar(store, "label"), facts[i].label);
     if (facts[i].label != PENDRES_LABEL_CHAOTIC) {
       check_closed_orbit(store, &facts[i]);
     } else {
-      const double error = scalar(store, "lyapunov_exponent_error");
-      assert_true(error > 0.0 && scalar(store, "lyapunov_exponent") > 5.0 * error);
-      assert_true(isnan(scalar(store, "loop_area")) && isnan(scalar(store, "loop_area_error")));
-      assert_true(isnan(scalar(store, "period")) && isnan(scalar(store, "amplitude")));
+      const double error = scene_scalar(store, "lyapunov_exponent_error");
+      assert_true(error > 0.0 && scene_scalar(store, "lyapunov_exponent") > 5.0 * error);
+      assert_true(isnan(scene_scalar(store, "loop_area")) && isnan(scene_scalar(store, "loop_area_error")));
+      assert_true(isnan(scene_scalar(store, "period")) && isnan(scene_scalar(store, "amplitude")));
     }
     free(x);
     pendres_store_free(store);
@@ -117,7 +107,7 @@ static void basins_of_baker_and_gollub(void **state)
     check_near(sum, 1.0, 1e-12);
     assert_int_equal(states, 1600);
     for (size_t k = 0; k < states; k++) assert_int_equal(of_state[k], facts[i].label);
-    assert_int_equal(scalar(store, "unresolved_states"), 0);
+    assert_int_equal(scene_scalar(store, "unresolved_states"), 0);
     free(label);
     free(share);
     free(lyapunov);
@@ -135,11 +125,11 @@ static void exponent_of_a_fractal_boundary(void **state)
                  "&sweep x_range = -1.5, 4.7, 60, v_range = -4, 4, 60 /\n",
                  2, "wada");
   pendres_store *store = scene_open("wada");
-  assert_true(scalar(store, "uncertainty_random_states") > 0);
+  assert_true(scene_scalar(store, "uncertainty_random_states") > 0);
   /* 0.154 +- 0.007 by an independent computation: test_basin_fractal.c. */
-  const double error = scalar(store, "uncertainty_exponent_error");
+  const double error = scene_scalar(store, "uncertainty_exponent_error");
   assert_true(error < 0.03);
-  check_near(scalar(store, "uncertainty_exponent"), 0.154, 3.0 * hypot(error, 0.007));
+  check_near(scene_scalar(store, "uncertainty_exponent"), 0.154, 3.0 * hypot(error, 0.007));
   pendres_store_free(store);
 }
 
@@ -177,13 +167,13 @@ static void refined_is_whole(void **state)
     free(a);
     free(b);
   }
-  const double integrated = scalar(refined, "integrated_states");
+  const double integrated = scene_scalar(refined, "integrated_states");
   /* What was verified was filled in first, and counts as integrated since. */
-  check_near(integrated + scalar(refined, "filled_states"), 150 * 130, 0.0);
-  assert_int_equal(scalar(refined, "verified_states"), 10000);
-  assert_int_equal(scalar(refined, "verification_misses"), 0);
+  check_near(integrated + scene_scalar(refined, "filled_states"), 150 * 130, 0.0);
+  assert_int_equal(scene_scalar(refined, "verified_states"), 10000);
+  assert_int_equal(scene_scalar(refined, "verification_misses"), 0);
   /* On this grid the exponent is from the grid. */
-  assert_int_equal(scalar(whole, "uncertainty_random_states"), 0);
+  assert_int_equal(scene_scalar(whole, "uncertainty_random_states"), 0);
   pendres_store_free(whole);
   pendres_store_free(refined);
 }
