@@ -3,6 +3,8 @@
 #   make            library (static and shared) and program
 #   make check      build and run all tests; CHECKS="test_flow ..." runs some; VALGRIND=1 looks
 #                   for errors of memory alone, for an hour or two
+#   make accuracy   error estimates at random parameters against the reference, for an hour or so;
+#                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -150,9 +152,11 @@ TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
 # Scripts look at what would be installed: nothing for sanitizers and valgrind.
 SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
 CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
+ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
+ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all check check-run bench bench-baseline install uninstall deps deps-plots doc style clean \
+.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots doc style clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -227,6 +231,13 @@ $(BUILD)/tests/%: $(OBJ)/tests/%.o $(DRIVER) $(STATIC)
 $(BUILD)/bench/%: $(OBJ)/bench/%.o $(DRIVER) $(STATIC)
 	@mkdir -p $(@D); echo "  LD  $@"
 	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+
+$(ACCURACY_PROGRAM): $(ACCURACY_OBJECTS) $(DRIVER) $(STATIC)
+	@mkdir -p $(@D); echo "  LD  $@"
+	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+
+accuracy: $(ACCURACY_PROGRAM) $(PROGRAM)
+	@$(RUN_ENVIRONMENT) $< $(ACCURACY)
 
 # What does not compile counts as failed, and the others still run.
 check:
@@ -329,4 +340,4 @@ deps-plots:
 	@.ci/packages $(PLOT_PACKAGES)
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(DRIVER_OBJECTS:.o=.d) $(OBJ)/drivers/main.d \
-         $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)
+         $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(ACCURACY_OBJECTS:.o=.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)

@@ -1,0 +1,82 @@
+/*
+ * accuracy.h -- `make accuracy`: results at random parameters beside what is true.
+ *
+ * Owns: the random draws, the tables, and the list of sections. A section draws parameters and
+ * tolerances, asks the library, asks something independent for what is true, and notes for each
+ * kind of result the true error over the claimed one. To add a section: a file
+ * accuracy_NAME.c with a function accuracy_NAME, declared below and listed in accuracy.c.
+ *
+ * Draws depend on the seed, the section and the number of the item alone, so that one item can
+ * be repeated and items may be computed by many threads. Notes are taken one after another.
+ */
+#ifndef ACCURACY_H
+#define ACCURACY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <pendres/pendres.h>
+#include <pendres/reference.h>
+
+/* What was asked for on the command line. */
+typedef struct accuracy_options {
+  uint64_t seed;
+  long orbits;         /* items of sections about single pendulums and orbits */
+  long points;         /* items of sections about scenes: ensembles, curves, grids */
+  const char *section; /* NULL: all */
+  int show;            /* of what falls short, how many of a kind are printed */
+  long item;           /* -1: all; else this one alone, with all its results */
+} accuracy_options;
+
+typedef struct accuracy accuracy;
+
+const accuracy_options *accuracy_get_options(const accuracy *a);
+
+/* Items [first, last) of a section that has `items` of them. */
+void accuracy_range(const accuracy *a, long items, long *first, long *last);
+
+/* ---- draws ---- */
+
+typedef struct accuracy_random {
+  uint64_t state;
+} accuracy_random;
+
+/* The numbers of one item of the section that runs. */
+accuracy_random accuracy_item(const accuracy *a, long item);
+double accuracy_uniform(accuracy_random *r, double from, double to);
+double accuracy_logarithmic(accuracy_random *r, double from, double to);
+/* 0 to n - 1. */
+int accuracy_choice(accuracy_random *r, int n);
+/* Drive 0.01 to 1.5, damping 0.03 to 3, drive frequency 0.1 to 2: half of each by its logarithm. */
+pendres_pendulum accuracy_pendulum(accuracy_random *r);
+/* 1e-12 to 1e-3, by its logarithm. */
+double accuracy_tolerance(accuracy_random *r);
+
+/* ---- notes ---- */
+
+/*
+ * One result of a kind: what was had, what it claims its error to be, what is true. `how` repeats
+ * it: parameters with %.17g, or a deck; copied. A claim that is infinite or NaN counts as marked,
+ * not as an answer; a result that is NaN under a finite claim falls short without bounds.
+ */
+void accuracy_note(accuracy *a, const char *kind, double got, double claimed, long double wanted,
+                   const char *how);
+/* The same where the error was measured in another way. */
+void accuracy_note_error(accuracy *a, const char *kind, double error, double claimed,
+                         const char *how);
+/* Something that must not happen at all. */
+void accuracy_complain(accuracy *a, const char *what, const char *how);
+
+/* ---- sections ---- */
+
+void accuracy_orbits(accuracy *a);
+
+/* ---- for main ---- */
+
+accuracy *accuracy_create(const accuracy_options *options);
+void accuracy_free(accuracy *a);
+void accuracy_begin_section(accuracy *a, const char *name);
+/* Print the section's table and what falls short; 1 if the goals are met. */
+int accuracy_end_section(accuracy *a);
+
+#endif
