@@ -225,6 +225,8 @@ static int report(job *j)
     return FAILED;
   }
   if (j->run.failed_points == 0) return DONE;
+  for (size_t i = 0; i < j->run.told_count; i++)
+    progress_error(&j->progress, "%s", j->run.told[i]);
   progress_error(&j->progress, "%zu point%s failed, as marked in %s", j->run.failed_points,
                  j->run.failed_points == 1 ? "" : "s", j->deck.output);
   return SOME_POINTS_FAILED;

@@ -17,12 +17,16 @@
 #include "deck.h"
 #include "farm.h"
 
+enum { SCENE_MOST_TOLD = 10, SCENE_TOLD = 400 };
+
 typedef struct scene_run {
   const deck *deck;
   farm *farm;
   pendres_store *store;
   FILE *table;          /* where the short table of results goes; NULL: nowhere */
   size_t failed_points; /* points without a result (marked in the file): exit code 3 */
+  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines on the first of them, see scene_failed.h */
+  size_t told_count;
   char message[512];    /* why run() failed */
 } scene_run;
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene.h"
+#include "scene_failed.h"
 #include "scene_response_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -25,6 +25,8 @@ typedef struct grid {
   pendres_response *points;   /* [damping][drive] */
   pendres_resonance *peaks;   /* [damping] */
   pendres_status *outcome;    /* of the peaks */
+  scene_failures failed;      /* [damping][drive] */
+  scene_failures peak_failed; /* [damping] */
 } grid;
 
 /* The scene's second axis: the drive period, or the frequency where the deck says so. */
@@ -50,24 +52,69 @@ static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
   return pendres_sweep_pendulum(&g->sweep, damping * g->drives + drive, NULL, NULL);
 }
 
+static pendres_status compute_peak(grid *g, size_t i, pendres_context *ctx)
+{
+  const pendres_pendulum p = pendulum_at(g, i, 0);
+  g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
+                                                  &g->ensemble, &g->peaks[i]);
+  return scene_failures_note(&g->peak_failed, i, g->outcome[i], pendres_context_message(ctx));
+}
+
+/* A point without a response: nothing is known of any member. */
+static pendres_response no_response(const pendres_pendulum *p, size_t members)
+{
+  pendres_response r = { .pendulum = *p, .unresolved = members };
+  pendres_response_average(&r);
+  return r;
+}
+
+/* What cannot be had of several points at a time is had, or not, of each. */
+static pendres_status compute_points(grid *g, size_t first, size_t n,
+                                     const pendres_pendulum *pendulums, pendres_context *ctx)
+{
+  pendres_response *out = g->points + first;
+  pendres_status status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, out);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &out[i]);
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
+    out[i] = no_response(&pendulums[i], g->ensemble.members);
+    status = scene_failures_note(&g->failed, first + i, status, pendres_context_message(ctx));
+  }
+  return status;
+}
+
+/* Points that were computed, but not wholly. */
+static void judge_points(grid *g, size_t first, size_t n)
+{
+  for (size_t i = first; i < first + n; i++) {
+    const pendres_response *r = &g->points[i];
+    if (g->failed.reason[i] != SCENE_FAILURE_NONE) continue;
+    if (r->unresolved > 0) {
+      char words[80];
+      snprintf(words, sizeof words, "%zu of %zu members did not settle within their budget",
+               r->unresolved, g->ensemble.members);
+      scene_failures_mark(&g->failed, i, SCENE_FAILURE_UNRESOLVED, words);
+    } else if (isnan(r->mean_loop_area)) {
+      scene_failures_mark(&g->failed, i, SCENE_FAILURE_NO_MEAN, NULL);
+    }
+  }
+}
+
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
 {
   grid *g = arg;
-  if (task >= g->dampings * g->chunks) {
-    const size_t i = task - g->dampings * g->chunks;
-    const pendres_pendulum p = pendulum_at(g, i, 0);
-    g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
-                                                    &g->ensemble, &g->peaks[i]);
-    const int missing =
-      g->outcome[i] == PENDRES_NOT_FOUND || g->outcome[i] == PENDRES_NOT_CONVERGED;
-    return missing ? PENDRES_OK : g->outcome[i];
-  }
-  const size_t damping = task / g->chunks, first = task % g->chunks * CHUNK;
-  const size_t n = g->drives - first < CHUNK ? g->drives - first : CHUNK;
-  pendres_pendulum pendulums[CHUNK];
-  for (size_t k = 0; k < n; k++) pendulums[k] = pendulum_at(g, damping, first + k);
-  return pendres_response_compute(ctx, n, pendulums, &g->ensemble,
-                                  g->points + damping * g->drives + first);
+  if (task >= g->dampings * g->chunks)
+    return compute_peak(g, task - g->dampings * g->chunks, ctx);
+  const size_t damping = task / g->chunks, drive = task % g->chunks * CHUNK;
+  const size_t n = g->drives - drive < CHUNK ? g->drives - drive : CHUNK;
+  const size_t first = damping * g->drives + drive;
+  pendres_pendulum pendulums[CHUNK] = { 0 };
+  for (size_t k = 0; k < n; k++) pendulums[k] = pendulum_at(g, damping, drive + k);
+  const pendres_status status = compute_points(g, first, n, pendulums, ctx);
+  if (status == PENDRES_OK) judge_points(g, first, n);
+  return status;
 }
 
 /* Results of a point: a value and its error by their offsets in pendres_response. */
@@ -148,6 +195,16 @@ static pendres_status write_peaks(scene_run *run, const grid *g, double *value, 
   return status;
 }
 
+static pendres_status write_failures(scene_run *run, const grid *g)
+{
+  const deck_axis_id axes[] = { DECK_AXIS_DAMPING, drive_axis(g->d) };
+  const pendres_status status =
+    scene_failures_write(run, &g->failed, "failed", "response", 2, axes);
+  return status != PENDRES_OK ? status
+                              : scene_failures_write(run, &g->peak_failed, "resonance_failed",
+                                                     "resonance", 1, axes);
+}
+
 static pendres_status write_results(scene_run *run, const grid *g)
 {
   const deck_axis *damping = &g->d->axis[DECK_AXIS_DAMPING];
@@ -174,6 +231,7 @@ static pendres_status write_results(scene_run *run, const grid *g)
     status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &grid)
                                                          : write_points(run, g, value, error);
   if (status == PENDRES_OK) status = write_peaks(run, g, value, error);
+  if (status == PENDRES_OK) status = write_failures(run, g);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
 done:
   free(value);
@@ -217,7 +275,8 @@ static void print_table(FILE *out, const grid *g)
       fprintf(out, "%-9.4g %.9f      %.6f   %.6f   %.8f\n", damping, two_pi / r->frequency,
               r->response.mean_loop_amplitude, r->response.phase_lag, r->loop_area);
     else
-      fprintf(out, "%-9.4g no peak in the range\n", damping);
+      fprintf(out, "%-9.4g %s\n", damping,
+              g->outcome[i] == PENDRES_NOT_FOUND ? "no peak in the range" : "failed");
   }
 }
 
@@ -234,7 +293,9 @@ static pendres_status run_scene(scene_run *run)
   g.points = calloc(g.dampings * g.drives, sizeof *g.points);
   g.peaks = calloc(g.dampings, sizeof *g.peaks);
   g.outcome = calloc(g.dampings, sizeof *g.outcome);
-  if (g.points == NULL || g.peaks == NULL || g.outcome == NULL) {
+  if (g.points == NULL || g.peaks == NULL || g.outcome == NULL ||
+      scene_failures_create(g.dampings * g.drives, &g.failed) != PENDRES_OK ||
+      scene_failures_create(g.dampings, &g.peak_failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu points", g.dampings * g.drives);
     goto done;
   }
@@ -243,9 +304,6 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "%s", farm_message(run->farm));
     goto done;
   }
-  for (size_t i = 0; i < g.dampings; i++) run->failed_points += g.outcome[i] != PENDRES_OK;
-  for (size_t i = 0; i < g.dampings * g.drives; i++)
-    run->failed_points += g.points[i].unresolved > 0;
   status = write_results(run, &g);
   if (status == PENDRES_OK) status = write_paper(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
@@ -253,6 +311,8 @@ done:
   free(g.points);
   free(g.peaks);
   free(g.outcome);
+  scene_failures_free(&g.failed);
+  scene_failures_free(&g.peak_failed);
   return status;
 }
 

@@ -1,0 +1,88 @@
+/*
+ * test_scene_failed.c -- points that cannot be computed: marked with their reason, told with their
+ * coordinates, and without influence on the others.
+ */
+#include "scene_fixture.h"
+
+#include "scene_failed.h"
+
+/* Codes of a variable. */
+static void get_codes(const char *file, const char *name, int *codes, size_t n)
+{
+  size_t count = 0;
+  pendres_store *store = scene_open(file);
+  double *v = scene_values(store, name, &count);
+  assert_int_equal(count, n);
+  for (size_t i = 0; i < n; i++) codes[i] = (int)v[i];
+  free(v);
+  pendres_store_free(store);
+}
+
+/* Values of two files that must be the same numbers, or both NaN, at the points that both have. */
+static void check_same_values(const char *one, const char *two, const char *name, size_t n)
+{
+  size_t a = 0, b = 0;
+  pendres_store *first = scene_open(one), *second = scene_open(two);
+  double *x = scene_values(first, name, &a), *y = scene_values(second, name, &b);
+  assert_true(a >= n && b >= n);
+  assert_memory_equal(x, y, n * sizeof *x);
+  free(x);
+  free(y);
+  pendres_store_free(first);
+  pendres_store_free(second);
+}
+
+/* Which statuses are a point's own, and which are the run's. */
+static void reasons_of_statuses(void **state)
+{
+  (void)state;
+  for (int s = 0; s < PENDRES_STATUS_COUNT; s++) {
+    const int ends_the_run = s == PENDRES_OK || s == PENDRES_OUT_OF_MEMORY ||
+                             s == PENDRES_INTERRUPTED || s == PENDRES_IO ||
+                             s == PENDRES_UNSUPPORTED || s == PENDRES_INTERNAL;
+    assert_int_equal(scene_failure_of((pendres_status)s) == SCENE_FAILURE_NONE, ends_the_run);
+  }
+  scene_failures f;
+  check_ok(scene_failures_create(2, &f));
+  assert_int_equal(scene_failures_note(&f, 0, PENDRES_INTERRUPTED, "x"), PENDRES_INTERRUPTED);
+  assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
+  check_ok(scene_failures_note(&f, 1, PENDRES_NOT_FOUND, "nothing there"));
+  assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
+  assert_string_equal(f.words[1], "nothing there");
+  scene_failures_free(&f);
+}
+
+/* The last damping needs more steps a period than are allowed. */
+static void response_keeps_the_others(void **state)
+{
+  static const char format[] = "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+                               "&sweep damping = 0.3, 0.5%s, drive_period = 7, 8 /\n"
+                               "&ensemble members = 10 /\n";
+  static const int wanted[6] = { 0, 0, 0, 0, SCENE_FAILURE_TOLERANCE, SCENE_FAILURE_TOLERANCE };
+  char whole[300], good[300];
+  int codes[6];
+  (void)state;
+  snprintf(whole, sizeof whole, format, ", 999999");
+  snprintf(good, sizeof good, format, "");
+  assert_int_equal(scene_run_marked(NULL, whole, 1, "response"), 3); /* two and the resonance */
+  assert_non_null(strstr(scene_told, "response at damping 999999, drive_period 7: "));
+  assert_int_equal(scene_run_marked(NULL, whole, 2, "again"), 3);
+  scene_check_same_bytes("response", "again");
+  get_codes("response", "failed", codes, 6);
+  assert_memory_equal(codes, wanted, sizeof codes);
+  get_codes("response", "resonance_failed", codes, 3);
+  assert_memory_equal(codes, (&wanted[2]), 3 * sizeof *codes);
+  scene_run_deck(good, 1, "good");
+  check_same_values("response", "good", "mean_loop_area", 4);
+  check_same_values("response", "good", "phase_lag_error", 4);
+  check_same_values("response", "good", "resonance_period", 2);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(reasons_of_statuses),
+    cmocka_unit_test(response_keeps_the_others),
+  };
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
