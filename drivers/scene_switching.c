@@ -217,11 +217,38 @@ static pendres_status write_rates(scene_run *run, const work *w, int kind, doubl
 }
 
 /* What became of a fit. */
-enum { FIT_STRAIGHT, FIT_BENT, FIT_UNCHECKED, FIT_TOO_FEW, FIT_OUTCOMES };
+enum {
+  FIT_STRAIGHT,
+  FIT_BENT,
+  FIT_UNCHECKED,
+  FIT_TOO_FEW,
+  FIT_NO_STATE,
+  FIT_NO_BARRIER,
+  FIT_OUTCOMES
+};
 
-static int8_t fit_outcome(const pendres_switching_activation *f)
+static const struct {
+  const char *name, *words;
+} outcomes[FIT_OUTCOMES] = {
+  [FIT_STRAIGHT] = { "straight", "" },
+  [FIT_BENT] = { "not_straight", " (the rates scatter by more than their errors)" },
+  [FIT_UNCHECKED] = { "two_points", " (from two temperatures: nothing checks the law)" },
+  [FIT_TOO_FEW] = { "too_few_events", "too few events" },
+  [FIT_NO_STATE] = { "no_state", "there is no such state" },
+  [FIT_NO_BARRIER] = { "no_barrier",
+                       " (less than twice the temperature: no barrier to speak of)" },
+};
+
+/* A barrier of less than so many temperatures is no activation energy. */
+static const double least_barrier = 2.0;
+
+static int8_t fit_outcome(const work *w, int kind)
 {
-  if (f->points < 2) return FIT_TOO_FEW;
+  const pendres_switching_activation *f = &w->fit[kind];
+  const int to = kinds[kind].to;
+  if (w->index[kinds[kind].from] < 0 || (to != WELLS && w->index[to] < 0)) return FIT_NO_STATE;
+  if (isnan(f->energy)) return FIT_TOO_FEW;
+  if (!(f->least_barrier >= least_barrier)) return FIT_NO_BARRIER;
   if (f->points < 3) return FIT_UNCHECKED;
   /* Three standard deviations of chi squared above its mean. */
   const double freedom = (double)f->points - 2.0;
@@ -230,35 +257,46 @@ static int8_t fit_outcome(const pendres_switching_activation *f)
 
 static pendres_status write_fit(scene_run *run, const work *w, int kind)
 {
-  static const char *const meanings[FIT_OUTCOMES] = { "straight", "not_straight", "two_points",
-                                                      "too_few_events" };
+  const char *meanings[FIT_OUTCOMES];
   const pendres_switching_activation *f = &w->fit[kind];
-  const int8_t outcome = fit_outcome(f);
+  const int8_t outcome = fit_outcome(w, kind);
   const int32_t points = (int32_t)f->points;
-  char name[5][64], words[5][160];
-  static const char *const names[5] = { "activation_energy_%s", "log_prefactor_%s", "fit_%s",
-                                        "fit_chi2_%s", "fit_points_%s" };
-  static const char *const about[5] = {
-    "activation energy: minus the slope of ln rate against 1/temperature,",
-    "ln of the rate's prefactor,", "how straight ln rate is against 1/temperature,",
-    "chi squared of the fit,", "temperatures with 10 events or more," };
-  for (int i = 0; i < 5; i++) {
+  enum { ENERGY, PREFACTOR, FLAG, CHI2, USED, EXPONENT, MIDDLE, NAMES };
+  char name[NAMES][64], words[NAMES][160];
+  static const char *const names[NAMES] = {
+    "activation_energy_%s", "log_prefactor_%s", "fit_%s", "fit_chi2_%s", "fit_points_%s",
+    "prefactor_exponent_%s", "fit_temperature_%s" };
+  static const char *const about[NAMES] = {
+    "activation energy: rate = prefactor exp(-energy / temperature),",
+    "ln of the rate's prefactor at the temperature of the fit,",
+    "what became of the fit of ln rate against 1/temperature,", "chi squared of the fit,",
+    "temperatures with 10 events or more,",
+    "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
+    "geometric mean of the fit's temperatures," };
+  for (int k = 0; k < FIT_OUTCOMES; k++) meanings[k] = outcomes[k].name;
+  for (int i = 0; i < NAMES; i++) {
     snprintf(name[i], sizeof name[i], names[i], kinds[kind].suffix);
     snprintf(words[i], sizeof words[i], "%s %s", about[i], kinds[kind].words);
   }
-  const pendres_store_spec energy = { .name = name[0], .long_name = words[0] };
-  const pendres_store_spec prefactor = { .name = name[1], .long_name = words[1] };
-  const pendres_store_spec flag = { .name = name[2], .long_name = words[2],
+  const pendres_store_spec energy = { .name = name[ENERGY], .long_name = words[ENERGY] };
+  const pendres_store_spec prefactor = { .name = name[PREFACTOR],
+                                         .long_name = words[PREFACTOR] };
+  const pendres_store_spec exponent = { .name = name[EXPONENT], .long_name = words[EXPONENT] };
+  const pendres_store_spec middle = { .name = name[MIDDLE], .long_name = words[MIDDLE] };
+  const pendres_store_spec flag = { .name = name[FLAG], .long_name = words[FLAG],
                                     .type = PENDRES_STORE_INT8, .flag_count = FIT_OUTCOMES,
                                     .flag_meanings = meanings };
-  const pendres_store_spec chi2 = { .name = name[3], .long_name = words[3] };
-  const pendres_store_spec used = { .name = name[4], .long_name = words[4],
+  const pendres_store_spec chi2 = { .name = name[CHI2], .long_name = words[CHI2] };
+  const pendres_store_spec used = { .name = name[USED], .long_name = words[USED],
                                     .type = PENDRES_STORE_INT32 };
   pendres_status status =
     pendres_store_put_result(run->store, &energy, &f->energy, &f->energy_error, 1);
   if (status == PENDRES_OK)
     status = pendres_store_put_result(run->store, &prefactor, &f->log_prefactor,
                                       &f->log_prefactor_error, 1);
+  if (status == PENDRES_OK)
+    status = pendres_store_put_result(run->store, &exponent, &f->exponent, &f->exponent_error, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &middle, &f->temperature, 1);
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &flag, &outcome, 1);
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &chi2, &f->chi2, 1);
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &used, &points, 1);
@@ -312,11 +350,9 @@ static void print_table(FILE *out, const work *w)
             la[i].value, la[i].error, la[i].events);
   for (int k = 0; k < KINDS; k++) {
     const pendres_switching_activation *f = &w->fit[k];
-    if (f->points < 2)
-      fprintf(out, "activation energy %s: too few events\n", kinds[k].words);
-    else
-      fprintf(out, "activation energy %s: %.5f +- %.5f\n", kinds[k].words, f->energy,
-              f->energy_error);
+    fprintf(out, "activation energy %s: ", kinds[k].words);
+    if (!isnan(f->energy)) fprintf(out, "%.5f +- %.5f", f->energy, f->energy_error);
+    fprintf(out, "%s\n", outcomes[fit_outcome(w, k)].words);
   }
 }
 

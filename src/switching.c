@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_fit.h>
-
 #include "langevin_internal.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -256,40 +254,6 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   /* Nothing seen: 0 +- 0 would be a lie. */
   return pendres_langevin_rate(0.0, rate->exposure, 0.68268949213708585, &value, &lower,
                                &rate->error);
-}
-
-pendres_status pendres_switching_fit(size_t n, const double *temperature,
-                                     const pendres_switching_rate *rates, double fewest,
-                                     pendres_switching_activation *out)
-{
-  double c0, c1, v00, v01, v11;
-  double *x = malloc((3 * n + 1) * sizeof *x), *w = x + n, *y = x + 2 * n;
-  pendres_status status = PENDRES_NOT_FOUND;
-  *out = (pendres_switching_activation){0, NAN, NAN, NAN, NAN, NAN};
-  if (x == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) {
-    const pendres_switching_rate *r = &rates[i];
-    if (!(temperature[i] > 0.0) || !(r->events >= (fewest > 0.0 ? fewest : FEWEST))) continue;
-    x[out->points] = 1.0 / temperature[i];
-    y[out->points] = log(r->value);
-    w[out->points] = r->value * r->value / (r->error * r->error);
-    out->points++;
-  }
-  if (out->points < 2) goto done;
-  if (gsl_fit_wlinear(x, 1, w, 1, y, 1, out->points, &c0, &c1, &v00, &v01, &v11, &out->chi2) != 0) {
-    status = PENDRES_INTERNAL;
-    goto done;
-  }
-  const double freedom = (double)out->points - 2.0;
-  const double enlarge = freedom > 0.0 ? sqrt(fmax(1.0, out->chi2 / freedom)) : 1.0;
-  out->energy = -c1;
-  out->energy_error = enlarge * sqrt(v11);
-  out->log_prefactor = c0;
-  out->log_prefactor_error = enlarge * sqrt(v00);
-  status = PENDRES_OK;
-done:
-  free(x);
-  return status;
 }
 
 /* ---- Leaving ------------------------------------------------------------------------------- */

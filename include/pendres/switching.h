@@ -102,20 +102,40 @@ typedef struct pendres_switching_rate {
 pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
                                          double level, pendres_switching_rate *rate);
 
-/** ln rate = ln prefactor - energy / T. */
+/**
+ * ln rate = ln prefactor - energy / T, where the prefactor may depend on the temperature. Errors
+ * are standard errors, as the rates' are.
+ */
 typedef struct pendres_switching_activation {
   size_t points;           /**< temperatures with enough events */
   double energy, energy_error;
-  double log_prefactor, log_prefactor_error;
+  double log_prefactor, log_prefactor_error; /**< ln of the prefactor at `temperature` */
   double chi2;             /**< of points - 2 degrees of freedom; errors are enlarged by
                                 sqrt(chi2 / (points - 2)) where that exceeds 1 */
+  double temperature;      /**< geometric mean of the temperatures with enough events */
+  double exponent, exponent_error; /**< power of the temperature in the prefactor; with few points,
+                                or close ones, it stays the 0 +- 1/2 that is assumed beforehand */
+  double least_barrier;    /**< energy / T at the hottest of these temperatures: below two or so
+                                there is no barrier to speak of, and no activation energy */
 } pendres_switching_activation;
 
 /**
- * Activation energy from rates at n temperatures: a straight line through ln rate against 1/T,
- * weighted by the rates' relative errors. Temperatures with fewer than `fewest` events (0: the
- * default, 10) are left out.
- * PENDRES_NOT_FOUND if fewer than two are left: too few events; all but points is NaN then.
+ * Activation energy from rates at n temperatures: a least-squares fit of
+ *
+ *     ln rate = ln prefactor - energy / T + b ln(T / T0) + c1 (T/E) + c2 (T/E)^2
+ *
+ * weighted by the rates' relative errors, T0 the temperatures' geometric mean, E the energy of the
+ * straight line. What a prefactor does with T is unknown beforehand, but not how much: theories
+ * have powers b from -1 to 1 (Kramers for weak friction -1, for strong 0; driven systems +-1/2),
+ * and corrections of order T/E. So b counts as known to be 0 +- 1/2, and c1, c2 as 0 +- 1;
+ * rates that span a wide range of temperatures know better and correct it, others leave that
+ * in the energy's error, of about T/2. A straight line's scatter alone says nothing on it.
+ *
+ * Temperatures with fewer than `fewest` events (0: the default, 10) are left out.
+ *
+ * PENDRES_INVALID_ARGUMENT: a temperature that counts is not positive and finite, or its rate or
+ * error is not. PENDRES_NOT_FOUND if fewer than two different temperatures are left: too few
+ * events. All but points is NaN then.
  */
 pendres_status pendres_switching_fit(size_t n, const double *temperature,
                                      const pendres_switching_rate *rates, double fewest,
