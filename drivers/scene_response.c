@@ -158,6 +158,20 @@ static pendres_status write_points(scene_run *run, const grid *g, double *value,
   return status;
 }
 
+static pendres_status write_uncertain(scene_run *run, const grid *g)
+{
+  const size_t n = g->dampings * g->drives;
+  const pendres_store_spec spec = {.name = "uncertain_members", .type = PENDRES_STORE_INT64,
+                                   .dimensions = {"damping", deck_axis_name(drive_axis(g->d))},
+                                   .long_name = "members that may belong to another state"};
+  int64_t *count = malloc(n * sizeof *count);
+  if (count == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) count[i] = (int64_t)g->points[i].uncertain;
+  const pendres_status status = pendres_store_put(run->store, &spec, count, n);
+  free(count);
+  return status;
+}
+
 static void peak_value(const pendres_resonance *r, int which, double *value, double *error)
 {
   const pendres_response *a = &r->response;
@@ -230,6 +244,7 @@ static pendres_status write_results(scene_run *run, const grid *g)
   if (status == PENDRES_OK)
     status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &grid)
                                                          : write_points(run, g, value, error);
+  if (status == PENDRES_OK) status = write_uncertain(run, g);
   if (status == PENDRES_OK) status = write_peaks(run, g, value, error);
   if (status == PENDRES_OK) status = write_failures(run, g);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);

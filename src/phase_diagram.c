@@ -79,6 +79,7 @@ static void judge_ensemble(const border *b, const pendres_ensemble *e, const pen
   }
   if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
   p->unresolved = r->unresolved;
+  p->uncertain = r->uncertain;
   if (others > 0 || sa + la == 0)
     p->regime = PENDRES_REGIME_OTHER;
   else if (!b->distinct)
@@ -90,7 +91,7 @@ static void judge_ensemble(const border *b, const pendres_ensemble *e, const pen
   p->sa_fraction = b->distinct ? (double)sa / all : NAN;
   p->la_fraction = b->distinct ? (double)la / all : NAN;
   p->sa_fraction_error = p->la_fraction_error =
-    b->distinct ? (double)r->unresolved / all : NAN;
+    b->distinct ? (double)(r->unresolved + r->uncertain) / all : NAN;
   p->mean_loop_area = r->mean_loop_area;
   p->mean_loop_area_error = r->mean_loop_area_error;
   p->mean_loop_amplitude = r->mean_loop_amplitude;

@@ -52,7 +52,7 @@ void pendres_response_average(pendres_response *r)
 {
   sums s = {0};
   size_t resolved = 0;
-  double sa = 0.0, la = 0.0, largest = 0.0;
+  double sa = 0.0, la = 0.0, largest = 0.0, least = INFINITY, most = -INFINITY, widest = 0.0;
   size_t all = r->unresolved;
   for (size_t i = 0; i < r->states; i++) {
     all += r->state_members[i];
@@ -67,19 +67,25 @@ void pendres_response_average(pendres_response *r)
     add_state(&s, &r->state[i].orbit, share);
     if (r->state[i].label == PENDRES_LABEL_SA) sa += (double)r->state_members[i];
     if (r->state[i].label == PENDRES_LABEL_LA) la += (double)r->state_members[i];
-    if (isfinite(r->state[i].orbit.loop_area))
-      largest = fmax(largest, fabs(r->state[i].orbit.loop_area));
+    const pendres_orbit *o = &r->state[i].orbit;
+    if (!isfinite(o->loop_area)) continue;
+    largest = fmax(largest, fabs(o->loop_area));
+    least = fmin(least, o->loop_area);
+    most = fmax(most, o->loop_area);
+    if (o->winding == 0) widest = fmax(widest, o->amplitude);
   }
   const double members = (double)all, lost = (double)(all - resolved) / members;
+  /* An uncertain member may belong to any state, but to one of those that are there. */
+  const double doubt = r->states > 1 ? (double)r->uncertain / members : 0.0;
+  const double area_doubt = lost * largest + doubt * (most - least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state. */
-  r->mean_loop_area_error = s.area_error + lost * largest;
+  r->mean_loop_area_error = s.area_error + area_doubt;
   r->mean_power = s.power;
-  r->mean_power_error =
-    s.power_error + lost * largest * r->pendulum.drive_frequency / two_pi;
+  r->mean_power_error = s.power_error + area_doubt * r->pendulum.drive_frequency / two_pi;
   r->sa_fraction = sa / members;
   r->la_fraction = la / members;
-  r->sa_fraction_error = r->la_fraction_error = (double)r->unresolved / members;
+  r->sa_fraction_error = r->la_fraction_error = (double)r->unresolved / members + doubt;
   if (s.loop_share == 0.0) return;
 
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
@@ -87,10 +93,12 @@ void pendres_response_average(pendres_response *r)
     s.sine[m] /= s.loop_share;
   }
   r->mean_amplitude = s.amplitude / s.loop_share;
-  r->mean_amplitude_error = s.amplitude_error / s.loop_share + lost * r->mean_amplitude;
+  r->mean_amplitude_error =
+    s.amplitude_error / s.loop_share + lost * r->mean_amplitude + doubt * widest;
   r->mean_loop_amplitude = pendres_orbit_series_half_range(s.cosine, s.sine);
   r->mean_loop_amplitude_error =
-    fmax(s.loop_error, s.amplitude_error) / s.loop_share + lost * r->mean_amplitude;
+    fmax(s.loop_error, s.amplitude_error) / s.loop_share + lost * r->mean_amplitude +
+    2.0 * doubt * widest; /* what goes from one loop to another takes from the one as well */
   r->phase_lag =
     pendres_orbit_phase_lag(s.cosine[0], s.sine[0], r->pendulum.drive_amplitude);
   if (!isnan(r->phase_lag))
@@ -116,7 +124,10 @@ static void count_states(const pendres_catalogue *c, size_t n, const pendres_out
     r->state[r->states] = c->attractors[slot[r->states]];
     r->state_members[r->states++] = members;
   }
-  for (size_t i = 0; i < n; i++) r->unresolved += outcome[i].attractor < 0;
+  for (size_t i = 0; i < n; i++) {
+    r->unresolved += outcome[i].attractor < 0;
+    r->uncertain += outcome[i].attractor >= 0 && !outcome[i].certain;
+  }
 }
 
 static pendres_status compute_batch(pendres_context *ctx, size_t sets,

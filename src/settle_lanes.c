@@ -70,7 +70,8 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_ca
   l->outcome[i] =
     (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
                       .attractor = c->cover[streak / STREAK_SCALE]->attractor,
-                      .settling_periods = lane->period - streak % STREAK_SCALE + 1};
+                      .settling_periods = lane->period - streak % STREAK_SCALE + 1,
+                      .certain = 1};
   return 1;
 }
 
@@ -83,6 +84,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_ca
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
+  o->certain = 1;
   return 1;
 }
 

@@ -185,12 +185,52 @@ static void side_by_side(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Members that may belong to another state are counted where they were found, and every error
+ * allows for their moving: the loop area by the difference of the two states, shares by one.
+ */
+static void doubts_count(void **state)
+{
+  const pendres_ensemble e = {.members = MEMBERS, .x_first = -0.5 * pi, .x_last = 1.5 * pi,
+                              .v = 1.7};
+  pendres_context *ctx = NULL;
+  pendres_response r, moved;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_compute(ctx, 1, &two_states, &e, &r));
+  pendres_context_free(ctx);
+  assert_int_equal(r.uncertain, 0);
+  assert_int_equal(r.states, 2);
+  moved = r;
+  moved.state_members[0] += 3;
+  moved.state_members[1] -= 3;
+  pendres_response_average(&moved);
+  const pendres_response certain = r;
+  r.uncertain = 3;
+  pendres_response_average(&r);
+  /* The same members, so the same means: to the last bit. */
+  check_near(r.mean_loop_area, certain.mean_loop_area, 0.0);
+  const double share = 3.0 / MEMBERS;
+  /* Errors of the orbits stand beside the doubts: 1e-10 or less. */
+  check_near(r.sa_fraction_error, share, 1e-12);
+  check_near(r.mean_loop_area_error,
+             share * fabs(r.state[1].orbit.loop_area - r.state[0].orbit.loop_area), 1e-9);
+  /* What three members that move change lies within. */
+  assert_true(fabs(moved.mean_loop_area - r.mean_loop_area) <= r.mean_loop_area_error);
+  assert_true(fabs(moved.mean_power - r.mean_power) <= r.mean_power_error);
+  assert_true(fabs(moved.mean_amplitude - r.mean_amplitude) <= r.mean_amplitude_error);
+  assert_true(fabs(moved.mean_loop_amplitude - r.mean_loop_amplitude) <=
+              r.mean_loop_amplitude_error);
+  assert_true(fabs(moved.phase_lag - r.phase_lag) <= r.phase_lag_error);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(members_one_by_one),
     cmocka_unit_test(one_state),
     cmocka_unit_test(side_by_side),
+    cmocka_unit_test(doubts_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

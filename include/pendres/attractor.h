@@ -68,6 +68,8 @@ typedef struct pendres_outcome {
   int attractor;         /**< index in the set; -1: unresolved */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
   long settling_periods; /**< drive periods until it was inside the trap; -1: unresolved */
+  int certain;           /**< 1: the error that it carried into the trap was small against the trap,
+                              so that it could not have ended elsewhere; 0 also if unresolved */
 } pendres_outcome;
 
 /**

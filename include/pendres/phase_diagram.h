@@ -54,11 +54,12 @@ typedef struct pendres_phase_point {
   int other;              /**< bits of pendres_other */
   size_t unresolved;      /**< members */
   double sa_fraction, sa_fraction_error; /**< shares of the members; NaN where regime is SINGLE; */
-  double la_fraction, la_fraction_error; /**< errors: the share of the unresolved */
+  double la_fraction, la_fraction_error; /**< errors: the share of unresolved and uncertain ones */
   double mean_loop_area, mean_loop_area_error;
   double mean_loop_amplitude, mean_loop_amplitude_error;
   double sa_amplitude, sa_amplitude_error; /**< of the orbits, whether members reach them or not; */
   double la_amplitude, la_amplitude_error; /**< NaN where regime is SINGLE or it does not exist */
+  size_t uncertain;       /**< members that may belong to another state, as in pendres_response */
 } pendres_phase_point;
 
 /**

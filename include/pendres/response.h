@@ -9,7 +9,8 @@
  * mean of the members' own amplitudes; the phase lag is that of the averaged loop. An orbit of
  * several drive periods counts with its mean cycle. Running members close but for whole turns: they
  * count in the mean area and power, not in the loop. Chaotic and unresolved members count in
- * none; the error of a mean allows for their share.
+ * none; the error of a mean allows for their share, and for that of members whose state is
+ * uncertain.
  */
 #ifndef PENDRES_RESPONSE_H
 #define PENDRES_RESPONSE_H
@@ -32,12 +33,16 @@ typedef struct pendres_response {
   double mean_amplitude, mean_amplitude_error;
   double phase_lag, phase_lag_error;
   double mean_power, mean_power_error;
-  double sa_fraction, sa_fraction_error; /**< error: the share of unresolved members */
+  double sa_fraction, sa_fraction_error; /**< error: the share of members that are unresolved or
+                                              uncertain */
   double la_fraction, la_fraction_error;
   size_t unresolved;                     /**< members without an attractor; left out of means */
   size_t states;                         /**< attractors that members settled on */
   pendres_attractor state[PENDRES_RESPONSE_STATES];
   size_t state_members[PENDRES_RESPONSE_STATES];
+  size_t uncertain;                      /**< members among them that may belong to another state
+                                              (pendres_outcome.certain); means count them where they
+                                              were found, errors allow for any other state */
 } pendres_response;
 
 /**
@@ -48,7 +53,7 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, pendres_response *out);
 
-/** The means of a response whose state[], state_members[] and unresolved are set. */
+/** The means of a response whose state[], state_members[], unresolved and uncertain are set. */
 void pendres_response_average(pendres_response *r);
 
 #pragma GCC visibility pop
