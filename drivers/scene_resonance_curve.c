@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene.h"
+#include "scene_failed.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -16,6 +16,7 @@ typedef struct curve {
   pendres_ensemble ensemble;
   pendres_resonance *points; /* one a damping */
   pendres_status *outcome;
+  scene_failures failed;
 } curve;
 
 static void plan(const deck *d, FILE *out)
@@ -36,9 +37,7 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   c->outcome[task] = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
                                                      &c->ensemble, &c->points[task]);
   /* A damping whose area has no peak in the range is a point without a result, not a failure. */
-  const int missing =
-    c->outcome[task] == PENDRES_NOT_FOUND || c->outcome[task] == PENDRES_NOT_CONVERGED;
-  return missing ? PENDRES_OK : c->outcome[task];
+  return scene_failures_note(&c->failed, task, c->outcome[task], pendres_context_message(ctx));
 }
 
 /* ---- results ---- */
@@ -119,6 +118,24 @@ static const struct {
 
 enum { RESULTS = sizeof results / sizeof results[0] };
 
+/* What kind of peak a point is, and why there is none. */
+static pendres_status write_kinds(scene_run *run, const curve *c, int8_t *peak)
+{
+  static const char *const meanings[] = {"smooth", "edge", "ragged", "none"};
+  static const deck_axis_id axis = DECK_AXIS_DAMPING;
+  const size_t n = c->d->axis[axis].count;
+  const pendres_store_spec spec = {.name = "peak", .type = PENDRES_STORE_INT8,
+                                   .dimensions = {"damping"}, .flag_count = 4,
+                                   .flag_meanings = meanings,
+                                   .long_name = "a smooth maximum, the largest value at a jump, or "
+                                                "the largest found where jumps have no end"};
+  for (size_t i = 0; i < n; i++)
+    peak[i] = c->outcome[i] == PENDRES_OK ? (int8_t)c->points[i].peak : 3;
+  const pendres_status status = pendres_store_put(run->store, &spec, peak, n);
+  if (status != PENDRES_OK) return status;
+  return scene_failures_write(run, &c->failed, "failed", "resonance", 1, &axis);
+}
+
 static pendres_status write_results(scene_run *run, const curve *c)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
@@ -142,14 +159,7 @@ static pendres_status write_results(scene_run *run, const curve *c)
     }
     status = pendres_store_put_result(run->store, &spec, value_of, error, n);
   }
-  static const char *const meanings[] = {"smooth", "edge", "none"};
-  const pendres_store_spec spec = {.name = "peak", .type = PENDRES_STORE_INT8,
-                                   .dimensions = {"damping"}, .flag_count = 3,
-                                   .flag_meanings = meanings,
-                                   .long_name = "a smooth maximum, or the largest value at a jump"};
-  for (size_t i = 0; i < n; i++)
-    peak[i] = c->outcome[i] == PENDRES_OK ? (int8_t)c->points[i].peak : 2;
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, peak, n);
+  if (status == PENDRES_OK) status = write_kinds(run, c, peak);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
 done:
   free(value_of);
@@ -194,42 +204,54 @@ static int vertex(const double x[3], const double y[3], double *at)
   return 1;
 }
 
-/* The vertex through three dampings around a middle one, computed for the purpose. */
-static int vertex_near(scene_run *run, const curve *c, double middle, double spacing, double *at)
+/*
+ * The vertex through three dampings around a middle one, computed for the purpose. *there: 0 where
+ * one of them has no resonance, or the three no vertex; what ends the run is returned.
+ */
+static pendres_status vertex_near(scene_run *run, const curve *c, double middle, double spacing,
+                                  double *at, int *there)
 {
   double x[3], y[3];
+  pendres_context *ctx = farm_context(run->farm);
+  *there = 0;
+  if (ctx == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for the turning point");
   for (int k = 0; k < 3; k++) {
     pendres_resonance r;
     x[k] = middle + (k - 1) * spacing;
     const pendres_pendulum p = {.damping = x[k],
                                 .drive_amplitude = c->d->pendulum.drive_amplitude};
-    if (pendres_resonance_find_ensemble(farm_context(run->farm), &p, c->d->search[0],
-                                        c->d->search[1], &c->ensemble, &r) != PENDRES_OK)
-      return 0;
+    const pendres_status status = pendres_resonance_find_ensemble(
+      ctx, &p, c->d->search[0], c->d->search[1], &c->ensemble, &r);
+    if (status != PENDRES_OK && scene_failure_of(status) == SCENE_FAILURE_NONE)
+      return scene_fail(run, status, "%s", pendres_context_message(ctx));
+    if (status != PENDRES_OK) return PENDRES_OK;
     y[k] = r.frequency;
   }
-  return vertex(x, y, at);
+  *there = vertex(x, y, at);
+  return PENDRES_OK;
 }
 
 /*
  * Damping of the largest resonance frequency on the smooth part of the curve, from three dampings
  * ever closer together; the last change is a bound on the cubic term that is left.
  */
-static int turning_point(scene_run *run, const curve *c, double *damping, double *error)
+static pendres_status turning_point(scene_run *run, const curve *c, double *damping, double *error,
+                                    int *there)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
   size_t top = 0;
   double coarse;
+  *there = 0;
   for (size_t i = 1; i + 1 < axis->count; i++)
     if (c->outcome[i] == PENDRES_OK &&
         (top == 0 || c->points[i].frequency > c->points[top].frequency))
       top = i;
-  if (top == 0 || c->points[top].peak != PENDRES_PEAK_SMOOTH) return 0;
-  if (!vertex_near(run, c, axis->value[top], 4e-3, &coarse) ||
-      !vertex_near(run, c, coarse, 1e-3, damping))
-    return 0;
-  *error = fabs(*damping - coarse) + 1e-7;
-  return 1;
+  if (top == 0 || c->points[top].peak != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
+  pendres_status status = vertex_near(run, c, axis->value[top], 4e-3, &coarse, there);
+  if (status == PENDRES_OK && *there) status = vertex_near(run, c, coarse, 1e-3, damping, there);
+  if (status == PENDRES_OK && *there) *error = fabs(*damping - coarse) + 1e-7;
+  return status;
 }
 
 /* Middle of the gap in damping where the peak turns from an edge to smooth. */
@@ -255,7 +277,10 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
-    if (turning_point(run, c, &damping, &error))
+    int there = 0;
+    const pendres_status status = turning_point(run, c, &damping, &error, &there);
+    if (status != PENDRES_OK) return status;
+    if (there)
       values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top, damping,
                                     error};
     if (break_off(c, &damping, &error))
@@ -273,6 +298,7 @@ static pendres_status write_paper(scene_run *run, const curve *c)
 
 static void print_table(FILE *out, const curve *c)
 {
+  static const char *const peak_name[] = {"smooth", "edge", "ragged"};
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
   fprintf(out, "damping   frequency     +-       period       amplitude  area         peak\n");
   for (size_t i = 0; i < axis->count; i++) {
@@ -280,11 +306,12 @@ static void print_table(FILE *out, const curve *c)
     /* Some twenty lines show the curve. */
     if (axis->count > 24 && i % (axis->count / 20 + 1) != 0 && i + 1 != axis->count) continue;
     if (c->outcome[i] != PENDRES_OK)
-      fprintf(out, "%-9.4g no peak in the range\n", axis->value[i]);
+      fprintf(out, "%-9.4g %s\n", axis->value[i],
+              c->outcome[i] == PENDRES_NOT_FOUND ? "no peak in the range" : "failed");
     else
       fprintf(out, "%-9.4g %.10f  %.0e  %.9f  %.6f   %.8f   %s\n", axis->value[i], r->frequency,
               r->frequency_error, two_pi / r->frequency, r->response.mean_loop_amplitude,
-              r->loop_area, r->peak == PENDRES_PEAK_EDGE ? "edge" : "smooth");
+              r->loop_area, peak_name[r->peak]);
   }
 }
 
@@ -297,7 +324,7 @@ static pendres_status run_scene(scene_run *run)
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   c.points = calloc(n, sizeof *c.points);
   c.outcome = calloc(n, sizeof *c.outcome);
-  if (c.points == NULL || c.outcome == NULL) {
+  if (c.points == NULL || c.outcome == NULL || scene_failures_create(n, &c.failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu dampings", n);
     goto done;
   }
@@ -306,13 +333,13 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "%s", farm_message(run->farm));
     goto done;
   }
-  for (size_t i = 0; i < n; i++) run->failed_points += c.outcome[i] != PENDRES_OK;
   status = write_results(run, &c);
   if (status == PENDRES_OK) status = write_paper(run, &c);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &c);
 done:
   free(c.points);
   free(c.outcome);
+  scene_failures_free(&c.failed);
   return status;
 }
 

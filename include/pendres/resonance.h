@@ -21,7 +21,10 @@ extern "C" {
 
 typedef enum pendres_peak {
   PENDRES_PEAK_SMOOTH = 0, /**< a maximum with a vanishing slope */
-  PENDRES_PEAK_EDGE = 1    /**< the largest mean area where it jumps */
+  PENDRES_PEAK_EDGE = 1,   /**< the largest mean area where it jumps */
+  PENDRES_PEAK_RAGGED = 2  /**< the largest mean area found, where the shares of the members change
+                                so often that there is no largest one to many digits; errors are
+                                spreads */
 } pendres_peak;
 
 /** A resonance. */

@@ -1,0 +1,64 @@
+/*
+ * test_scene_resonance.c -- the scene resonance_curve: a signal is a signal wherever it comes, and
+ * points without a resonance say why.
+ */
+#include "scene_fixture.h"
+
+#include "scene_failed.h"
+
+/* Asked for the `limit`-th time, the farm is told to stop. */
+typedef struct stopper {
+  long asked, limit;
+} stopper;
+
+static int ask(void *arg)
+{
+  stopper *s = arg;
+  return ++s->asked >= s->limit;
+}
+
+/* Few members in a narrow range: the turning point of the curve is computed after the dampings. */
+static pendres_status run_until(stopper *s)
+{
+  static const char text[] =
+    "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+    "&sweep damping = 0.37, 0.38, 0.39, drive_frequency_range = 0.94, 0.98 /\n"
+    "&ensemble members = 8 /\n";
+  char path[100];
+  deck d;
+  namelist_errors errors = {0};
+  farm_options options = {.threads = 1, .stop = ask, .stop_arg = s};
+  scene_run run = {.deck = &d};
+  assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors), PENDRES_OK);
+  check_ok(farm_create(&options, &run.farm));
+  scene_path("stopped", path);
+  check_ok(pendres_store_create(path, NULL, &run.store));
+  const pendres_status status = scene_find(d.kind)->run(&run);
+  check_ok(pendres_store_close(run.store));
+  pendres_store_free(run.store);
+  farm_free(run.farm);
+  deck_free(&d);
+  namelist_errors_free(&errors);
+  return status;
+}
+
+/* Once near the end, when only the turning point is left to compute, and once at the very end. */
+static void a_signal_at_the_turning_point(void **state)
+{
+  stopper all = {.limit = 1L << 40};
+  (void)state;
+  check_ok(run_until(&all));
+  assert_true(all.asked > 100);
+  for (int i = 0; i < 2; i++) {
+    stopper s = {.limit = i == 0 ? all.asked - all.asked / 8 : all.asked};
+    assert_int_equal(run_until(&s), PENDRES_INTERRUPTED);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_signal_at_the_turning_point),
+  };
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
