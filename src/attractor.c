@@ -94,12 +94,12 @@ static size_t default_scouts(double x[64], double v[64])
   return n;
 }
 
-pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
-                                       const double *x, const double *v, pendres_attractors **out)
+static pendres_status attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+                                      const double *x, const double *v, pendres_attractors **out)
 {
   double default_x[64], default_v[64];
-  if (ctx == NULL || p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
   *out = NULL;
   if (n == 0) {
     n = default_scouts(default_x, default_v);
@@ -133,17 +133,32 @@ done:
   return status;
 }
 
-pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
-                                         size_t n, const double *x, const double *v,
-                                         pendres_outcome *outcome)
+pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+                                       const double *x, const double *v, pendres_attractors **out)
 {
-  if (ctx == NULL || set == NULL || set->sets != 1 ||
-      (n > 0 && (x == NULL || v == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  return PENDRES_CONTEXT_CALL(ctx, attractors_find(ctx, p, n, x, v, out));
+}
+
+static pendres_status attractors_settle(pendres_context *ctx, const pendres_attractors *set,
+                                        size_t n, const double *x, const double *v,
+                                        pendres_outcome *outcome)
+{
+  if (set == NULL || (n > 0 && (x == NULL || v == NULL || outcome == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, x, v and outcome");
+  if (set->sets != 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "these are attractors of several parameter sets");
   pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
   return pendres_settle_known(ctx, set->catalogues, n, x, v, 10.0 * ctx->options.tolerance,
                               PENDRES_SETTLE_FULL, outcome);
+}
+
+pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_attractors *set,
+                                         size_t n, const double *x, const double *v,
+                                         pendres_outcome *outcome)
+{
+  return PENDRES_CONTEXT_CALL(ctx, attractors_settle(ctx, set, n, x, v, outcome));
 }
 
 pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractors *set, size_t n,
@@ -171,14 +186,13 @@ static size_t count_sets(size_t n, const pendres_pendulum *p)
   return sets;
 }
 
-pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                              const double *x, const double *v, pendres_outcome *outcome,
-                              pendres_attractors **found)
+static pendres_status settle_all(pendres_context *ctx, size_t n,
+                                    const pendres_pendulum *pendulums, const double *x,
+                                    const double *v, pendres_outcome *outcome,
+                                    pendres_attractors **found)
 {
-  if (found != NULL) *found = NULL;
-  if (ctx == NULL ||
-      (n > 0 && (pendulums == NULL || x == NULL || v == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (n > 0 && (pendulums == NULL || x == NULL || v == NULL || outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and outcome");
   pendres_status status = check_states(ctx, n, pendulums, 1, x, v);
   if (status != PENDRES_OK) return status;
 
@@ -220,4 +234,12 @@ done:
   pendres_attractors_free(all);
   free(set);
   return status;
+}
+
+pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                              const double *x, const double *v, pendres_outcome *outcome,
+                              pendres_attractors **found)
+{
+  if (found != NULL) *found = NULL;
+  return PENDRES_CONTEXT_CALL(ctx, settle_all(ctx, n, pendulums, x, v, outcome, found));
 }

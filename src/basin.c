@@ -34,11 +34,12 @@ static void compact(const pendres_outcome *from, pendres_basin_state *to)
                               .how = PENDRES_BASIN_INTEGRATED};
 }
 
-pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
-                                        const pendres_basin_grid *grid, pendres_attractors **out)
+static pendres_status basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
+                                       const pendres_basin_grid *grid, pendres_attractors **out)
 {
   double x[SCOUT_SIDE * SCOUT_SIDE], v[SCOUT_SIDE * SCOUT_SIDE];
-  if (ctx == NULL || p == NULL || grid == NULL || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  if (p == NULL || grid == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, grid and out");
   *out = NULL;
   if (grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "a grid needs x and v");
@@ -51,6 +52,12 @@ pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pend
       v[n++] = grid->v[(2 * j + 1) * grid->nv / (2 * nv)];
     }
   return pendres_attractors_find(ctx, p, n, x, v, out);
+}
+
+pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
+                                        const pendres_basin_grid *grid, pendres_attractors **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_attractors(ctx, p, grid, out));
 }
 
 static double smallest_spacing(size_t n, const double *values)
@@ -94,12 +101,12 @@ done:
   return status;
 }
 
-pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
-                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
-                                    pendres_basin_state *state)
+static pendres_status basin_states(pendres_context *ctx, const pendres_attractors *set,
+                                   const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                   pendres_basin_state *state)
 {
-  if (ctx == NULL || set == NULL || grid == NULL || (n > 0 && (index == NULL || state == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (set == NULL || grid == NULL || (n > 0 && (index == NULL || state == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, index and state");
   const pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK) return status;
   for (size_t k = 0; k < n; k++)
@@ -107,6 +114,13 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
                                   index[k]);
   return settle_states(ctx, set, grid, n, index, PENDRES_SETTLE_FULL, state);
+}
+
+pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                    pendres_basin_state *state)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_states(ctx, set, grid, n, index, state));
 }
 
 /* The states that have not settled soon: at once if there are many, else marked. */
@@ -141,11 +155,12 @@ done:
   return status;
 }
 
-pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
-                                  const pendres_basin_grid *grid, size_t first, size_t rows,
-                                  pendres_basin_state *state, size_t *deferred)
+static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors *set,
+                                 const pendres_basin_grid *grid, size_t first, size_t rows,
+                                 pendres_basin_state *state, size_t *deferred)
 {
-  if (ctx == NULL || set == NULL || grid == NULL || state == NULL) return PENDRES_INVALID_ARGUMENT;
+  if (set == NULL || grid == NULL || state == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid and state");
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK) return status;
   if (first > grid->nx || rows > grid->nx - first)
@@ -161,12 +176,19 @@ pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors
   return status == PENDRES_OK ? defer(ctx, set, grid, offset, n, state, deferred) : status;
 }
 
-pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *set,
-                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
-                                    size_t *grown)
+pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
+                                  const pendres_basin_grid *grid, size_t first, size_t rows,
+                                  pendres_basin_state *state, size_t *deferred)
 {
-  if (ctx == NULL || set == NULL || grid == NULL || grown == NULL || (n > 0 && index == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  return PENDRES_CONTEXT_CALL(ctx, basin_rows(ctx, set, grid, first, rows, state, deferred));
+}
+
+static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set,
+                                   const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                   size_t *grown)
+{
+  if (set == NULL || grid == NULL || grown == NULL || (n > 0 && index == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, index and grown");
   *grown = 0;
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK || n == 0) return status;
@@ -180,6 +202,13 @@ pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *se
   status = pendres_attractors_extend(ctx, set, scouts, x, v);
   *grown = set->count - before;
   return status;
+}
+
+pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                    size_t *grown)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_extend(ctx, set, grid, n, index, grown));
 }
 
 /* Numbers of the states of a kind. */
@@ -214,10 +243,11 @@ static pendres_status compute_once(pendres_context *ctx, const pendres_attractor
   return status;
 }
 
-pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
-                                     const pendres_basin_grid *grid, pendres_basin_state *state)
+static pendres_status basin_compute(pendres_context *ctx, pendres_attractors *set,
+                                    const pendres_basin_grid *grid, pendres_basin_state *state)
 {
-  if (ctx == NULL || set == NULL || grid == NULL || state == NULL) return PENDRES_INVALID_ARGUMENT;
+  if (set == NULL || grid == NULL || state == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid and state");
   pendres_status status = check_grid(ctx, set, grid);
   if (status != PENDRES_OK) return status;
   size_t *index = malloc(grid->nx * grid->nv * sizeof *index);
@@ -233,4 +263,10 @@ pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *s
   }
   free(index);
   return status;
+}
+
+pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
+                                     const pendres_basin_grid *grid, pendres_basin_state *state)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_compute(ctx, set, grid, state));
 }

@@ -338,13 +338,13 @@ static void count_sample(strip *t, int scales, const pendres_outcome *outcome)
   }
 }
 
-pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                         const pendres_basin_window *window, size_t n, int scales,
-                                         const double *distance, uint64_t seed,
-                                         pendres_basin_statistics *out)
+static pendres_status basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
+                                        const pendres_basin_window *window, size_t n, int scales,
+                                        const double *distance, uint64_t seed,
+                                        pendres_basin_statistics *out)
 {
-  if (ctx == NULL || set == NULL || window == NULL || distance == NULL || out == NULL)
-    return PENDRES_INVALID_ARGUMENT;
+  if (set == NULL || window == NULL || distance == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, window, distance and out");
   if (n < PENDRES_BASIN_STRIPS || scales < LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
       set->sets != 1)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
@@ -396,4 +396,13 @@ done:
   free(v);
   free(outcome);
   return status;
+}
+
+pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
+                                         const pendres_basin_window *window, size_t n, int scales,
+                                         const double *distance, uint64_t seed,
+                                         pendres_basin_statistics *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_uncertainty(ctx, set, window, n, scales, distance, seed,
+                                                     out));
 }

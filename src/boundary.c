@@ -209,12 +209,12 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
   return status;
 }
 
-pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
-                                     const pendres_boundary_options *options,
-                                     pendres_boundary **out)
+static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                    const pendres_boundary_options *options, pendres_boundary **out)
 {
-  if (ctx == NULL || saddle == NULL || out == NULL || saddle->period < 1)
-    return PENDRES_INVALID_ARGUMENT;
+  if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
+  if (saddle->period < 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: this is no orbit");
   *out = NULL;
   pendres_boundary_options o = {0};
   const char *why = NULL;
@@ -252,4 +252,11 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
   }
   pendres_boundary_free(b);
   return status;
+}
+
+pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                     const pendres_boundary_options *options,
+                                     pendres_boundary **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, boundary_find(ctx, saddle, options, out));
 }

@@ -61,11 +61,12 @@ static pendres_status refine(pendres_context *ctx, const pendres_orbit *attracto
   return PENDRES_OK;
 }
 
-pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
-                                   pendres_orbit *out)
+static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
+                                  pendres_orbit *out)
 {
-  if (ctx == NULL || attractor == NULL || out == NULL || attractor->period < 1)
-    return PENDRES_INVALID_ARGUMENT;
+  if (attractor == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractor and out");
+  if (attractor->period < 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: this is no orbit");
   pendres_status status = PENDRES_NOT_FOUND;
   /* Softening springs: a small orbit's fold is above its frequency, a large one's below. */
   for (int i = 0; i < 2 && status == PENDRES_NOT_FOUND; i++) {
@@ -89,4 +90,10 @@ pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *at
                                 "the branch of the orbit does not come back to drive frequency %g",
                                 attractor->pendulum.drive_frequency);
   return status;
+}
+
+pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
+                                   pendres_orbit *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, saddle_find(ctx, attractor, out));
 }

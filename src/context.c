@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,6 +59,7 @@ pendres_status pendres_context_create(const pendres_options *options, pendres_co
   *out = NULL;
   pendres_context *ctx = calloc(1, sizeof *ctx);
   if (ctx == NULL) return status;
+  pendres_guard_init(&ctx->guard);
   if (options != NULL) ctx->options = *options;
   if (resolve(&ctx->options) != NULL) {
     status = PENDRES_INVALID_ARGUMENT;
@@ -84,7 +84,7 @@ const char *pendres_options_check(const pendres_options *options)
 
 void pendres_context_free(pendres_context *ctx)
 {
-  if (ctx == NULL) return;
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_flow_free(ctx->flows[i]);
   pendres_steps_free(ctx->steps);
   if (ctx->sun != NULL) SUNContext_Free(&ctx->sun);
@@ -93,16 +93,20 @@ void pendres_context_free(pendres_context *ctx)
 
 const char *pendres_context_message(const pendres_context *ctx)
 {
-  return ctx != NULL ? ctx->message : "no context could be created: see pendres_options_check";
+  return ctx != NULL ? pendres_guard_message(&ctx->guard)
+                     : "no context could be created: see pendres_options_check";
 }
 
 const pendres_options *pendres_context_options(const pendres_context *ctx)
 {
-  return &ctx->options;
+  return ctx != NULL ? &ctx->options : NULL;
 }
 
 void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
 {
+  if (cost == NULL) return;
+  *cost = (pendres_cost){ NAN, NAN, NAN, NAN, NAN };
+  if (ctx == NULL || pendres_guard_used_elsewhere(&ctx->guard)) return;
   *cost = ctx->cost;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
     if (ctx->flows[i] != NULL) {
@@ -114,6 +118,7 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
 void pendres_context_cost_reset(pendres_context *ctx)
 {
   pendres_cost now;
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
   ctx->cost.rhs_evaluations = 0.0;
   ctx->cost.steps = 0.0;
   pendres_context_cost(ctx, &now);
@@ -122,15 +127,19 @@ void pendres_context_cost_reset(pendres_context *ctx)
 
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg)
 {
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
   ctx->stop = stop;
   ctx->stop_arg = arg;
 }
 
 pendres_status pendres_context_poll(pendres_context *ctx)
 {
-  if (ctx->stop != NULL && ctx->stop(ctx->stop_arg) != 0)
-    return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted on request");
-  return PENDRES_OK;
+  if (ctx->stop == NULL) return PENDRES_OK;
+  pendres_guard_ask(&ctx->guard, 1);
+  const int stopped = ctx->stop(ctx->stop_arg) != 0;
+  pendres_guard_ask(&ctx->guard, 0);
+  if (!stopped) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted on request");
 }
 
 pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
@@ -138,7 +147,7 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
 {
   va_list args;
   va_start(args, format);
-  (void)vsnprintf(ctx->message, sizeof ctx->message, format, args);
+  (void)pendres_guard_fail(&ctx->guard, status, format, args);
   va_end(args);
   return status;
 }
@@ -146,6 +155,8 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
 pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
                                            pendres_status status)
 {
+  if (status == PENDRES_OUT_OF_MEMORY)
+    return pendres_context_fail(ctx, status, "out of memory for the steps of a period");
   return pendres_context_fail(ctx, status, "ARKODE gave up within a drive period (code %d)",
                               pendres_flow_failure(flow));
 }

@@ -11,8 +11,7 @@
 #include <pendres/pendulum.h>
 
 #include "flow.h"
-
-enum { PENDRES_MESSAGE_LENGTH = 512 };
+#include "guard.h"
 
 /* The blocks of a context. */
 typedef enum pendres_rows {
@@ -26,6 +25,7 @@ typedef enum pendres_rows {
 struct pendres_steps_memo; /* steps.c */
 
 struct pendres_context {
+  pendres_guard guard;
   pendres_options options; /* defaults resolved */
   SUNContext sun;
   pendres_flow *flows[PENDRES_FLOW_KINDS];
@@ -33,8 +33,15 @@ struct pendres_context {
   pendres_cost cost;
   int (*stop)(void *arg);
   void *stop_arg;
-  char message[PENDRES_MESSAGE_LENGTH];
 };
+
+/* The body of a public function that computes with a context; see guard.h. */
+#define PENDRES_CONTEXT_CALL(ctx, call) \
+  PENDRES_GUARD_CALL((ctx) != NULL ? &(ctx)->guard : NULL, call)
+
+/* Refuse arguments that are NULL; `names` is the sentence's beginning. */
+#define PENDRES_CONTEXT_NULL(ctx, names) \
+  pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s must not be NULL", names)
 
 /* Record why something failed, and return the status. */
 pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,

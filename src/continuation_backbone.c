@@ -122,12 +122,12 @@ static size_t begin(size_t n, const pendres_pendulum *pendulums, search *s, doub
   return count;
 }
 
-pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
-                                     const pendres_pendulum *pendulums, pendres_orbit *out,
-                                     double *frequency_error, pendres_status *outcome)
+static pendres_status backbone_find(pendres_context *ctx, size_t n,
+                                    const pendres_pendulum *pendulums, pendres_orbit *out,
+                                    double *frequency_error, pendres_status *outcome)
 {
-  if (ctx == NULL || (n > 0 && (pendulums == NULL || out == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (n > 0 && (pendulums == NULL || out == NULL || outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, out and outcome");
   for (size_t i = 0; i < n; i++)
     if (!(pendulums[i].damping > 0.0 && pendulums[i].drive_amplitude > 0.0 &&
           isfinite(pendulums[i].damping) && isfinite(pendulums[i].drive_amplitude)))
@@ -161,4 +161,11 @@ done:
   free(orbit);
   free(refined);
   return status;
+}
+
+pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, pendres_orbit *out,
+                                     double *frequency_error, pendres_status *outcome)
+{
+  return PENDRES_CONTEXT_CALL(ctx, backbone_find(ctx, n, pendulums, out, frequency_error, outcome));
 }

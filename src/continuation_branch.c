@@ -271,11 +271,11 @@ pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter p
                         .longest = spacing};
 }
 
-pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
-                                     const pendres_branch_options *options, pendres_branch **out)
+static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                    const pendres_branch_options *options, pendres_branch **out)
 {
-  if (ctx == NULL || options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
   for (size_t i = 0; i < n; i++) out[i] = NULL;
   if (n == 0) return PENDRES_OK;
   const pendres_branch_options *o = options;
@@ -311,6 +311,12 @@ done:
     out[i] = NULL;
   }
   return status;
+}
+
+pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                     const pendres_branch_options *options, pendres_branch **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branch_follow(ctx, n, starts, options, out));
 }
 
 /* ---- one value of the parameter ---- */
@@ -351,11 +357,11 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
   return g;
 }
 
-pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
-                                    size_t room, pendres_orbit *out, size_t *found)
+static pendres_status branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                   size_t room, pendres_orbit *out, size_t *found)
 {
-  if (ctx == NULL || b == NULL || found == NULL || (room > 0 && out == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (b == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
   *found = 0;
   const int closed = b->end[0] == PENDRES_END_CLOSED;
   const size_t chords = b->count > 1 ? (closed ? b->count : b->count - 1) : 0;
@@ -390,14 +396,21 @@ done:
   return status;
 }
 
+pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                    size_t room, pendres_orbit *out, size_t *found)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branch_cross(ctx, b, value, room, out, found));
+}
+
 /* ---- branches that cross ---- */
 
-pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
-                                     pendres_orbit *out)
+static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                    pendres_orbit *out)
 {
-  if (ctx == NULL || at == NULL || out == NULL ||
-      (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING))
-    return PENDRES_INVALID_ARGUMENT;
+  if (at == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "bifurcation and out");
+  if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "no branch crosses at a bifurcation of this kind");
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;
@@ -435,4 +448,10 @@ pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurca
     return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
   }
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
+
+pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                     pendres_orbit *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branch_switch(ctx, at, out));
 }

@@ -162,11 +162,11 @@ static pendres_status add_branch(pendres_context *ctx, pendres_branches *set,
   return PENDRES_OK;
 }
 
-pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
-                                     const pendres_branch_options *options, pendres_branches **out)
+static pendres_status branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                    const pendres_branch_options *options, pendres_branches **out)
 {
-  if (ctx == NULL || options == NULL || out == NULL || (n > 0 && orbits == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (options == NULL || out == NULL || (n > 0 && orbits == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "orbits, options and out");
   *out = NULL;
   pendres_status status = PENDRES_OK;
   pendres_branches *set = calloc(1, sizeof *set);
@@ -185,6 +185,12 @@ pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendr
   }
   pendres_branches_free(set);
   return status;
+}
+
+pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                     const pendres_branch_options *options, pendres_branches **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branches_find(ctx, n, orbits, options, out));
 }
 
 /* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
@@ -206,13 +212,13 @@ static int met_already(const pendres_branches *set, const pendres_bifurcation *b
   return 0;
 }
 
-pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
-                                       const pendres_bifurcation *bifurcations,
-                                       const pendres_branch_options *options,
-                                       pendres_branches *branches)
+static pendres_status branches_extend(pendres_context *ctx, size_t n,
+                                      const pendres_bifurcation *bifurcations,
+                                      const pendres_branch_options *options,
+                                      pendres_branches *branches)
 {
-  if (ctx == NULL || options == NULL || branches == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (options == NULL || branches == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and branches");
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_bifurcation *b = &bifurcations[i];
@@ -220,6 +226,14 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
     status = add_branch(ctx, branches, &b->orbit, options);
   }
   return status;
+}
+
+pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
+                                       const pendres_bifurcation *bifurcations,
+                                       const pendres_branch_options *options,
+                                       pendres_branches *branches)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branches_extend(ctx, n, bifurcations, options, branches));
 }
 
 /* ---- curves ---- */
@@ -271,12 +285,12 @@ static pendres_status add_curve(pendres_context *ctx, pendres_curves *set,
   return PENDRES_OK;
 }
 
-pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
-                                     const pendres_bifurcation *bifurcations,
-                                     const pendres_curve_options *options, pendres_curves *curves)
+static pendres_status curves_extend(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *bifurcations,
+                                    const pendres_curve_options *options, pendres_curves *curves)
 {
-  if (ctx == NULL || options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and curves");
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int yes = 0;
@@ -287,12 +301,19 @@ pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
   return status;
 }
 
-pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
-                                   const pendres_bifurcation *bifurcations,
-                                   const pendres_curve_options *options, pendres_curves **out)
+pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
+                                     const pendres_bifurcation *bifurcations,
+                                     const pendres_curve_options *options, pendres_curves *curves)
 {
-  if (ctx == NULL || options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  return PENDRES_CONTEXT_CALL(ctx, curves_extend(ctx, n, bifurcations, options, curves));
+}
+
+static pendres_status curves_find(pendres_context *ctx, size_t n,
+                                  const pendres_bifurcation *bifurcations,
+                                  const pendres_curve_options *options, pendres_curves **out)
+{
+  if (options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and out");
   *out = NULL;
   pendres_curves *set = calloc(1, sizeof *set);
   if (set == NULL)
@@ -303,4 +324,11 @@ pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
   else
     pendres_curves_free(set);
   return status;
+}
+
+pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
+                                   const pendres_bifurcation *bifurcations,
+                                   const pendres_curve_options *options, pendres_curves **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curves_find(ctx, n, bifurcations, options, out));
 }

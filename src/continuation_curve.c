@@ -244,12 +244,12 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
   return NULL;
 }
 
-pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *starts,
-                                    const pendres_curve_options *options, pendres_curve **out)
+static pendres_status curve_follow(pendres_context *ctx, size_t n,
+                                   const pendres_bifurcation *starts,
+                                   const pendres_curve_options *options, pendres_curve **out)
 {
-  if (ctx == NULL || options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
   for (size_t i = 0; i < n; i++) out[i] = NULL;
   if (n == 0) return PENDRES_OK;
   const pendres_curve_options *o = options;
@@ -286,13 +286,20 @@ done:
   return status;
 }
 
+pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *starts,
+                                    const pendres_curve_options *options, pendres_curve **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curve_follow(ctx, n, starts, options, out));
+}
+
 /* ---- one value of the second parameter ---- */
 
-pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
-                                   size_t room, pendres_bifurcation *out, size_t *found)
+static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                  size_t room, pendres_bifurcation *out, size_t *found)
 {
-  if (ctx == NULL || c == NULL || found == NULL || (room > 0 && out == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (c == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "curve, out and found");
   *found = 0;
   const int closed = c->end[0] == PENDRES_END_CLOSED;
   const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
@@ -334,6 +341,12 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
   return PENDRES_OK;
 }
 
+pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                   size_t room, pendres_bifurcation *out, size_t *found)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curve_cross(ctx, c, value, room, out, found));
+}
+
 /* ---- the cusp next to a fold ---- */
 
 /* Walk until the quadratic term changes its sign. */
@@ -361,12 +374,15 @@ static pendres_status walk_to_cusp(pendres_context *ctx, pendres_walk *w, pendre
   return PENDRES_NOT_FOUND;
 }
 
-pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
-                                 pendres_parameter second, pendres_cusp *out)
+static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
+                                pendres_parameter second, pendres_cusp *out)
 {
-  if (ctx == NULL || near == NULL || out == NULL || near->kind != PENDRES_FOLD ||
-      (unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter)
-    return PENDRES_INVALID_ARGUMENT;
+  if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
+  if (near->kind != PENDRES_FOLD)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
+  if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "cusp: the second parameter must be another one than the fold's");
   double u[PENDRES_U_COUNT], approach[2];
   pendres_walk walk[2], ahead[2];
   pendres_located located;
@@ -399,4 +415,10 @@ pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
     return pendres_context_fail(ctx, status, "the cusp is known to %.1e and %.1e only",
                                 out->value_error[0], out->value_error[1]);
   return status;
+}
+
+pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
+                                 pendres_parameter second, pendres_cusp *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, cusp_find(ctx, near, second, out));
 }

@@ -52,10 +52,11 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
   return PENDRES_NOT_FOUND;
 }
 
-pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
+static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
 {
-  if (ctx == NULL || near == NULL || out == NULL || near->period < 1)
-    return PENDRES_INVALID_ARGUMENT;
+  if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
+  if (near->period < 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: this is no orbit");
   double u[PENDRES_U_COUNT], approach[2];
   pendres_located located;
   pendres_walk walk[2], ahead[2];
@@ -98,4 +99,9 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
     return pendres_context_fail(ctx, status, "the fold at %.12g is known to %.1e only", out->value,
                                 out->value_error);
   return status;
+}
+
+pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, out));
 }

@@ -143,6 +143,12 @@ static pendres_status settle_clocks(pendres_context *ctx, size_t n, swing *s,
   return status;
 }
 
+/* For a second context: asks as the first one does, which is in use meanwhile. */
+static int ask(void *ctx)
+{
+  return pendres_context_poll(ctx) != PENDRES_OK;
+}
+
 /*
  * Methods that choose their own steps: a run with a far smaller tolerance is the result, and the
  * error is that of the run as asked for, which is larger.
@@ -157,7 +163,7 @@ static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
   pendres_status status = pendres_context_create(&options, &tight);
   if (status != PENDRES_OK)
     return pendres_context_fail(ctx, status, "out of memory for a second context");
-  pendres_context_set_interrupt(tight, ctx->stop, ctx->stop_arg);
+  pendres_context_set_interrupt(tight, ask, ctx);
 
   status = settle_clocks(ctx, n, s, lane, which);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
@@ -215,12 +221,12 @@ done:
   return status;
 }
 
-pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
-                                                const double *amplitude, double *frequency,
-                                                double *error)
+static pendres_status free_frequency_integrate(pendres_context *ctx, size_t n,
+                                               const double *amplitude, double *frequency,
+                                               double *error)
 {
-  if (ctx == NULL || (n > 0 && (amplitude == NULL || frequency == NULL || error == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (n > 0 && (amplitude == NULL || frequency == NULL || error == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "amplitude, frequency and error");
   for (size_t i = 0; i < n; i++)
     if (!(amplitude[i] > 0.0 && amplitude[i] < pi))
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
@@ -228,4 +234,11 @@ pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
                                   amplitude[i]);
   if (n == 0) return PENDRES_OK;
   return find_all(ctx, n, amplitude, frequency, error);
+}
+
+pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
+                                                const double *amplitude, double *frequency,
+                                                double *error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, free_frequency_integrate(ctx, n, amplitude, frequency, error));
 }

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,6 +41,7 @@ pendres_status pendres_langevin_create(const pendres_langevin_options *options,
   *out = NULL;
   lv = calloc(1, sizeof *lv);
   if (lv == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_guard_init(&lv->guard);
   if (options != NULL) lv->options = *options;
   if (resolve(&lv->options) != NULL) goto fail;
   status = pendres_langevin_block_make(&lv->block, (size_t)lv->options.block_lanes,
@@ -58,7 +58,7 @@ fail:
 
 void pendres_langevin_free(pendres_langevin *lv)
 {
-  if (lv == NULL) return;
+  if (lv == NULL || pendres_guard_busy(&lv->guard)) return;
   pendres_langevin_block_clear(&lv->block);
   pendres_langevin_block_clear(&lv->partner);
   free(lv);
@@ -66,16 +66,16 @@ void pendres_langevin_free(pendres_langevin *lv)
 
 const char *pendres_langevin_message(const pendres_langevin *lv)
 {
-  return lv != NULL ? lv->message
+  return lv != NULL ? pendres_guard_message(&lv->guard)
                     : "no handle could be created: see pendres_langevin_options_check";
 }
 
 int pendres_langevin_steps(const pendres_langevin *lv)
 {
-  return lv->options.steps_per_period;
+  return lv != NULL ? lv->options.steps_per_period : 0;
 }
 
-pendres_status pendres_langevin_set_steps(pendres_langevin *lv, int steps_per_period)
+static pendres_status set_steps(pendres_langevin *lv, int steps_per_period)
 {
   const char *wrong = check_steps(steps_per_period);
   if (wrong != NULL) return pendres_langevin_fail(lv, PENDRES_INVALID_ARGUMENT, "%s", wrong);
@@ -86,13 +86,19 @@ pendres_status pendres_langevin_set_steps(pendres_langevin *lv, int steps_per_pe
   return PENDRES_OK;
 }
 
+pendres_status pendres_langevin_set_steps(pendres_langevin *lv, int steps_per_period)
+{
+  return PENDRES_LANGEVIN_CALL(lv, set_steps(lv, steps_per_period));
+}
+
 double pendres_langevin_spent(const pendres_langevin *lv)
 {
-  return lv->spent;
+  return lv != NULL && !pendres_guard_used_elsewhere(&lv->guard) ? lv->spent : NAN;
 }
 
 void pendres_langevin_set_interrupt(pendres_langevin *lv, int (*stop)(void *arg), void *arg)
 {
+  if (lv == NULL || pendres_guard_busy(&lv->guard)) return;
   lv->stop = stop;
   lv->stop_arg = arg;
 }
@@ -102,16 +108,19 @@ pendres_status pendres_langevin_fail(pendres_langevin *lv, pendres_status status
 {
   va_list args;
   va_start(args, format);
-  (void)vsnprintf(lv->message, sizeof lv->message, format, args);
+  (void)pendres_guard_fail(&lv->guard, status, format, args);
   va_end(args);
   return status;
 }
 
 pendres_status pendres_langevin_poll(pendres_langevin *lv)
 {
-  if (lv->stop != NULL && lv->stop(lv->stop_arg) != 0)
-    return pendres_langevin_fail(lv, PENDRES_INTERRUPTED, "interrupted on request");
-  return PENDRES_OK;
+  if (lv->stop == NULL) return PENDRES_OK;
+  pendres_guard_ask(&lv->guard, 1);
+  const int stopped = lv->stop(lv->stop_arg) != 0;
+  pendres_guard_ask(&lv->guard, 0);
+  if (!stopped) return PENDRES_OK;
+  return pendres_langevin_fail(lv, PENDRES_INTERRUPTED, "interrupted on request");
 }
 
 pendres_status pendres_langevin_accept(pendres_langevin *lv, const pendres_pendulum *p, double x,
@@ -137,14 +146,18 @@ pendres_status pendres_langevin_accept_periods(pendres_langevin *lv, long first,
 }
 
 /* Show a strobe to the observer. */
-static pendres_langevin_answer show(const pendres_langevin_block *b, size_t first, long period,
+static pendres_langevin_answer show(pendres_langevin *lv, size_t first, long period,
                                     const pendres_langevin_observer *observer)
 {
+  const pendres_langevin_block *b = &lv->block;
   const pendres_langevin_strobe strobe = {
     .first = first, .count = b->count, .period = period, .x = b->x, .v = b->v,
     .cosine = b->harmonics ? b->cosine : NULL, .sine = b->harmonics ? b->sine : NULL,
     .work = b->harmonics ? b->work : NULL};
-  return observer->see(observer->arg, &strobe);
+  pendres_guard_ask(&lv->guard, 1);
+  const pendres_langevin_answer answer = observer->see(observer->arg, &strobe);
+  pendres_guard_ask(&lv->guard, 0);
+  return answer;
 }
 
 /* All periods of the block's trajectories, the first of which is number `first`. */
@@ -158,7 +171,7 @@ static pendres_status run(pendres_langevin *lv, size_t first, long first_period,
     pendres_langevin_block_period(b, (uint32_t)(first_period + k));
     lv->spent += (double)b->count;
     if (observer == NULL) continue;
-    switch (show(b, first, first_period + k + 1, observer)) {
+    switch (show(lv, first, first_period + k + 1, observer)) {
     case PENDRES_LANGEVIN_GO_ON: break;
     case PENDRES_LANGEVIN_ENOUGH: return PENDRES_OK;
     default: return pendres_langevin_fail(lv, PENDRES_INTERRUPTED, "interrupted by the observer");
@@ -167,11 +180,14 @@ static pendres_status run(pendres_langevin *lv, size_t first, long first_period,
   return PENDRES_OK;
 }
 
-pendres_status pendres_langevin_advance(pendres_langevin *lv, size_t n,
-                                        const pendres_pendulum *pendulums, const uint64_t *ids,
-                                        long first_period, long periods, double *x, double *v,
-                                        const pendres_langevin_observer *observer)
+static pendres_status advance(pendres_langevin *lv, size_t n, const pendres_pendulum *pendulums,
+                              const uint64_t *ids, long first_period, long periods, double *x,
+                              double *v, const pendres_langevin_observer *observer)
 {
+  if (n > 0 && (pendulums == NULL || x == NULL || v == NULL))
+    return PENDRES_LANGEVIN_NULL(lv, "pendulums, x and v");
+  if (observer != NULL && observer->see == NULL)
+    return PENDRES_LANGEVIN_NULL(lv, "the observer's see()");
   pendres_langevin_block *b = &lv->block;
   double *end = NULL;
   pendres_status status = pendres_langevin_accept_periods(lv, first_period, periods);
@@ -181,7 +197,8 @@ pendres_status pendres_langevin_advance(pendres_langevin *lv, size_t n,
 
   /* The caller's arrays stay as they are until nothing can fail any more. */
   end = malloc(2 * n * sizeof *end);
-  if (end == NULL) return pendres_langevin_fail(lv, PENDRES_OUT_OF_MEMORY, "out of memory");
+  if (end == NULL)
+    return pendres_langevin_fail(lv, PENDRES_OUT_OF_MEMORY, "out of memory: %zu trajectories", n);
   b->harmonics = observer != NULL && observer->harmonics;
   for (size_t first = 0; first < n; first += b->count) {
     pendres_langevin_block_resize(b, n - first < b->capacity ? n - first : b->capacity);
@@ -200,4 +217,13 @@ pendres_status pendres_langevin_advance(pendres_langevin *lv, size_t n,
 done:
   free(end);
   return status;
+}
+
+pendres_status pendres_langevin_advance(pendres_langevin *lv, size_t n,
+                                        const pendres_pendulum *pendulums, const uint64_t *ids,
+                                        long first_period, long periods, double *x, double *v,
+                                        const pendres_langevin_observer *observer)
+{
+  return PENDRES_LANGEVIN_CALL(
+    lv, advance(lv, n, pendulums, ids, first_period, periods, x, v, observer));
 }

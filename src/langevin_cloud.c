@@ -145,7 +145,9 @@ static void ask(const run *r, const pendres_langevin_block *b, size_t first, lon
   const pendres_langevin_strobe strobe = {
     .first = first, .count = b->count, .period = period, .x = b->x, .v = b->v,
     .cosine = b->cosine, .sine = b->sine, .work = b->work};
+  pendres_guard_ask(&r->lv->guard, 1);
   r->request->leave(r->request->arg, &strobe, r->left + first);
+  pendres_guard_ask(&r->lv->guard, 0);
 }
 
 /* Count a strobe of a block; 0 if nobody is there any more. */
@@ -244,11 +246,10 @@ static pendres_langevin_estimate phase_lag(const run *r, const double value[STAT
     lag, sqrt(square * (double)counting / (double)(counting - 1)) / strobes};
 }
 
-pendres_status pendres_langevin_measure(pendres_langevin *lv,
-                                        const pendres_langevin_request *request,
-                                        pendres_langevin_cloud *cloud, double *strobe_x,
-                                        double *strobe_v)
+static pendres_status measure(pendres_langevin *lv, const pendres_langevin_request *request,
+                              pendres_langevin_cloud *cloud, double *strobe_x, double *strobe_v)
 {
+  if (request == NULL || cloud == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and cloud");
   run r = {.lv = lv, .request = request, .trajectories = request->trajectories,
            .first_id = request->first_id, .strobe_x = strobe_x, .strobe_v = strobe_v};
   pendres_langevin_block *b = &lv->block;
@@ -285,6 +286,14 @@ done:
   return status;
 }
 
+pendres_status pendres_langevin_measure(pendres_langevin *lv,
+                                        const pendres_langevin_request *request,
+                                        pendres_langevin_cloud *cloud, double *strobe_x,
+                                        double *strobe_v)
+{
+  return PENDRES_LANGEVIN_CALL(lv, measure(lv, request, cloud, strobe_x, strobe_v));
+}
+
 /* ---- Bias -------------------------------------------------------------------------------- */
 
 static void scales_of(const sums *total, double scale[STATISTICS])
@@ -311,7 +320,7 @@ static pendres_status make_pair(pendres_langevin *lv)
     status = pendres_langevin_block_make(&lv->partner, lv->block.capacity, lv->options.seed);
   if (status == PENDRES_OK) status = pendres_langevin_block_set_steps(&lv->partner, steps);
   if (status == PENDRES_OK) status = pendres_langevin_block_set_steps(&lv->block, 2 * steps);
-  if (status != PENDRES_OK) return pendres_langevin_fail(lv, status, "out of memory");
+  if (status != PENDRES_OK) return pendres_langevin_fail(lv, status, "out of memory for pairs");
   return status;
 }
 
@@ -345,17 +354,24 @@ static pendres_status measure_bias(pendres_langevin *lv, const pendres_langevin_
   /* Whatever happened, the handle's own steps are back in force. */
   const pendres_status back =
     pendres_langevin_block_set_steps(&lv->block, lv->options.steps_per_period);
-  if (back != PENDRES_OK) return pendres_langevin_fail(lv, back, "out of memory");
+  if (back != PENDRES_OK) return pendres_langevin_fail(lv, back, "out of memory for steps");
   return status;
+}
+
+static pendres_status bias_of(pendres_langevin *lv, const pendres_langevin_request *request,
+                              pendres_langevin_bias *bias)
+{
+  if (request == NULL || bias == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and bias");
+  const pendres_status status = accept(lv, request);
+  if (status != PENDRES_OK) return status;
+  return measure_bias(lv, request, request->trajectories, bias);
 }
 
 pendres_status pendres_langevin_measure_bias(pendres_langevin *lv,
                                              const pendres_langevin_request *request,
                                              pendres_langevin_bias *bias)
 {
-  const pendres_status status = accept(lv, request);
-  if (status != PENDRES_OK) return status;
-  return measure_bias(lv, request, request->trajectories, bias);
+  return PENDRES_LANGEVIN_CALL(lv, bias_of(lv, request, bias));
 }
 
 /* The largest bias and its largest error among the statistics, in units of their scales. */
@@ -377,11 +393,11 @@ static int first_steps(const pendres_pendulum *p)
   return (int)ceil(fmin(5e5, fmax(4.0, period * fmax(1.0, p->damping))));
 }
 
-pendres_status pendres_langevin_choose_steps(pendres_langevin *lv,
-                                             const pendres_langevin_request *request,
-                                             unsigned statistics, double tolerance,
-                                             pendres_langevin_bias *bias)
+static pendres_status choose_steps(pendres_langevin *lv, const pendres_langevin_request *request,
+                                   unsigned statistics, double tolerance,
+                                   pendres_langevin_bias *bias)
 {
+  if (request == NULL || bias == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and bias");
   const int before = lv->options.steps_per_period;
   size_t trajectories = request->trajectories;
   double value, error;
@@ -414,4 +430,12 @@ failed:
   (void)pendres_langevin_block_set_steps(&lv->block, before);
   lv->options.steps_per_period = lv->block.steps;
   return status;
+}
+
+pendres_status pendres_langevin_choose_steps(pendres_langevin *lv,
+                                             const pendres_langevin_request *request,
+                                             unsigned statistics, double tolerance,
+                                             pendres_langevin_bias *bias)
+{
+  return PENDRES_LANGEVIN_CALL(lv, choose_steps(lv, request, statistics, tolerance, bias));
 }

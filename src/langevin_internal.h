@@ -6,17 +6,26 @@
 
 #include <pendres/langevin.h>
 
+#include "guard.h"
 #include "langevin_block.h"
 
 struct pendres_langevin {
+  pendres_guard guard;
   pendres_langevin_options options; /* defaults resolved */
   pendres_langevin_block block;
   pendres_langevin_block partner; /* the coarse one of a pair; made when first asked for */
   double spent;
   int (*stop)(void *arg);
   void *stop_arg;
-  char message[256];
 };
+
+/* The body of a public function that computes with a handle; see guard.h. */
+#define PENDRES_LANGEVIN_CALL(lv, call) \
+  PENDRES_GUARD_CALL((lv) != NULL ? &(lv)->guard : NULL, call)
+
+/* Refuse arguments that are NULL; `names` is the sentence's beginning. */
+#define PENDRES_LANGEVIN_NULL(lv, names) \
+  pendres_langevin_fail(lv, PENDRES_INVALID_ARGUMENT, "%s must not be NULL", names)
 
 /* Keep a sentence, return the status. */
 pendres_status pendres_langevin_fail(pendres_langevin *lv, pendres_status status,

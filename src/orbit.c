@@ -316,13 +316,13 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
   return PENDRES_OK;
 }
 
-pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
-                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
-                                    pendres_orbit *out, pendres_status *outcome)
+static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
+                                   pendres_orbit_want want, pendres_orbit *out,
+                                   pendres_status *outcome)
 {
   enum { MOST_TRIES = 4 };
-  if (ctx == NULL || (n > 0 && (guess == NULL || out == NULL || outcome == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (n > 0 && (guess == NULL || out == NULL || outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "guess, out and outcome");
   if (n == 0) return PENDRES_OK;
 
   pendres_status status = PENDRES_OK;
@@ -352,6 +352,13 @@ done:
   return status;
 }
 
+pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
+                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
+                                    pendres_orbit *out, pendres_status *outcome)
+{
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, out, outcome));
+}
+
 typedef struct sampling {
   double *y, *w;
 } sampling;
@@ -364,12 +371,14 @@ static void keep_sample(void *arg, int step, double theta, size_t stride, const 
   s->w[step] = state[stride];
 }
 
-pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                                    double *x, double *v)
+static pendres_status orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                                   double *x, double *v)
 {
   pendres_flow *flow = NULL;
-  if (ctx == NULL || orbit == NULL || count < 1 || orbit->steps < 1)
-    return PENDRES_INVALID_ARGUMENT;
+  if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
+  if (count < 1 || orbit->steps < 1 || orbit->period < 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "samples of an orbit: one at least, and an orbit that closes");
   const int q = orbit->period, steps = orbit->steps;
   const size_t n = (size_t)q * (size_t)steps, points = (size_t)q * (size_t)count;
   pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
@@ -412,4 +421,10 @@ pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *o
 done:
   free(memory);
   return status;
+}
+
+pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                                    double *x, double *v)
+{
+  return PENDRES_CONTEXT_CALL(ctx, orbit_sample(ctx, orbit, count, x, v));
 }

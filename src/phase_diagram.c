@@ -246,13 +246,12 @@ done:
   return status;
 }
 
-pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                                  const pendres_ensemble *ensemble, double spacing,
-                                  pendres_phase_point *out, pendres_branches **branches)
+static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                 const pendres_ensemble *ensemble, double spacing,
+                                 pendres_phase_point *out, pendres_branches **branches)
 {
-  if (branches != NULL) *branches = NULL;
-  if (ctx == NULL || ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and points");
   pendres_status status = check_line(ctx, n, pendulums, ensemble);
   if (status != PENDRES_OK || n == 0) return status;
   pendres_branches *found = NULL;
@@ -263,6 +262,14 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
   }
   pendres_branches_free(found);
   return status;
+}
+
+pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                  const pendres_ensemble *ensemble, double spacing,
+                                  pendres_phase_point *out, pendres_branches **branches)
+{
+  if (branches != NULL) *branches = NULL;
+  return PENDRES_CONTEXT_CALL(ctx, phase_line(ctx, n, pendulums, ensemble, spacing, out, branches));
 }
 
 /* ---- what neighbouring lines know ---- */
@@ -343,14 +350,13 @@ static pendres_status compute_again(pendres_context *ctx, size_t n,
   return status;
 }
 
-pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
-                                           const pendres_curves *curves,
-                                           const pendres_ensemble *ensemble, double spacing,
-                                           pendres_phase_point *points,
-                                           pendres_branches *branches)
+static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
+                                          const pendres_curves *curves,
+                                          const pendres_ensemble *ensemble, double spacing,
+                                          pendres_phase_point *points, pendres_branches *branches)
 {
-  if (ctx == NULL || ensemble == NULL || (n > 0 && (points == NULL || branches == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (ensemble == NULL || (n > 0 && (points == NULL || branches == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "ensemble, points and branches");
   if (n == 0) return PENDRES_OK;
   pendres_status status = PENDRES_OK;
   const size_t first = pendres_branches_count(branches);
@@ -369,4 +375,14 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
   if (b.distinct != before.distinct || b.frequency != before.frequency)
     return compute_again(ctx, n, ensemble, spacing, points, branches);
   return judge_again(ctx, n, &b, branches, first, points);
+}
+
+pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
+                                           const pendres_curves *curves,
+                                           const pendres_ensemble *ensemble, double spacing,
+                                           pendres_phase_point *points,
+                                           pendres_branches *branches)
+{
+  return PENDRES_CONTEXT_CALL(ctx, phase_line_complete(ctx, n, curves, ensemble, spacing, points,
+                                                       branches));
 }

@@ -298,12 +298,13 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
   return PENDRES_OK;
 }
 
-pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
-                                               double lowest, double highest,
-                                               const pendres_ensemble *ensemble,
-                                               pendres_resonance *out)
+static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
+                                              double lowest, double highest,
+                                              const pendres_ensemble *ensemble,
+                                              pendres_resonance *out)
 {
-  if (ctx == NULL || p == NULL || ensemble == NULL || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  if (p == NULL || ensemble == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, ensemble and out");
   if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the range of frequencies must be positive and ascending");
@@ -325,9 +326,23 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
   return status;
 }
 
-pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
-                                      double lowest, double highest, pendres_resonance *out)
+pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
+                                               double lowest, double highest,
+                                               const pendres_ensemble *ensemble,
+                                               pendres_resonance *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, resonance_find_ensemble(ctx, p, lowest, highest, ensemble, out));
+}
+
+static pendres_status resonance_find(pendres_context *ctx, const pendres_pendulum *p, double lowest,
+                                     double highest, pendres_resonance *out)
 {
   const pendres_ensemble e = pendres_ensemble_default();
   return pendres_resonance_find_ensemble(ctx, p, lowest, highest, &e, out);
+}
+
+pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
+                                      double lowest, double highest, pendres_resonance *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, resonance_find(ctx, p, lowest, highest, out));
 }

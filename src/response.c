@@ -167,12 +167,12 @@ done:
   return status;
 }
 
-pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
-                                        const pendres_pendulum *pendulums,
-                                        const pendres_ensemble *ensemble, pendres_response *out)
+static pendres_status response_compute(pendres_context *ctx, size_t n,
+                                       const pendres_pendulum *pendulums,
+                                       const pendres_ensemble *ensemble, pendres_response *out)
 {
-  if (ctx == NULL || ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and out");
   if (ensemble->members < 1 || !isfinite(ensemble->x_first) || !isfinite(ensemble->x_last) ||
       !isfinite(ensemble->v))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
@@ -190,4 +190,11 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
     status = compute_batch(ctx, sets, pendulums + first, ensemble, out + first);
   }
   return status;
+}
+
+pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
+                                        const pendres_pendulum *pendulums,
+                                        const pendres_ensemble *ensemble, pendres_response *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, response_compute(ctx, n, pendulums, ensemble, out));
 }

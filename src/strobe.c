@@ -177,12 +177,12 @@ done:
   return status;
 }
 
-pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
-                                      const pendres_pendulum *pendulums, double *x, double *v,
-                                      long periods, double *error)
+static pendres_status strobe_advance(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, double *x, double *v,
+                                     long periods, double *error)
 {
-  if (ctx == NULL || (n > 0 && (pendulums == NULL || x == NULL || v == NULL)))
-    return PENDRES_INVALID_ARGUMENT;
+  if (n > 0 && (pendulums == NULL || x == NULL || v == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, x and v");
   pendres_status status = check(ctx, n, pendulums, x, v, periods);
   if (status != PENDRES_OK || n == 0) return status;
   if (periods == 0) {
@@ -205,4 +205,11 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
   }
   free(lanes);
   return status;
+}
+
+pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
+                                      const pendres_pendulum *pendulums, double *x, double *v,
+                                      long periods, double *error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, strobe_advance(ctx, n, pendulums, x, v, periods, error));
 }

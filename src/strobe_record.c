@@ -132,15 +132,17 @@ static pendres_status estimate(pendres_context *ctx, const record *what, int str
   return status;
 }
 
-pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                     double x0, double v0, long periods, int samples, double *x,
-                                     double *v, double *x_error, double *v_error)
+static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                           double x0, double v0, long periods, int samples,
+                                           double *x, double *v, double *x_error, double *v_error)
 {
   const record what = { .p = pendulum, .x0 = x0, .v0 = v0, .periods = periods, .samples = samples };
   int steps = 0;
-  if (ctx == NULL || pendulum == NULL || x == NULL || v == NULL ||
-      (x_error == NULL) != (v_error == NULL))
-    return PENDRES_INVALID_ARGUMENT;
+  if (pendulum == NULL || x == NULL || v == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, x and v");
+  if ((x_error == NULL) != (v_error == NULL))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "errors are of both x and v, or of neither");
   pendres_status status = check(ctx, &what);
   if (status == PENDRES_OK)
     /* Errors of all periods may add up. */
@@ -152,4 +154,12 @@ pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulu
   if (status == PENDRES_OK && x_error != NULL)
     status = estimate(ctx, &what, stretch, x, v, x_error, v_error);
   return status;
+}
+
+pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                     double x0, double v0, long periods, int samples, double *x,
+                                     double *v, double *x_error, double *v_error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, whole_record(ctx, pendulum, x0, v0, periods, samples, x,
+                                                        v, x_error, v_error));
 }

@@ -153,10 +153,10 @@ static const char *refuse(const pendres_switching_request *q)
   return NULL;
 }
 
-pendres_status pendres_switching_count(pendres_langevin *lv,
-                                       const pendres_switching_request *request,
-                                       pendres_switching_tally *tally)
+static pendres_status count(pendres_langevin *lv, const pendres_switching_request *request,
+                            pendres_switching_tally *tally)
 {
+  if (request == NULL || tally == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and tally");
   counting c = {0};
   double *x = NULL;
   uint64_t *ids = NULL;
@@ -202,6 +202,13 @@ done:
   free(ids);
   free(pendulums);
   return status;
+}
+
+pendres_status pendres_switching_count(pendres_langevin *lv,
+                                       const pendres_switching_request *request,
+                                       pendres_switching_tally *tally)
+{
+  return PENDRES_LANGEVIN_CALL(lv, count(lv, request, tally));
 }
 
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)

@@ -51,6 +51,7 @@ static void test_numbers(void **state)
   assert_int_equal(PENDRES_IO, 9);
   assert_int_equal(PENDRES_UNSUPPORTED, 10);
   assert_int_equal(PENDRES_INTERNAL, 11);
+  assert_int_equal(PENDRES_BUSY, 12);
 }
 
 int main(void)

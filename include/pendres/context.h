@@ -5,7 +5,9 @@
  * memory of its blocks, and the message that explains the last failure.
  *
  * Thread safety: a context belongs to one thread at a time; two contexts never
- * share anything. Results do not depend on which context computed them.
+ * share anything. Results do not depend on which context computed them. A context that is in use,
+ * by another thread or by the call which asks the present function (see
+ * pendres_context_set_interrupt), is refused with PENDRES_BUSY by every function that computes.
  */
 #ifndef PENDRES_CONTEXT_H
 #define PENDRES_CONTEXT_H
@@ -88,22 +90,33 @@ const char *pendres_options_check(const pendres_options *options);
  */
 pendres_status pendres_context_create(const pendres_options *options, pendres_context **out);
 
-/** Free a context; NULL is allowed. Objects made with it stay valid unless they say otherwise. */
+/**
+ * Free a context; NULL is allowed. Objects made with it stay valid unless they say otherwise.
+ * A context in use is left alone.
+ */
 void pendres_context_free(pendres_context *ctx);
 
-/** The sentence on the last failure; "" if none. Owned by the context, valid until its next use. */
+/**
+ * The sentence on how the last computation failed; "" if it did not. Owned by the context, valid
+ * until its next use. While the context is in use: that it is.
+ */
 const char *pendres_context_message(const pendres_context *ctx);
 
-/** The options in force, defaults resolved. */
+/** The options in force, defaults resolved; NULL without a context. */
 const pendres_options *pendres_context_options(const pendres_context *ctx);
 
-/** Cost so far; reset sets all to zero. */
+/**
+ * Cost so far, NaN without a context and while another thread uses it; reset sets all to zero. A
+ * context in use is not reset.
+ */
 void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost);
 void pendres_context_cost_reset(pendres_context *ctx);
 
 /**
  * A function that is asked now and then whether to go on: it returns nonzero to stop, and the
- * computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not owned.
+ * computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not owned. Within
+ * that function the context is in use, and may be asked for its cost and options alone. A context
+ * in use keeps the function that it has.
  */
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
 

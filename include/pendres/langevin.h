@@ -18,7 +18,9 @@
  * threads, or how often a run was interrupted at a period's end; a longer run extends a
  * shorter one.
  *
- * Thread safety: a pendres_langevin belongs to one thread at a time; two never share anything.
+ * Thread safety: a pendres_langevin belongs to one thread at a time; two never share anything. One
+ * that is in use, by another thread or by the call which asks the present function, is refused with
+ * PENDRES_BUSY.
  */
 #ifndef PENDRES_LANGEVIN_H
 #define PENDRES_LANGEVIN_H
@@ -50,17 +52,18 @@ const char *pendres_langevin_options_check(const pendres_langevin_options *optio
 pendres_status pendres_langevin_create(const pendres_langevin_options *options,
                                        pendres_langevin **out);
 
-/** Free a handle; NULL is allowed. */
+/** Free a handle; NULL is allowed. One in use is left alone. */
 void pendres_langevin_free(pendres_langevin *lv);
 
-/** The sentence on the last failure; "" if none. Valid until the handle's next use. */
+/** The sentence on how the last use failed; "" if it did not. Valid until the handle's next use. */
 const char *pendres_langevin_message(const pendres_langevin *lv);
 
-/** Steps a drive period in force, and another choice of them. */
+/** Steps a drive period in force (0 without a handle), and another choice of them. */
 int pendres_langevin_steps(const pendres_langevin *lv);
 pendres_status pendres_langevin_set_steps(pendres_langevin *lv, int steps_per_period);
 
-/** Pendulum-periods advanced since creation; a pair of pendres_langevin_bias counts three. */
+/** Pendulum-periods advanced since creation; a pair of pendres_langevin_bias counts three.
+ *  NaN without a handle, and while another thread uses it. */
 double pendres_langevin_spent(const pendres_langevin *lv);
 
 /** As pendres_context_set_interrupt: asked once a period of a block. */

@@ -31,7 +31,8 @@ extern "C" {
   X(INTERRUPTED, "interrupted on request")                                     \
   X(IO, "reading or writing a file failed")                                    \
   X(UNSUPPORTED, "not supported by this build")                                \
-  X(INTERNAL, "internal error")
+  X(INTERNAL, "internal error")                                                \
+  X(BUSY, "the handle is in use: by another thread, or by the call that asks this one")
 
 typedef enum pendres_status {
 #define PENDRES_STATUS_CODE(name, text) PENDRES_##name,
