@@ -20,7 +20,21 @@ static const double two_pi = 6.28318530717958647693;
 static const double bias_wanted = 0.01;
 
 /* Why a cloud is, or is not, compared with linear theory. */
-enum { AGREES, TOO_HOT, NOT_COMPARED, VERDICTS };
+enum { AGREES, TOO_HOT, NOT_COMPARED, UNCERTAIN, BELOW_ROUNDING, VERDICTS };
+
+static const struct {
+  const char *name, *words;
+} verdicts[VERDICTS] = {
+  [AGREES] = { "agrees", "yes" },
+  [TOO_HOT] = { "too_hot", "no, too hot" },
+  [NOT_COMPARED] = { "not_compared", "not compared" },
+  [UNCERTAIN] = { "uncertain", "uncertain" },
+  [BELOW_ROUNDING] = { "below_rounding", "not followed" },
+};
+
+/* What linear theory leaves out is smaller than a covariance by about its variance: below this
+   one it is lost in rounding, and trajectories would only be a poorer way to the same. */
+static const double least_variance = 2e-16;
 
 /* A temperature and attractor. */
 typedef struct cloud {
@@ -28,6 +42,7 @@ typedef struct cloud {
   pendres_langevin_bias bias;
   pendres_langevin_linear linear;
   int compared; /* there is linear theory to compare with */
+  int narrow;   /* so narrow that linear theory is exact: nothing is followed */
 } cloud;
 
 typedef struct work {
@@ -77,25 +92,67 @@ static pendres_langevin_request request_of(const work *w, size_t number,
 
 /* ---- computing ----------------------------------------------------------------------------- */
 
-/* Without noise: the orbit itself, without width. */
+/* Mean and covariance of the q points of an orbit that closes after q periods. */
+static void still_statistics(const pendres_orbit *o, size_t q, const double *x, const double *v,
+                             pendres_langevin_estimate *out)
+{
+  double mean_x = 0.0, mean_v = 0.0, xx = 0.0, xv = 0.0, vv = 0.0;
+  for (size_t k = 0; k < q; k++) {
+    mean_x += x[k] / (double)q;
+    mean_v += v[k] / (double)q;
+  }
+  for (size_t k = 0; k < q; k++) {
+    xx += (x[k] - mean_x) * (x[k] - mean_x) / (double)q;
+    xv += (x[k] - mean_x) * (v[k] - mean_v) / (double)q;
+    vv += (v[k] - mean_v) * (v[k] - mean_v) / (double)q;
+  }
+  out[PENDRES_LANGEVIN_MEAN_X] = (pendres_langevin_estimate){ mean_x, o->x_error };
+  out[PENDRES_LANGEVIN_MEAN_V] = (pendres_langevin_estimate){ mean_v, o->v_error };
+  out[PENDRES_LANGEVIN_COV_XX] = (pendres_langevin_estimate){ xx, 2.0 * sqrt(xx) * o->x_error };
+  out[PENDRES_LANGEVIN_COV_XV] =
+    (pendres_langevin_estimate){ xv, sqrt(xx) * o->v_error + sqrt(vv) * o->x_error };
+  out[PENDRES_LANGEVIN_COV_VV] = (pendres_langevin_estimate){ vv, 2.0 * sqrt(vv) * o->v_error };
+}
+
+/* Without noise, or with less than rounding: the orbit's own points. */
 static pendres_status still_cloud(work *w, size_t number, pendres_context *ctx)
 {
   const pendres_orbit *o = &attractor_of(w, number)->orbit;
   cloud *c = &w->clouds[number];
   const size_t q = (size_t)o->period;
   double *points = malloc(2 * q * sizeof *points);
-  pendres_status status = points != NULL ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK) status = pendres_orbit_sample(ctx, o, 1, points, points + q);
+  if (points == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = pendres_orbit_sample(ctx, o, 1, points, points + q);
+  /* The Poincare point itself: to the last digit. */
+  points[0] = o->x;
+  points[q] = o->v;
   for (size_t k = 0; k < w->strobes && status == PENDRES_OK; k++) {
-    /* The Poincare point itself where it is one alone: to the last digit. */
-    w->x[number * w->strobes + k] = q == 1 ? o->x : points[k % q];
-    w->v[number * w->strobes + k] = q == 1 ? o->v : points[q + k % q];
+    w->x[number * w->strobes + k] = points[k % q];
+    w->v[number * w->strobes + k] = points[q + k % q];
   }
+  if (status == PENDRES_OK) still_statistics(o, q, points, points + q, c->measured.statistics);
   free(points);
-  c->measured.statistics[PENDRES_LANGEVIN_MEAN_X] = (pendres_langevin_estimate){ o->x, o->x_error };
-  c->measured.statistics[PENDRES_LANGEVIN_MEAN_V] = (pendres_langevin_estimate){ o->v, o->v_error };
-  c->compared = 1;
   return status;
+}
+
+/* What linear theory says of an orbit of one period. */
+static void linear_cloud(cloud *c)
+{
+  pendres_langevin_estimate *s = c->measured.statistics;
+  const pendres_langevin_covariance *l = &c->linear.covariance;
+  s[PENDRES_LANGEVIN_COV_XX] = (pendres_langevin_estimate){ l->xx, c->linear.error };
+  s[PENDRES_LANGEVIN_COV_XV] = (pendres_langevin_estimate){ l->xv, c->linear.error };
+  s[PENDRES_LANGEVIN_COV_VV] = (pendres_langevin_estimate){ l->vv, c->linear.error };
+}
+
+/* Linear theory, and whether the cloud is too narrow for anything else. */
+static void ask_theory(const pendres_langevin_request *request, const pendres_orbit *o, cloud *c)
+{
+  const pendres_status status = pendres_langevin_linear_theory(
+    &request->pendulum, request->x, request->v, o->period, &c->linear);
+  /* The cloud of an orbit of several periods lies around several points: theory knows one. */
+  c->compared = o->period == 1 && status == PENDRES_OK;
+  c->narrow = status == PENDRES_OK && !(c->linear.covariance.xx > least_variance);
 }
 
 static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
@@ -107,8 +164,17 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   pendres_switching_home home;
   pendres_langevin *lv = NULL;
   if (!has_cloud(a)) return PENDRES_OK;
-  if (!(temperature_of(w, number) > 0.0)) return still_cloud(w, number, ctx);
+  if (!(temperature_of(w, number) > 0.0)) {
+    c->compared = 1;
+    return still_cloud(w, number, ctx);
+  }
   pendres_langevin_request request = request_of(w, number, &home);
+  ask_theory(&request, &a->orbit, c);
+  if (c->narrow) {
+    const pendres_status status = still_cloud(w, number, ctx);
+    if (status == PENDRES_OK && c->compared) linear_cloud(c);
+    return status;
+  }
   request.trajectories = TRAJECTORIES;
   request.record = RECORD;
   pendres_status status = scene_noise_open(w->farm, w->d->basins.seed, &lv);
@@ -116,12 +182,14 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
     status =
       scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
   pendres_langevin_free(lv);
-  if (status != PENDRES_OK) return status;
-  /* The cloud of an orbit of several periods lies around several points: theory knows one. */
-  c->compared = a->orbit.period == 1 &&
-                pendres_langevin_linear_theory(&request.pendulum, request.x, request.v, 1,
-                                               &c->linear) == PENDRES_OK;
-  return PENDRES_OK;
+  return status;
+}
+
+/* Is there a cloud whose trajectories are followed? */
+static int is_followed(const work *w, size_t number)
+{
+  return has_cloud(attractor_of(w, number)) && temperature_of(w, number) > 0.0 &&
+         !w->clouds[number].narrow;
 }
 
 /* Strobes of a chunk into their place among those of the cloud, as many as are written. */
@@ -144,7 +212,7 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
   pendres_langevin *lv = NULL;
   double *points = NULL;
   (void)ctx;
-  if (!has_cloud(attractor_of(w, number)) || !(temperature_of(w, number) > 0.0)) return PENDRES_OK;
+  if (!is_followed(w, number)) return PENDRES_OK;
   pendres_langevin_request request = request_of(w, number, &home);
   scene_noise_chunk(w->trajectories, task % w->chunks, &first, &count);
   request.first_id += first;
@@ -214,9 +282,16 @@ static const struct {
 
 enum { RESULTS = sizeof results / sizeof results[0] };
 
-/* Does the cloud agree with linear theory within three of all errors, bias among them? */
+/*
+ * Does the cloud agree with linear theory within three of all errors, bias among them? An error
+ * as large as half the width in question agrees with anything: that is no verdict.
+ */
 static int8_t verdict(const cloud *c)
 {
+  const pendres_langevin_covariance *width = &c->linear.covariance;
+  const double scale[3] = { width->xx, sqrt(width->xx * width->vv), width->vv };
+  int8_t verdict = AGREES;
+  if (c->narrow) return BELOW_ROUNDING;
   if (!c->compared || !isfinite(c->measured.statistics[PENDRES_LANGEVIN_COV_XX].value))
     return NOT_COMPARED;
   for (int k = PENDRES_LANGEVIN_COV_XX; k <= PENDRES_LANGEVIN_COV_VV; k++) {
@@ -225,8 +300,9 @@ static int8_t verdict(const cloud *c)
     const double off = isfinite(b.result) ? hypot(b.result, b.error) : bias_wanted * fabs(l.result);
     const double error = sqrt(s.error * s.error + l.error * l.error + off * off);
     if (!(fabs(s.result - l.result) <= 3.0 * error)) return TOO_HOT;
+    if (error > 0.5 * scale[k - PENDRES_LANGEVIN_COV_XX]) verdict = UNCERTAIN;
   }
-  return AGREES;
+  return verdict;
 }
 
 static scene_noise_rate escape_rate(const work *w, size_t number)
@@ -234,7 +310,7 @@ static scene_noise_rate escape_rate(const work *w, size_t number)
   const cloud *c = &w->clouds[number];
   const double period = two_pi / attractor_of(w, number)->orbit.pendulum.drive_frequency;
   if (!has_cloud(attractor_of(w, number))) return (scene_noise_rate){ NAN, NAN, NAN, NAN };
-  if (!(temperature_of(w, number) > 0.0)) return (scene_noise_rate){ 0.0, 0.0, 0.0, 0.0 };
+  if (!is_followed(w, number)) return (scene_noise_rate){ 0.0, 0.0, 0.0, 0.0 };
   return scene_noise_rate_of((double)c->measured.left, c->measured.exposure, period);
 }
 
@@ -314,13 +390,16 @@ static pendres_status write_escapes(scene_run *run, const work *w, double *a, do
 
 static pendres_status write_verdicts(scene_run *run, const work *w)
 {
-  static const char *const meanings[VERDICTS] = { "agrees", "too_hot", "not_compared" };
+  const char *meanings[VERDICTS];
   const size_t n = w->temperatures * w->attractors;
-  const pendres_store_spec verdicts = {
+  for (int k = 0; k < VERDICTS; k++) meanings[k] = verdicts[k].name;
+  const pendres_store_spec theory = {
     .name = "linear_theory", .type = PENDRES_STORE_INT8, CLOUD_DIMENSIONS,
     .long_name = "whether the cloud's covariance agrees with linear noise theory",
     .comment = "too_hot: one of the three differs by more than 3 of its standard errors, "
-               "which include the bias by finite steps",
+               "which include the bias by finite steps; uncertain: an error above half the "
+               "width; below_rounding: so narrow that what linear theory leaves out is below "
+               "rounding, so that nothing is followed and the covariance is that of theory",
     .flag_count = VERDICTS, .flag_meanings = meanings };
   const pendres_store_spec steps = { .name = "noise_steps_per_period", .type = PENDRES_STORE_INT32,
                                      CLOUD_DIMENSIONS,
@@ -333,7 +412,7 @@ static pendres_status write_verdicts(scene_run *run, const work *w)
     verdict_of[i] = has_cloud(attractor_of(w, i)) ? verdict(&w->clouds[i]) : NOT_COMPARED;
     steps_of[i] = w->clouds[i].bias.steps_per_period;
   }
-  status = pendres_store_put(run->store, &verdicts, verdict_of, n);
+  status = pendres_store_put(run->store, &theory, verdict_of, n);
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, steps_of, n);
 done:
   free(verdict_of);
@@ -358,7 +437,6 @@ static pendres_status write_results(scene_run *run, const work *w)
 
 static void print_table(FILE *out, const work *w)
 {
-  static const char *const words[VERDICTS] = { "yes", "no, too hot", "not compared" };
   fprintf(out, "temperature  attractor   var x        linear       var v        linear       "
                "agree         escapes  rate\n");
   for (size_t i = 0; i < w->temperatures * w->attractors; i++) {
@@ -368,7 +446,7 @@ static void print_table(FILE *out, const work *w)
             temperature_of(w, i), i % w->attractors, pendres_label_name(attractor_of(w, i)->label),
             statistic(c, PENDRES_LANGEVIN_COV_XX).result, linear(c, PENDRES_LANGEVIN_COV_XX).result,
             statistic(c, PENDRES_LANGEVIN_COV_VV).result, linear(c, PENDRES_LANGEVIN_COV_VV).result,
-            words[verdict(c)], c->measured.left, escape_rate(w, i).value);
+            verdicts[verdict(c)].words, c->measured.left, escape_rate(w, i).value);
   }
 }
 
@@ -387,7 +465,7 @@ static pendres_status compute(scene_run *run, work *w)
     status = farm_run(run->farm, "chunks of clouds", n * w->chunks, measure, NULL, w);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
   for (size_t i = 0; i < n; i++)
-    if (has_cloud(attractor_of(w, i)) && temperature_of(w, i) > 0.0)
+    if (is_followed(w, i))
       scene_noise_merge(w->chunks, w->parts + i * w->chunks, &w->clouds[i].measured);
   return PENDRES_OK;
 }
