@@ -86,7 +86,8 @@ const deck_key deck_table[] = {
   { STRING("scene", "title", title), IN(ALL) },
   { STRING("scene", "output", output), IN(ALL) },
 
-  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(DRIVEN), NOT_NEGATIVE, .number = NAN },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(DRIVEN & ~BRANCHES), NOT_NEGATIVE, .number = NAN },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(BRANCHES), POSITIVE, .number = NAN },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE, .number = NAN },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE, .number = NAN },
   { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },

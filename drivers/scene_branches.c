@@ -244,12 +244,14 @@ done:
 
 /* ---- backbones ----------------------------------------------------------------------------- */
 
-/* Dampings in geometric order, from below where the backbone begins to twice the deck's own. */
+/* Dampings in geometric order, from below where the backbone begins to twice the deck's own; but
+   not to where steps are legion and the pendulum has long been a linear one. */
 static void backbone_dampings(const scene_lines *g, pendres_pendulum *p)
 {
   const deck_axis *damping = &g->run->deck->axis[DECK_AXIS_DAMPING];
   const double low = 0.5 * damping->value[0];
-  const double high = fmax(1.0, 2.0 * damping->value[damping->count - 1]);
+  const double high = fmax(fmax(1.0, 2.0 * damping->value[0]),
+                           fmin(2.0 * damping->value[damping->count - 1], 100.0));
   for (int i = 0; i < BACKBONE; i++)
     p[i] = (pendres_pendulum){.damping = low * pow(high / low, i / (BACKBONE - 1.0)),
                               .drive_amplitude = g->run->deck->pendulum.drive_amplitude};
@@ -287,6 +289,22 @@ static pendres_status put_backbone(scene_run *run, const pendres_pendulum *p,
   return status;
 }
 
+/* What cannot be had of all dampings at a time is had, or not, of each. */
+static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum *p,
+                                    pendres_orbit *orbit, double *error, pendres_status *outcome)
+{
+  pendres_status status = pendres_backbone_find(ctx, BACKBONE, p, orbit, error, outcome);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  status = PENDRES_OK;
+  for (int i = 0; i < BACKBONE && status == PENDRES_OK; i++) {
+    status = pendres_backbone_find(ctx, 1, &p[i], &orbit[i], &error[i], &outcome[i]);
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
+    outcome[i] = PENDRES_NOT_FOUND; /* the backbone ends, or cannot be followed, there */
+    status = PENDRES_OK;
+  }
+  return status;
+}
+
 static pendres_status write_backbone(scene_run *run, const scene_lines *g)
 {
   pendres_pendulum p[BACKBONE];
@@ -299,7 +317,7 @@ static pendres_status write_backbone(scene_run *run, const scene_lines *g)
     goto done;
   }
   backbone_dampings(g, p);
-  status = pendres_backbone_find(ctx, BACKBONE, p, orbit, error, outcome);
+  status = find_backbone(ctx, p, orbit, error, outcome);
   if (status != PENDRES_OK)
     (void)scene_fail(run, status, "%s", pendres_context_message(ctx));
   else
@@ -347,6 +365,7 @@ static void print_table(FILE *out, const scene_lines *g)
 static pendres_status write_results(scene_run *run, const scene_lines *g)
 {
   pendres_status status = write_grid(run, g);
+  if (status == PENDRES_OK) status = scene_lines_write_failed(run, g);
   if (status == PENDRES_OK) status = write_branches(run, g);
   if (status == PENDRES_OK) status = scene_curves_write(run, &g->curves);
   if (status == PENDRES_OK) status = write_backbone(run, g);

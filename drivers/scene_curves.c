@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_failed.h"
+
 void scene_curves_free(scene_curves *c)
 {
   free(c->list);
@@ -74,9 +76,17 @@ pendres_status scene_curves_follow(scene_run *run, scene_curves *c)
   const pendres_status status =
     c->curves == NULL ? pendres_curves_find(ctx, c->count, c->list, &options, &c->curves)
                       : pendres_curves_extend(ctx, c->count, c->list, &options, c->curves);
-  if (status != PENDRES_OK) return scene_fail(run, status, "%s", pendres_context_message(ctx));
+  const scene_failure reason = scene_failure_of(status);
+  if (status != PENDRES_OK && reason == SCENE_FAILURE_NONE)
+    return scene_fail(run, status, "%s", pendres_context_message(ctx));
+  /* What was found stays; that there may be more is said, once. */
+  if (reason != SCENE_FAILURE_NONE && c->failed == SCENE_FAILURE_NONE) {
+    run->failed_points++;
+    scene_failure_tell(run, reason, pendres_context_message(ctx), "curves of bifurcations");
+    c->failed = (int8_t)reason;
+  }
   find_cusp(c);
-  return status;
+  return PENDRES_OK;
 }
 
 /* ---- arrays -------------------------------------------------------------------------------- */
@@ -295,6 +305,15 @@ static pendres_status put_scalar(scene_run *run, const char *name, const char *l
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
+static pendres_status write_failed(scene_run *run, const scene_curves *c)
+{
+  pendres_store_spec spec = {.name = "curves_failed",
+                             .long_name = "why the curves of bifurcations are not whole"};
+  scene_failure_flags(&spec);
+  const pendres_status status = pendres_store_put(run->store, &spec, &c->failed, 1);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
 static pendres_status write_cusp(scene_run *run, const scene_curves *c)
 {
   const pendres_cusp *k = &c->cusp;
@@ -317,6 +336,7 @@ pendres_status scene_curves_write(scene_run *run, const scene_curves *c)
   if (status == PENDRES_OK) status = write_points(run, c, 0);
   if (status == PENDRES_OK) status = write_bifurcations(run, c);
   if (status == PENDRES_OK) status = write_cusp(run, c);
+  if (status == PENDRES_OK) status = write_failed(run, c);
   return status;
 }
 

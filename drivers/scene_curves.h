@@ -16,6 +16,7 @@ typedef struct scene_curves {
   pendres_curves *curves;    /* through them, damping and drive frequency varied */
   pendres_cusp cusp;         /* where SA and LA become one */
   int has_cusp;
+  int8_t failed;             /* a scene_failure: why some of the curves are missing */
 } scene_curves;
 
 void scene_curves_free(scene_curves *c);

@@ -1,9 +1,70 @@
 /* scene_lines.c -- lines of points and their branches; see scene_lines.h. */
 #include "scene_lines.h"
 
+#include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_ROUNDS = 4 }; /* of following curves, see below */
+
+/* ---- a line -------------------------------------------------------------------------------- */
+
+/* Which of a line's drives can be computed at all: the others are marked. Costly, and done only
+   where a line has failed. */
+static pendres_status find_good(scene_lines *l, size_t task, pendres_context *ctx,
+                                const pendres_pendulum *p)
+{
+  scene_line *line = &l->line[task];
+  line->count = 0;
+  for (size_t k = 0; k < l->drives; k++) {
+    pendres_response r;
+    const pendres_status status = pendres_response_compute(ctx, 1, &p[k], &l->ensemble, &r);
+    line->place[k] = status == PENDRES_OK ? line->count++ : SIZE_MAX;
+    const pendres_status rest = scene_failures_note(&l->failed, task * l->drives + k, status,
+                                                    pendres_context_message(ctx));
+    if (rest != PENDRES_OK) return rest;
+  }
+  return PENDRES_OK;
+}
+
+/* Mark all points of a line; those computed before keep their values. */
+static pendres_status note_line(scene_lines *l, size_t task, pendres_status status,
+                                const char *words)
+{
+  pendres_status rest = status;
+  for (size_t k = 0; k < l->drives; k++)
+    if (l->line[task].place[k] != SIZE_MAX)
+      rest = scene_failures_note(&l->failed, task * l->drives + k, status, words);
+  return rest;
+}
+
+static pendres_status compute_good(scene_lines *l, size_t task, pendres_context *ctx,
+                                   pendres_pendulum *p)
+{
+  scene_line *line = &l->line[task];
+  for (size_t k = 0; k < l->drives; k++)
+    if (line->place[k] != SIZE_MAX) p[line->place[k]] = p[k];
+  pendres_status status = pendres_phase_line(ctx, line->count, p, &l->ensemble, l->spacing,
+                                             line->points, &line->branches);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  status = note_line(l, task, status, pendres_context_message(ctx));
+  for (size_t k = 0; k < l->drives; k++) line->place[k] = SIZE_MAX;
+  line->count = 0;
+  return status;
+}
+
+static void judge_line(scene_lines *l, size_t task)
+{
+  const scene_line *line = &l->line[task];
+  for (size_t k = 0; k < l->drives; k++) {
+    char words[80];
+    if (line->place[k] == SIZE_MAX || line->points[line->place[k]].unresolved == 0) continue;
+    snprintf(words, sizeof words, "%zu of %zu members did not settle within their budget",
+             line->points[line->place[k]].unresolved, l->ensemble.members);
+    scene_failures_mark(&l->failed, task * l->drives + k, SCENE_FAILURE_UNRESOLVED, words);
+  }
+}
 
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
 {
@@ -12,23 +73,60 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_pendulum *p = calloc(l->drives, sizeof *p);
   line->points = calloc(l->drives, sizeof *line->points);
-  if (p == NULL || line->points == NULL) goto done;
-  for (size_t k = 0; k < l->drives; k++)
+  line->place = calloc(l->drives, sizeof *line->place);
+  if (p == NULL || line->points == NULL || line->place == NULL) goto done;
+  for (size_t k = 0; k < l->drives; k++) {
     p[k] = pendres_sweep_pendulum(&l->sweep, task * l->drives + k, NULL, NULL);
+    line->place[k] = k;
+  }
+  line->count = l->drives;
   status = pendres_phase_line(ctx, l->drives, p, &l->ensemble, l->spacing, line->points,
                               &line->branches);
+  if (scene_failure_of(status) != SCENE_FAILURE_NONE) {
+    status = find_good(l, task, ctx, p);
+    if (status == PENDRES_OK) status = compute_good(l, task, ctx, p);
+  }
+  if (status == PENDRES_OK) judge_line(l, task);
 done:
   free(p);
   return status;
 }
 
+/* What the curves tell, if it can be had; the line stays as it was if not. */
 static pendres_status complete(void *arg, size_t task, pendres_context *ctx)
 {
   scene_lines *l = arg;
-  const scene_line *line = &l->line[task];
-  return pendres_phase_line_complete(ctx, l->drives, l->curves.curves, &l->ensemble, l->spacing,
-                                     line->points, line->branches);
+  scene_line *line = &l->line[task];
+  if (line->count == 0) return PENDRES_OK;
+  const size_t size = line->count * sizeof *line->points;
+  pendres_phase_point *before = malloc(size);
+  if (before == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(before, line->points, size);
+  pendres_status status =
+    pendres_phase_line_complete(ctx, line->count, l->curves.curves, &l->ensemble, l->spacing,
+                                line->points, line->branches);
+  if (scene_failure_of(status) != SCENE_FAILURE_NONE) {
+    memcpy(line->points, before, size);
+    status = note_line(l, task, status, pendres_context_message(ctx));
+  }
+  free(before);
+  return status;
 }
+
+const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i)
+{
+  const scene_line *line = &l->line[i / l->drives];
+  const size_t place = line->place[i % l->drives];
+  return place != SIZE_MAX ? &line->points[place] : &l->nothing;
+}
+
+pendres_status scene_lines_write_failed(scene_run *run, const scene_lines *l)
+{
+  static const deck_axis_id axes[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY };
+  return scene_failures_write(run, &l->failed, "failed", "point", 2, axes);
+}
+
+/* ---- all lines ----------------------------------------------------------------------------- */
 
 /* The bifurcations of all lines. */
 static pendres_status gather(scene_lines *l)
@@ -67,14 +165,18 @@ pendres_status scene_lines_compute(scene_run *run, scene_lines *l)
   l->ensemble = scene_ensemble(d);
   l->dampings = d->axis[DECK_AXIS_DAMPING].count;
   l->drives = d->axis[DECK_AXIS_DRIVE_FREQUENCY].count;
+  l->nothing = (pendres_phase_point){
+    .regime = PENDRES_REGIME_OTHER, .exact = PENDRES_REGIME_OTHER,
+    .other = PENDRES_OTHER_UNRESOLVED, .unresolved = l->ensemble.members,
+    .sa_fraction = NAN, .sa_fraction_error = NAN, .la_fraction = NAN, .la_fraction_error = NAN,
+    .mean_loop_area = NAN, .mean_loop_area_error = NAN, .mean_loop_amplitude = NAN,
+    .mean_loop_amplitude_error = NAN, .sa_amplitude = NAN, .sa_amplitude_error = NAN,
+    .la_amplitude = NAN, .la_amplitude_error = NAN };
   l->line = calloc(l->dampings, sizeof *l->line);
-  if (l->line == NULL)
+  if (l->line == NULL || scene_failures_create(l->dampings * l->drives, &l->failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lines", l->dampings);
   pendres_status status = farm_run(run->farm, "dampings", l->dampings, compute, NULL, l);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
-  for (size_t i = 0; i < l->dampings; i++)
-    for (size_t k = 0; k < l->drives; k++)
-      run->failed_points += l->line[i].points[k].unresolved > 0;
   return follow_curves(l);
 }
 
@@ -82,10 +184,12 @@ void scene_lines_free(scene_lines *l)
 {
   for (size_t i = 0; i < l->dampings && l->line != NULL; i++) {
     free(l->line[i].points);
+    free(l->line[i].place);
     pendres_branches_free(l->line[i].branches);
   }
   free(l->line);
   scene_curves_free(&l->curves);
+  scene_failures_free(&l->failed);
 }
 
 void scene_lines_print_cusp(const scene_lines *l, FILE *out)

@@ -9,9 +9,12 @@
 #define SCENE_LINES_H
 
 #include "scene_curves.h"
+#include "scene_failed.h"
 
 typedef struct scene_line {
-  pendres_phase_point *points; /* [drive] */
+  size_t count;                /* drives that could be computed */
+  pendres_phase_point *points; /* [count] */
+  size_t *place;               /* [drive] where it stands in points; SIZE_MAX: it failed */
   pendres_branches *branches;
 } scene_line;
 
@@ -23,6 +26,8 @@ typedef struct scene_lines {
   size_t dampings, drives;
   scene_line *line;    /* [damping] */
   scene_curves curves;
+  scene_failures failed; /* [damping][drive] */
+  pendres_phase_point nothing; /* what stands for a point that failed */
 } scene_lines;
 
 /* Compute all lines, follow the curves and complete the lines by them. l holds spacing; free it in
@@ -32,10 +37,10 @@ pendres_status scene_lines_compute(scene_run *run, scene_lines *l);
 void scene_lines_free(scene_lines *l);
 
 /* Point number i = damping * drives + drive. */
-static inline const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i)
-{
-  return &l->line[i / l->drives].points[i % l->drives];
-}
+const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i);
+
+/* Write `failed`, beside the points' dimensions. */
+pendres_status scene_lines_write_failed(scene_run *run, const scene_lines *l);
 
 /* A line of the short table on the cusp, if there is one. */
 void scene_lines_print_cusp(const scene_lines *l, FILE *out);

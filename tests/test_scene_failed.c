@@ -78,11 +78,50 @@ static void response_keeps_the_others(void **state)
   check_same_values("response", "good", "resonance_period", 2);
 }
 
+/* The same on lines, where branches and curves are followed through the good points. */
+static void lines_keep_the_others(void **state)
+{
+  static const char format[] = "&scene kind = '%s' /\n&pendulum drive_amplitude = 0.2 /\n"
+                               "&sweep damping = 0.5%s, drive_frequency = %s0.8, 0.9 /\n"
+                               "&ensemble members = 10 /\n";
+  static const char *const kinds[2] = { "phase_diagram", "branches" };
+  const int wanted[6] = { SCENE_FAILURE_TOLERANCE, 0, 0, SCENE_FAILURE_TOLERANCE,
+                          SCENE_FAILURE_TOLERANCE, SCENE_FAILURE_TOLERANCE };
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    char whole[300], good[300];
+    int codes[6];
+    size_t n = 0;
+    /* So slow a drive needs too many steps at any damping, so strong a damping at any drive. */
+    snprintf(whole, sizeof whole, format, kinds[i], ", 999999", "2e-6, ");
+    snprintf(good, sizeof good, format, kinds[i], "", "");
+    assert_int_equal(scene_run_marked(NULL, whole, 1, kinds[i]), 4);
+    assert_non_null(strstr(scene_told, "damping 0.5, drive_frequency 2e-06: "));
+    assert_int_equal(scene_run_marked(NULL, whole, 2, "again"), 4);
+    scene_check_same_bytes(kinds[i], "again");
+    get_codes(kinds[i], "failed", codes, 6);
+    assert_memory_equal(codes, wanted, sizeof codes);
+    get_codes(kinds[i], "curves_failed", codes, 1);
+    assert_int_equal(codes[0], SCENE_FAILURE_NONE);
+    scene_run_deck(good, 1, "good");
+    pendres_store *one = scene_open(kinds[i]), *two = scene_open("good");
+    double *a = scene_values(one, "mean_loop_area", &n), *b = scene_values(two, "mean_loop_area", &n);
+    assert_int_equal(n, 2);
+    assert_true(isnan(a[0]) && isnan(a[3]) && isnan(a[5]));
+    assert_memory_equal(a + 1, b, 2 * sizeof *a);
+    free(a);
+    free(b);
+    pendres_store_free(one);
+    pendres_store_free(two);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(reasons_of_statuses),
     cmocka_unit_test(response_keeps_the_others),
+    cmocka_unit_test(lines_keep_the_others),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }
