@@ -23,6 +23,7 @@ typedef struct section {
 
 static const section sections[] = {
   {"orbits", accuracy_orbits},
+  {"resonance", accuracy_resonance},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

@@ -70,6 +70,7 @@ void accuracy_complain(accuracy *a, const char *what, const char *how);
 /* ---- sections ---- */
 
 void accuracy_orbits(accuracy *a);
+void accuracy_resonance(accuracy *a);
 
 /* ---- for main ---- */
 
