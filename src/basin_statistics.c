@@ -1,42 +1,46 @@
-/* basin_statistics.c -- fractions, entropy and uncertainty exponent of basins; see basin.h. */
+/* basin_statistics.c -- fractions, entropy and uncertainty exponent of grids; see basin.h. */
 #include <pendres/basin.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "attractor_internal.h"
-#include "context_internal.h"
-#include "settle.h"
+#include "basin_scatter.h"
+#include "basin_wells.h"
 
-enum {
-  LEAST_COUNT = 25,  /* uncertain states that make a share worth fitting */
-  LEAST_SCALES = 3,  /* of them that make an exponent */
-  MOST_SCALES = 5,
-  SAMPLES_AT_A_TIME = 4096
-};
+enum { BOX = PENDRES_BASIN_BOX, BOX_STATES = BOX * BOX };
 
-/* Shares above this feel that boundaries are less far apart than the distance. */
-static const double most_uncertain = 0.5;
+/* What one state alone can change of a box's entropy at most: among 25 alike ones, -1/25 log 1/25 -
+   24/25 log 24/25. The next one changes less. */
+static const double state_entropy = 0.16794414;
 
-/* Sums of one strip of rows, or of one part of a sample. */
-typedef struct strip {
-  double boxes, boundary_boxes;
-  double entropy; /* summed over boxes; those without a boundary have none */
-  double tried[PENDRES_BASIN_SCALES], uncertain[PENDRES_BASIN_SCALES];
-} strip;
+/* Sums over the rows of an attractor. */
+typedef struct member {
+  double share;     /* of the area */
+  double crossings; /* along v, where its basin begins or ends */
+  double last[2];   /* shares of the two rows before */
+  double square;    /* of second differences between rows */
+  size_t states;
+} member;
 
 struct pendres_basin_sums {
   size_t nx, nv, attractors;
   int scales;
   double step;        /* of v */
   size_t rows;        /* added so far */
-  size_t unresolved;
   double *x_share, *v_share; /* of the window that belongs to each row and column of states */
-  double *members;    /* share of each attractor; the last entry: unresolved */
-  double *crossings;  /* along v, where each attractor's basin begins or ends */
+  double *row_share;  /* of each attractor in one row */
+  member *members;    /* the last one: what is unresolved */
   int16_t *box_rows;  /* attractors of the rows of unfinished boxes */
-  strip strips[PENDRES_BASIN_STRIPS];
+  uint8_t *box_doubt; /* states of them that are uncertain, by column */
+  double group[PENDRES_SCATTER_QUANTITIES]; /* of the unfinished boxes' rows */
+  double counts[PENDRES_BASIN_SCALES];      /* of uncertain states, over all rows */
+  pendres_scatter scatter; /* between rows of boxes */
+  size_t uncertain;        /* states that may belong elsewhere */
+  double entropy_doubt, boundary_doubt; /* what these can change of boxes' entropy, and boxes */
+  double suspect;          /* states that may be labelled wrongly without being known as uncertain */
+  pendres_basin_tally tally;
+  pendres_basin_well *wells;
 };
 
 /* Shares of the range from the first value to the last: half the way to either neighbour. */
@@ -67,7 +71,8 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
 {
   if (out == NULL) return PENDRES_INVALID_ARGUMENT;
   *out = NULL;
-  if (grid == NULL || grid->nx < 1 || grid->nv < 1 || attractors > INT16_MAX)
+  if (grid == NULL || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL ||
+      attractors > INT16_MAX)
     return PENDRES_INVALID_ARGUMENT;
   pendres_basin_sums *s = calloc(1, sizeof *s);
   if (s == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -80,11 +85,12 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
     s->scales++;
   s->x_share = shares_of(grid->nx, grid->x);
   s->v_share = shares_of(grid->nv, grid->v);
+  s->row_share = calloc(attractors + 1, sizeof *s->row_share);
   s->members = calloc(attractors + 1, sizeof *s->members);
-  s->crossings = calloc(attractors + 1, sizeof *s->crossings);
-  s->box_rows = calloc(PENDRES_BASIN_BOX * grid->nv, sizeof *s->box_rows);
-  if (s->x_share == NULL || s->v_share == NULL || s->members == NULL || s->crossings == NULL ||
-      s->box_rows == NULL) {
+  s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
+  s->box_doubt = calloc(grid->nv, sizeof *s->box_doubt);
+  if (s->x_share == NULL || s->v_share == NULL || s->row_share == NULL || s->members == NULL ||
+      s->box_rows == NULL || s->box_doubt == NULL) {
     pendres_basin_sums_free(s);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -97,22 +103,24 @@ void pendres_basin_sums_free(pendres_basin_sums *s)
   if (s == NULL) return;
   free(s->x_share);
   free(s->v_share);
+  free(s->row_share);
   free(s->members);
-  free(s->crossings);
   free(s->box_rows);
+  free(s->box_doubt);
+  free(s->wells);
+  pendres_basin_tally_free(&s->tally);
   free(s);
 }
 
 /* ---- adding ---- */
 
-/* Entropy of a box of PENDRES_BASIN_BOX rows from column `left` on; 0 if all are alike. */
-static double box_entropy(const pendres_basin_sums *s, size_t left)
+/* How many states of the box from column `left` on are of each kind; the number of kinds. */
+static int count_kinds(const pendres_basin_sums *s, size_t left, int *count)
 {
-  enum { STATES = PENDRES_BASIN_BOX * PENDRES_BASIN_BOX };
-  int16_t kind[STATES];
-  int count[STATES], kinds = 0;
-  for (size_t i = 0; i < PENDRES_BASIN_BOX; i++)
-    for (size_t j = left; j < left + PENDRES_BASIN_BOX; j++) {
+  int16_t kind[BOX_STATES];
+  int kinds = 0;
+  for (size_t i = 0; i < BOX; i++)
+    for (size_t j = left; j < left + BOX; j++) {
       const int16_t a = s->box_rows[i * s->nv + j];
       int k = 0;
       while (k < kinds && kind[k] != a) k++;
@@ -122,48 +130,95 @@ static double box_entropy(const pendres_basin_sums *s, size_t left)
       }
       count[k]++;
     }
-  double sum = 0.0;
-  for (int k = 0; k < kinds && kinds > 1; k++) {
-    const double p = (double)count[k] / STATES;
-    sum -= p * log(p);
-  }
-  return sum;
+  return kinds;
 }
 
-static void add_boxes(pendres_basin_sums *s, strip *t)
+/* What uncertain states can change: a box's entropy, and whether there is a boundary in it. */
+static void add_doubt(pendres_basin_sums *s, size_t left, int largest)
 {
-  for (size_t left = 0; left + PENDRES_BASIN_BOX <= s->nv; left += PENDRES_BASIN_BOX) {
-    const double entropy = box_entropy(s, left);
-    t->boxes += 1.0;
-    t->boundary_boxes += entropy > 0.0;
-    t->entropy += entropy;
-  }
+  int doubt = 0;
+  for (size_t j = left; j < left + BOX; j++) doubt += s->box_doubt[j];
+  if (doubt == 0) return;
+  s->entropy_doubt += state_entropy * doubt;
+  s->boundary_doubt += BOX_STATES - largest <= doubt;
 }
 
-static void add_row(pendres_basin_sums *s, const pendres_basin_state *state)
+static void add_boxes(pendres_basin_sums *s)
 {
-  const size_t row = s->rows++, slot = row % PENDRES_BASIN_BOX;
-  int16_t *a = s->box_rows + slot * s->nv;
-  strip *t = &s->strips[row * PENDRES_BASIN_STRIPS / s->nx];
-  for (size_t j = 0; j < s->nv; j++) {
-    const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
-    a[j] = known ? state[j].attractor : (int16_t)s->attractors;
-    s->members[a[j]] += s->x_share[row] * s->v_share[j];
-    s->unresolved += !known;
-    if (j > 0 && a[j] != a[j - 1]) {
-      s->crossings[a[j]] += 1.0;
-      s->crossings[a[j - 1]] += 1.0;
+  for (size_t left = 0; left + BOX <= s->nv; left += BOX) {
+    int count[BOX_STATES], largest = 0;
+    const int kinds = count_kinds(s, left, count);
+    double entropy = 0.0;
+    for (int k = 0; k < kinds; k++) {
+      const double p = (double)count[k] / BOX_STATES;
+      if (count[k] > largest) largest = count[k];
+      if (kinds > 1) entropy -= p * log(p);
     }
+    s->group[PENDRES_SCATTER_ENTROPY] += entropy;
+    s->group[PENDRES_SCATTER_BOUNDARY_BOXES] += kinds > 1;
+    add_doubt(s, left, largest);
   }
+  memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
+}
+
+/* A row's shares into those of the area, and its scatter beside the rows before. */
+static void add_shares(pendres_basin_sums *s, size_t row)
+{
+  for (size_t a = 0; a <= s->attractors; a++) {
+    member *m = &s->members[a];
+    const double share = s->row_share[a], bend = m->last[1] - 2.0 * m->last[0] + share;
+    const double weight = row > 0 ? s->x_share[row - 1] : 0.0;
+    m->share += s->x_share[row] * share;
+    if (row >= 2) m->square += bend * bend * weight * weight;
+    m->last[1] = m->last[0];
+    m->last[0] = share;
+    s->row_share[a] = 0.0;
+  }
+}
+
+static void count_unlike(pendres_basin_sums *s, const int16_t *a)
+{
   for (int k = 0; k < s->scales; k++) {
     const size_t far = (size_t)1 << k;
     size_t unlike = 0;
     for (size_t j = far; j + far < s->nv; j++)
       unlike += a[j - far] != a[j] || a[j + far] != a[j];
-    t->tried[k] += (double)(s->nv - 2 * far);
-    t->uncertain[k] += (double)unlike;
+    s->group[k] += (double)unlike;
+    s->counts[k] += (double)unlike;
   }
-  if (slot == PENDRES_BASIN_BOX - 1) add_boxes(s, t);
+}
+
+static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *state)
+{
+  const size_t row = s->rows++, slot = row % BOX;
+  int16_t *a = s->box_rows + slot * s->nv;
+  for (size_t j = 0; j < s->nv; j++) {
+    const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
+    a[j] = known ? state[j].attractor : (int16_t)s->attractors;
+    s->row_share[a[j]] += s->v_share[j];
+    s->members[a[j]].states++;
+    if (state[j].how == PENDRES_BASIN_UNCERTAIN) {
+      s->uncertain++;
+      s->box_doubt[j]++;
+    }
+    if (known) {
+      const pendres_status status =
+        pendres_basin_tally_add(&s->tally, state[j].attractor, state[j].well);
+      if (status != PENDRES_OK) return status;
+    }
+    if (j > 0 && a[j] != a[j - 1]) {
+      s->members[a[j]].crossings += 1.0;
+      s->members[a[j - 1]].crossings += 1.0;
+    }
+  }
+  add_shares(s, row);
+  count_unlike(s, a);
+  if (slot == BOX - 1) {
+    add_boxes(s);
+    pendres_scatter_add(&s->scatter, s->group);
+    memset(s->group, 0, sizeof s->group);
+  }
+  return PENDRES_OK;
 }
 
 pendres_status pendres_basin_sums_add(pendres_basin_sums *s, size_t rows,
@@ -171,238 +226,141 @@ pendres_status pendres_basin_sums_add(pendres_basin_sums *s, size_t rows,
 {
   if (s == NULL || (rows > 0 && state == NULL) || rows > s->nx - s->rows)
     return PENDRES_INVALID_ARGUMENT;
-  for (size_t i = 0; i < rows; i++) add_row(s, state + i * s->nv);
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < rows && status == PENDRES_OK; i++)
+    status = add_row(s, state + i * s->nv);
+  return status;
+}
+
+pendres_status pendres_basin_sums_suspect(pendres_basin_sums *s, double states)
+{
+  if (s == NULL || !(states >= 0.0) || !isfinite(states)) return PENDRES_INVALID_ARGUMENT;
+  s->suspect += states;
   return PENDRES_OK;
 }
 
 /* ---- results ---- */
 
-/* A number made of the sums of all strips but one; -1: of all. */
-typedef double estimate(const strip *strips, int without, const double *distance);
-
-static strip total(const strip *strips, int without)
+/*
+ * States that are missing from a basin, or too many in it, because so many are uncertain. They lie
+ * on both sides of their boundaries, so that they cancel but for their scatter, twice which is
+ * claimed, and a tenth of them for what does not cancel.
+ */
+static double misplaced(size_t uncertain)
 {
-  strip t = {0};
-  for (int i = 0; i < PENDRES_BASIN_STRIPS; i++) {
-    if (i == without) continue;
-    t.boxes += strips[i].boxes;
-    t.boundary_boxes += strips[i].boundary_boxes;
-    t.entropy += strips[i].entropy;
-    for (int k = 0; k < PENDRES_BASIN_SCALES; k++) {
-      t.tried[k] += strips[i].tried[k];
-      t.uncertain[k] += strips[i].uncertain[k];
-    }
-  }
-  return t;
-}
-
-static double mean_entropy(const strip *strips, int without, const double *distance)
-{
-  const strip t = total(strips, without);
-  (void)distance;
-  return t.boxes > 0.0 ? t.entropy / t.boxes : NAN;
-}
-
-static double mean_boundary_entropy(const strip *strips, int without, const double *distance)
-{
-  const strip t = total(strips, without);
-  (void)distance;
-  return t.boundary_boxes > 0.0 ? t.entropy / t.boundary_boxes : NAN;
-}
-
-/* Whether a share is well known and small enough to be a power of the distance. */
-static int usable(const strip *t, int k)
-{
-  return t->uncertain[k] >= LEAST_COUNT && t->uncertain[k] <= most_uncertain * t->tried[k];
-}
-
-/* Slope of log share against log distance over the scales first, ... last - 1; NaN if fewer than
-   `least` of them are usable. */
-static double slope(const strip *t, const double *distance, int first, int last, int least)
-{
-  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (int k = first; k < last; k++) {
-    if (!usable(t, k)) continue;
-    const double a = log(distance[k]), b = log(t->uncertain[k] / t->tried[k]);
-    n += 1.0;
-    x += a;
-    y += b;
-    xx += a * a;
-    xy += a * b;
-  }
-  return n >= least ? (n * xy - x * y) / (n * xx - x * x) : NAN;
-}
-
-/* The exponent is a limit of small distances: the smallest usable ones. */
-static void fit_range(const strip *t, int *first, int *last)
-{
-  *first = *last = 0;
-  for (int k = 0; k < PENDRES_BASIN_SCALES && *last - *first < MOST_SCALES; k++) {
-    if (!usable(t, k)) continue;
-    if (*last == 0) *first = k;
-    *last = k + 1;
-  }
-}
-
-static double exponent(const strip *strips, int without, const double *distance)
-{
-  const strip t = total(strips, without);
-  int first, last;
-  fit_range(&t, &first, &last);
-  return slope(&t, distance, first, last, LEAST_SCALES);
-}
-
-/* Jackknife: Efron and Stein, Annals of Statistics 9 (1981) 586. */
-static double jackknife(estimate *f, const strip *strips, const double *distance)
-{
-  const int n = PENDRES_BASIN_STRIPS;
-  double value[PENDRES_BASIN_STRIPS], mean = 0.0, squares = 0.0;
-  for (int i = 0; i < n; i++) {
-    value[i] = f(strips, i, distance);
-    mean += value[i] / n;
-  }
-  for (int i = 0; i < n; i++) squares += (value[i] - mean) * (value[i] - mean);
-  return sqrt(squares * (n - 1.0) / n);
+  const double n = (double)uncertain;
+  return fmin(n, 2.0 * sqrt(n) + 0.1 * n);
 }
 
 /*
- * The exponent with its error: the jackknife's, and how far the slopes between neighbouring scales
- * are from it, since a share is a power of the distance only within limits.
+ * Error of a share of the area. Rows scatter around a trend: two standard errors. At the least, a
+ * basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice that, since
+ * the boundary is as uncertain between the rows. Where rows are too few to scatter, half of what they
+ * differ by.
  */
-static void fit(const strip *strips, pendres_basin_statistics *out)
+static double fraction_error(const pendres_basin_sums *s, size_t a)
 {
-  const strip t = total(strips, -1);
-  int first, last;
-  double bend = 0.0;
+  const member *m = &s->members[a];
+  const double states = (double)s->rows * (double)s->nv, n = (double)s->rows;
+  const double ends = sqrt((m->crossings + 1.0) / 3.0) / states;
+  const double doubt =
+    (misplaced(s->uncertain) + s->suspect) / states + s->members[s->attractors].share;
+  if (s->rows == 1) return ends + doubt;
+  if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
+  const double student = pendres_scatter_student((n - 2.0) * 18.0 / 35.0);
+  return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + doubt;
+}
+
+/* Mean entropy over boxes, and over those with a boundary. */
+static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statistics *out)
+{
+  const double boxes = (double)s->scatter.groups * (double)(s->nv / BOX);
+  const double entropy = s->scatter.total[PENDRES_SCATTER_ENTROPY];
+  const double boundary = s->scatter.total[PENDRES_SCATTER_BOUNDARY_BOXES];
+  const double all = (double)s->rows * (double)s->nv;
+  /* Uncertain states change either way, as above; those that are suspect may be anywhere. */
+  const double part = s->uncertain > 0 ? misplaced(s->uncertain) / (double)s->uncertain : 0.0;
+  const double suspect = state_entropy * s->suspect * boxes * BOX_STATES / all;
+  double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
+  out->boundary_boxes = out->entropy = out->entropy_error = NAN;
+  out->boundary_entropy = out->boundary_entropy_error = NAN;
+  if (boxes == 0.0) return;
+  weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boxes;
+  out->boundary_boxes = boundary / boxes;
+  out->entropy = entropy / boxes;
+  out->entropy_error = sqrt(pendres_scatter_variance(&s->scatter, weight)) +
+                       (part * s->entropy_doubt + suspect) / boxes;
+  if (boundary == 0.0) return;
+  weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boundary;
+  weight[PENDRES_SCATTER_BOUNDARY_BOXES] = -entropy / (boundary * boundary);
+  out->boundary_entropy = entropy / boundary;
+  out->boundary_entropy_error =
+    sqrt(pendres_scatter_variance(&s->scatter, weight)) +
+    (part * s->entropy_doubt + suspect +
+     out->boundary_entropy * (part * s->boundary_doubt + suspect / state_entropy)) / boundary;
+}
+
+/* Shares of uncertain states by distance, and their exponent. */
+static void conclude_exponent(const pendres_basin_sums *s, pendres_basin_statistics *out)
+{
+  const double rows = (double)s->rows, grouped = (double)(s->scatter.groups * BOX);
+  pendres_scatter scatter = s->scatter;
+  double tried[PENDRES_BASIN_SCALES];
   for (int k = 0; k < PENDRES_BASIN_SCALES; k++) {
-    const double share = k < out->scales && t.tried[k] > 0.0 ? t.uncertain[k] / t.tried[k] : NAN;
-    out->uncertain[k] = share;
-    out->uncertain_error[k] = k < out->scales ? sqrt(share * (1.0 - share) / t.tried[k]) : NAN;
+    double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
+    const int used = k < out->scales;
+    tried[k] = used ? rows * (double)(s->nv - ((size_t)2 << k)) : NAN;
+    weight[k] = 1.0;
+    scatter.total[k] = s->counts[k]; /* rows that make no box as well */
+    out->distance[k] = used ? s->step * (double)((size_t)1 << k) : NAN;
+    out->uncertain[k] = used ? s->counts[k] / tried[k] : NAN;
+    /* Rows at the end that make no box scatter like the others. A state that is labelled wrongly
+       makes itself and two others uncertain. */
+    out->uncertain_error[k] =
+      used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped) / tried[k] +
+               3.0 * s->suspect / ((double)s->nv * rows)
+           : NAN;
   }
-  out->uncertainty_exponent = exponent(strips, -1, out->distance);
-  out->uncertainty_exponent_error = NAN;
-  if (isnan(out->uncertainty_exponent)) return;
-  fit_range(&t, &first, &last);
-  for (int k = first; k + 1 < last; k++) {
-    const double local = slope(&t, out->distance, k, k + 2, 2);
-    if (isfinite(local)) bend = fmax(bend, fabs(local - out->uncertainty_exponent));
-  }
-  out->uncertainty_exponent_error = hypot(jackknife(exponent, strips, out->distance), bend);
+  pendres_scatter_exponent(&scatter, out->scales, out->distance, tried,
+                           &out->uncertainty_exponent, &out->uncertainty_exponent_error);
 }
 
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_basin_statistics *out,
                                          double *fraction, double *error)
 {
   if (s == NULL || out == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
-  const double states = (double)s->rows * (double)s->nv;
-  const double lost = s->members[s->attractors];
   for (size_t a = 0; a < s->attractors; a++) {
-    if (fraction != NULL) fraction[a] = s->members[a];
-    /* A basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice
-       that, since the boundary is as uncertain between the rows. */
-    if (error != NULL) error[a] = sqrt((s->crossings[a] + 1.0) / 3.0) / states + lost;
+    if (fraction != NULL) fraction[a] = s->members[a].share;
+    if (error != NULL) error[a] = fraction_error(s, a);
   }
   *out = (pendres_basin_statistics){.states = s->rows * s->nv,
-                                    .unresolved = s->unresolved,
-                                    .scales = s->scales};
-  for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
-    out->distance[k] = k < s->scales ? s->step * (double)((size_t)1 << k) : NAN;
-  const strip t = total(s->strips, -1);
-  out->boundary_boxes = t.boxes > 0.0 ? t.boundary_boxes / t.boxes : NAN;
-  out->entropy = mean_entropy(s->strips, -1, NULL);
-  out->entropy_error = jackknife(mean_entropy, s->strips, NULL);
-  out->boundary_entropy = mean_boundary_entropy(s->strips, -1, NULL);
-  out->boundary_entropy_error = jackknife(mean_boundary_entropy, s->strips, NULL);
-  fit(s->strips, out);
+                                    .unresolved = s->members[s->attractors].states,
+                                    .scales = s->scales,
+                                    .uncertain_states = s->uncertain};
+  conclude_entropy(s, out);
+  conclude_exponent(s, out);
   return PENDRES_OK;
 }
 
-/* ---- random states ---- */
-
-/* The bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), as a number in [0, 1). */
-static double uniform(uint64_t seed, uint64_t counter)
+pendres_status pendres_basin_sums_counts(const pendres_basin_sums *s, size_t *states)
 {
-  uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + (counter + 1) * UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  if (s == NULL || states == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  for (size_t a = 0; a < s->attractors; a++) states[a] = s->members[a].states;
+  return PENDRES_OK;
 }
 
-/* Count one state and its neighbours: outcome[0] its own, then two a distance. */
-static void count_sample(strip *t, int scales, const pendres_outcome *outcome)
+pendres_status pendres_basin_sums_wells(pendres_basin_sums *s, size_t *n,
+                                        const pendres_basin_well **wells)
 {
-  for (int k = 0; k < scales; k++) {
-    t->tried[k] += 1.0;
-    t->uncertain[k] += outcome[1 + 2 * k].attractor != outcome[0].attractor ||
-                       outcome[2 + 2 * k].attractor != outcome[0].attractor;
-  }
-}
-
-static pendres_status basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                        const pendres_basin_window *window, size_t n, int scales,
-                                        const double *distance, uint64_t seed,
-                                        pendres_basin_statistics *out)
-{
-  if (set == NULL || window == NULL || distance == NULL || out == NULL)
-    return PENDRES_CONTEXT_NULL(ctx, "attractors, window, distance and out");
-  if (n < PENDRES_BASIN_STRIPS || scales < LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
-      set->sets != 1)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "an uncertainty exponent needs states and at least %d distances",
-                                LEAST_SCALES);
-  const size_t each = 1 + 2 * (size_t)scales, room = SAMPLES_AT_A_TIME * each;
-  strip strips[PENDRES_BASIN_STRIPS] = {{0}};
-  pendres_status status = PENDRES_OK;
-  double *x = calloc(room, sizeof *x), *v = calloc(room, sizeof *v);
-  pendres_outcome *outcome = malloc(room * sizeof *outcome);
-  *out = (pendres_basin_statistics){.states = n, .scales = scales,
-                                    .entropy = NAN, .entropy_error = NAN, .boundary_entropy = NAN,
-                                    .boundary_entropy_error = NAN, .boundary_boxes = NAN};
-  for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
-    out->distance[k] = k < scales ? distance[k] : NAN;
-  if (x == NULL || v == NULL || outcome == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for random states");
-    goto done;
-  }
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += SAMPLES_AT_A_TIME) {
-    const size_t count = n - first < SAMPLES_AT_A_TIME ? n - first : SAMPLES_AT_A_TIME;
-    for (size_t i = 0; i < count; i++) {
-      const uint64_t counter = 2 * (uint64_t)(first + i);
-      for (size_t k = 0; k < each; k++)
-        x[i * each + k] =
-          window->x_low + (window->x_high - window->x_low) * uniform(seed, counter);
-      double *one = &v[i * each];
-      one[0] = window->v_low + (window->v_high - window->v_low) * uniform(seed, counter + 1);
-      for (int k = 0; k < scales; k++) {
-        one[1 + 2 * k] = one[0] - distance[k];
-        one[2 + 2 * k] = one[0] + distance[k];
-      }
-    }
-    status = pendres_settle_known(ctx, set->catalogues, count * each, x, v,
-                                  10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, outcome);
-    for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
-      out->unresolved += outcome[i * each].attractor < 0;
-      count_sample(&strips[(first + i) % PENDRES_BASIN_STRIPS], scales, &outcome[i * each]);
-    }
-  }
-  if (status != PENDRES_OK) goto done;
-  fit(strips, out);
-  if (isnan(out->uncertainty_exponent))
-    status = pendres_context_fail(ctx, PENDRES_NOT_FOUND,
-                                  "at too few of the distances the boundary is met often enough, "
-                                  "and by fewer than half of the states");
-done:
-  free(x);
-  free(v);
-  free(outcome);
-  return status;
-}
-
-pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                         const pendres_basin_window *window, size_t n, int scales,
-                                         const double *distance, uint64_t seed,
-                                         pendres_basin_statistics *out)
-{
-  return PENDRES_CONTEXT_CALL(ctx, basin_uncertainty(ctx, set, window, n, scales, distance, seed,
-                                                     out));
+  if (s == NULL || n == NULL || wells == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  *n = 0;
+  *wells = NULL;
+  pendres_basin_well *list = malloc((s->tally.used + 1) * sizeof *list);
+  if (list == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_basin_tally_list(&s->tally, list);
+  free(s->wells);
+  s->wells = list;
+  *n = s->tally.used;
+  *wells = list;
+  return PENDRES_OK;
 }

@@ -38,7 +38,9 @@ typedef struct pendres_basin_grid {
 typedef enum pendres_basin_how {
   PENDRES_BASIN_INTEGRATED = 0,
   PENDRES_BASIN_FILLED = 1,  /**< taken over from its surroundings (refinement alone) */
-  PENDRES_BASIN_DEFERRED = 2 /**< not settled within the short budget of pendres_basin_rows */
+  PENDRES_BASIN_DEFERRED = 2, /**< not settled within the short budget of pendres_basin_rows */
+  PENDRES_BASIN_UNCERTAIN = 3 /**< integrated, but may belong to another basin: the errors that it
+                                   carried were not small (pendres_outcome.certain) */
 } pendres_basin_how;
 
 /** What became of a state; compact, since there are many. */
@@ -137,8 +139,7 @@ size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
 
 enum {
   PENDRES_BASIN_BOX = 5,      /**< states a side of a box of the entropy */
-  PENDRES_BASIN_SCALES = 12,  /**< distances 1, 2, 4, ... grid steps at most */
-  PENDRES_BASIN_STRIPS = 16   /**< parts of a grid that errors are estimated from */
+  PENDRES_BASIN_SCALES = 12   /**< distances 1, 2, 4, ... grid steps at most */
 };
 
 /** Statistics of a grid. Two states are alike when they have the same attractor. */
@@ -157,15 +158,29 @@ typedef struct pendres_basin_statistics {
   double distance[PENDRES_BASIN_SCALES];  /**< in v */
   double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one so far away */
   double uncertain_error[PENDRES_BASIN_SCALES];
+  size_t uncertain_states;         /**< integrated ones that may belong to another basin */
 } pendres_basin_statistics;
+
+/** A well that states of a basin settle in. */
+typedef struct pendres_basin_well {
+  int attractor;
+  long well;     /**< 0 alone for running and chaotic attractors */
+  size_t states;
+} pendres_basin_well;
 
 /**
  * Opaque: sums over the rows of a grid. Where v is not evenly spaced there is no uncertainty
  * exponent.
  *
- * Errors are jackknife estimates from strips of rows: they hold for the sampling of the grid, not
- * for a choice of another window. Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán,
- * Scientific Reports 6 (2016) 31416; McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.
+ * Errors hold for the sampling of the window by this grid: what the same grid finds that is shifted
+ * by a part of its step. They are standard errors from the scatter between groups of rows around
+ * their trend, of fractions two of them; NaN where a grid has fewer than 20 rows. States that are
+ * uncertain count in those of fractions and entropies. An uncertainty exponent's error contains what
+ * slopes differ by over the distances used. It cannot know of a limit far below the grid's step:
+ * pendres_basin_uncertainty looks there.
+ *
+ * Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán, Scientific Reports 6 (2016) 31416;
+ * McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.
  */
 typedef struct pendres_basin_sums pendres_basin_sums;
 
@@ -175,11 +190,30 @@ void pendres_basin_sums_free(pendres_basin_sums *sums);
 /** Add the next rows, in their order from row 0 on. */
 pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
                                       const pendres_basin_state *state);
-/** fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
- *  first to the last x and v, each state standing for what is nearest to it. After all rows. */
+/**
+ * Allow for so many states of the rows added that may be labelled wrongly without being known as
+ * uncertain, as a sample of filled ones lets expect; all errors contain them.
+ */
+pendres_status pendres_basin_sums_suspect(pendres_basin_sums *sums, double states);
+/**
+ * fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
+ * first to the last x and v, each state standing for what is nearest to it. So states at the ends of a
+ * range have half the weight of others: pendres_basin_sums_counts has plain numbers. After all
+ * rows.
+ */
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
                                          pendres_basin_statistics *out, double *fraction,
                                          double *error);
+
+/** states[attractors]: how many states of the grid go to each attractor. After all rows. */
+pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t *states);
+/**
+ * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid until
+ * this is asked again. All numbers and statistics but these are of attractors modulo one turn.
+ * After all rows.
+ */
+pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
+                                        const pendres_basin_well **wells);
 
 /** A window of initial states. */
 typedef struct pendres_basin_window {
