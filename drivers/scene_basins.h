@@ -1,6 +1,7 @@
 /*
  * scene_basins.h -- what the parts of scene `basins` share: computing in scene_basins.c, writing in
- * scene_basins_write.c, the boundary as a curve in scene_basins_boundary.c.
+ * scene_basins_write.c, wells in scene_basins_wells.c, the boundary as a curve in
+ * scene_basins_boundary.c.
  */
 #ifndef SCENE_BASINS_H
 #define SCENE_BASINS_H
@@ -20,7 +21,7 @@ typedef struct basins {
   pendres_attractors *set;
   pendres_basin_sums *sums;
   int variable[BASINS_VARIABLES];
-  size_t unresolved;
+  size_t unresolved, uncertain;
   size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
   const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
   /* refinement alone: */
@@ -38,6 +39,12 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
 
 /* Everything that is not a state of the grid. */
 pendres_status basins_write_results(basins *b);
+
+/* Write how many of the states go to each of the attractors, and to each of their wells. */
+pendres_status basins_write_wells(basins *b, size_t attractors);
+
+/* Say so where attractors have more than one well. */
+void basins_print_wells(const basins *b, FILE *out);
 
 /* Find and write the stable manifold of the orbit between the first attractor and its neighbour,
    if any; b->curve says what was found. */

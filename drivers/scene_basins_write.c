@@ -192,9 +192,13 @@ static pendres_status write_attractors(basins *b, const double *fraction, const 
   if (status == PENDRES_OK) status = write_integers(b, n, (int32_t *)value);
   if (status == PENDRES_OK) status = write_fields(b, n, value, value + n);
   const pendres_store_spec spec = {.name = "basin_fraction", .dimensions = {"attractor"},
-                                   .long_name = "share of the window's area", .units = "1"};
+                                   .long_name = "share of the window's area", .units = "1",
+                                   .comment = "each state stands for what is nearest to it, so that "
+                                              "ends of a range have half the weight; plain "
+                                              "counts are basin_states"};
   if (status == PENDRES_OK)
     status = pendres_store_put_result(b->run->store, &spec, fraction, error, n);
+  if (status == PENDRES_OK) status = basins_write_wells(b, n);
   free(value);
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
 }
@@ -217,27 +221,48 @@ static pendres_status put_count(pendres_store *store, const char *name, const ch
   return pendres_store_put(store, &spec, &value, 1);
 }
 
+/* Random states, and distances, which depend on the tolerance alone. */
+enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5 };
+
+static double random_distance(const basins *b, int k)
+{
+  static const double apart = 6.0;
+  return fmin(1e3 * b->d->precision.tolerance, 1e-4) * pow(apart, k);
+}
+
 /*
- * A fractal boundary fills a grid at every distance that the grid has, and gives it no exponent;
- * nor has a grid one whose v is not evenly spaced. Then by random states and small distances, which
- * depend on the tolerance alone.
+ * Whether random states tell more of the exponent, which is a limit of small distances, than the
+ * grid does. A fractal boundary fills a grid at every distance that the grid has, or is not yet
+ * the power that it becomes; but random states meet it at distances far below the grid's step.
+ * A smooth one they meet too rarely there. A grid whose v is not evenly spaced has no exponent.
  */
+static int random_states_tell_more(const basins *b, const pendres_basin_statistics *s)
+{
+  enum { MET = 50 /* twice what makes a share worth fitting */ };
+  if (!(s->boundary_boxes > 0.0)) return 0;
+  if (!isfinite(s->uncertainty_exponent_error)) return 1;
+  const double nearer = random_distance(b, 0) / s->distance[0];
+  return nearer < 1.0 &&
+         RANDOM_STATES * s->uncertain[0] * pow(nearer, s->uncertainty_exponent) > MET;
+}
+
 static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
 {
-  enum { STATES = 16384, SCALES = 5, APART = 6, SEED = 1 };
+  enum { SEED = 1 };
   const pendres_basin_grid *g = &b->grid;
   const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
                                        .v_low = g->v[0], .v_high = g->v[g->nv - 1]};
-  double distance[SCALES] = {fmin(1e3 * b->d->precision.tolerance, 1e-4)};
+  double distance[RANDOM_SCALES];
   pendres_basin_statistics random;
-  for (int k = 1; k < SCALES; k++) distance[k] = APART * distance[k - 1];
+  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = random_distance(b, k);
   pendres_context *ctx = farm_context(b->run->farm);
   if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
   const pendres_status status =
-    pendres_basin_uncertainty(ctx, b->set, &window, STATES, SCALES, distance, SEED, &random);
-  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* no exponent this way either */
+    pendres_basin_uncertainty(ctx, b->set, &window, RANDOM_STATES, RANDOM_SCALES, distance, SEED,
+                              &random);
+  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
   if (status != PENDRES_OK) return scene_fail(b->run, status, "%s", pendres_context_message(ctx));
-  b->random_states = STATES;
+  b->random_states = RANDOM_STATES;
   s->uncertainty_exponent = random.uncertainty_exponent;
   s->uncertainty_exponent_error = random.uncertainty_exponent_error;
   s->scales = random.scales;
@@ -283,6 +308,9 @@ static pendres_status write_counts(basins *b)
   const size_t states = b->grid.nx * b->grid.nv;
   pendres_status status = put_count(store, "unresolved_states", "states without an attractor",
                                     b->unresolved);
+  if (status == PENDRES_OK)
+    status = put_count(store, "uncertain_states",
+                       "integrated states that may belong to another basin", b->uncertain);
   if (status == PENDRES_OK && b->d->basins.refine) {
     status = put_count(store, "integrated_states", "states that were integrated", b->integrated);
     if (status == PENDRES_OK)
@@ -342,7 +370,7 @@ static void print_statistics(FILE *out, const pendres_basin_statistics *s)
 {
   if (!(s->boundary_boxes > 0.0)) {
     fprintf(out, isnan(s->boundary_boxes) ? "too few states for statistics of the boundary\n"
-                                          : "no boundary between basins\n");
+                                          : "no boundary between basins of different attractors\n");
     return;
   }
   fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
@@ -366,11 +394,13 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
     fprintf(out, "   %9.6f +- %.0e   %.6f +- %.0e\n", a->lyapunov, a->lyapunov_error, fraction[i],
             error[i]);
   }
-  fprintf(out, "%zu states, %zu unresolved\n", s->states, b->unresolved);
+  fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
+          s->uncertain_states);
   if (b->d->basins.refine)
     fprintf(out, "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong\n",
             b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
             b->missed);
+  basins_print_wells(b, out);
   if (b->d->basins.statistics) print_statistics(out, s);
   if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
 }
@@ -384,8 +414,8 @@ pendres_status basins_write_results(basins *b)
     return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_status status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
   if (status != PENDRES_OK) (void)scene_fail(b->run, status, "there are no states");
-  if (status == PENDRES_OK && b->d->basins.statistics && s.boundary_boxes > 0.0 &&
-      isnan(s.uncertainty_exponent))
+  b->uncertain = status == PENDRES_OK ? s.uncertain_states : 0;
+  if (status == PENDRES_OK && b->d->basins.statistics && random_states_tell_more(b, &s))
     status = sample_boundary(b, &s);
   if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
   if (status == PENDRES_OK) status = write_cut(b);
