@@ -116,6 +116,41 @@ static void basins_of_baker_and_gollub(void **state)
   }
 }
 
+/* One attractor in many wells: they are counted in the file, beside plain counts of states. */
+static void wells_are_counted(void **state)
+{
+  (void)state;
+  scene_run_deck("&scene kind = 'basins' /\n"
+                 "&pendulum drive_amplitude = 1, damping = 0.1, drive_frequency = 1 /\n"
+                 "&sweep x_range = -1.5, 4.7, 40, v_range = -4, 4, 40 /\n",
+                 2, "wells");
+  pendres_store *store = scene_open("wells");
+  size_t n = 0, states = 0, entries = 0;
+  double *number = scene_values(store, "basin_well_number", &n), sum = 0.0;
+  double *count = scene_values(store, "basin_well_states", &n);
+  double *well = scene_values(store, "well", &states);
+  double *wells = scene_values(store, "basin_wells", &entries);
+  double *all = scene_values(store, "basin_states", &entries);
+  assert_int_equal(entries, 1);
+  assert_int_equal(wells[0], n);
+  assert_int_equal(all[0], 1600);
+  assert_true(n > 10);
+  for (size_t i = 0; i < n; i++) {
+    size_t there = 0;
+    for (size_t k = 0; k < states; k++) there += well[k] == number[i];
+    assert_int_equal(count[i], there);
+    sum += count[i];
+  }
+  check_near(sum, 1600.0, 0.0);
+  assert_int_equal(scene_scalar(store, "uncertain_states"), 0);
+  free(number);
+  free(count);
+  free(well);
+  free(wells);
+  free(all);
+  pendres_store_free(store);
+}
+
 /* A fractal boundary fills a grid; then the exponent is from random states, as in the library. */
 static void exponent_of_a_fractal_boundary(void **state)
 {
@@ -183,6 +218,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(orbits_of_baker_and_gollub),
     cmocka_unit_test(basins_of_baker_and_gollub),
+    cmocka_unit_test(wells_are_counted),
     cmocka_unit_test(exponent_of_a_fractal_boundary),
     cmocka_unit_test(same_bytes_on_any_threads),
     cmocka_unit_test(refined_is_whole), /* of what the test before has written */
