@@ -9,12 +9,36 @@
 static const double half_pi = 1.57079632679489661923;
 static const double two_pi = 6.28318530717958647693;
 
+/* By so much the values of a range are rounded: three operations, and a decimal's own rounding. */
+static double rounding_of(const pendres_range *range)
+{
+  return 4.0 * DBL_EPSILON * fmax(fabs(range->first), fabs(range->last));
+}
+
+/*
+ * The decimal that a value of a range stands for: the shortest within its rounding error, so that
+ * 0.06 to 1 in steps of 0.01 holds 0.13 and not 0.12999999999999998. Decimals that are not much
+ * farther apart than that error would be met by chance: then the value stays as it is.
+ */
+static double decimal_of(double value, double rounding)
+{
+  double power = 1.0; /* of ten: exact up to 1e22 */
+  for (int places = 0; places <= 22 && rounding * power < 1e-3; places++, power *= 10.0) {
+    const double whole = rint(value * power);
+    if (fabs(whole) >= 0x1p53) break;
+    /* Both are exact, so the quotient is the double next to the decimal. */
+    if (fabs(whole / power - value) <= rounding) return whole / power;
+  }
+  return value;
+}
+
 double pendres_range_value(const pendres_range *range, size_t i)
 {
   const double n = (double)(range->count - 1), k = (double)i;
   if (i == 0) return range->first + 0.0; /* no negative zeros */
   if (i + 1 == range->count) return range->last + 0.0;
-  return (range->first * (n - k) + range->last * k) / n + 0.0;
+  const double value = (range->first * (n - k) + range->last * k) / n;
+  return decimal_of(value, rounding_of(range)) + 0.0;
 }
 
 static int ascending(const void *a, const void *b)
@@ -59,7 +83,7 @@ pendres_status pendres_sweep_values(size_t listed, const double *list, const pen
     memmove(rest, list, listed * sizeof *value);
     listed = sort_and_unique(rest, listed);
   }
-  const double margin = 4.0 * DBL_EPSILON * fmax(fabs(range->first), fabs(range->last));
+  const double margin = rounding_of(range);
   double latest = -INFINITY; /* of the list */
   size_t next = 0, n = 0;
   for (size_t i = 0; i < range->count; i++) {

@@ -20,6 +20,32 @@ static void range_has_exact_ends(void **state)
   assert_false(signbit(pendres_range_value(&zero, 0)));
 }
 
+/* What a reader of a deck expects: every value is the decimal that it would have listed. */
+static void ranges_hold_the_decimals(void **state)
+{
+  (void)state;
+  static const struct {
+    pendres_range range;
+    double scale; /* value i is (first + i) / scale, both whole */
+    double first;
+  } cases[] = {
+    {{0.06, 1.0, 95}, 100.0, 6.0},       {{0.06, 1.25, 120}, 100.0, 6.0},
+    {{-0.3, 0.7, 1001}, 1000.0, -300.0}, {{6.0, 7.9, 20}, 10.0, 60.0},
+    {{1e-9, 9e-9, 9}, 1e9, 1.0},         {{5e8, 1.5e9, 11}, 1e-8, 5.0},
+  };
+  for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++)
+    for (size_t i = 0; i < cases[c].range.count; i++)
+      assert_true(pendres_range_value(&cases[c].range, i) ==
+                  (cases[c].first + (double)i) / cases[c].scale);
+  /* Thirds are no decimals and stay as exact as they were. */
+  const pendres_range thirds = {0.0, 1.0, 4};
+  assert_true(pendres_range_value(&thirds, 1) == 1.0 / 3.0);
+  /* Ends next to each other have no room for decimals between them. */
+  const pendres_range narrow = {0.1, 0.1 + 8e-16, 5};
+  for (size_t i = 1; i < 5; i++)
+    assert_true(pendres_range_value(&narrow, i) > pendres_range_value(&narrow, i - 1));
+}
+
 static void check_values(size_t listed, const double *list, const pendres_range *range, size_t n,
                          const double *expected)
 {
@@ -47,7 +73,7 @@ static void union_is_sorted_and_has_no_twins(void **state)
   assert_true(own[0] == 1.0 && own[1] == 2.0);
 }
 
-/* 0.1 + 2 * 0.1 is not 0.3 in doubles: the listed one is kept, and alone. */
+/* 0.1 + 2 * 0.1 is not 0.3 in doubles: what is listed is kept, and alone. */
 static void listed_values_stand_for_the_ranges(void **state)
 {
   (void)state;
@@ -171,6 +197,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(range_has_exact_ends),
+    cmocka_unit_test(ranges_hold_the_decimals),
     cmocka_unit_test(union_is_sorted_and_has_no_twins),
     cmocka_unit_test(listed_values_stand_for_the_ranges),
     cmocka_unit_test(values_that_are_wrong),

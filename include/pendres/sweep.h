@@ -19,7 +19,11 @@
 extern "C" {
 #endif
 
-/** Equally spaced values with exact ends; count 0: none, 1: only if both ends agree. */
+/**
+ * Equally spaced values with exact ends; count 0: none, 1: only if both ends agree. Values that
+ * are decimals are the doubles next to them, as if they had been listed: 0.06 to 1 in 95 values
+ * holds 0.13.
+ */
 typedef struct pendres_range {
   double first, last; /**< first <= last */
   size_t count;
@@ -29,9 +33,8 @@ typedef struct pendres_range {
 double pendres_range_value(const pendres_range *range, size_t i);
 
 /**
- * The values of an axis: the union of a list and a range, ascending, repeated values dropped. A
- * listed 0.24 stands for the range's 0.24000000000000002 too: values of the range within their
- * rounding error of a listed one are dropped.
+ * The values of an axis: the union of a list and a range, ascending, repeated values dropped:
+ * those of the range within their rounding error of a listed one.
  *
  * @param listed how many values list has
  * @param list   in any order; may be NULL if there are none
