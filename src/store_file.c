@@ -1,7 +1,7 @@
 /*
  * store_file.c -- the file below a store: a part file that becomes the real one at the end.
  *
- * Owns: opening and locking PATH.part, writing at offsets, and the way from PATH.part to PATH:
+ * Owns: making and locking PATH.part, writing at offsets, and the way from PATH.part to PATH:
  * fsync, rename, fsync of the folder, in this order, so that after a crash of the machine PATH is
  * either the old file or the whole new one. Knows nothing of HDF5. Units: bytes.
  */
@@ -13,6 +13,8 @@
 #endif
 
 #include "store_file.h"
+
+#include <pendres/store.h>
 
 #include <errno.h>
 #include <fcntl.h>
@@ -26,7 +28,7 @@
 
 /* One pread or pwrite moves at most this much: Linux itself stops at 2 GiB. */
 #define LARGEST_PIECE ((size_t)1 << 30)
-/* How often a part file may be renamed away between our open and our lock. */
+/* How often a part file may go away between two looks at it. */
 #define OPEN_ATTEMPTS 100
 
 static pendres_status file_fail(pendres_store_file *file, const char *format, ...)
@@ -60,15 +62,13 @@ static char *joined(const char *head, size_t length, const char *tail)
   return text;
 }
 
-/* 0 when the lock is ours or not wanted, else an errno. The variable is HDF5's own. */
-static int lock(int fd)
+/* Are locks to be believed? The variable is HDF5's own; where it says that they are not, a file
+   without a lock may still be somebody's. */
+static int locks_count(void)
 {
   const char *use = getenv("HDF5_USE_FILE_LOCKING");
 
-  if (use && (!strcmp(use, "FALSE") || !strcmp(use, "0"))) return 0;
-  if (!flock(fd, LOCK_EX | LOCK_NB)) return 0;
-  if (use && !strcmp(use, "BEST_EFFORT") && errno != EWOULDBLOCK) return 0;
-  return errno;
+  return !use || (strcmp(use, "FALSE") && strcmp(use, "0"));
 }
 
 /* 1 if the descriptor is still the file of that name: its writer may have renamed it meanwhile. */
@@ -80,25 +80,74 @@ static int is_same_file(int fd, const char *name)
          opened.st_ino == named.st_ino;
 }
 
-static pendres_status open_locked(pendres_store_file *file)
+static pendres_status busy(pendres_store_file *file)
 {
-  int attempt, error;
+  return file_fail(file, "'%s' is being written by another process", file->part);
+}
 
-  for (attempt = 0; attempt < OPEN_ATTEMPTS; attempt++) {
-    file->fd = open(file->part, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
-                    0666);
-    if (file->fd < 0) return file_failed(file, "write", file->part, errno);
-    error = lock(file->fd);
-    if (error == EWOULDBLOCK)
-      file_fail(file, "'%s' is being written by another process", file->part);
-    else if (error)
-      file_fail(file, "cannot lock '%s': %s (HDF5_USE_FILE_LOCKING=BEST_EFFORT or FALSE in the "
-                "environment goes without)", file->part, strerror(error));
-    else if (is_same_file(file->fd, file->part))
+static pendres_status close_again(pendres_store_file *file, pendres_status status)
+{
+  close(file->fd);
+  file->fd = -1;
+  return status;
+}
+
+/*
+ * Take over a part file that is there: one that a run has left when it was killed holds no lock any
+ * more. *again: it has gone meanwhile, and the name is free.
+ */
+static pendres_status take_over(pendres_store_file *file, int *again)
+{
+  struct stat info;
+
+  *again = 0;
+  if (!locks_count())
+    return file_fail(file, "'%s' exists: another process is writing it, or one was killed; without "
+                     "file locks (HDF5_USE_FILE_LOCKING) nobody can tell. Remove it if no run is "
+                     "writing it", file->part);
+  file->fd = open(file->part, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file->fd < 0) {
+    *again = errno == ENOENT;
+    return file_failed(file, "write", file->part, errno);
+  }
+  if (fstat(file->fd, &info) || !S_ISREG(info.st_mode))
+    return close_again(file, file_fail(file, "'%s' exists and is not a regular file", file->part));
+  if (flock(file->fd, LOCK_EX | LOCK_NB)) {
+    if (errno == EWOULDBLOCK) return close_again(file, busy(file));
+    return close_again(file, file_fail(file, "'%s' exists, and cannot be locked to see whether it "
+                                       "is being written: %s. Remove it if no run is writing it",
+                                       file->part, strerror(errno)));
+  }
+  if (!is_same_file(file->fd, file->part)) {
+    *again = 1;
+    return close_again(file, PENDRES_IO);
+  }
+  if (ftruncate(file->fd, 0))
+    return close_again(file, file_failed(file, "empty", file->part, errno));
+  return PENDRES_OK;
+}
+
+/*
+ * The part file of this run alone. It is created, never just opened, so that of two runs one is
+ * told at once, locks or none; a lock is held where there are locks, and tells others that the file
+ * is not left over.
+ */
+static pendres_status open_own(pendres_store_file *file)
+{
+  for (int attempt = 0; attempt < OPEN_ATTEMPTS; attempt++) {
+    int again = 0;
+    pendres_status status;
+
+    file->fd = open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file->fd >= 0) {
+      /* Somebody may have taken it for a leftover before it was locked: then it is theirs. */
+      if (flock(file->fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
+        return close_again(file, busy(file));
       return PENDRES_OK;
-    close(file->fd);
-    file->fd = -1;
-    if (error) return PENDRES_IO;
+    }
+    if (errno != EEXIST) return file_failed(file, "write", file->part, errno);
+    status = take_over(file, &again);
+    if (!again) return status;
   }
   return file_fail(file, "'%s' is replaced all the time by other processes", file->part);
 }
@@ -106,25 +155,14 @@ static pendres_status open_locked(pendres_store_file *file)
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path)
 {
   pendres_status status;
-  struct stat info;
 
   memset(file, 0, sizeof *file);
   file->fd = -1;
-  file->path = joined(path, strlen(path), "");
-  file->part = joined(path, strlen(path), ".part");
-  if (!file->path || !file->part) return PENDRES_OUT_OF_MEMORY;
   /* What the rename would refuse hours later is refused now. */
-  if (!stat(path, &info) && !S_ISREG(info.st_mode))
-    return file_fail(file, "'%s' exists and is not a regular file", path);
-  status = open_locked(file);
+  status = pendres_store_target(path, &file->path, file->why, sizeof file->why);
   if (status) return status;
-  if (fstat(file->fd, &info) || !S_ISREG(info.st_mode)) {
-    close(file->fd);
-    file->fd = -1;
-    return file_fail(file, "'%s' exists and is not a regular file", file->part);
-  }
-  if (ftruncate(file->fd, 0)) return file_failed(file, "empty", file->part, errno);
-  return PENDRES_OK;
+  file->part = joined(file->path, strlen(file->path), ".part");
+  return file->part ? open_own(file) : PENDRES_OUT_OF_MEMORY;
 }
 
 void pendres_store_file_destroy(pendres_store_file *file)

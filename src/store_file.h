@@ -22,7 +22,7 @@ typedef struct pendres_store_refused {
 } pendres_store_refused;
 
 typedef struct pendres_store_file {
-  char *path; /* what the user asked for */
+  char *path; /* what the user asked for, links followed */
   char *part; /* what is written: path with ".part" behind it */
   int fd;     /* -1 when closed */
   int error;  /* errno of the first failure, 0 if none; sticky */
@@ -30,7 +30,8 @@ typedef struct pendres_store_file {
   char why[PENDRES_STORE_WHY]; /* the sentence on the last failure */
 } pendres_store_file;
 
-/* Open and lock the part file, and empty it. file is zeroed first; destroy it in any case. */
+/* Make and lock the part file, or take over one that a killed run has left. file is zeroed first;
+ * destroy it in any case. */
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path);
 
 /* Close what is open and free; the part file stays where it is. */

@@ -160,7 +160,7 @@ static void foreign_part_is_left_alone(void **state)
 static void two_writers_do_not_mix(void **state)
 {
   char path[PATH_ROOM];
-  pendres_store *store = NULL, *second = NULL;
+  pendres_store *store = NULL;
 
   (void)state;
   OK(pendres_store_create(in_folder(path, "shared.h5"), NULL, &store));
@@ -174,13 +174,59 @@ static void two_writers_do_not_mix(void **state)
   assert_int_equal(pendres_store_has(store, "first", NULL), 1);
   pendres_store_free(store);
 
-  /* Without locks both may try. */
+  /* Nor without locks: then it cannot be told from what a killed run has left, which is kept. */
   assert_int_equal(setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1), 0);
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_create(path, NULL, &second));
+  check_no_create(path, "Remove it");
   assert_int_equal(unsetenv("HDF5_USE_FILE_LOCKING"), 0);
+  check_no_create(path, "another process");
+  OK(pendres_store_group(store, "second"));
+  OK(pendres_store_close(store));
   pendres_store_free(store);
-  pendres_store_free(second);
+  OK(pendres_store_open(path, &store));
+  assert_int_equal(pendres_store_has(store, "second", NULL), 1);
+  pendres_store_free(store);
+}
+
+/* A link's target is what was meant; devices are refused, and what is read-only is kept. */
+static void targets(void **state)
+{
+  char path[PATH_ROOM], target[PATH_ROOM], part[PATH_ROOM];
+  struct stat info;
+  pendres_store *store = NULL;
+
+  (void)state;
+  write_file(in_folder(target, "meant.h5"), "old");
+  in_folder(part, "meant.h5.part");
+  in_folder(path, "link.h5");
+  assert_int_equal(symlink("second.h5", path), 0);
+  assert_int_equal(symlink("meant.h5", in_folder(path, "second.h5")), 0);
+  for (int there = 1; there >= 0; there--) { /* a target that does not exist yet is made */
+    OK(pendres_store_create(in_folder(path, "link.h5"), NULL, &store));
+    assert_true(exists(part));
+    OK(pendres_store_close(store));
+    pendres_store_free(store);
+    assert_int_equal(lstat(path, &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+    OK(pendres_store_open(target, &store));
+    pendres_store_free(store);
+    if (there) assert_int_equal(unlink(target), 0);
+  }
+  assert_int_equal(symlink("round.h5", in_folder(path, "round.h5")), 0);
+  check_no_create(path, strerror(ELOOP));
+  assert_int_equal(unlink(path), 0);
+
+  check_no_create("/dev/null", "device");
+  check_no_create("/dev/stdout", "device");
+  assert_int_equal(symlink("/dev/stdout", in_folder(path, "stream.h5")), 0);
+  check_no_create(path, "device");
+  assert_int_equal(unlink(path), 0);
+
+  write_file(in_folder(path, "kept.h5"), "precious");
+  assert_int_equal(chmod(path, 0444), 0);
+  check_no_create(path, "read-only");
+  check_contents(path, "precious");
+  assert_false(exists(in_folder(part, "kept.h5.part")));
 }
 
 /* ---- A full disk ----------------------------------------------------------------------------- */
@@ -388,6 +434,7 @@ int main(void)
     TEST(abandoned_run_leaves_the_old_file),
     TEST(failed_rename_keeps_the_results),
     TEST(foreign_part_is_left_alone),
+    TEST(targets),
     TEST(two_writers_do_not_mix),
     TEST(full_disk_is_an_error_and_no_more),
     TEST(refused_bytes_are_kept),

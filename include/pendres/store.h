@@ -31,9 +31,11 @@
  * refused with the same status and message; close, abandon or free it. A process that limits its
  * file sizes must ignore SIGXFSZ to see PENDRES_IO instead of being killed.
  *
- * Locking: the part file is locked (flock) against a second writer, unless the environment
- * variable HDF5_USE_FILE_LOCKING is FALSE or 0; with BEST_EFFORT a file system that knows no
- * locks is accepted.
+ * Two writers: the part file is created exclusively, so that of two runs on one output the later is
+ * refused at once, with or without file locks. A part that a killed run has left is taken over: it
+ * holds no lock (flock) any more. Where the file system knows no locks, or the environment variable
+ * HDF5_USE_FILE_LOCKING is FALSE or 0, nobody can tell: then a part that is there is refused, and
+ * its user removes it.
  *
  * Thread safety: HDF5 is not thread safe. At most one thread of a process may be inside any
  * function of this header at a time, whatever the stores.
@@ -106,15 +108,26 @@ typedef struct pendres_store_entry {
 } pendres_store_entry;
 
 /**
- * Start to write a file: PATH.part, in the folder of path, whose former contents are lost (a
- * caller that resumes moves it away first). An existing file of the name path is not touched.
+ * The file that a path means as an output. Links are followed, to a file that need not exist yet:
+ * the results replace what the link points to, and the link stays. Refused with PENDRES_IO and a
+ * sentence in why[size] (may be NULL): a device or a stream, /dev/stdout and the like included, even
+ * where it leads to a plain file; a folder; a file that is read-only for this process, or for
+ * everybody even if this process is root's. *target is to be freed by free(); NULL on failure.
+ * Opens and makes nothing. Thread safe.
+ */
+pendres_status pendres_store_target(const char *path, char **target, char *why, size_t size);
+
+/**
+ * Start to write a file: TARGET.part beside the TARGET that path means (pendres_store_target);
+ * the contents of such a file, if it is no other process's, are lost (a caller that resumes moves it
+ * away first). An existing TARGET is not touched.
  *
  * options may be NULL. *out receives the store, also when the function fails (unless out of
  * memory: then NULL), so that pendres_store_message() can tell why; pass it to
  * pendres_store_free() in any case.
  *
- * PENDRES_IO: the folder does not exist or cannot be written, the disk is full, path is a
- * folder, or another process is writing the same file.
+ * PENDRES_IO: the folder does not exist or cannot be written, the disk is full, path is refused
+ * by pendres_store_target(), or another process is writing the same file.
  */
 pendres_status pendres_store_create(const char *path, const pendres_store_options *options,
                                     pendres_store **out);
