@@ -4,14 +4,14 @@
  * Exit codes: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they are
  * marked in the file); 75 interrupted.
  */
-#define _POSIX_C_SOURCE 200809L /* open_memstream, access */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "files.h"
 #include "options.h"
 #include "provenance.h"
 #include "scene.h"
@@ -45,19 +45,13 @@ static int hold_streams(void)
   return DONE;
 }
 
-/* --output takes the place of the deck's, but never that of the deck itself. */
+/* --output takes the place of the deck's. */
 static int override_output(job *j)
 {
-  struct stat deck_file, output;
   const char *name = j->options.output;
   if (name == NULL) return DONE;
   if (strlen(name) >= sizeof j->deck.output) {
     progress_error(&j->progress, "the name of the output is too long");
-    return BAD_USAGE;
-  }
-  if (stat(j->deck.name, &deck_file) == 0 && stat(name, &output) == 0 &&
-      deck_file.st_dev == output.st_dev && deck_file.st_ino == output.st_ino) {
-    progress_error(&j->progress, "--output would overwrite the deck %s", name);
     return BAD_USAGE;
   }
   strcpy(j->deck.output, name);
@@ -76,7 +70,8 @@ static int read_deck(job *j)
     return FAILED;
   }
   if (status != PENDRES_OK) return BAD_USAGE;
-  if (override_output(j) != DONE) return BAD_USAGE;
+  if (override_output(j) != DONE || files_check(&j->deck, j->options.log, &j->progress) != DONE)
+    return BAD_USAGE;
   if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) {
     progress_error(&j->progress, "%s: &precision: %s", j->deck.name, why);
     return BAD_USAGE;
@@ -106,25 +101,6 @@ static int dump(job *j)
   return check_stdout(j);
 }
 
-/* What is there already, and the folder that the output would go to. */
-static int output_writable(job *j)
-{
-  char folder[DECK_PATH];
-  struct stat there;
-  if (stat(j->deck.output, &there) == 0 && !S_ISREG(there.st_mode)) {
-    progress_error(&j->progress, "'%s' exists and is not a regular file", j->deck.output);
-    return FAILED;
-  }
-  strcpy(folder, j->deck.output);
-  char *slash = strrchr(folder, '/');
-  if (slash == NULL) strcpy(folder, ".");
-  else slash[slash == folder ? 1 : 0] = '\0';
-  if (access(folder, W_OK | X_OK) == 0) return DONE;
-  progress_error(&j->progress, "nothing can be written to the folder '%s': %s", folder,
-                 strerror(errno));
-  return FAILED;
-}
-
 static int dry_run(job *j)
 {
   const deck *d = &j->deck;
@@ -136,7 +112,7 @@ static int dry_run(job *j)
   printf("threads   %d\n\n", farm_threads(j->farm));
   j->scene->plan(d, stdout);
   const int code = check_stdout(j);
-  return code != DONE ? code : output_writable(j);
+  return code != DONE ? code : files_writable(d, &j->progress);
 }
 
 static int open_log(job *j)

@@ -27,7 +27,8 @@ static const char help[] =
   "\n"
   "Exit status: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they\n"
   "are marked in the file); 75 stopped by TERM, INT, HUP, USR1, USR2 or XCPU.\n"
-  "A file of results is whole or absent: it is written as FILE.part and renamed at the end.\n"
+  "A file of results is whole or absent: it is written as FILE.part and renamed at the end. If\n"
+  "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are not.\n"
   "\n"
   "Example: resonance input/f02.nml\n";
 

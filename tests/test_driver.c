@@ -91,6 +91,74 @@ static void test_dry(void **state)
   assert_int_equal(count_names(".h5"), 0);
 }
 
+/* Whatever it is called: the deck is a file, and no other file of the run may be it. */
+static void test_deck_is_kept(void **state)
+{
+  static const struct { const char *deck, *arguments[3]; const char *says; } runs[] = {
+    { "job.h5", { NULL }, "overwrite" },
+    { "self.nml", { NULL }, "overwrite" },
+    { "link.nml", { "-o", "real.nml", NULL }, "overwrite" },
+    { "real.nml", { "-o", "link.nml", NULL }, "overwrite" },
+    { "real.nml", { "-o", "hard.nml", NULL }, "overwrite" },
+    { "run.h5.part", { "-o", "run.h5", NULL }, "overwrite" },
+    { "run.h5.part", { "-o", "to_run.h5", NULL }, "overwrite" },
+    { "real.nml", { "--log", "real.nml", NULL }, "log" },
+    { "real.nml", { "--log", "./link.nml", NULL }, "log" },
+    { "real.nml", { "--log", "./real.h5", NULL }, "log" },
+    { "real.nml", { "--log", "real.h5.part", NULL }, "log" },
+  };
+  static const char self[] = "&scene kind = 'free_oscillation', output = './self.nml' /\n"
+                             "&sweep amplitude = 1 /\n";
+  char text[500];
+  (void)state;
+  write_text("job.h5", small_deck);
+  write_text("self.nml", self);
+  write_text("real.nml", small_deck);
+  write_text("run.h5.part", small_deck);
+  assert_int_equal(symlink("real.nml", "link.nml"), 0);
+  assert_int_equal(link("real.nml", "hard.nml"), 0);
+  assert_int_equal(symlink("run.h5", "to_run.h5"), 0);
+  for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
+    const char *all[4] = { runs[i].arguments[0], runs[i].arguments[0] ? runs[i].arguments[1] : NULL };
+    size_t n = all[0] != NULL ? 2 : 0;
+    all[n] = runs[i].deck;
+    all[n + 1] = NULL;
+    check_code(run_list(all), 2);
+    check_says(err, runs[i].says);
+    read_text(runs[i].deck, text, sizeof text);
+    assert_string_equal(text, strcmp(runs[i].deck, "self.nml") == 0 ? self : small_deck);
+  }
+  assert_false(exists("real.h5") || exists("run.h5"));
+  assert_int_equal(count_names(".part"), 1);
+}
+
+/* As the store has it (test_store_failure.c), found by a dry run too. */
+static void test_output_targets(void **state)
+{
+  struct stat info;
+  char kept[20];
+  (void)state;
+  write_text("meant.h5", "old");
+  assert_int_equal(symlink("meant.h5", "link.h5"), 0);
+  check_code(RUN("-o", "link.h5", "small.nml"), DONE);
+  assert_int_equal(lstat("link.h5", &info), 0);
+  assert_true(S_ISLNK(info.st_mode));
+  assert_int_equal(stat("meant.h5", &info), 0);
+  assert_true(info.st_size > 1000);
+  write_text("kept.h5", "precious");
+  assert_int_equal(chmod("kept.h5", 0444), 0);
+  static const char *const refused[] = { "/dev/null", "/dev/stdout", "kept.h5", "." };
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    check_code(RUN("-o", refused[i], "small.nml"), 1);
+    check_says(err, refused[i]);
+    check_code(RUN("-n", "-o", refused[i], "small.nml"), 1);
+    check_says(err, refused[i]);
+  }
+  read_text("kept.h5", kept, sizeof kept);
+  assert_string_equal(kept, "precious");
+  assert_int_equal(count_names(".part"), 0);
+}
+
 static void nap(long milliseconds)
 {
   const struct timespec t = { milliseconds / 1000, milliseconds % 1000 * 1000000L };
@@ -184,12 +252,38 @@ static void test_signals(void **state)
   }
 }
 
+/* Of two runs on one output the later is told at once, locks or none, and the first is whole. */
+static void test_two_runs(void **state)
+{
+  const char *const arguments[] = { "-o", "one.h5", "long.nml", NULL };
+  (void)state;
+  for (int locks = 1; locks >= 0; locks--) {
+    assert_int_equal(setenv("HDF5_USE_FILE_LOCKING", locks ? "TRUE" : "FALSE", 1), 0);
+    const pid_t pid = start("stdout.txt", 0, arguments);
+    wait_for("one.h5.part");
+    nap(50);
+    const int code = RUN("-o", "one.h5", "small.nml");
+    char said[TEXT_ROOM];
+    strcpy(said, err);
+    const int kept = exists("one.h5.part") && !exists("one.h5");
+    assert_int_equal(kill(pid, SIGTERM), 0);
+    check_code(finish(pid), 75);
+    assert_int_equal(code, 1);
+    check_says(said, "one.h5.part");
+    assert_true(kept);
+    assert_int_equal(count_names(".part"), 0);
+  }
+  assert_int_equal(unsetenv("HDF5_USE_FILE_LOCKING"), 0);
+  check_code(RUN("-o", "one.h5", "small.nml"), DONE);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_usage),          TEST(test_bad_decks),     TEST(test_dry),
     TEST(test_output_refused), TEST(test_table_refused), TEST(test_streams_closed),
-    TEST(test_signals),
+    TEST(test_signals),        TEST(test_deck_is_kept),  TEST(test_output_targets),
+    TEST(test_two_runs),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -1,0 +1,23 @@
+/*
+ * files.h -- the files of a run: none of them may be another one.
+ *
+ * Owns: comparing the deck, the output, its part file and the log as files, not as names: links and
+ * other ways to write a path lead to the same file.
+ */
+#ifndef FILES_H
+#define FILES_H
+
+#include "deck.h"
+#include "progress.h"
+
+/* Are the two names one file, there already or to be made? */
+int files_same(const char *one, const char *other);
+
+/* 0, or 2 after an error that says which would be overwritten. log may be NULL. */
+int files_check(const deck *d, const char *log, progress *p);
+
+/* 0, or 1 after an error that says why nothing can be written where the output goes: to be known
+   without making a file there. */
+int files_writable(const deck *d, progress *p);
+
+#endif
