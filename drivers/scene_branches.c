@@ -96,7 +96,7 @@ typedef struct points {
   size_t n;
   double *value[VALUES], *error[VALUES], *multiplier_re, *multiplier_im; /* last two: [n][2] */
   double *multiplier_error;
-  int8_t *stable, *kind;
+  int8_t *stable, *kind, *doubt;
   int32_t *branch, *period;
 } points;
 
@@ -111,6 +111,7 @@ static void points_free(points *p)
   free(p->multiplier_error);
   free(p->stable);
   free(p->kind);
+  free(p->doubt);
   free(p->branch);
   free(p->period);
 }
@@ -129,11 +130,12 @@ static int points_create(size_t n, points *p)
   p->multiplier_error = malloc((2 * n + 1) * sizeof(double));
   p->stable = malloc(n + 1);
   p->kind = malloc(n + 1);
+  p->doubt = malloc(n + 1);
   p->branch = malloc((n + 1) * sizeof *p->branch);
   p->period = malloc((n + 1) * sizeof *p->period);
   return good && p->multiplier_re != NULL && p->multiplier_im != NULL &&
          p->multiplier_error != NULL && p->stable != NULL && p->kind != NULL &&
-         p->branch != NULL && p->period != NULL;
+         p->doubt != NULL && p->branch != NULL && p->period != NULL;
 }
 
 static void points_add(points *p, const pendres_branch_point *b, int32_t branch)
@@ -155,6 +157,7 @@ static void points_add(points *p, const pendres_branch_point *b, int32_t branch)
   }
   p->stable[i] = (int8_t)o->stable;
   p->kind[i] = (int8_t)b->kind;
+  p->doubt[i] = (int8_t)b->doubt;
   p->branch[i] = branch;
   p->period[i] = o->period;
 }
@@ -181,6 +184,10 @@ static pendres_status put_points(scene_run *run, const points *p)
   };
   static const char *const no_yes[] = {"unstable", "stable"};
   static const char *const kinds[] = {"regular", "fold", "period_doubling", "symmetry_breaking"};
+  static const int8_t bits[] = {0, PENDRES_DOUBT_SIGN, PENDRES_DOUBT_TURN,
+                                PENDRES_DOUBT_BIFURCATION};
+  static const char *const doubts[] = {"none", "unlisted_change", "turn_without_fold",
+                                       "bifurcation_without_its_signs"};
   const size_t n = p->n;
   pendres_store *store = run->store;
   pendres_status status = pendres_store_dimension(
@@ -206,6 +213,10 @@ static pendres_status put_points(scene_run *run, const points *p)
   const pendres_store_spec kind = {.name = "branch_kind", .type = PENDRES_STORE_INT8,
                                    .dimensions = {"point"}, .flag_count = 4, .flag_meanings = kinds,
                                    .long_name = "what happens at the point"};
+  const pendres_store_spec doubt = {
+    .name = "branch_doubt", .type = PENDRES_STORE_INT8, .dimensions = {"point"}, .flag_count = 4,
+    .flag_values = bits, .flag_meanings = doubts,
+    .long_name = "what the bifurcations do not explain there: sum of the flags"};
   const pendres_store_spec number = {.name = "branch_number", .type = PENDRES_STORE_INT32,
                                      .dimensions = {"point"}, .long_name = "number of the branch"};
   const pendres_store_spec period = {.name = "branch_period", .type = PENDRES_STORE_INT32,
@@ -216,6 +227,7 @@ static pendres_status put_points(scene_run *run, const points *p)
     status = pendres_store_put_result(store, &im, p->multiplier_im, p->multiplier_error, 2 * n);
   if (status == PENDRES_OK) status = pendres_store_put(store, &stable, p->stable, n);
   if (status == PENDRES_OK) status = pendres_store_put(store, &kind, p->kind, n);
+  if (status == PENDRES_OK) status = pendres_store_put(store, &doubt, p->doubt, n);
   if (status == PENDRES_OK) status = pendres_store_put(store, &number, p->branch, n);
   if (status == PENDRES_OK) status = pendres_store_put(store, &period, p->period, n);
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
@@ -359,7 +371,7 @@ static void print_table(FILE *out, const scene_lines *g)
     if (sa != NULL) fprintf(out, " %.12f +- %.0e\n", sa->value, sa->value_error);
     else fprintf(out, " no fold\n");
   }
-  scene_lines_print_cusp(g, out);
+  scene_lines_print(g, out);
 }
 
 static pendres_status write_results(scene_run *run, const scene_lines *g)
@@ -367,6 +379,7 @@ static pendres_status write_results(scene_run *run, const scene_lines *g)
   pendres_status status = write_grid(run, g);
   if (status == PENDRES_OK) status = scene_lines_write_failed(run, g);
   if (status == PENDRES_OK) status = write_branches(run, g);
+  if (status == PENDRES_OK) status = scene_lines_write_doubts(g);
   if (status == PENDRES_OK) status = scene_curves_write(run, &g->curves);
   if (status == PENDRES_OK) status = write_backbone(run, g);
   if (status == PENDRES_OK) status = write_free(run);

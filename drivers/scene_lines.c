@@ -192,10 +192,45 @@ void scene_lines_free(scene_lines *l)
   scene_failures_free(&l->failed);
 }
 
-void scene_lines_print_cusp(const scene_lines *l, FILE *out)
+/* Points that the branches' bifurcations do not explain; *first is one of them. */
+static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **first)
+{
+  int32_t doubts = 0;
+  for (size_t i = 0; i < l->dampings; i++)
+    for (size_t k = 0; k < pendres_branches_count(l->line[i].branches); k++) {
+      const pendres_branch *b = pendres_branches_get(l->line[i].branches, k);
+      for (size_t m = 0; m < pendres_branch_count(b); m++) {
+        const pendres_branch_point *p = pendres_branch_get(b, m);
+        if (p->doubt == 0) continue;
+        if (doubts++ == 0) *first = p;
+      }
+    }
+  return doubts;
+}
+
+pendres_status scene_lines_write_doubts(const scene_lines *l)
+{
+  const pendres_branch_point *first = NULL;
+  const int32_t doubts = count_doubts(l, &first);
+  const pendres_store_spec spec = {
+    .name = "branch_doubts",
+    .type = PENDRES_STORE_INT32,
+    .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
+  const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, 1);
+  return status == PENDRES_OK ? status : scene_store_failed(l->run, status);
+}
+
+void scene_lines_print(const scene_lines *l, FILE *out)
 {
   const pendres_cusp *c = &l->curves.cusp;
+  const pendres_branch_point *p = NULL;
+  const int32_t doubts = count_doubts(l, &p);
   if (l->curves.has_cusp)
     fprintf(out, "cusp: damping %.12f +- %.0e, drive frequency %.12f +- %.0e\n", c->value[1],
             c->value_error[1], c->value[0], c->value_error[0]);
+  if (doubts > 0)
+    fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at damping "
+            "%.9g, drive frequency %.9g (period %d): a bifurcation is missed or misnamed there\n",
+            (long)doubts, p->orbit.pendulum.damping, p->orbit.pendulum.drive_frequency,
+            p->orbit.period);
 }

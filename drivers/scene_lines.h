@@ -42,7 +42,11 @@ const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i);
 /* Write `failed`, beside the points' dimensions. */
 pendres_status scene_lines_write_failed(scene_run *run, const scene_lines *l);
 
-/* A line of the short table on the cusp, if there is one. */
-void scene_lines_print_cusp(const scene_lines *l, FILE *out);
+/* Lines of the short table: the cusp, if there is one; what the branches' own bifurcations do not
+   explain of them, if there is any. */
+void scene_lines_print(const scene_lines *l, FILE *out);
+
+/* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
+pendres_status scene_lines_write_doubts(const scene_lines *l);
 
 #endif

@@ -126,6 +126,7 @@ static pendres_status write_results(scene_run *run, const diagram *g)
   if (status == PENDRES_OK) status = write_flags(run, g, flag);
   if (status == PENDRES_OK) status = write_fields(run, g, value, error);
   if (status == PENDRES_OK) status = scene_lines_write_failed(run, &g->lines);
+  if (status == PENDRES_OK) status = scene_lines_write_doubts(&g->lines);
   if (status == PENDRES_OK) status = scene_curves_write(run, &g->lines.curves);
   if (status == PENDRES_OK) status = scene_curves_write_paper(run, &g->lines.curves);
 done:
@@ -143,7 +144,7 @@ static void print_table(FILE *out, const diagram *g)
     fprintf(out, "%-12s  %zu\n", pendres_regime_name((pendres_regime)r), g->tally[r]);
   fprintf(out, "members miss a state that exists at %zu of %zu points\n", g->differ, n);
   if (g->skipped > 0) fprintf(out, "orbits without a branch: %zu\n", g->skipped);
-  scene_lines_print_cusp(&g->lines, out);
+  scene_lines_print(&g->lines, out);
 }
 
 static pendres_status run_scene(scene_run *run)

@@ -78,83 +78,117 @@ static int same_place(const pendres_walk *w, const met *a, const met *b)
   return sum < 1e-8;
 }
 
-/*
- * The map of which a fixed point of `map` may be one twice over: that with a reflection for an odd
- * period, half the period of an even one. 0 if there is none.
- */
-static int half_of(const pendres_continuation_map *map, pendres_continuation_map *half)
+static int is_found(pendres_status status)
 {
-  if (map->mirror) return 0;
-  if (map->period % 2 != 0) {
-    *half = (pendres_continuation_map){.mirror = 1, .period = map->period};
-    return map->winding == 0;
-  }
-  if (map->winding % 2 != 0) return 0;
-  *half =
-    (pendres_continuation_map){.period = map->period / 2, .winding = map->winding / 2};
-  return 1;
+  return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
 }
 
-/* Whether a point of the map is one of the half map, nearly. */
-static pendres_status closes_by_half(pendres_context *ctx, const pendres_continuation_map *half,
-                                     int steps, const double u[PENDRES_U_COUNT], int *yes)
+/* The half map about a place, and whether an orbit there closes by it, nearly. */
+static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
+                              const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
+                              int *twice)
 {
-  pendres_continuation_image image;
-  const pendres_status status = pendres_continuation_map_states(
-    ctx, half, steps, 1, (const double (*)[PENDRES_U_COUNT])u, &image);
-  *yes = hypot(image.f[0], image.f[1]) < 1e-3;
+  int steps = 0;
+  double miss[1][2] = {{NAN, NAN}};
+  *twice = 0;
+  if (!pendres_continuation_map_half(&t->kind.map, half)) return PENDRES_NOT_CONVERGED;
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_closes(ctx, half, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])u, miss,
+                                             &half->winding);
+  *twice = hypot(miss[0][0], miss[0][1]) < 1e-3;
+  return status;
+}
+
+/* Locate where the branch was born from orbits of the half map: a flip of that. */
+static pendres_status locate_birth(pendres_context *ctx, const pendres_trail *t,
+                                   const double u[PENDRES_U_COUNT], double reach, met *m)
+{
+  pendres_continuation_map half;
+  pendres_located flip;
+  int twice = 0;
+  pendres_status status = half_at(ctx, t, u, &half, &twice);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_locate(ctx, &half, PENDRES_CONDITION_FLIP, t->kind.unknown, u,
+                                         reach, &flip);
+  if (!is_found(status)) return status;
+  m->condition = PENDRES_CONDITION_FLIP;
+  m->located = flip;
   return status;
 }
 
 /*
- * Locate one zero. Where a branch was born from another, of half the map, it turns round: that
- * looks like a fold of its own map, but is the flip of the other.
+ * Locate a zero of the fold's test function. Where a branch was born it turns round: that looks
+ * like a fold of its own map, but is the flip of the half map. What closes by half and is no flip
+ * of that is a fold all the same.
  */
-static pendres_status locate_one(pendres_context *ctx, const pendres_trail *t,
-                                 const double u[PENDRES_U_COUNT], double reach, met *m)
+static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
+                                  const double u[PENDRES_U_COUNT], double reach, met *m)
 {
   pendres_continuation_map half;
   int twice = 0;
-  pendres_status status = pendres_continuation_locate(ctx, &t->kind.map, m->condition,
-                                                      t->kind.unknown, u, reach, &m->located);
-  if (m->condition != PENDRES_CONDITION_FOLD || !half_of(&t->kind.map, &half)) return status;
-  if (status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE) {
-    const pendres_status asked = closes_by_half(ctx, &half, m->located.pair.coarse_steps,
-                                                m->located.pair.coarse, &twice);
-    if (asked != PENDRES_OK || !twice) return asked != PENDRES_OK ? asked : status;
-  } else if (status != PENDRES_NOT_CONVERGED) {
-    return status;
-  }
-  pendres_located flip;
-  status = pendres_continuation_locate(ctx, &half, PENDRES_CONDITION_FLIP, t->kind.unknown, u,
-                                       reach, &flip);
-  if (status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE) {
-    m->condition = PENDRES_CONDITION_FLIP;
-    m->located = flip;
-  }
-  return status;
+  const pendres_status fold = pendres_continuation_locate(
+    ctx, &t->kind.map, PENDRES_CONDITION_FOLD, t->kind.unknown, u, reach, &m->located);
+  if (!is_found(fold))
+    return fold == PENDRES_NOT_CONVERGED ? locate_birth(ctx, t, u, reach, m) : fold;
+  const pendres_status asked = half_at(ctx, t, m->located.pair.coarse, &half, &twice);
+  if (asked != PENDRES_OK || !twice) return asked == PENDRES_NOT_CONVERGED ? fold : asked;
+  const pendres_status born = locate_birth(ctx, t, u, reach, m);
+  return born == PENDRES_NOT_CONVERGED ? fold : born;
 }
 
-/* Locate the zeros of one test function. What does not converge was no zero. */
-static pendres_status locate_all(pendres_context *ctx, const pendres_trail *t,
-                                 pendres_continuation_condition condition, met *list, size_t *count)
+static pendres_status locate_flip(pendres_context *ctx, const pendres_trail *t,
+                                  const double u[PENDRES_U_COUNT], double reach, met *m)
 {
-  pendres_trail_zero zeros[MOST_BIFURCATIONS];
-  const size_t n = pendres_trail_zeros(
-    t, condition == PENDRES_CONDITION_FOLD ? test_fold : test_flip, MOST_BIFURCATIONS, zeros);
+  m->condition = PENDRES_CONDITION_FLIP;
+  return pendres_continuation_locate(ctx, &t->kind.map, m->condition, t->kind.unknown, u, reach,
+                                     &m->located);
+}
+
+/* A way to locate what a zero of a test function stands for. */
+typedef pendres_status locator(pendres_context *ctx, const pendres_trail *t,
+                               const double u[PENDRES_U_COUNT], double reach, met *m);
+
+/* What does not converge was no zero. */
+static pendres_status locate_zeros(pendres_context *ctx, const pendres_trail *t, locator *locate,
+                                   size_t n, const pendres_trail_zero *zeros, met *list,
+                                   size_t *count)
+{
   for (size_t i = 0; i < n && *count < MOST_BIFURCATIONS; i++) {
     double u[PENDRES_U_COUNT];
     met *m = &list[*count];
     const double chord = pendres_trail_between(t, &zeros[i], u);
-    *m = (met){.at = zeros[i], .condition = condition};
-    const pendres_status status = locate_one(ctx, t, u, 2.0 * chord, m);
+    *m = (met){.at = zeros[i], .condition = PENDRES_CONDITION_FOLD};
+    const pendres_status status = locate(ctx, t, u, 2.0 * chord, m);
     if (status == PENDRES_NOT_CONVERGED) continue;
-    if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+    if (!is_found(status)) return status;
     int known = 0;
     for (size_t k = 0; k < *count && !known; k++) known = same_place(&t->kind, &list[k], m);
     if (!known) ++*count;
   }
   return PENDRES_OK;
+}
+
+/* All bifurcations of a trail; births first, at which folds' function may have a zero or two. */
+static pendres_status locate_all(pendres_context *ctx, const pendres_trail *t, met *list,
+                                 size_t *count)
+{
+  pendres_trail_zero zeros[MOST_BIFURCATIONS];
+  size_t n = 0;
+  *count = 0;
+  pendres_status status = pendres_trail_births(ctx, t, MOST_BIFURCATIONS, zeros, &n);
+  if (status == PENDRES_OK) status = locate_zeros(ctx, t, locate_birth, n, zeros, list, count);
+  if (status == PENDRES_OK) {
+    n = pendres_trail_zeros(t, test_fold, MOST_BIFURCATIONS, zeros);
+    status = locate_zeros(ctx, t, locate_fold, n, zeros, list, count);
+  }
+  if (status == PENDRES_OK) {
+    n = pendres_trail_zeros(t, test_flip, MOST_BIFURCATIONS, zeros);
+    status = locate_zeros(ctx, t, locate_flip, n, zeros, list, count);
+  }
+  return status;
 }
 
 static pendres_status finish_bifurcations(pendres_context *ctx, pendres_parameter parameter,
@@ -220,8 +254,7 @@ static pendres_status build(pendres_context *ctx, pendres_trail *t, pendres_para
   b->map = t->kind.map;
   b->end[0] = t->end[0];
   b->end[1] = t->end[1];
-  status = locate_all(ctx, t, PENDRES_CONDITION_FOLD, list, &met_count);
-  if (status == PENDRES_OK) status = locate_all(ctx, t, PENDRES_CONDITION_FLIP, list, &met_count);
+  status = locate_all(ctx, t, list, &met_count);
   if (status != PENDRES_OK) goto done;
   qsort(list, met_count, sizeof *list, in_order);
   status = finish_bifurcations(ctx, parameter, met_count, list, b);
@@ -235,6 +268,7 @@ static pendres_status build(pendres_context *ctx, pendres_trail *t, pendres_para
     goto done;
   }
   merge(t, orbits, (const double (*)[2])error, list, b);
+  pendres_branch_check(b);
   *out = b;
   b = NULL;
 done:

@@ -26,4 +26,7 @@ pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter p
 /* The parameter of point i. */
 double pendres_branch_value(const pendres_branch *branch, size_t i);
 
+/* Set the doubt of all points: whether the points and the bifurcations agree. */
+void pendres_branch_check(pendres_branch *branch);
+
 #endif

@@ -162,6 +162,41 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
   return images(ctx, map, steps, n, u, 2, out);
 }
 
+/* ---- half maps ---- */
+
+int pendres_continuation_map_half(const pendres_continuation_map *map,
+                                  pendres_continuation_map *half)
+{
+  if (map->mirror) return 0;
+  if (map->period % 2 != 0) {
+    *half = (pendres_continuation_map){.mirror = 1, .period = map->period};
+    return map->winding == 0;
+  }
+  *half =
+    (pendres_continuation_map){.period = map->period / 2, .winding = map->winding / 2};
+  return map->winding % 2 == 0;
+}
+
+pendres_status pendres_continuation_map_closes(pendres_context *ctx,
+                                               const pendres_continuation_map *half, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               double (*miss)[2], int *winding)
+{
+  pendres_continuation_image *image = malloc((n + 1) * sizeof *image);
+  if (image == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu images", n);
+  const pendres_status status = pendres_continuation_map_states(ctx, half, steps, n, u, image);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    /* The reflection may be about any multiple of pi. */
+    const double turns = half->mirror ? -rint(image[i].f[0] / two_pi) : 0.0;
+    miss[i][0] = image[i].f[0] + two_pi * turns;
+    miss[i][1] = image[i].f[1];
+    if (winding != NULL) *winding = half->winding + (int)turns;
+  }
+  free(image);
+  return status;
+}
+
 /* ---- equations ---- */
 
 void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])

@@ -91,6 +91,22 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
+/*
+ * The map of which a fixed point of `map` may be one twice over, as where the one's orbits are born
+ * from the other's: that with a reflection for an odd period, half the period of an even one. 0 if
+ * there is none.
+ */
+int pendres_continuation_map_half(const pendres_continuation_map *map,
+                                  pendres_continuation_map *half);
+
+/* By what vector (y, w) n points miss being fixed points of such a half map, whichever place it
+   reflects about, the bottom of a well or the top of a barrier: *winding (may be NULL) is that of
+   the last point. */
+pendres_status pendres_continuation_map_closes(pendres_context *ctx,
+                                               const pendres_continuation_map *half, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               double (*miss)[2], int *winding);
+
 /* The equations of a condition at n points. Only the derivatives by unknowns listed in
    `unknown[unknowns]` are computed. */
 pendres_status pendres_continuation_map_equations(pendres_context *ctx,

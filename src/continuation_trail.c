@@ -254,7 +254,7 @@ pendres_status pendres_trail_follow(pendres_context *ctx, size_t n,
   if (status == PENDRES_OK) status = run(ctx, 2 * n, walks, begin, bounds, ways);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     begin[2 * i + 1].arclength = 0.0;
-    status = join(ctx, &starts[i].kind, &begin[2 * i], &ways[2 * i], &trails[i]);
+    status = join(ctx, &walks[2 * i], &begin[2 * i], &ways[2 * i], &trails[i]);
   }
 done:
   for (size_t i = 0; i < 2 * n && ways != NULL; i++) free(ways[i].point);

@@ -34,6 +34,9 @@ typedef struct pendres_walk {
   double tolerance;                             /* of a period: decides the steps */
   double longest;                               /* spacing of points at most, scaled arclength */
   /* The walk's own: */
+  int apart; /* it began off the orbits that close by `half` already, and stays off them: where it
+                meets the branch that its own was born from, it goes on on its own */
+  pendres_continuation_map half;
   int stuck;
   double step; /* spacing of the points ahead */
   pendres_walk_point here;
@@ -51,16 +54,16 @@ double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PEN
 /*
  * Start a walk at u, corrected to the curve across its tangent, towards growing (direction > 0) or
  * falling values of the last unknown; where that stands still, the two directions are opposite.
- * The fields above `stuck` are set by the caller. PENDRES_NOT_CONVERGED if there is no curve at u.
+ * The fields above `apart` are set by the caller. PENDRES_NOT_CONVERGED if there is no curve at u.
  */
 pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *walk,
                                   const double u[PENDRES_U_COUNT], double direction);
 
 /*
- * Correct n points of one kind of curve (the walk's map, condition and unknowns; its place is not
- * read), each at its own steps and within the plane through it across its tangent. u is
+ * Correct n points of one kind of curve (the walk's map, condition, unknowns and what it keeps apart
+ * from; its place is not read), each at its own steps and within the plane through it across its tangent. u is
  * replaced, *rounding[i] becomes the error of the scaled unknowns by rounding, NaN where the
- * correction failed.
+ * correction failed, or led astray to orbits that the walk keeps apart from.
  */
 pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *kind, size_t n,
                                     const pendres_walk_point *points, const int *steps,

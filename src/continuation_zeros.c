@@ -119,6 +119,43 @@ size_t pendres_trail_zeros(const pendres_trail *t, pendres_trail_test *test, siz
   return count;
 }
 
+/* ---- births ---- */
+
+/*
+ * An orbit and its image by the half map lie on either side of the orbit that both were born from,
+ * and change places there: the way from one to the other turns round.
+ */
+pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t, size_t room,
+                                    pendres_trail_zero *zeros, size_t *count)
+{
+  const size_t n = t->count, chords = t->closed ? n : n - 1;
+  pendres_status status = PENDRES_OK;
+  *count = 0;
+  if (!t->kind.apart || n < 2) return status;
+  double(*u)[PENDRES_U_COUNT] = malloc(n * sizeof *u), (*miss)[2] = malloc(n * sizeof *miss);
+  int steps = 0;
+  if (u == NULL || miss == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    int here = 0;
+    memcpy(u[i], t->point[i].u, sizeof u[i]);
+    status = pendres_continuation_map_steps(ctx, u[i], t->kind.tolerance, &here);
+    if (here > steps) steps = here;
+  }
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_closes(ctx, &t->kind.half, steps, n,
+                                             (const double (*)[PENDRES_U_COUNT])u, miss, NULL);
+  for (size_t i = 0; i < chords && *count < room && status == PENDRES_OK; i++) {
+    const double *a = miss[i], *b = miss[(i + 1) % n];
+    const double from = hypot(a[0], a[1]), to = hypot(b[0], b[1]);
+    if (a[0] * b[0] + a[1] * b[1] < 0.0)
+      zeros[(*count)++] = (pendres_trail_zero){.i = i, .part = from / (from + to)};
+  }
+  free(u);
+  free(miss);
+  return status;
+}
+
 /* ---- zeros that the points missed ---- */
 
 /* The point of the curve near the place s between two points: linear, then corrected. */

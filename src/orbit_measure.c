@@ -117,17 +117,20 @@ pendres_status pendres_orbit_interpolate(const double *y, size_t n, size_t point
 }
 
 /*
- * Largest harmonic that a mirror-symmetric orbit does not have: with q = 1, and its mean taken
- * out, y(theta + pi) = -y(theta) leaves odd harmonics alone. For q > 1 all harmonics but odd
- * multiples of q count.
+ * Largest harmonic that a mirror-symmetric orbit does not have. Such an orbit is its own mirror
+ * image about its mean k half drive periods later, k odd, and closes after k whole ones: with odd
+ * q that is half of the whole orbit, y(theta + q pi) = -y(theta), which leaves odd harmonics of it.
+ * What is given with an even q closes earlier, if it has the symmetry, and is read that often.
  */
 static double symmetry_defect(const double *c, size_t n, int q)
 {
   double largest = 0.0;
+  size_t closures = 1;
+  while ((size_t)q % (2 * closures) == 0) closures *= 2;
   for (size_t m = 1; 2 * m < n; m++) {
-    const int odd_multiple = m % (size_t)q == 0 && (m / (size_t)q) % 2 == 1;
+    const int odd = m % closures == 0 && (m / closures) % 2 == 1;
     const double size = 2.0 / (double)n * hypot(c[2 * m - 1], c[2 * m]);
-    if (!odd_multiple && size > largest) largest = size;
+    if (!odd && size > largest) largest = size;
   }
   return largest;
 }

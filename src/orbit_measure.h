@@ -21,7 +21,7 @@ typedef struct pendres_orbit_samples {
 typedef struct pendres_orbit_measures {
   double loop_area, dissipation, amplitude, mean_angle;
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS]; /* see orbit.h */
-  double symmetry_defect; /* largest |even harmonic| of the angle about its mean */
+  double symmetry_defect; /* largest harmonic of the angle that mirror symmetry forbids */
 } pendres_orbit_measures;
 
 /* work: 2 n doubles. */

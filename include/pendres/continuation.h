@@ -89,6 +89,20 @@ typedef enum pendres_branch_end {
   PENDRES_END_STUCK      /**< arc steps became too short */
 } pendres_branch_end;
 
+/**
+ * What a branch's bifurcations do not explain of its points: bits, 0 where all agree. Every branch
+ * is checked when it has been followed; a doubt says that a bifurcation was missed or misnamed, or
+ * that the branch is not one but parts of two.
+ */
+typedef enum pendres_doubt {
+  PENDRES_DOUBT_SIGN = 1, /**< from this point to the next that tells, a multiplier passes +1 or -1
+                               and no bifurcation does, or the other way round: as where stability
+                               changes */
+  PENDRES_DOUBT_TURN = 2, /**< the parameter turns here, and there is no fold */
+  PENDRES_DOUBT_BIFURCATION = 4 /**< a fold at which the parameter does not turn, or turns against
+                                     its curvature; or another bifurcation at which it does */
+} pendres_doubt;
+
 /** A point of a branch. */
 typedef struct pendres_branch_point {
   pendres_special kind;
@@ -98,6 +112,7 @@ typedef struct pendres_branch_point {
                                of 0.1 */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
+  int doubt;              /**< bits of pendres_doubt */
 } pendres_branch_point;
 
 /** Opaque: a branch in order, from its end at the lower parameter or a fold onwards. */

@@ -45,7 +45,7 @@ typedef struct pendres_orbit {
   double x_error, v_error;
   int period;                /**< q: drive periods until it closes */
   int winding;               /**< p: whole turns in q drive periods */
-  int symmetric;             /**< 1: its own mirror image half a drive period later */
+  int symmetric;             /**< 1: its own mirror image, period half drive periods later */
   int stable;                /**< 1: both Floquet multipliers inside the unit circle */
   double multiplier_re[2];   /**< Floquet multipliers, largest modulus first */
   double multiplier_im[2];
