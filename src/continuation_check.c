@@ -100,6 +100,7 @@ static void check_turns(pendres_branch *b)
 
 void pendres_branch_check(pendres_branch *b)
 {
+  for (size_t i = 0; i < b->count; i++) b->point[i].doubt = 0;
   check_signs(b, 1.0);
   check_signs(b, -1.0);
   check_turns(b);

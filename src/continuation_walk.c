@@ -27,7 +27,8 @@ static const double farthest_miss = 0.25;
 /* The chord from one point to the next goes along the mean of their tangents, to this share of its
    length: exactly so where the curve bends steadily. Of forty thousand chords one in a hundred is
    off by more than 0.01, none by more than 0.06; those that lead from one branch to another where
-   they come close, as next to a sharp fold, are off by 0.1 and more. */
+   they come close, as next to a sharp fold, are off by 0.1 and more; less of it is trusted where
+   points were stepped over. */
 static const double farthest_off = 0.08;
 static const double shortest_step = 1e-6;
 static const int widest_gap = 3; /* from one point to the next, in steps */
@@ -240,7 +241,7 @@ static int follows(const pendres_walk *w, const pendres_walk_point *last, int ga
   }
   if (turn < sharpest_turn || way > 2.0 * gap * w->step ||
       miss > farthest_miss * w->step * (c->rank + 1) ||
-      off_chord(w, last, c, point, way) > farthest_off)
+      off_chord(w, last, c, point, way) > farthest_off / gap)
     return 0;
   memcpy(point->u, c->u, sizeof point->u);
   point->held = 0;

@@ -1,0 +1,214 @@
+/*
+ * test_continuation_symmetry.c -- orbits of several drive periods that are their own mirror images,
+ * branches born from others, and whether branches and their bifurcations agree.
+ *
+ * References: reference.h (Taylor series in long double, no shared code), and theory that the code
+ * does not use: a symmetric orbit's multiplier goes straight through +1 where the symmetry breaks,
+ * and the pair that is born there grows as a square root.
+ */
+#include <stdlib.h>
+
+#include <pendres/continuation.h>
+#include <pendres/reference.h>
+
+#include "check.h"
+#include "continuation_branch.h"
+
+static const double half_pi = 1.57079632679489661923;
+
+static pendres_orbit refined(pendres_context *ctx, pendres_orbit_guess guess)
+{
+  pendres_orbit orbit;
+  pendres_status outcome;
+  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+  check_ok(outcome);
+  return orbit;
+}
+
+static pendres_branch *followed(pendres_context *ctx, const pendres_orbit *start, double low,
+                                double high)
+{
+  const pendres_branch_options options = {
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = low, .high = high};
+  pendres_branch *b = NULL;
+  check_ok(pendres_branch_follow(ctx, 1, start, &options, &b));
+  return b;
+}
+
+static size_t doubts_of(const pendres_branch *b)
+{
+  size_t doubts = 0;
+  for (size_t i = 0; i < pendres_branch_count(b); i++)
+    doubts += pendres_branch_get(b, i)->doubt != 0;
+  return doubts;
+}
+
+/* The only bifurcation of a kind on a branch. */
+static const pendres_bifurcation *only(const pendres_branch *b, pendres_special kind)
+{
+  const pendres_bifurcation *found = NULL;
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    if (f->kind != kind) continue;
+    assert_null(found);
+    found = f;
+  }
+  assert_non_null(found);
+  return found;
+}
+
+/* Larger multiplier, less 1, of the period-3 orbit at a frequency, by the reference. */
+static double excess(pendres_pendulum p, double frequency, double x, double v)
+{
+  pendres_reference_cycle c;
+  p.drive_frequency = frequency;
+  check_ok(pendres_reference_orbit(&p, x - half_pi, v, 3, 0, &c));
+  return (double)(c.multiplier_re[0] - 1.0L);
+}
+
+/*
+ * About the top of the barrier: y(t + 3 tau / 2) = 2 pi - y(t), so the mean is pi and all odd
+ * harmonics of the whole length are there, not the multiples of three alone.
+ */
+static void period_three_loses_its_symmetry(void **state)
+{
+  (void)state;
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
+  const pendres_pendulum p = {.damping = 0.05, .drive_amplitude = 0.2, .drive_frequency = 0.537706};
+  const pendres_orbit start = refined(
+    ctx, (pendres_orbit_guess){.pendulum = p, .x = 7.032235, .v = 1.571260, .period = 3});
+  assert_true(start.symmetric && start.stable);
+  pendres_branch *b = followed(ctx, &start, 0.535, 0.55);
+  const pendres_bifurcation *at = only(b, PENDRES_SYMMETRY_BREAKING);
+  assert_int_equal(doubts_of(b), 0);
+  assert_int_equal(only(b, PENDRES_FOLD)->orbit.period, 3);
+  /* The symmetric orbit itself goes on beyond, unstable. The multiplier's zero is linear in the
+     frequency but for its square, 1e-14 by 1e3 over its slope of 650. */
+  const double h = 1e-7;
+  const double before = excess(at->orbit.pendulum, at->value - h, at->orbit.x, at->orbit.v);
+  const double behind = excess(at->orbit.pendulum, at->value + h, at->orbit.x, at->orbit.v);
+  assert_true(before > 0.0 && behind < 0.0);
+  check_near(h * (before + behind) / (before - behind), 0.0, at->value_error + 1e-12);
+
+  /* The pair: asymmetric, with the symmetry breaking at its birth and no fold there. */
+  pendres_orbit pair;
+  check_ok(pendres_branch_switch(ctx, at, &pair));
+  assert_true(!pair.symmetric && pair.period == 3);
+  pendres_branch *born = followed(ctx, &pair, 0.5345, 0.55);
+  const pendres_bifurcation *birth = only(born, PENDRES_SYMMETRY_BREAKING);
+  check_near(birth->value, at->value, birth->value_error + at->value_error);
+  for (size_t i = 0; i < pendres_branch_bifurcations(born); i++)
+    assert_true(pendres_branch_bifurcation(born, i)->kind != PENDRES_FOLD);
+  assert_int_equal(doubts_of(born), 0);
+  pendres_branch_free(born);
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+/* About the bottom of a well: its fold, known from quadruple precision to the digits given. */
+static void period_three_has_its_fold(void **state)
+{
+  (void)state;
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
+  const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.35, .drive_frequency = 0.668508};
+  const pendres_orbit start = refined(
+    ctx, (pendres_orbit_guess){.pendulum = p, .x = 0.027643, .v = 1.321870, .period = 3});
+  assert_true(start.symmetric);
+  pendres_branch *b = followed(ctx, &start, 0.66, 0.68);
+  const pendres_bifurcation *fold = only(b, PENDRES_FOLD);
+  check_near(fold->value, 0.67054934211, fold->value_error + 5e-12);
+  assert_true(fold->curvature < 0.0 && fold->orbit.period == 3);
+  (void)only(b, PENDRES_SYMMETRY_BREAKING);
+  assert_int_equal(doubts_of(b), 0);
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+/*
+ * Branches that come close to others: where they were born (the first, third and fourth), and next
+ * to a sharp turn of their own (the second). Each stays on itself.
+ */
+static void branches_stay_on_themselves(void **state)
+{
+  (void)state;
+  static const struct {
+    double damping, drive, frequency, x, v;
+    int period, winding;
+    double low, high;
+    size_t births;
+  } cases[] = {{0.1, 0.3, 0.55, 8.206, 1.7068, 3, 0, 0.5485, 0.5525, 1},
+               {0.0797, 0.4675, 0.70485, 6.738, 0.9427, 7, 0, 0.695, 0.712, 0},
+               {0.123, 0.4815, 0.813715, 2.632600, -0.308360, 6, 2, 0.812, 0.815, 1},
+               {0.1, 0.4, 0.750033, 0.397890, 1.053081, 8, 0, 0.7498, 0.7502, 1}};
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    size_t births = 0;
+    const pendres_orbit start = refined(
+      ctx, (pendres_orbit_guess){.pendulum = {.damping = cases[i].damping,
+                                              .drive_amplitude = cases[i].drive,
+                                              .drive_frequency = cases[i].frequency},
+                                 .x = cases[i].x, .v = cases[i].v, .period = cases[i].period,
+                                 .winding = cases[i].winding});
+    pendres_branch *b = followed(ctx, &start, cases[i].low, cases[i].high);
+    for (size_t k = 0; k < pendres_branch_count(b); k++)
+      if (pendres_branch_get(b, k)->bifurcation < 0)
+        assert_int_equal(pendres_branch_get(b, k)->orbit.symmetric, start.symmetric);
+    for (size_t k = 0; k < pendres_branch_bifurcations(b); k++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation(b, k);
+      births += f->orbit.period < start.period || (f->orbit.symmetric && !start.symmetric);
+    }
+    assert_int_equal(births, cases[i].births);
+    assert_int_equal(doubts_of(b), 0);
+    pendres_branch_free(b);
+  }
+  pendres_context_free(ctx);
+}
+
+/* A branch that lacks a bifurcation, or has one by another name, is doubted where that is. */
+static void what_is_missing_is_doubted(void **state)
+{
+  (void)state;
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  const pendres_pendulum p = {.damping = 0.13, .drive_amplitude = 0.2, .drive_frequency = 0.8};
+  const pendres_orbit sa = refined(
+    ctx, (pendres_orbit_guess){.pendulum = p, .x = half_pi + 0.5, .v = 0.1, .period = 1});
+  pendres_branch *b = followed(ctx, &sa, 0.7, 0.9);
+  assert_int_equal(pendres_branch_bifurcations(b), 2);
+  assert_int_equal(doubts_of(b), 0);
+  size_t at = 0;
+  while (b->point[at].bifurcation < 0) at++;
+  const pendres_branch_point whole = b->point[at];
+  const pendres_special kind = b->bifurcation[whole.bifurcation].kind;
+
+  b->bifurcation[whole.bifurcation].kind = PENDRES_SYMMETRY_BREAKING;
+  pendres_branch_check(b);
+  assert_int_equal(b->point[at].doubt, PENDRES_DOUBT_BIFURCATION);
+  b->bifurcation[whole.bifurcation].kind = PENDRES_PERIOD_DOUBLING;
+  pendres_branch_check(b);
+  assert_int_equal(b->point[at - 1].doubt, PENDRES_DOUBT_SIGN);
+  b->bifurcation[whole.bifurcation].kind = kind;
+  b->point[at].bifurcation = -1;
+  pendres_branch_check(b);
+  assert_int_equal(b->point[at].doubt, PENDRES_DOUBT_TURN);
+  assert_int_equal(b->point[at - 1].doubt, PENDRES_DOUBT_SIGN);
+  b->point[at] = whole;
+  pendres_branch_check(b);
+  assert_int_equal(doubts_of(b), 0);
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(period_three_loses_its_symmetry),
+    cmocka_unit_test(period_three_has_its_fold),
+    cmocka_unit_test(branches_stay_on_themselves),
+    cmocka_unit_test(what_is_missing_is_doubted),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
