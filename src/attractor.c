@@ -7,6 +7,7 @@
 #include "attractor_internal.h"
 #include "context_internal.h"
 #include "settle.h"
+#include "strobe_run.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
@@ -24,9 +25,8 @@ static pendres_status check_states(pendres_context *ctx, size_t n, const pendres
 {
   for (size_t i = 0; i < n; i++) {
     const char *why = NULL;
-    if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK &&
-        !(isfinite(x[i]) && isfinite(v[i])))
-      why = "position and velocity must be finite";
+    if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK)
+      why = pendres_strobe_refuses(&p[i * stride], x[i], v[i]);
     if (why == NULL && p[i * stride].damping == 0.0)
       why = "without damping nothing settles";
     if (why != NULL)

@@ -37,10 +37,12 @@ typedef struct walker {
 static int cell_of(const pendres_cover *cover, double y, double w, int *row, int *column)
 {
   const double a = y / two_pi + 0.5, b = 0.5 * (w / cover->w_most + 1.0);
+  /* Neither NaN nor what no int holds. */
+  if (!(isfinite(a) && b >= 0.0 && b < 1.0)) return 0;
   *row = (int)floor((a - floor(a)) * PENDRES_COVER_CELLS);
   *column = (int)floor(b * PENDRES_COVER_CELLS);
   if (*row == PENDRES_COVER_CELLS) *row = 0;
-  return *column >= 0 && *column < PENDRES_COVER_CELLS;
+  return 1;
 }
 
 int pendres_cover_holds(const pendres_cover *cover, double y, double w)

@@ -296,17 +296,17 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit_guess *g = &guess[i];
     const char *why = NULL;
-    if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK &&
-        !(isfinite(g->x) && isfinite(g->v) && g->period >= 1))
-      why = "a guess needs finite x and v and a period of at least 1";
+    if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK) {
+      why = pendres_strobe_refuses(&g->pendulum, g->x, g->v);
+      if (g->period < 1) why = "a guess needs a period of at least 1";
+    }
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
     c[i] = (pendres_newton_candidate){.guess = g,
                                       .index = i,
-                                      .y = g->x - half_pi,
                                       .w = g->v / g->pendulum.drive_frequency};
     long turns = 0;
-    pendres_strobe_wrap(&c[i].y, &turns);
+    pendres_strobe_angle(g->x, &c[i].y, &turns);
     /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
        tell whether it was enough. */
     const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, fabs(g->v),

@@ -12,8 +12,6 @@
 #include "settle_lanes.h"
 #include "steps.h"
 
-static const double half_pi = 1.57079632679489661923;
-
 enum { SCOUTS = 12 /* members of a parameter set sent ahead */ };
 
 /* ---- batches ---- */
@@ -21,8 +19,8 @@ enum { SCOUTS = 12 /* members of a parameter set sent ahead */ };
 static pendres_status load_lane(pendres_context *ctx, const pendres_pendulum *p, double x, double v,
                                 pendres_strobe_lane *lane)
 {
-  *lane = (pendres_strobe_lane){.pendulum = p, .y = x - half_pi, .w = v / p->drive_frequency};
-  pendres_strobe_wrap(&lane->y, &lane->turns);
+  *lane = (pendres_strobe_lane){.pendulum = p, .w = v / p->drive_frequency};
+  pendres_strobe_angle(x, &lane->y, &lane->turns);
   /* An error of the size of the tolerance moves a basin's boundary by about as much. */
   return pendres_steps_choose(ctx, p, fabs(v), 10.0 * ctx->options.tolerance, &lane->steps);
 }
@@ -178,8 +176,8 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
     const size_t i = order[k];
     found[k] = pendres_settle_unresolved;
     lanes[k] = (pendres_strobe_lane){
-      .pendulum = p, .y = x[i] - half_pi, .w = v[i] / p->drive_frequency, .steps = steps[i]};
-    pendres_strobe_wrap(&lanes[k].y, &lanes[k].turns);
+      .pendulum = p, .w = v[i] / p->drive_frequency, .steps = steps[i]};
+    pendres_strobe_angle(x[i], &lanes[k].y, &lanes[k].turns);
   }
   long most = pendres_settle_last_budget(ctx, catalogue);
   const long soon = pendres_settle_first_budget(p);

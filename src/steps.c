@@ -211,6 +211,13 @@ static double least_steps(const pendres_pendulum *p, double speed)
   return fmax(period * p->damping / 4.0, period * fmax(1.0, speed / 4.0) / 1.5);
 }
 
+/* A drive that swings a pendulum through so many turns a period leaves less than two steps a turn. */
+static int shaken(const pendres_pendulum *p)
+{
+  const double speed = fabs(p->drive_amplitude) / fmax(p->drive_frequency, p->damping);
+  return speed / p->drive_frequency > 0.5 * MOST_STEPS;
+}
+
 /* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
 static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
 {
@@ -219,7 +226,7 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   const int order = pendres_table_order(ctx->options.table);
 
   worst_of(c, &p, &speed, &tolerance);
-  if (p.drive_frequency == 0.0) return PENDRES_TOLERANCE_UNREACHABLE;
+  if (p.drive_frequency == 0.0 || shaken(&p)) return PENDRES_TOLERANCE_UNREACHABLE;
   double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
@@ -265,6 +272,26 @@ static pendres_status remember(pendres_context *ctx, const cell *key, int steps)
   return PENDRES_OK;
 }
 
+/* Why a pendulum needs too many steps: the friction's stability, a fast start, or the drive. */
+static pendres_status too_many(pendres_context *ctx, const cell *c, const pendres_pendulum *p,
+                               double speed)
+{
+  pendres_pendulum worst;
+  double fastest, tolerance;
+  worst_of(c, &worst, &fastest, &tolerance);
+  const char *why = "the drive frequency at this tolerance";
+  if (worst.drive_frequency > 0.0 && shaken(&worst)) why = "the drive amplitude";
+  else if (fmax(p->damping, 0.25 * speed) > 2.0)
+    why = p->damping > 0.25 * speed ? "the damping" : "the speed";
+  else if (fabs(p->drive_amplitude) > 2.0) why = "the drive amplitude at this tolerance";
+  return pendres_context_fail(
+    ctx, PENDRES_TOLERANCE_UNREACHABLE,
+    "damping %g, drive amplitude %g, drive frequency %g, speed %g: %s needs more than %d explicit "
+    "steps a period. A looser tolerance may do, and method cvode_bdf advances such pendulums "
+    "(pendres_strobe_advance); orbits and labels need explicit steps",
+    p->damping, p->drive_amplitude, p->drive_frequency, speed, why, MOST_STEPS);
+}
+
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps)
 {
@@ -282,13 +309,7 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     }
   int chosen = 0;
   pendres_status status = probe(ctx, &key, &chosen);
-  if (status == PENDRES_TOLERANCE_UNREACHABLE)
-    return pendres_context_fail(
-      ctx, status,
-      "damping %g at drive frequency %g needs more than %d explicit steps a period: a looser "
-      "tolerance may do, and method cvode_bdf advances such pendulums "
-      "(pendres_strobe_advance); orbits and labels need explicit steps",
-      p->damping, p->drive_frequency, MOST_STEPS);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE) return too_many(ctx, &key, p, speed);
   if (status == PENDRES_OK) status = remember(ctx, &key, chosen);
   if (status == PENDRES_OK) *steps = chosen;
   return status;

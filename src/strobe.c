@@ -9,8 +9,7 @@
 #include "strobe_noise.h"
 #include "strobe_run.h"
 
-static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
+static const double two_pi = 6.28318530717958647693;
 
 static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
@@ -26,11 +25,20 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%ld periods: not negative, please",
                                 periods);
   for (size_t i = 0; i < n; i++) {
-    if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK && !(isfinite(x[i]) && isfinite(v[i])))
-      why = "position and velocity must be finite";
+    if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK)
+      why = pendres_strobe_refuses(&p[i], x[i], v[i]);
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
+  return PENDRES_OK;
+}
+
+/* Every state is a number, or a failure with a sentence. */
+static pendres_status check_ends(pendres_context *ctx, size_t n, const pendres_strobe_lane *lanes)
+{
+  for (size_t i = 0; i < n; i++)
+    if (!(isfinite(lanes[i].y) && isfinite(lanes[i].w)))
+      return pendres_strobe_lost(ctx, lanes[i].pendulum, lanes[i].period);
   return PENDRES_OK;
 }
 
@@ -48,11 +56,8 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
 {
   for (size_t i = 0; i < n; i++) {
     pendres_strobe_lane *l = &lanes[i];
-    *l = (pendres_strobe_lane){.pendulum = &p[i], .y = x[i], .w = v[i] / p[i].drive_frequency};
-    /* Whole turns first: of a large x the digits would be lost in the difference. */
-    pendres_strobe_wrap(&l->y, &l->turns);
-    l->y -= half_pi;
-    pendres_strobe_wrap(&l->y, &l->turns);
+    *l = (pendres_strobe_lane){.pendulum = &p[i], .w = v[i] / p[i].drive_frequency};
+    pendres_strobe_angle(x[i], &l->y, &l->turns);
     if (ctx->options.method != PENDRES_BLOCK_FIXED) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], fabs(v[i]),
@@ -113,12 +118,13 @@ static double distance(const pendres_strobe_lane *a, const pendres_strobe_lane *
 
 /*
  * From the distance of two runs and the standard error of rounding; what is lost in the last sums
- * comes on top. Runs that are a tenth of a radian apart have lost each other: nothing is known
- * then.
+ * comes on top.
  */
-static double error_of(double apart, double noise, long turns)
+static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 {
-  return apart < 0.1 ? apart + 2.0 * noise + 2.2e-16 * (8.0 + two_pi * labs(turns)) : INFINITY;
+  const double v = fabs(l->w) * l->pendulum->drive_frequency;
+  return pendres_strobe_doubt(apart) + 2.0 * noise +
+         2.2e-16 * fmax(8.0 + two_pi * fabs((double)l->turns), v);
 }
 
 /*
@@ -170,7 +176,7 @@ static pendres_status estimate(pendres_context *ctx, size_t n, const pendres_pen
   for (size_t i = 0; i < n; i++) apart[i] = distance(&lanes[i], &finer[i]);
   status = ask_thirdly(ctx, n, p, x, v, periods, lanes, error, finer, apart);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    error[i] = error_of(apart[i], error[i], lanes[i].turns);
+    error[i] = error_of(apart[i], error[i], &lanes[i]);
 done:
   free(finer);
   free(apart);
@@ -196,11 +202,11 @@ static pendres_status strobe_advance(pendres_context *ctx, size_t n,
   status = load(ctx, n, pendulums, x, v, periods, 1.0, lanes);
   if (status == PENDRES_OK)
     status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
+  if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
   if (status == PENDRES_OK && error != NULL)
     status = estimate(ctx, n, pendulums, x, v, periods, lanes, error);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const double turns = (double)lanes[i].turns;
-    x[i] = fma(two_pi, turns, fma(two_pi_low, turns, lanes[i].y + half_pi));
+    x[i] = pendres_strobe_position(lanes[i].y, lanes[i].turns);
     v[i] = lanes[i].w * pendulums[i].drive_frequency;
   }
   free(lanes);

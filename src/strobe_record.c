@@ -15,9 +15,6 @@
 #include "strobe_noise.h"
 #include "strobe_run.h"
 
-static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693;
-
 enum { MOST_SAMPLES = 1000000 };
 
 /* Where the points of a period go; in the second run also their standard errors of rounding. */
@@ -26,7 +23,8 @@ typedef struct recorder {
   double *x_noise, *v_noise; /* NULL in the first run */
   double noise[3];           /* C_yy, C_yw, C_ww at the period's start */
   int stretch;               /* steps between two points */
-  double omega, turned;
+  double omega;
+  long turns;                /* of the period's start */
   double rounding;           /* of a step */
 } recorder;
 
@@ -36,7 +34,7 @@ static void keep(void *arg, int step, double theta, size_t stride, const double 
   const int k = step / r->stretch;
   (void)theta;
   if (step % r->stretch != 0) return;
-  r->x[k] = state[0] + half_pi + r->turned;
+  r->x[k] = pendres_strobe_position(state[0], r->turns);
   r->v[k] = r->omega * state[stride];
   if (r->x_noise != NULL) {
     double noise[3];
@@ -60,7 +58,7 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
 {
   pendres_flow *flow = NULL;
   const double omega = what->p->drive_frequency;
-  double y = what->x0 - half_pi, w = what->v0 / omega;
+  double y = 0.0, w = what->v0 / omega;
   recorder r = { .stretch = stretch, .omega = omega,
                  .rounding = pendres_strobe_noise_of_step(ctx->options.table) };
   long turns = 0;
@@ -68,7 +66,7 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
   if (status != PENDRES_OK) return status;
   status = pendres_flow_set_steps(flow, what->samples * stretch);
-  pendres_strobe_wrap(&y, &turns);
+  pendres_strobe_angle(what->x0, &y, &turns);
   pendres_flow_resize(flow, 1);
   x[0] = what->x0;
   v[0] = what->v0;
@@ -79,7 +77,7 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     r.v = v + first;
     r.x_noise = x_noise != NULL ? x_noise + first : NULL;
     r.v_noise = v_noise != NULL ? v_noise + first : NULL;
-    r.turned = two_pi * (double)turns;
+    r.turns = turns;
     status = pendres_context_poll(ctx);
     if (status != PENDRES_OK) return status;
     pendres_flow_set_lane(flow, 0, what->p, y, w);
@@ -95,6 +93,8 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     y = state[0];
     w = state[stride];
     pendres_strobe_arrive(what->p, &y, &w, &turns);
+    if (status == PENDRES_OK && !(isfinite(y) && isfinite(w)))
+      return pendres_strobe_lost(ctx, what->p, k + 1);
   }
   return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, flow, status);
 }
@@ -103,18 +103,22 @@ static pendres_status check(pendres_context *ctx, const record *what)
 {
   const char *why = NULL;
   if (pendres_pendulum_check(what->p, &why) == PENDRES_OK) {
-    if (!(isfinite(what->x0) && isfinite(what->v0))) why = "position and velocity must be finite";
-    else if (what->periods < 0) why = "the number of periods must not be negative";
+    if (what->periods < 0) why = "the number of periods must not be negative";
     else if (what->samples < 1 || what->samples > MOST_SAMPLES)
       why = "1 to 1000000 samples a period, please";
     else if (what->periods >= LONG_MAX / 64 / what->samples)
       why = "there are too many samples in all";
+    else why = pendres_strobe_refuses(what->p, what->x0, what->v0);
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
 }
 
-/* The second run, and the errors: the distance to it, and twice the standard error of rounding. */
+/*
+ * The second run, and the errors: what the distance to it says, and twice the standard error of
+ * rounding. The errors of a point's x and v belong together: where one is lost, so is the other,
+ * and once lost a trajectory may be any other's; that the two runs meet again says nothing then.
+ */
 static pendres_status estimate(pendres_context *ctx, const record *what, int stretch,
                                const double *x, const double *v, double *x_error, double *v_error)
 {
@@ -124,9 +128,14 @@ static pendres_status estimate(pendres_context *ctx, const record *what, int str
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
   const pendres_status status =
     run(ctx, what, (14 * stretch + 9) / 10, finer, finer + n, x_error, v_error);
+  double lost = 0.0;
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    x_error[k] = fabs(x[k] - finer[k]) + 2.0 * x_error[k] + 2.2e-16 * fabs(x[k]);
-    v_error[k] = fabs(v[k] - finer[n + k]) + 2.0 * v_error[k] + 2.2e-16 * fabs(v[k]);
+    const double dx = fabs(x[k] - finer[k]), dv = fabs(v[k] - finer[n + k]);
+    /* Not smaller where one of them happens to change its sign. */
+    const double doubt = pendres_strobe_doubt(fmax(dx, dv));
+    if (!(doubt + x_error[k] + v_error[k] < INFINITY)) lost = INFINITY;
+    x_error[k] = lost + doubt + 2.0 * x_error[k] + 2.2e-16 * fabs(x[k]);
+    v_error[k] = lost + doubt + 2.0 * v_error[k] + 2.2e-16 * fabs(v[k]);
   }
   free(finer);
   return status;

@@ -8,14 +8,56 @@
 #include "flow_naive.h"
 #include "flow_single.h"
 
+static const double half_pi = 1.57079632679489661923;
+/* 2 pi in two parts, so that taking out many turns costs no digits. */
+static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
+/* A position beyond is not known to a tenth of a radian. */
+static const double farthest = 1e15;
+
 void pendres_strobe_wrap(double *y, long *turns)
 {
-  /* 2 pi in two parts, so that taking out many turns costs no digits. */
-  static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
   if (fabs(*y) <= 3.14159265358979323846) return;
   const double k = rint(*y / two_pi_high);
+  if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
+    *y = NAN;
+    return;
+  }
   *y = fma(-k, two_pi_low, fma(-k, two_pi_high, *y));
   *turns += (long)k;
+}
+
+void pendres_strobe_angle(double x, double *y, long *turns)
+{
+  /* Whole turns first: of a large x the digits would be lost in the difference. */
+  const double k = rint((x - half_pi) / two_pi_high);
+  *turns = 0;
+  *y = NAN;
+  if (!(fabs(x) <= farthest)) return;
+  *turns = (long)k;
+  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - half_pi;
+  pendres_strobe_wrap(y, turns);
+}
+
+double pendres_strobe_position(double y, long turns)
+{
+  return fma(two_pi_high, (double)turns, fma(two_pi_low, (double)turns, y + half_pi));
+}
+
+const char *pendres_strobe_refuses(const pendres_pendulum *p, double x, double v)
+{
+  const double w = p->drive_frequency, slowest = fmax(w, p->damping);
+  if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
+  if (!(fabs(x) <= farthest))
+    return "beyond 1e15 double precision knows a position to a tenth of a radian at best";
+  if (!(fabs(v) / slowest <= farthest && isfinite(v / w)))
+    return "so fast a pendulum is beyond 1e15 within a period, where its angle is not known";
+  if (!(fabs(p->drive_amplitude) / w / slowest <= farthest))
+    return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
+  if (!(p->damping / w <= farthest))
+    return "so strong a damping acts within less of a period than double precision can tell";
+  if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w))))
+    return "so low a drive frequency has a square that is zero in double precision";
+  return NULL;
 }
 
 void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
@@ -24,6 +66,19 @@ void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long
   pendres_strobe_wrap(y, turns);
   if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
     *y = *w = 0.0;
+}
+
+double pendres_strobe_doubt(double distance)
+{
+  return distance < 0.1 ? 2.0 * distance : INFINITY;
+}
+
+pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period)
+{
+  return pendres_context_fail(ctx, PENDRES_INTEGRATION_FAILED,
+                              "damping %g, drive amplitude %g, drive frequency %g: within %ld "
+                              "periods the state went beyond what double precision can say",
+                              p->damping, p->drive_amplitude, p->drive_frequency, period);
 }
 
 static int by_steps(const void *a, const void *b)

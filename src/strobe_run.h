@@ -40,8 +40,29 @@ typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_l
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
-/* Take whole turns out of an angle: -pi <= y <= pi afterwards. */
+/*
+ * Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond what
+ * double precision can say (1e15 in all).
+ */
 void pendres_strobe_wrap(double *y, long *turns);
+
+/* A position's angle y, -pi <= y <= pi, and its whole turns: x = pi/2 + y + 2 pi turns. And back. */
+void pendres_strobe_angle(double x, double *y, long *turns);
+double pendres_strobe_position(double y, long turns);
+
+/* NULL, or why double precision cannot follow a pendulum from a state: a static sentence. */
+const char *pendres_strobe_refuses(const pendres_pendulum *p, double x, double v);
+
+/*
+ * How far off a run may be that is so far from a better one. The better one is off as well, by less
+ * than half as much: steps 1.4 times as many leave a fifteenth at order eight, a fifth at five, and
+ * a tenth of the tolerance somewhat more than a tenth. So the distance is at least half the error.
+ * Runs that are a tenth of a radian apart have lost each other, and nothing is known (infinite).
+ */
+double pendres_strobe_doubt(double distance);
+
+/* The failure of a pendulum whose state is no number after some periods. */
+pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period);
 
 /*
  * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies

@@ -150,7 +150,7 @@ static void stiff_pendulums(void **state)
                    PENDRES_TOLERANCE_UNREACHABLE);
   assert_int_equal(steps, -1);
   assert_non_null(strstr(pendres_context_message(ctx), "cvode_bdf"));
-  assert_non_null(strstr(pendres_context_message(ctx), "damping 1000 "));
+  assert_non_null(strstr(pendres_context_message(ctx), "the damping needs"));
   pendres_context_free(ctx);
 }
 

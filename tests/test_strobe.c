@@ -4,6 +4,7 @@
  */
 #include "check.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -163,15 +164,16 @@ static int ascending(const void *a, const void *b)
 }
 
 /*
- * Estimates on parameters that no deck names, against extended precision: none below a tenth of the
- * true error, and not so large as to say nothing. Medians of a thousand pendulums each: 0.98 at 1e-5
- * (the second run's own error is missing from the difference), 2 at 1e-11, 12 at 1e-13, where
- * rounding is claimed with two standard errors and errors at random mostly cancel.
+ * Estimates on parameters that no deck names, against extended precision: none below the true error
+ * (where the difference of two runs was claimed as it stood, half of them were), and not so large as
+ * to say nothing. Where steps are what is wrong the estimate is twice the error, as the better run
+ * is taken to be off by up to half as much; towards 1e-13 rounding is claimed with two standard
+ * errors, and errors at random mostly cancel.
  */
 static void test_errors_are_honest(void **state)
 {
   static const double tolerance[] = { 1e-5, 1e-8, 1e-11, 1e-13 };
-  static const double most[] = { 1.5, 1.5, 5.0, 30.0 };
+  static const double most[] = { 2.5, 2.5, 10.0, 33.0 };
   enum { N = 60 };
   uint64_t seed = 362436069u;
   (void)state;
@@ -185,17 +187,17 @@ static void test_errors_are_honest(void **state)
       double x = x0, v = v0;
       check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, periods, &error));
       const double off = true_error(&p, x0, v0, periods, x, v);
-      if (!(error >= 0.1 * off))
+      if (!(error >= off))
         print_error("damping %g, drive %g at %g, from %g, %g: off by %g, estimated %g\n", p.damping,
                     p.drive_amplitude, p.drive_frequency, x0, v0, off, error);
-      assert_true(error >= 0.1 * off);
+      assert_true(error >= off);
       ratio[i] = error / fmax(off, 1e-17);
       least = fmin(least, ratio[i]);
     }
     qsort(ratio, N, sizeof *ratio, ascending);
     print_message("tolerance %g: estimate / error is %.2f at least, %.2f in the middle\n",
                   tolerance[t], least, ratio[N / 2]);
-    assert_true(ratio[N / 2] < most[t]);
+    assert_true(ratio[N / 2] > 1.4 && ratio[N / 2] < most[t]);
     pendres_context_free(ctx);
   }
 }
@@ -231,10 +233,10 @@ static void test_adaptive_errors_are_honest(void **state)
     check_ok(pendres_strobe_advance(ctx, N, p, x, v, TURNS, error));
     for (int i = 0; i < N; i++) {
       const double off = true_error(&p[i], x0[i], v0[i], TURNS, x[i], v[i]);
-      if (!(error[i] >= 0.1 * off))
+      if (!(error[i] >= off))
         print_error("%s, tolerance %g, damping %g: off by %g, estimated %g\n",
                     pendres_method_name(o.method), o.tolerance, p[i].damping, off, error[i]);
-      assert_true(error[i] >= 0.1 * off);
+      assert_true(error[i] >= off);
     }
     pendres_context_free(ctx);
   }
@@ -260,10 +262,10 @@ static void test_running_clocks_are_honest(void **state)
     check_ok(pendres_strobe_advance(ctx, N, p, x, v, TURNS, error));
     for (int i = 0; i < N; i++) {
       const double off = true_error(&p[i], start[i], 0.0, TURNS, x[i], v[i]);
-      if (!(error[i] >= 0.1 * off))
+      if (!(error[i] >= off))
         print_error("%s from %g: off by %g, estimated %g\n", pendres_method_name(methods[k]),
                     start[i], off, error[i]);
-      assert_true(error[i] >= 0.1 * off);
+      assert_true(error[i] >= off);
     }
     pendres_context_free(ctx);
   }
@@ -379,6 +381,93 @@ static void test_far_starts(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Far from the origin the angle is that of the position as it stands, in both ways to advance. The
+ * angles are x - pi/2 less whole turns of 2 pi, by decimals of 60 digits. What is left: the rounding
+ * of a step's angle and velocity, some 1e-15 each; the last place of x is claimed.
+ */
+static void test_far_angles(void **state)
+{
+  static const struct { double x; long turns; long double y; } far[] = {
+    { 1e9, 159154943, -0.993400903293511449821674560845L },
+    { -1e12, -159154943092, -0.913171567658110151752065969963L },
+    { 3e14, 47746482927568, 2.203705761915930398602336168031L },
+  };
+  const pendres_pendulum p = { .damping = 0.24, .drive_amplitude = 0.2, .drive_frequency = 0.94 };
+  pendres_context *ctx = context(&(pendres_options){ .tolerance = 1e-13 });
+  (void)state;
+  for (size_t i = 0; i < COUNT(far); i++) {
+    double x = far[i].x, v = 0.3, error, xs[7], vs[7], x_error[7], v_error[7];
+    long double y = far[i].y, w = v;
+    long turns = far[i].turns;
+    check_ok(pendres_reference_advance(&p, &y, &w, &turns, 3));
+    const long double turned = two_pi * (long double)(turns - far[i].turns);
+    const double moved = (double)(y - far[i].y + turned);
+    const double place = 0.5 * (nextafter(fabs(far[i].x), INFINITY) - fabs(far[i].x));
+    check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, &error));
+    check_near(v, (double)w, 2e-14);
+    check_near(x - far[i].x, moved, place + 2e-14);
+    assert_true(error >= place && error < 4.0 * place);
+    check_ok(pendres_strobe_record(ctx, &p, far[i].x, 0.3, 3, 2, xs, vs, x_error, v_error));
+    check_near(vs[6], (double)w, 2e-14);
+    check_near(xs[6] - far[i].x, moved, place + 2e-14);
+    assert_true(x_error[6] >= place && x_error[6] < 4.0 * place);
+    assert_true(v_error[6] < 1e-12);
+  }
+  pendres_context_free(ctx);
+}
+
+/* What double precision cannot say is refused by every way to advance, settle or refine. */
+static void test_too_far(void **state)
+{
+  static const struct { double damping, drive, frequency, x, v; const char *word; } cases[] = {
+    { 0.1, 0.2, 0.7, 5.8e19, 0.0, "1e15" },  { 0.1, 0.2, 0.7, 1e25, 0.0, "1e15" },
+    { 0.1, 0.2, 0.7, -1e300, 0.0, "1e15" },  { 0.1, 0.2, 0.7, 1.0, 1e50, "fast" },
+    { DBL_MAX, 0.2, 1.0, 1.0, 0.0, "damping" }, { 0.1, DBL_MAX, 1.0, 1.0, 0.0, "drive" },
+    { 0.1, 0.2, DBL_MIN, 1.0, 0.0, "drive" }, { DBL_MAX, DBL_MAX, 2.0, 1.0, 1.0, "damping" },
+  };
+  (void)state;
+  for (size_t i = 0; i < COUNT(cases); i++)
+    for (int m = 0; m < PENDRES_METHOD_COUNT; m++) {
+      const pendres_options o = { .method = (pendres_method)m, .steps_per_period = m ? 0 : 20 };
+      const pendres_pendulum p = { cases[i].damping, cases[i].drive, cases[i].frequency, 0.0 };
+      const pendres_orbit_guess guess = {
+        .pendulum = p, .x = cases[i].x, .v = cases[i].v, .period = 1 };
+      pendres_context *ctx = context(&o);
+      double x = cases[i].x, v = cases[i].v, xs[3], vs[3];
+      pendres_outcome outcome;
+      pendres_orbit orbit;
+      pendres_status how;
+      for (int call = 0; call < 4; call++) {
+        const pendres_status status =
+          call == 0   ? pendres_strobe_advance(ctx, 1, &p, &x, &v, 2, NULL)
+          : call == 1 ? pendres_strobe_record(ctx, &p, x, v, 2, 1, xs, vs, NULL, NULL)
+          : call == 2 ? pendres_settle(ctx, 1, &p, &x, &v, &outcome, NULL)
+                      : pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &how);
+        assert_int_equal(status, PENDRES_INVALID_ARGUMENT);
+        assert_non_null(strstr(pendres_context_message(ctx), cases[i].word));
+        assert_true(x == cases[i].x && v == cases[i].v);
+      }
+      pendres_context_free(ctx);
+    }
+}
+
+/* Steps so long that the state grows without bound end in a failure, not in numbers. */
+static void test_no_numbers_are_a_failure(void **state)
+{
+  const pendres_pendulum p = { .damping = 1e6, .drive_amplitude = 0.2, .drive_frequency = 1.0 };
+  pendres_context *ctx = context(&(pendres_options){ .steps_per_period = 8 });
+  double x = 1.0, v = 1.0, xs[21], vs[21];
+  (void)state;
+  assert_int_equal(pendres_strobe_advance(ctx, 1, &p, &x, &v, 20, NULL),
+                   PENDRES_INTEGRATION_FAILED);
+  assert_non_null(strstr(pendres_context_message(ctx), "double precision"));
+  assert_true(x == 1.0 && v == 1.0);
+  assert_int_equal(pendres_strobe_record(ctx, &p, x, v, 20, 1, xs, vs, NULL, NULL),
+                   PENDRES_INTEGRATION_FAILED);
+  pendres_context_free(ctx);
+}
+
 /* y -> -y with F0 -> -F0: every operation is odd, so only x = y + pi/2 is rounded differently. */
 static void test_mirror(void **state)
 {
@@ -433,6 +522,27 @@ static void test_refusals(void **state)
   pendres_context_free(ctx);
 }
 
+/* What is said of too many steps names what asks for them. */
+static void test_reasons_for_steps(void **state)
+{
+  static const struct { double damping, drive, frequency, v; const char *said; } cases[] = {
+    { 0.1, 1e8, 1.0, 0.0, "the drive amplitude needs" },
+    { 5e6, 0.2, 1.0, 0.0, "the damping needs" },
+    { 0.1, 0.2, 1.0, 1e8, "the speed needs" },
+    { 0.1, 0.2, 1e-8, 0.0, "the drive frequency at this tolerance needs" },
+  };
+  pendres_context *ctx = context(NULL);
+  (void)state;
+  for (size_t i = 0; i < COUNT(cases); i++) {
+    const pendres_pendulum p = { cases[i].damping, cases[i].drive, cases[i].frequency, 0.0 };
+    double x = 1.0, v = cases[i].v;
+    assert_int_equal(pendres_strobe_advance(ctx, 1, &p, &x, &v, 1, NULL),
+                     PENDRES_TOLERANCE_UNREACHABLE);
+    assert_non_null(strstr(pendres_context_message(ctx), cases[i].said));
+  }
+  pendres_context_free(ctx);
+}
+
 /* A pendulum too stiff for explicit steps is refused with the remedy, and the remedy works. */
 static void test_stiff(void **state)
 {
@@ -463,6 +573,10 @@ int main(void)
     cmocka_unit_test(test_independence),      cmocka_unit_test(test_calls),
     cmocka_unit_test(test_errors_are_honest), cmocka_unit_test(test_tolerance_is_met),
     cmocka_unit_test(test_energy),            cmocka_unit_test(test_far_starts),
+    cmocka_unit_test(test_far_angles),
+    cmocka_unit_test(test_too_far),
+    cmocka_unit_test(test_no_numbers_are_a_failure),
+    cmocka_unit_test(test_reasons_for_steps),
     cmocka_unit_test(test_mirror),            cmocka_unit_test(test_refusals),
     cmocka_unit_test(test_stiff),             cmocka_unit_test(test_adaptive_errors_are_honest),
     cmocka_unit_test(test_running_clocks_are_honest),

@@ -23,9 +23,9 @@ extern "C" {
  * pendulums[n] are read; x[n] and v[n] (position and velocity at drive phase 0) are
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
- * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: a second run
- * with more steps a period and, where errors have grown, a third with still more are compared with
- * the first; or, where the method's steps are adaptive, runs with a tenth and a hundredth of the
+ * error[n], if not NULL, receives an estimate of the larger of the errors of x and v, twice what is
+ * between the first run and better ones, which are taken to be off by up to half as much: a second
+ * run with more steps a period and, where errors have grown, a third with still more; or, where the method's steps are adaptive, runs with a tenth and a hundredth of the
  * tolerance (1e-6 at most). It covers discretisation and rounding,
  * amplified along each trajectory as the trajectory itself amplifies them; where that is by more
  * than the tolerance allows, the estimate says so (infinite: nothing is known), it is not an error
@@ -38,9 +38,12 @@ extern "C" {
  * below 1e-290. Other states that take denormal numbers (drives below some 1e-300) are right, but
  * take up to a hundred times as long.
  *
- * Errors: PENDRES_INVALID_ARGUMENT (message names the pendulum; nothing was changed),
- * PENDRES_INTEGRATION_FAILED, PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY,
- * PENDRES_INTERRUPTED. On any of these x and v are unchanged.
+ * Errors: PENDRES_INVALID_ARGUMENT (message names the pendulum; nothing was changed), also where
+ * double precision cannot say what is asked: positions beyond 1e15, where a tenth of a radian is
+ * lost, or parameters and speeds that lead there within a period, or a damping of more than 1e15
+ * times the drive frequency; PENDRES_INTEGRATION_FAILED, also where a state is no number at the end;
+ * PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED. On any of these x and v
+ * are unchanged.
  */
 pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
@@ -54,7 +57,8 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
  *
  * x_error and v_error, of the same length, receive estimates of the errors: a second run with
  * more steps is compared with the first, and rounding is carried along by the variational
- * equation. Both may be NULL, and that run is then not made.
+ * equation. Where the runs have lost each other, and from there on, both are infinite. Both may be
+ * NULL, and that run is then not made.
  *
  * The steps are fixed ones and end on each point, whatever the context's method: nothing is
  * interpolated. Their choice and the statuses returned are those of pendres_strobe_advance().
