@@ -256,6 +256,7 @@ RUN_ENVIRONMENT = BUILD='$(BUILD)' CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' \
 $(TEST_NAMES:%=run/%): run/%: $(BUILD)/tests/% $(PROGRAM)
 	@$(RUN_ENVIRONMENT) tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) $(RUN) $<
 
+run/accuracy_check: $(ACCURACY_PROGRAM)
 $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 

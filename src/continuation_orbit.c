@@ -1,23 +1,25 @@
 /* continuation_orbit.c -- measures of orbits found by continuation; see continuation_orbit.h. */
 #include "continuation_orbit.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "context_internal.h"
-#include "orbit_measure.h"
+#include "orbit_error.h"
 #include "orbit_newton.h"
-#include "strobe_run.h"
 
-static const double pi = 3.14159265358979323846;
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
+
+/* Of an entry of M, at random in every step: see strobe_noise.c. */
+static const double matrix_rounding = 7e-16;
 
 /* What one computation of an orbit found. */
 typedef struct reading {
   double u[PENDRES_U_COUNT];
-  double m[2][2];
+  double m[2][2], m_by[2][2][2];
   pendres_orbit_measures measures;
 } reading;
 
@@ -40,6 +42,7 @@ static pendres_status read_candidate(const pendres_newton_candidate *c,
   const size_t n = tape->samples;
   double *y = work, *w = work + n;
   memcpy(out->m, c->m, sizeof out->m);
+  memcpy(out->m_by, c->m_by, sizeof out->m_by);
   for (size_t k = 0; k < n; k++) {
     const double *row = pendres_newton_sample(tape, k, c->lane);
     y[k] = row[0];
@@ -63,7 +66,7 @@ static int in_order(const void *a, const void *b)
 static pendres_status read_all(pendres_context *ctx, size_t n,
                                const pendres_continuation_pair *pairs, int fine, reading *out)
 {
-  pendres_newton_tape tape = {0};
+  pendres_newton_tape tape = {.bends = !fine};
   double *work = NULL;
   size_t work_size = 0;
   pendres_status status = PENDRES_OK;
@@ -87,8 +90,9 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
   for (size_t first = 0, last; first < n; first = last) {
     status = pendres_newton_pass(ctx, n, c, first, PENDRES_ORBIT_PLAIN, &tape, &last);
     if (status != PENDRES_OK) goto done;
-    if (4 * tape.samples > work_size) {
-      work_size = 4 * tape.samples;
+    const size_t need = 2 * tape.samples + pendres_orbit_measure_work(tape.samples);
+    if (need > work_size) {
+      work_size = need;
       double *grown = realloc(work, work_size * sizeof *work);
       if (grown == NULL) goto no_memory;
       work = grown;
@@ -111,71 +115,40 @@ done:
   return status;
 }
 
-static void multipliers(const reading *coarse, const reading *fine, double modulus,
-                        double rounding, pendres_orbit *o)
-{
-  const double trace = fine->m[0][0] + fine->m[1][1];
-  pendres_orbit_set_multipliers(trace, modulus, o);
-  const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
-  const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
-                           o->multiplier_im[0] - o->multiplier_im[1]);
-  const double trace_error = pendres_continuation_orbit_error(
-    coarse->m[0][0] + coarse->m[1][1], trace, rounding * fmax(1.0, fabs(trace)));
-  /* Where two multipliers meet they move with the square root. */
-  o->multiplier_error = fmin(trace_error * fmax(1.0, size) / fmax(gap, 1e-300),
-                             sqrt(trace_error) + trace_error);
-}
-
 static void fill(const pendres_continuation_pair *pair, const reading *a, const reading *b,
                  pendres_orbit *o)
 {
   const pendres_pendulum p = pendres_continuation_map_pendulum(pair->fine);
-  const double omega = p.drive_frequency, drive = fabs(p.drive_amplitude);
-  const pendres_orbit_measures *c = &a->measures, *f = &b->measures;
-  /* A measure whose two values happen to agree is not known better than its point. */
+  const double omega = p.drive_frequency;
   const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                              pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
-  const double floor = pair->rounding + 0.5 * point;
+  /* Where an orbit is about to end, both computations feel their errors amplified, and the order
+     sets in late: three times the usual share. */
+  const pendres_orbit_doubt doubt = {
+    .apart = 3.0 * fmax(point, pendres_orbit_measures_apart(&a->measures, &b->measures,
+                                                            pair->map.period)),
+    .rounding = pair->rounding};
 
   memset(o, 0, sizeof *o);
   o->pendulum = p;
   o->period = pair->map.period;
   o->winding = winding_of(&pair->map);
   o->steps = pair->fine_steps;
-  long turns = 0;
-  o->mean_angle = f->mean_angle;
-  pendres_strobe_wrap(&o->mean_angle, &turns);
+  const long turns = pendres_orbit_set_measures(&a->measures, &b->measures, &doubt, o);
   o->x = pair->fine[PENDRES_U_Y] - two_pi * (double)turns + half_pi;
   o->v = omega * pair->fine[PENDRES_U_W];
-  o->x_error = pendres_continuation_orbit_error(pair->coarse[PENDRES_U_Y], pair->fine[PENDRES_U_Y],
-                                                floor);
-  o->v_error = pendres_continuation_orbit_error(
-    pair->coarse[PENDRES_U_OMEGA] * pair->coarse[PENDRES_U_W], o->v, omega * floor);
-  o->monodromy[0][0] = b->m[0][0];
-  o->monodromy[0][1] = b->m[0][1] / omega;
-  o->monodromy[1][0] = b->m[1][0] * omega;
-  o->monodromy[1][1] = b->m[1][1];
-  multipliers(a, b, exp(-p.damping * o->period * pi / omega), 100.0 * floor, o);
-  o->loop_area = f->loop_area;
-  o->loop_area_error =
-    pendres_continuation_orbit_error(c->loop_area, f->loop_area, pi * drive * floor);
-  o->dissipation = f->dissipation;
-  o->dissipation_error = pendres_continuation_orbit_error(
-    c->dissipation, f->dissipation, two_pi * p.damping * omega * fmax(1.0, f->amplitude) * floor);
-  o->mean_power = o->loop_area * omega / two_pi;
-  o->mean_power_error = o->loop_area_error * omega / two_pi;
-  o->amplitude = f->amplitude;
-  o->amplitude_error = pendres_continuation_orbit_error(c->amplitude, f->amplitude, floor);
-  memcpy(o->cosine, f->cosine, sizeof o->cosine);
-  memcpy(o->sine, f->sine, sizeof o->sine);
-  o->first_harmonic_amplitude = hypot(f->cosine[0], f->sine[0]);
-  o->first_harmonic_amplitude_error = pendres_continuation_orbit_error(
-    hypot(c->cosine[0], c->sine[0]), o->first_harmonic_amplitude, floor);
-  o->phase_lag = pendres_orbit_phase_lag(f->cosine[0], f->sine[0], p.drive_amplitude);
-  o->phase_lag_error = pendres_continuation_orbit_error(
-    pendres_orbit_phase_lag(c->cosine[0], c->sine[0], p.drive_amplitude), o->phase_lag,
-    floor / o->first_harmonic_amplitude);
-  o->symmetric = o->winding == 0 && f->symmetry_defect <= 1e-7 * fmax(1.0, f->amplitude);
+  o->x_error =
+    pendres_orbit_error(pair->coarse[PENDRES_U_Y], pair->fine[PENDRES_U_Y], 1.0, &doubt) +
+    0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
+  o->v_error =
+    pendres_orbit_error(pair->coarse[PENDRES_U_OMEGA] * pair->coarse[PENDRES_U_W], o->v, omega,
+                        &doubt) +
+    fmax(0.0, 1.0 - omega) * doubt.rounding;
+  pendres_orbit_spectrum spectrum = {.rounding = matrix_rounding * sqrt(o->steps * o->period)};
+  memcpy(spectrum.by_point, a->m_by, sizeof spectrum.by_point);
+  memcpy(spectrum.coarse, a->m, sizeof spectrum.coarse);
+  memcpy(spectrum.fine, b->m, sizeof spectrum.fine);
+  pendres_orbit_set_spectrum(&spectrum, &doubt, o);
   o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;
   o->loop_area_slope = o->loop_area_slope_error = NAN;
 }

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "context_internal.h"
-#include "orbit_measure.h"
+#include "orbit_error.h"
 #include "orbit_newton.h"
 #include "steps.h"
 #include "strobe_noise.h"
@@ -19,48 +19,31 @@ static const double half_pi = 1.57079632679489661923;
 /* A run of one candidate by a number of steps: the corrected point and its measures. */
 typedef struct result {
   double y, w;
-  double trace;
   double m[2][2];
+  double m_by[2][2][2]; /* how m changes with y and w; of the coarser run */
+  double off[2];        /* from the point that m was taken at to the corrected one */
   double dy, dw; /* by omega */
   double slope;  /* dA/domega */
   pendres_orbit_measures measures;
 } result;
-
-/* (I - M) z = r; 0 if singular. *stretch bounds how much errors of r grow. */
-static int solve(const double m[2][2], const double r[2], double z[2], double *stretch)
-{
-  const double a = 1.0 - m[0][0], b = -m[0][1], c = -m[1][0], d = 1.0 - m[1][1];
-  const double det = a * d - b * c;
-  if (!(fabs(det) > 1e-300)) return 0;
-  z[0] = (d * r[0] - b * r[1]) / det;
-  z[1] = (a * r[1] - c * r[0]) / det;
-  if (stretch != NULL)
-    *stretch = fmax(fabs(d) + fabs(b), fabs(a) + fabs(c)) / fabs(det);
-  return 1;
-}
 
 /* The samples of one candidate in the tape, moved to the corrected point by the linearised flow. */
 static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
                                pendres_orbit_want want, double *work, result *out)
 {
   const size_t n = tape->samples;
-  const double defect[2] = {c->residual[0], c->residual[1]};
   double shift[2] = {0.0, 0.0}, by_omega[2] = {NAN, NAN};
   double *y = work, *w = work + n;
 
-  if (!solve(c->m, defect, shift, NULL)) return PENDRES_NOT_CONVERGED;
+  if (!pendres_newton_closed(c, tape, y, w, shift)) return PENDRES_NOT_CONVERGED;
   out->y = c->y + shift[0];
   out->w = c->w + shift[1];
   memcpy(out->m, c->m, sizeof out->m);
-  out->trace = c->m[0][0] + c->m[1][1];
-  for (size_t k = 0; k < n; k++) {
-    const double *row = pendres_newton_sample(tape, k, c->lane);
-    y[k] = row[0] + row[2] * shift[0] + row[4] * shift[1];
-    w[k] = row[1] + row[3] * shift[0] + row[5] * shift[1];
-  }
+  memcpy(out->m_by, c->m_by, sizeof out->m_by);
+  memcpy(out->off, shift, sizeof out->off);
   out->slope = NAN;
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) {
-    if (!solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
+    if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
     double sum = 0.0;
     for (size_t k = 0; k < n; k++) {
       const double *row = pendres_newton_sample(tape, k, c->lane);
@@ -76,33 +59,25 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
   return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
 }
 
-/*
- * Error of the finer of two results. With 1.4 times the steps an order-8 method's error falls to
- * a fifteenth; a quarter of the difference is claimed, for where the order has not set in yet. A
- * measure whose two values happen to agree is not better known than the point it is measured at:
- * `point` is the point's own difference. `floor` is the rounding.
- */
-static double error_of(double coarse, double fine, double point, double floor)
-{
-  return 0.25 * fabs(fine - coarse) + 0.08 * point + floor;
-}
-
 /* rounding: of a step, of an angle of order one. */
 static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
                  double rounding, pendres_orbit *o)
 {
   const pendres_pendulum *p = &c->guess->pendulum;
   const double omega = p->drive_frequency, q = c->guess->period;
-  const pendres_orbit_measures *a = &coarse->measures, *b = &fine->measures;
   const double point = hypot(fine->y - coarse->y, fine->w - coarse->w);
   double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
 
-  (void)solve(fine->m, unit, z, &stretch);
+  (void)pendres_newton_solve(fine->m, unit, z, &stretch);
   /* Rounding errors of steps add at random, and the fixed point feels them amplified by
      (I - M)^-1. */
-  const double size = fmax(b->amplitude, fmax(fabs(fine->y), fabs(fine->w)));
+  const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
   const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
-  const double floor = last_place * sqrt(c->steps * q) * fmax(1.0, stretch);
+  const double noise = sqrt(c->steps * q);
+  const pendres_orbit_doubt doubt = {
+    .apart = fmax(point, pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
+                                                      c->guess->period)),
+    .rounding = last_place * noise * fmax(1.0, stretch)};
 
   memset(o, 0, sizeof *o);
   o->pendulum = *p;
@@ -110,57 +85,36 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->winding = c->guess->winding;
   o->steps = c->steps;
   /* The mean angle belongs into well 0. */
-  long turns = 0;
-  o->mean_angle = b->mean_angle;
-  pendres_strobe_wrap(&o->mean_angle, &turns);
+  const long turns = pendres_orbit_set_measures(&coarse->measures, &fine->measures, &doubt, o);
   o->x = fine->y - two_pi * (double)turns + half_pi;
   o->v = omega * fine->w;
-  o->x_error = error_of(coarse->y, fine->y, point, floor);
-  o->v_error = omega * error_of(coarse->w, fine->w, point, floor);
+  /* x itself is a double, and half of pi is none. */
+  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, &doubt) +
+               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
+  /* Rounding swings to and fro between y and v. */
+  o->v_error = omega * pendres_orbit_error(coarse->w, fine->w, 1.0, &doubt) +
+               fmax(0.0, 1.0 - omega) * doubt.rounding;
 
-  o->monodromy[0][0] = fine->m[0][0];
-  o->monodromy[0][1] = fine->m[0][1] / omega;
-  o->monodromy[1][0] = fine->m[1][0] * omega;
-  o->monodromy[1][1] = fine->m[1][1];
-  pendres_orbit_set_multipliers(fine->trace, exp(-p->damping * q * pi / omega), o);
-  /* The trace's error moves a multiplier mu by trace' mu / (mu - other). */
-  const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
-                           o->multiplier_im[0] - o->multiplier_im[1]);
-  const double trace_error = error_of(coarse->trace, fine->trace, 100.0 * point, floor);
-  o->multiplier_error = fmin(trace_error * fmax(1.0, hypot(o->multiplier_re[0], o->multiplier_im[0])
-                                                       / fmax(gap, 1e-300)),
-                             sqrt(trace_error) + trace_error);
+  pendres_orbit_spectrum spectrum = {.rounding = 6.0 * rounding * noise};
+  memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
+  memcpy(spectrum.by_point, coarse->m_by, sizeof spectrum.by_point);
+  /* The matrix belongs to the corrected point. */
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++)
+      spectrum.fine[i][j] = fine->m[i][j] + coarse->m_by[0][i][j] * fine->off[0] +
+                            coarse->m_by[1][i][j] * fine->off[1];
+  pendres_orbit_set_spectrum(&spectrum, &doubt, o);
 
-  o->loop_area = b->loop_area;
-  o->loop_area_error =
-    error_of(a->loop_area, b->loop_area, point * fabs(p->drive_amplitude),
-             pi * fabs(p->drive_amplitude) * floor);
-  o->dissipation = b->dissipation;
-  o->dissipation_error = error_of(a->dissipation, b->dissipation, point * p->damping * omega * size,
-                                  two_pi * p->damping * omega * size * floor);
-  o->mean_power = o->loop_area * omega / two_pi;
-  o->mean_power_error = o->loop_area_error * omega / two_pi;
-  o->amplitude = b->amplitude;
-  o->amplitude_error = error_of(a->amplitude, b->amplitude, point, floor);
-  memcpy(o->cosine, b->cosine, sizeof o->cosine);
-  memcpy(o->sine, b->sine, sizeof o->sine);
-  o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
-  o->first_harmonic_amplitude_error =
-    error_of(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, point, floor);
-  o->phase_lag = pendres_orbit_phase_lag(b->cosine[0], b->sine[0], p->drive_amplitude);
-  o->phase_lag_error = error_of(pendres_orbit_phase_lag(a->cosine[0], a->sine[0],
-                                                        p->drive_amplitude), o->phase_lag,
-                                point / o->first_harmonic_amplitude,
-                                floor / o->first_harmonic_amplitude);
-  o->symmetric = o->winding == 0 && b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
   o->frequency_derivative[0] = fine->dy;
   o->frequency_derivative[1] = fine->w + omega * fine->dw;
   o->loop_area_slope = fine->slope;
   /* What the point is to the other measures its derivative is to the slope. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
-  o->loop_area_slope_error =
-    error_of(coarse->slope, fine->slope, pi * fabs(p->drive_amplitude) * (derivative + point),
-             fabs(p->drive_amplitude) * floor * stretch);
+  const pendres_orbit_doubt slope_doubt = {
+    .apart = derivative + doubt.apart,
+    .rounding = doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw))};
+  o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
+                                                 pi * fabs(p->drive_amplitude), &slope_doubt);
 }
 
 static int accurate(const pendres_orbit *o, double tolerance)
@@ -173,9 +127,9 @@ static int accurate(const pendres_orbit *o, double tolerance)
 
 /* The measures of all converged candidates at their present steps. */
 static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
-                                  pendres_orbit_want want, result *results)
+                                  pendres_orbit_want want, int bends, result *results)
 {
-  pendres_newton_tape tape = {0};
+  pendres_newton_tape tape = {.bends = bends};
   double *work = NULL;
   size_t work_size = 0;
   pendres_status status = PENDRES_OK;
@@ -183,8 +137,9 @@ static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     status = pendres_newton_pass(ctx, n, c, first, want, &tape, &last);
     if (status != PENDRES_OK) break;
-    if (4 * tape.samples > work_size) {
-      work_size = 4 * tape.samples;
+    const size_t need = 2 * tape.samples + pendres_orbit_measure_work(tape.samples);
+    if (need > work_size) {
+      work_size = need;
       double *grown = realloc(work, work_size * sizeof *work);
       if (grown == NULL) {
         status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for samples");
@@ -242,7 +197,7 @@ static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
       double shift[2];
       if (at->state == PENDRES_NEWTON_CONVERGED &&
           is_there(singularity(before->m), singularity(at->m)) &&
-          solve(at->m, at->residual, shift, NULL)) {
+          pendres_newton_solve(at->m, at->residual, shift, NULL)) {
         c[i].y += shift[0];
         c[i].w += shift[1];
       }
@@ -262,7 +217,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
   /* Periodic orbits keep below what the worst of pendulums round. */
   const double rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table);
   pendres_status status = pendres_newton_converge(ctx, n, c);
-  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, coarse);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 1, coarse);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < n; i++) {
     if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
@@ -271,7 +226,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
     c[i].steps = pendres_steps_rung((int)ceil(1.4 * c[i].steps));
   }
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) status = move_to_finer_point(ctx, n, c, coarse);
-  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, fine);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 0, fine);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const size_t k = c[i].index;
     if (c[i].state != PENDRES_NEWTON_CONVERGED) {
@@ -357,74 +312,4 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
                                     pendres_orbit *out, pendres_status *outcome)
 {
   return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, out, outcome));
-}
-
-typedef struct sampling {
-  double *y, *w;
-} sampling;
-
-static void keep_sample(void *arg, int step, double theta, size_t stride, const double *state)
-{
-  sampling *s = arg;
-  (void)theta;
-  s->y[step] = state[0];
-  s->w[step] = state[stride];
-}
-
-static pendres_status orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                                   double *x, double *v)
-{
-  pendres_flow *flow = NULL;
-  if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
-  if (count < 1 || orbit->steps < 1 || orbit->period < 1)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "samples of an orbit: one at least, and an orbit that closes");
-  const int q = orbit->period, steps = orbit->steps;
-  const size_t n = (size_t)q * (size_t)steps, points = (size_t)q * (size_t)count;
-  pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow);
-  if (status != PENDRES_OK) return status;
-
-  double *memory = malloc((3 * n + 2 + points) * sizeof *memory);
-  if (memory == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  double *y = memory, *w = y + n + 1, *work = w + n + 1, *value = work + n;
-  const double omega = orbit->pendulum.drive_frequency;
-
-  y[0] = orbit->x - half_pi;
-  w[0] = orbit->v / omega;
-  pendres_flow_resize(flow, 1);
-  pendres_flow_set_lane(flow, 0, &orbit->pendulum, y[0], w[0]);
-  status = pendres_flow_set_steps(flow, steps);
-  for (int k = 0; k < q && status == PENDRES_OK; k++) {
-    sampling s = {.y = y + (size_t)k * (size_t)steps, .w = w + (size_t)k * (size_t)steps};
-    status = pendres_flow_period_sampled(flow, keep_sample, &s);
-    ctx->cost.pendulum_periods += 1.0;
-  }
-  if (status != PENDRES_OK) {
-    status = pendres_context_flow_failed(ctx, flow, status);
-    goto done;
-  }
-  /* The drift of a running orbit is taken out for the series and put back. */
-  const double drift = two_pi * orbit->winding;
-  for (size_t k = 0; k < n; k++) y[k] -= drift * (double)k / (double)n;
-  if (x != NULL) {
-    status = pendres_orbit_interpolate(y, n, points, work, value);
-    for (size_t k = 0; k < points; k++)
-      x[k] = value[k] + half_pi + drift * (double)k / (double)points;
-  }
-  if (v != NULL && status == PENDRES_OK) {
-    status = pendres_orbit_interpolate(w, n, points, work, value);
-    for (size_t k = 0; k < points; k++) v[k] = omega * value[k];
-  }
-  if (status != PENDRES_OK)
-    status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
-done:
-  free(memory);
-  return status;
-}
-
-pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                                    double *x, double *v)
-{
-  return PENDRES_CONTEXT_CALL(ctx, orbit_sample(ctx, orbit, count, x, v));
 }

@@ -52,6 +52,36 @@ static void record(void *arg, int step, double theta, size_t stride, const doubl
     for (size_t row = 0; row < r->tape->rows; row++) *to++ = state[row * stride + lane];
 }
 
+/* Companions of a candidate start this much beside it, in y and in w: see read_companions. */
+static const double aside = 1e-6;
+
+static void load_lanes(pendres_flow *flow, size_t lanes, int companions,
+                       pendres_newton_candidate *c)
+{
+  pendres_flow_resize(flow, lanes * (size_t)(1 + companions));
+  for (size_t i = 0; i < lanes; i++) {
+    const pendres_pendulum *p = &c[i].guess->pendulum;
+    c[i].lane = i;
+    pendres_flow_set_lane(flow, i, p, c[i].y, c[i].w);
+    if (companions == 0) continue;
+    pendres_flow_set_lane(flow, lanes + i, p, c[i].y + aside, c[i].w);
+    pendres_flow_set_lane(flow, 2 * lanes + i, p, c[i].y, c[i].w + aside);
+  }
+}
+
+/* How the derivative of the map changes with the point: difference quotients, good to 1e-6. */
+static void read_companions(pendres_flow *flow, size_t lanes, pendres_newton_candidate *c)
+{
+  const size_t stride = pendres_flow_stride(flow);
+  const double *state = pendres_flow_state(flow);
+  for (size_t k = 0; k < 2; k++)
+    for (size_t column = 0; column < 2; column++)
+      for (size_t row = 0; row < 2; row++)
+        c->m_by[k][row][column] =
+          (state[(2 + 2 * column + row) * stride + (k + 1) * lanes + c->lane] -
+           c->m[row][column]) / aside;
+}
+
 static void read_lane(const pendres_flow *flow, const double *state, size_t rows,
                       pendres_newton_candidate *c)
 {
@@ -82,8 +112,10 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   if (status != PENDRES_OK) return status;
 
   const int steps = c[first].steps, q = c[first].guess->period;
+  const int companions = tape != NULL && tape->bends ? 2 : 0;
+  const size_t most = pendres_flow_capacity(flow) / (size_t)(1 + companions);
   size_t lanes = 0;
-  while (first + lanes < n && lanes < pendres_flow_capacity(flow) &&
+  while (first + lanes < n && lanes < most &&
          c[first + lanes].steps == steps && c[first + lanes].guess->period == q)
     lanes++;
   *last = first + lanes;
@@ -92,11 +124,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
   if (tape != NULL && tape_prepare(tape, (size_t)steps * (size_t)q, lanes, rows) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
-  pendres_flow_resize(flow, lanes);
-  for (size_t i = 0; i < lanes; i++) {
-    c[first + i].lane = i;
-    pendres_flow_set_lane(flow, i, &c[first + i].guess->pendulum, c[first + i].y, c[first + i].w);
-  }
+  load_lanes(flow, lanes, companions, c + first);
   recorder r = {.tape = tape};
   if (tape != NULL) record(&r, 0, 0.0, pendres_flow_stride(flow), pendres_flow_state(flow));
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
@@ -105,10 +133,37 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
       tape != NULL ? pendres_flow_period_sampled(flow, record, &r) : pendres_flow_period(flow);
   }
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)lanes * q;
+  ctx->cost.pendulum_periods += (double)(lanes * (size_t)(1 + companions)) * q;
   ctx->cost.newton_steps += (double)lanes;
-  for (size_t i = first; i < *last; i++) read_lane(flow, pendres_flow_state(flow), rows, &c[i]);
+  for (size_t i = first; i < *last; i++) {
+    read_lane(flow, pendres_flow_state(flow), rows, &c[i]);
+    if (companions) read_companions(flow, lanes, &c[i]);
+  }
   return PENDRES_OK;
+}
+
+int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], double *stretch)
+{
+  const double a = 1.0 - m[0][0], b = -m[0][1], c = -m[1][0], d = 1.0 - m[1][1];
+  const double det = a * d - b * c;
+  if (!(fabs(det) > 1e-300)) return 0;
+  z[0] = (d * r[0] - b * r[1]) / det;
+  z[1] = (a * r[1] - c * r[0]) / det;
+  if (stretch != NULL)
+    *stretch = fmax(fabs(d) + fabs(b), fabs(a) + fabs(c)) / fabs(det);
+  return 1;
+}
+
+int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                          double *y, double *w, double shift[2])
+{
+  if (!pendres_newton_solve(c->m, c->residual, shift, NULL)) return 0;
+  for (size_t k = 0; k < tape->samples; k++) {
+    const double *row = pendres_newton_sample(tape, k, c->lane);
+    y[k] = row[0] + row[2] * shift[0] + row[4] * shift[1];
+    w[k] = row[1] + row[3] * shift[0] + row[5] * shift[1];
+  }
+  return 1;
 }
 
 /* One Newton step from what the latest pass found. */

@@ -22,16 +22,18 @@ typedef struct pendres_newton_candidate {
   int steps;
   pendres_newton_state state;
   int iterations;
-  double last_step;
+  double last_step;   /* in y and v */
   /* What the latest pass found: */
   size_t lane;
   double residual[2]; /* map(z) - z - 2 pi p */
   double m[2][2];     /* derivative of the map by (y, w) */
   double by_omega[2]; /* derivative of the map by omega */
+  double m_by[2][2][2]; /* derivatives of m by y and by w, from a pass that was asked for them */
 } pendres_newton_candidate;
 
 /* Samples 0 .. samples-1 of a pass, all lanes. */
 typedef struct pendres_newton_tape {
+  int bends; /* set by the caller: find m_by as well, from two more lanes a candidate */
   size_t samples, lanes, rows, size;
   double *data; /* [sample][lane][row] */
 } pendres_newton_tape;
@@ -56,5 +58,15 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
 /* Iterate all active candidates; c is reordered. Each ends converged or failed. */
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n,
                                        pendres_newton_candidate *c);
+
+/* (I - M) z = r; 0 if singular. *stretch (may be NULL) bounds how much errors of r grow. */
+int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], double *stretch);
+
+/*
+ * The samples of a candidate on the tape, moved by the linearised flow to the orbit that closes:
+ * by *shift at its start. y and w have as many places as the tape has samples. 0 if singular.
+ */
+int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                          double *y, double *w, double shift[2]);
 
 #endif

@@ -294,6 +294,102 @@ static void no_ghosts(void **state)
   for (int t = 0; t < TOLERANCES; t++) pendres_context_free(ctx[t]);
 }
 
+/*
+ * Loose tolerances, at which samples are few and the method's order sets in late, and orbits next
+ * to bifurcations: sets at which amplitude was once off by 274 times its error, dissipation by 22,
+ * multipliers by 15 and 54. What is claimed holds.
+ */
+static void honest_with_few_steps(void **state)
+{
+  static const struct {
+    pendres_orbit_guess guess;
+    double tolerance;
+  } cases[] = {
+    {{{0.6711816293356647, 1.2550122570249236, 1.3565588422321395, 0.0}, 0.880588737476872,
+      0.8901813269976313, 1, 0}, 1e-6},
+    {{{0.10916018862365255, 1.3368108390404172, 1.0562896314497776, 0.0}, -0.5502909181378275,
+      0.3832263912518542, 1, 0}, 1e-2},
+    {{{0.040708302111654285, 0.4007269722105567, 0.6117703965197987, 0.0}, 10.230660039567459,
+      0.24500534675978197, 4, 0}, 1e-3},
+    {{{0.35831845560312875, 0.10701117940739997, 0.30988483389971, 0.0}, 1.6876348651226218,
+      0.0046317222048377696, 1, 0}, 1.5e-4},
+    {{{2.2003953400251768, 1.2185993756667519, 1.08229071755255, 0.0}, 1.527564185432563,
+      0.55116339809086856, 1, 0}, 2.5e-4},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    pendres_context *ctx = context_with(cases[i].tolerance);
+    const pendres_orbit_guess *g = &cases[i].guess;
+    pendres_orbit o;
+    pendres_status outcome;
+    pendres_reference_cycle e;
+    check_ok(pendres_orbit_refine(ctx, 1, g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(outcome);
+    check_ok(pendres_reference_orbit(&g->pendulum, o.x - half_pi, o.v, g->period, g->winding, &e));
+    check_near(nearest_turn(o.x, (double)e.y + half_pi), (double)e.y + half_pi, o.x_error);
+    check_near(o.v, (double)e.v, o.v_error);
+    check_near(o.loop_area, (double)e.loop_area, o.loop_area_error);
+    check_near(o.dissipation, (double)e.dissipation, o.dissipation_error);
+    check_near(o.amplitude, (double)e.amplitude, o.amplitude_error);
+    check_near(o.multiplier_re[0], (double)e.multiplier_re[0], o.multiplier_error);
+    pendres_context_free(ctx);
+  }
+}
+
+/* Points along an orbit against the reference, which is asked at drive phase 0 alone: the point
+   of an orbit of period 5 at which it is found, carried on to the others. */
+static void samples_know_their_error(void **state)
+{
+  static const double tolerances[] = {1e-4, 1e-7, 1e-10};
+  const pendres_orbit_guess g = {{0.040708302111654285, 0.4007269722105567, 0.6117703965197987,
+                                  0.0}, 10.230660039567459, 0.24500534675978197, 4, 0};
+  (void)state;
+  for (size_t t = 0; t < 3; t++) {
+    pendres_context *ctx = context_with(tolerances[t]);
+    pendres_orbit o;
+    pendres_status outcome;
+    pendres_reference_cycle e;
+    double x[4], v[4], x_error = NAN, v_error = NAN;
+    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(pendres_reference_orbit(&g.pendulum, o.x - half_pi, o.v, 4, 0, &e));
+    check_ok(pendres_orbit_sample_with_error(ctx, &o, 1, x, v, &x_error, &v_error));
+    assert_true(x_error <= tolerances[t] && v_error <= tolerances[t]);
+    for (int k = 0; k < 4; k++) {
+      long double y = e.y, w = e.v;
+      check_ok(pendres_reference_advance(&g.pendulum, &y, &w, NULL, k));
+      check_near(nearest_turn(x[k], (double)y + half_pi), (double)y + half_pi, x_error);
+      check_near(v[k], (double)w, v_error);
+    }
+    /* Without errors, and with a count of its own: as exact as the orbit. */
+    double all[8];
+    check_ok(pendres_orbit_sample(ctx, &o, 2, all, NULL));
+    for (int k = 0; k < 4; k++) check_near(all[2 * k], x[k], 10.0 * o.x_error + x_error);
+    o.period = 0;
+    assert_int_equal(pendres_orbit_sample(ctx, &o, 2, all, NULL), PENDRES_INVALID_ARGUMENT);
+    pendres_context_free(ctx);
+  }
+}
+
+/* An orbit about the top has the mean pi by symmetry, and the same well at every tolerance: the
+   one above the origin. */
+static void about_the_top(void **state)
+{
+  const pendres_orbit_guess g = {{0.8, 1.5, 0.39, 0.0}, 3.4747, -0.0885, 1, 0};
+  double first = NAN;
+  (void)state;
+  for (double tolerance = 1e-3; tolerance > 0.5e-12; tolerance *= 0.1) {
+    pendres_context *ctx = context_with(tolerance);
+    pendres_orbit o;
+    pendres_status outcome;
+    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    check_ok(outcome);
+    check_near(o.mean_angle, 0.5 * two_pi, 10.0 * tolerance);
+    if (isnan(first)) first = o.x;
+    check_near(o.x, first, 1e-2);
+    pendres_context_free(ctx);
+  }
+}
+
 static void refusals(void **state)
 {
   pendres_context *ctx = context_with(1e-8);
@@ -322,6 +418,8 @@ int main(void)
     cmocka_unit_test(honest_against_reference), cmocka_unit_test(exact_identities),
     cmocka_unit_test(linear_limit),             cmocka_unit_test(slopes),
     cmocka_unit_test(refusals),                 cmocka_unit_test(no_ghosts),
+    cmocka_unit_test(honest_with_few_steps),    cmocka_unit_test(samples_know_their_error),
+    cmocka_unit_test(about_the_top),
   };
   return cmocka_run_group_tests_name("orbit", tests, NULL, NULL);
 }

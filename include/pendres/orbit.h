@@ -64,6 +64,8 @@ typedef struct pendres_orbit {
   double loop_area_slope;          /**< dA/d omega along the branch, NaN if not asked for */
   double loop_area_slope_error;
   int steps;                 /**< steps a period of the finer computation */
+  double harmonics_rest;     /**< bounds what the harmonics that are not kept add to the angle,
+                                  averaged over the drive cycles */
 } pendres_orbit;
 
 /** Where to look for an orbit. */
@@ -97,10 +99,19 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
 /**
  * Samples of an orbit over its period: count equally spaced points a drive period, count * q in
  * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL.
- * By trigonometric interpolation of the orbit's own samples.
+ * By the Fourier series of the orbit, integrated anew with orbit->steps steps a period; as exact
+ * as orbit->x at drive phase 0, and elsewhere by about the tolerance that the orbit was found at.
  */
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                                     double *x, double *v);
+
+/**
+ * The same, to the context's tolerance, with an estimate of the largest error of any x[] and of
+ * any v[]; x_error and v_error may be NULL. At least twice as dear.
+ */
+pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
+                                               int count, double *x, double *v, double *x_error,
+                                               double *v_error);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

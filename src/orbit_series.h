@@ -1,0 +1,44 @@
+/*
+ * orbit_series.h -- the Fourier series of a closed curve from samples of it and its derivatives.
+ *
+ * Owns: transforms, values and extremes of a series. Values alone, n of them, tell harmonics up to
+ * n / 2, and what is above is taken for something below. A pendulum's slopes and second derivatives
+ * are known at every step as well; the three together tell harmonics up to 3 n / 2.
+ */
+#ifndef PENDRES_ORBIT_SERIES_H
+#define PENDRES_ORBIT_SERIES_H
+
+#include <stddef.h>
+
+#include <pendres/status.h>
+
+/* y(phase) = re[0] + sum over m >= 1 of 2 (re[m] cos m phase - im[m] sin m phase), m < modes. */
+typedef struct pendres_orbit_series {
+  size_t samples, modes;
+  double *re, *im; /* in the caller's memory */
+} pendres_orbit_series;
+
+/* Doubles that a series of n samples and its extremes need, and which the caller owns. */
+static inline size_t pendres_orbit_series_memory(size_t n)
+{
+  return 6 * n + 8;
+}
+
+/*
+ * From n >= 1 equally spaced values, slopes and second derivatives by phase, 0 to 2 pi; all three
+ * are overwritten. memory: pendres_orbit_series_memory(n).
+ */
+pendres_status pendres_orbit_series_build(size_t n, double *y, double *slope, double *curvature,
+                                          double *memory, pendres_orbit_series *out);
+
+/* Value and first two derivatives at a phase. */
+void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double out[3]);
+
+/* Largest and smallest value. */
+pendres_status pendres_orbit_series_extremes(const pendres_orbit_series *s, double *highest,
+                                             double *lowest);
+
+/* What the harmonics that are too high to be told may add to a value: as much as the last ones. */
+double pendres_orbit_series_tail(const pendres_orbit_series *s);
+
+#endif
