@@ -321,9 +321,10 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
 static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendres_orbit *o,
                                    pendres_scout *out)
 {
-  double *x = malloc(4 * (size_t)o->period * sizeof *x), *v = x + 2 * o->period;
+  double *x = malloc(4 * (size_t)o->period * sizeof *x);
   if (x == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an orbit");
+  double *v = x + 2 * o->period;
   const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
   if (status == PENDRES_OK)
     *out = (pendres_scout){.set = set,

@@ -64,7 +64,8 @@ static inline int pendres_compat_context_create(SUNContext *out)
  * No messages of an integrator; call it right after its creation. Either memory may be NULL.
  * Before 7.0 handlers belong to the integrators, later to the context. 0 on success.
  */
-static inline int pendres_compat_silence(SUNContext sun, void *arkode_mem, void *cvode_mem)
+__attribute__((warn_unused_result)) static inline int
+pendres_compat_silence(SUNContext sun, void *arkode_mem, void *cvode_mem)
 {
   int bad = 0;
   (void)sun;

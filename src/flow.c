@@ -123,7 +123,7 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
 
   flow->arkode = ERKStepCreate(right_hand_side, 0.0, flow->state, sun);
   if (flow->arkode == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_compat_silence(sun, flow->arkode, NULL);
+  if (pendres_compat_silence(sun, flow->arkode, NULL) != 0) return PENDRES_INTEGRATION_FAILED;
   butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
   if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
   if (flow->stages > PENDRES_TABLES_MOST_STAGES) {

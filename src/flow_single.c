@@ -90,8 +90,8 @@ static int open_arkode(problem *b)
   ARKodeButcherTable table = pendres_flow_table(b->ctx->options.table, 0, &stages);
   b->arkode = ERKStepCreate(slope, 0.0, b->state, b->ctx->sun);
   if (b->arkode != NULL && table != NULL) {
-    pendres_compat_silence(b->ctx->sun, b->arkode, NULL);
-    bad = ERKStepSetTable(b->arkode, table) != 0 || ERKStepSetUserData(b->arkode, b) != 0 ||
+    bad = pendres_compat_silence(b->ctx->sun, b->arkode, NULL) != 0 ||
+          ERKStepSetTable(b->arkode, table) != 0 || ERKStepSetUserData(b->arkode, b) != 0 ||
           ERKStepSetPostprocessStepFn(b->arkode, after_step) != 0 ||
           ERKStepWFtolerances(b->arkode, weights) != 0 ||
           ERKStepSetMaxNumSteps(b->arkode, 100000000L) != 0 ||
@@ -106,8 +106,8 @@ static int open_cvode(problem *b, int adams)
   SUNContext sun = b->ctx->sun;
   b->cvode = CVodeCreate(adams ? CV_ADAMS : CV_BDF, sun);
   if (b->cvode == NULL) return -1;
-  pendres_compat_silence(sun, NULL, b->cvode);
-  if (CVodeInit(b->cvode, slope, 0.0, b->state) != 0 || CVodeSetUserData(b->cvode, b) != 0 ||
+  if (pendres_compat_silence(sun, NULL, b->cvode) != 0 ||
+      CVodeInit(b->cvode, slope, 0.0, b->state) != 0 || CVodeSetUserData(b->cvode, b) != 0 ||
       CVodeWFtolerances(b->cvode, weights) != 0 ||
       CVodeSetMaxNumSteps(b->cvode, 100000000L) != 0)
     return -1;

@@ -6,6 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "strobe_run.h"
+
+/* A position beyond is not known to a tenth of a radian; see strobe_run.h. */
+static const double farthest = 1e15;
+
 enum { DEFAULT_STEPS = 24, MOST_STEPS = 1000000, DEFAULT_LANES = 192, MOST_LANES = 4096 };
 
 static const char *check_steps(int steps)
@@ -128,8 +133,8 @@ pendres_status pendres_langevin_accept(pendres_langevin *lv, const pendres_pendu
 {
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
-    if (!isfinite(x) || !isfinite(v)) why = "position and velocity must be finite";
-    else why = pendres_langevin_block_refuses(p, lv->options.steps_per_period);
+    why = pendres_strobe_refuses(p, x, v);
+    if (why == NULL) why = pendres_langevin_block_refuses(p, lv->options.steps_per_period);
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_langevin_fail(lv, PENDRES_INVALID_ARGUMENT, "trajectory %zu: %s", index, why);
@@ -209,6 +214,13 @@ static pendres_status advance(pendres_langevin *lv, size_t n, const pendres_pend
     pendres_langevin_block_finish(b);
     status = run(lv, first, first_period, periods, observer);
     if (status != PENDRES_OK) goto done;
+    for (size_t i = 0; i < b->count; i++)
+      if (!(fabs(b->x[i]) <= farthest && isfinite(b->v[i]))) {
+        status = pendres_langevin_fail(lv, PENDRES_INTEGRATION_FAILED,
+                                       "trajectory %zu went beyond 1e15, where its angle is not "
+                                       "known in double precision", first + i);
+        goto done;
+      }
     memcpy(end + first, b->x, b->count * sizeof *end);
     memcpy(end + n + first, b->v, b->count * sizeof *end);
   }

@@ -131,6 +131,9 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
   pivot_of(p, &c, &s);
   if (!(fabs(c) <= largest_pivot && fabs(s) <= largest_pivot))
     return "with noise, the drive must not shake a free particle farther than 1e7";
+  /* What noise alone makes of a velocity, and of a position within a period. */
+  if (!(sqrt(p->temperature) <= largest_pivot * fmax(p->drive_frequency, p->damping)))
+    return "so hot a pendulum is beyond 1e7 within a period";
   /* 1 - bend cos y must stay positive, and far before that nothing is resolved. */
   if (!(two_pi / p->drive_frequency / steps <= 3.0))
     return "with noise, a step must not be longer than 3: more steps a period are needed";

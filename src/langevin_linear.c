@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "strobe_run.h"
+
 static const double two_pi = 6.28318530717958647693;
 
 /* The state that is integrated: the orbit, its variation row by row, the covariance. */
@@ -52,6 +54,10 @@ static void integrate(const pendres_pendulum *p, int cycle, int steps, double s[
 pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langevin_covariance *q,
                                          pendres_langevin_covariance *sigma)
 {
+  if (m == NULL || q == NULL || sigma == NULL ||
+      !(isfinite(m[0]) && isfinite(m[1]) && isfinite(m[2]) && isfinite(m[3]) && isfinite(q->xx) &&
+        isfinite(q->xv) && isfinite(q->vv)))
+    return PENDRES_INVALID_ARGUMENT;
   const double a = m[0], b = m[1], c = m[2], d = m[3];
   const double trace = a + d, det = a * d - b * c;
   /* Jury: both eigenvalues inside the unit circle. */
@@ -71,6 +77,8 @@ pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langev
   const double whole = k[0][0] * minor[0][0] + k[0][1] * minor[0][1] + k[0][2] * minor[0][2];
   for (int j = 0; j < 3; j++)
     out[j] = (right[0] * minor[0][j] + right[1] * minor[1][j] + right[2] * minor[2][j]) / whole;
+  /* So close to the unit circle, or so large, that nothing is left of it. */
+  if (!(isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]))) return PENDRES_NOT_FOUND;
   *sigma = (pendres_langevin_covariance){out[0], out[1], out[2]};
   return PENDRES_OK;
 }
@@ -91,12 +99,13 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
                                               double v, int cycle, pendres_langevin_linear *out)
 {
   pendres_langevin_linear coarse;
-  if (pendres_pendulum_check(pendulum, NULL) != PENDRES_OK || !isfinite(x) || !isfinite(v) ||
-      cycle < 1)
+  if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
+      pendres_strobe_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
   /* 128 steps a unit of time: an error near 1e-11, and rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);
   const int steps = (int)fmin(1e6, ceil(64.0 * unit));
+  if (!((double)cycle * steps <= 1e8)) return PENDRES_TOLERANCE_UNREACHABLE;
   pendres_status status = theory(pendulum, x, v, cycle, steps, &coarse);
   if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, 2 * steps, out);
   if (status != PENDRES_OK) return status;

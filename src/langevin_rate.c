@@ -61,7 +61,9 @@ static pendres_status gamma_point(gamma_tail g, double *x)
 pendres_status pendres_langevin_rate(double events, double exposure, double level, double *rate,
                                      double *lower, double *upper)
 {
-  if (!(events >= 0.0 && isfinite(events) && exposure > 0.0 && level > 0.0 && level < 1.0))
+  if (rate == NULL || lower == NULL || upper == NULL ||
+      !(events >= 0.0 && isfinite(events) && exposure > 0.0 && isfinite(exposure) && level > 0.0 &&
+        level < 1.0))
     return PENDRES_INVALID_ARGUMENT;
   const double tail = 0.5 * (1.0 - level);
   double low = 0.0, high = 0.0;

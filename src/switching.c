@@ -76,8 +76,8 @@ void pendres_switching_locate(const pendres_attractors *set, double core, double
   long at = NO_WELL;
   make_cores(set, core, &c);
   const core_set *s = locate(&c, x, v, &at);
-  *attractor = s != NULL ? s->attractor : -1;
-  *well = at == NO_WELL ? 0 : at;
+  if (attractor != NULL) *attractor = s != NULL ? s->attractor : -1;
+  if (well != NULL) *well = at == NO_WELL ? 0 : at;
 }
 
 /* ---- Counting ------------------------------------------------------------------------------ */
@@ -213,6 +213,7 @@ pendres_status pendres_switching_count(pendres_langevin *lv,
 
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)
 {
+  if (into == NULL || other == NULL) return;
   into->states = other->states;
   into->period = other->period;
   into->trajectories += other->trajectories;
@@ -243,7 +244,8 @@ static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
 pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
                                          double level, pendres_switching_rate *rate)
 {
-  if (s >= STATES || t > STATES || !(level > 0.0 && level < 1.0)) return PENDRES_INVALID_ARGUMENT;
+  if (tally == NULL || rate == NULL || s >= STATES || t > STATES || !(level > 0.0 && level < 1.0))
+    return PENDRES_INVALID_ARGUMENT;
   *rate = (pendres_switching_rate){.value = NAN, .error = NAN, .lower = NAN, .upper = NAN,
                                    .dispersion = NAN, .events = tally->events[s][t],
                                    .exposure = tally->exposure[s] * tally->period};
@@ -270,6 +272,7 @@ void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
 {
   const pendres_switching_home *h = home;
   cores c;
+  if (h == NULL || strobe == NULL || left == NULL) return;
   make_cores(h->set, h->core, &c);
   for (size_t i = 0; i < strobe->count; i++) {
     long well = NO_WELL;
