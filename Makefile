@@ -58,6 +58,8 @@ NEEDED := -std=c11 -ffp-contract=off -fno-math-errno -fopenmp-simd -fvisibility=
 SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all \
                -fno-omit-frame-pointer)
 ALL_CFLAGS = $(CFLAGS) $(NEEDED) $(SANITIZER) $(if $(filter-out 0,$(WERROR)),-Werror)
+THREADS := -pthread
+# For tests that compute much by themselves.
 OPENMP := -fopenmp
 
 # Valgrind computes fused operations in software: for memory alone two roundings do.
@@ -183,7 +185,7 @@ $(OBJ)/src/%.o: src/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc)
 
 $(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
-	$(call COMPILE,-Idrivers $(OPENMP))
+	$(call COMPILE,-Idrivers $(THREADS))
 
 $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP))
@@ -217,7 +219,7 @@ $(BUILD)/$(SONAME) $(BUILD)/libpendres.so: $(SHARED)
 ifneq ($(PROGRAM),)
 $(PROGRAM): $(OBJ)/drivers/main.o $(DRIVER) $(STATIC)
 	@echo "  LD  $@"
-	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+	@$(LINK) $(THREADS) -o $@ $^ $(LIBS)
 endif
 
 # ---- Tests and benchmarks --------------------------------------------------------------------

@@ -1,22 +1,28 @@
-/* farm.c -- tasks on OpenMP threads; see farm.h. */
+/* farm.c -- tasks on threads; see farm.h. */
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "farm.h"
 
-#include <omp.h>
+#include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 struct farm {
   farm_options options;
   int threads;
+  int short_of;              /* threads that could be had, when there were fewer; else 0 */
   pendres_context **context; /* one a thread, made at its first task */
   char message[512];
 };
 
-/* The tasks of one farm_run; whatever is not const changes inside `critical(farm)` alone. */
+/* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
   farm *farm;
+  pthread_mutex_t lock;
   size_t tasks;
   farm_task *task;
   farm_collect *collect;
@@ -53,13 +59,22 @@ static int worker_stop(void *arg)
   return farm_stop(w->crew->farm) || w->task > atomic_load(&w->crew->limit);
 }
 
+/* The processors that this process may use. */
+static int processors(void)
+{
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* more than the set has room for */
+  return online > 0 && online <= FARM_MOST_THREADS ? (int)online : 1;
+}
+
 pendres_status farm_create(const farm_options *options, farm **out)
 {
   farm *f = calloc(1, sizeof *f);
   *out = NULL;
   if (f == NULL) return PENDRES_OUT_OF_MEMORY;
   f->options = *options;
-  f->threads = options->threads > 0 ? options->threads : omp_get_max_threads();
+  f->threads = options->threads > 0 ? options->threads : processors();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
   if (f->context == NULL) {
     free(f);
@@ -98,16 +113,14 @@ static void fail(crew *c, size_t task, pendres_status status, const char *messag
 
 static int take(crew *c, size_t *task)
 {
-  int taken = 0;
-#pragma omp critical(farm)
-  if (c->next < atomic_load(&c->limit) && !farm_stop(c->farm)) {
-    *task = c->next++;
-    taken = 1;
-  }
+  pthread_mutex_lock(&c->lock);
+  const int taken = c->next < atomic_load(&c->limit) && !farm_stop(c->farm);
+  if (taken) *task = c->next++;
+  pthread_mutex_unlock(&c->lock);
   return taken;
 }
 
-/* Is it this thread's turn to collect? Only inside the critical section. */
+/* Is it this thread's turn to collect? Only under the lock. */
 static int may_collect(const crew *c)
 {
   return c->collected < atomic_load(&c->limit) && c->done[c->collected];
@@ -116,29 +129,25 @@ static int may_collect(const crew *c)
 /* Note a task's end, and collect what has become ready while nobody else does. */
 static void finish(crew *c, size_t task, pendres_status status, const char *message)
 {
-  int mine = 0;
-#pragma omp critical(farm)
-  {
-    if (status != PENDRES_OK) {
-      fail(c, task, status, message);
-    } else {
-      c->done[task] = 1;
-      progress_step(c->farm->options.progress, ++c->finished);
-    }
-    mine = !c->collecting && may_collect(c);
-    if (mine) c->collecting = 1;
+  pthread_mutex_lock(&c->lock);
+  if (status != PENDRES_OK) {
+    fail(c, task, status, message);
+  } else {
+    c->done[task] = 1;
+    progress_step(c->farm->options.progress, ++c->finished);
   }
-  while (mine) {
+  const int mine = !c->collecting && may_collect(c);
+  if (mine) c->collecting = 1;
+  while (mine && c->collecting) {
+    pthread_mutex_unlock(&c->lock); /* others go on with their tasks meanwhile */
     const pendres_status collected =
       c->collect != NULL ? c->collect(c->arg, c->collected) : PENDRES_OK;
-#pragma omp critical(farm)
-    {
-      if (collected != PENDRES_OK) fail(c, c->collected, collected, "");
-      else c->collected++;
-      mine = may_collect(c);
-      c->collecting = mine;
-    }
+    pthread_mutex_lock(&c->lock);
+    if (collected != PENDRES_OK) fail(c, c->collected, collected, "");
+    else c->collected++;
+    c->collecting = may_collect(c);
   }
+  pthread_mutex_unlock(&c->lock);
 }
 
 static void work(crew *c, int thread)
@@ -156,24 +165,95 @@ static void work(crew *c, int thread)
   if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
 }
 
+/* A thread beside the calling one. */
+typedef struct hand {
+  crew *crew;
+  int number;
+  pthread_t thread;
+} hand;
+
+static void *hand_work(void *arg)
+{
+  const hand *h = arg;
+  work(h->crew, h->number);
+  return NULL;
+}
+
+/* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */
+static int start_thread(pthread_t *thread, void *(*run)(void *), void *arg)
+{
+  pthread_attr_t attributes;
+  int error = pthread_attr_init(&attributes);
+  if (error != 0) return error;
+  error = pthread_attr_setstacksize(&attributes, FARM_STACK);
+  if (error == 0) error = pthread_create(thread, &attributes, run, arg);
+  (void)pthread_attr_destroy(&attributes);
+  return error;
+}
+
+/* Work with `threads` threads, or with as many as there can be: the results are the same. */
+static void work_together(crew *c, int threads, hand *hands)
+{
+  int started = 1, error = 0;
+  while (started < threads && error == 0) {
+    hands[started] = (hand){ .crew = c, .number = started };
+    error = start_thread(&hands[started].thread, hand_work, &hands[started]);
+    if (error == 0) started++;
+  }
+  if (error != 0) {
+    progress_note(c->farm->options.progress, "going on with %d of %d threads: %s", started, threads,
+                  strerror(error));
+    c->farm->short_of = started;
+  }
+  work(c, 0);
+  for (int i = 1; i < started; i++) (void)pthread_join(hands[i].thread, NULL);
+}
+
+typedef struct errand {
+  int (*run)(void *arg);
+  void *arg;
+  int result;
+} errand;
+
+static void *errand_run(void *arg)
+{
+  errand *e = arg;
+  e->result = e->run(e->arg);
+  return NULL;
+}
+
+int farm_errand(int (*run)(void *arg), void *arg)
+{
+  errand e = { run, arg, 0 };
+  pthread_t thread;
+  if (start_thread(&thread, errand_run, &e) != 0) return run(arg);
+  (void)pthread_join(thread, NULL);
+  return e.result;
+}
+
 pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,
                         farm_collect *collect, void *arg)
 {
   crew c = { .farm = f, .tasks = tasks, .task = task, .collect = collect, .arg = arg };
-  const int threads = tasks < (size_t)f->threads ? (int)tasks : f->threads;
+  const int most = f->short_of > 0 ? f->short_of : f->threads;
+  const int threads = tasks < (size_t)most ? (int)tasks : most;
   f->message[0] = '\0';
   if (tasks == 0) return PENDRES_OK;
   atomic_init(&c.limit, tasks);
   c.done = calloc(tasks, 1);
-  if (c.done == NULL) {
+  hand *hands = calloc((size_t)threads, sizeof *hands);
+  if (c.done == NULL || hands == NULL || pthread_mutex_init(&c.lock, NULL) != 0) {
+    free(c.done);
+    free(hands);
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", tasks, what);
     return PENDRES_OUT_OF_MEMORY;
   }
   progress_start(f->options.progress, what, tasks);
-#pragma omp parallel num_threads(threads) default(none) shared(c)
-  work(&c, omp_get_thread_num());
+  work_together(&c, threads, hands);
   progress_end(f->options.progress);
+  (void)pthread_mutex_destroy(&c.lock);
   free(c.done);
+  free(hands);
   if (c.status == PENDRES_OK && c.collected < tasks) {
     snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c.collected, tasks,
              what);

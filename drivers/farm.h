@@ -14,11 +14,16 @@
 
 #include "progress.h"
 
+enum {
+  FARM_MOST_THREADS = 4096,
+  FARM_STACK = 8 << 20 /* bytes of each thread's stack, of which tasks need some hundred thousand */
+};
+
 typedef struct farm farm;
 
 typedef struct farm_options {
   pendres_options library; /* of every context */
-  int threads;             /* 0: OMP_NUM_THREADS, or all cores */
+  int threads;             /* 0: as many as there are processors for this process */
   int (*stop)(void *arg);  /* asked now and then; nonzero: stop. May be NULL */
   void *stop_arg;
   progress *progress;      /* told of finished tasks; may be NULL. Not owned */
@@ -44,6 +49,11 @@ typedef pendres_status farm_collect(void *arg, size_t task);
  */
 pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,
                         farm_collect *collect, void *arg);
+
+/* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
+   caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there
+   can be no thread it is called as it is. */
+int farm_errand(int (*run)(void *arg), void *arg);
 
 /* The message of the failure that farm_run returned. */
 const char *farm_message(const farm *f);

@@ -219,6 +219,24 @@ static void let_go(job *j)
   if (j->progress.log != NULL) (void)fclose(j->progress.log);
 }
 
+/* The steps of a run, on a thread of its own. */
+static int run_job(void *arg)
+{
+  job *j = arg;
+  int code = read_deck(j);                                           /* 2 the deck */
+  if (code == DONE && j->options.action == OPTIONS_DUMP_NAMELIST) return dump(j);
+  if (code == DONE) code = find_scene(j);                            /* 3 its scene */
+  if (code == DONE) code = start_farm(j);                            /* 4 threads */
+  if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return dry_run(j);
+  if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
+  if (code == DONE) code = open_log(j);                              /* 6 the log */
+  if (code == DONE) code = open_output(j);                           /* 7 the file */
+  if (code == DONE) code = compute(j);                               /* 8 all the work */
+  if (code == DONE) code = finish_output(j);                         /* 9 whole, in its place */
+  if (code == DONE) code = report(j);                                /* 10 the table */
+  return code;
+}
+
 int main(int argc, char **argv)
 {
   job j = { 0 };
@@ -229,25 +247,7 @@ int main(int argc, char **argv)
   if (j.options.action == OPTIONS_VERSION) return options_print_version(stdout);
   provenance_start(&j.provenance);
   progress_init(&j.progress, stderr, j.options.quiet);
-
-  code = read_deck(&j);                                              /* 2 the deck */
-  if (code == DONE && j.options.action == OPTIONS_DUMP_NAMELIST) {
-    code = dump(&j);
-    goto done;
-  }
-  if (code == DONE) code = find_scene(&j);                           /* 3 its scene */
-  if (code == DONE) code = start_farm(&j);                           /* 4 threads */
-  if (code == DONE && j.options.action == OPTIONS_DRY_RUN) {
-    code = dry_run(&j);
-    goto done;
-  }
-  if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
-  if (code == DONE) code = open_log(&j);                             /* 6 the log */
-  if (code == DONE) code = open_output(&j);                          /* 7 the file */
-  if (code == DONE) code = compute(&j);                              /* 8 all the work */
-  if (code == DONE) code = finish_output(&j);                        /* 9 whole, in its place */
-  if (code == DONE) code = report(&j);                               /* 10 the table */
-done:
+  code = farm_errand(run_job, &j);
   let_go(&j);
   return code;
 }

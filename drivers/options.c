@@ -5,10 +5,13 @@
 #include <errno.h>
 #include <getopt.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <pendres/pendres.h>
 
-enum { MOST_THREADS = 4096 };
+#include "farm.h"
+
+enum { MOST_THREADS = FARM_MOST_THREADS };
 
 static const char help[] =
   "Usage: resonance [OPTION]... DECK\n"
@@ -85,6 +88,22 @@ static int apply(int option, const char *value, const char *name, options *out)
   }
 }
 
+/* Where --threads is not given the environment counts, as for other programs with threads: a
+   number, or a list of which the first is meant. */
+static int threads_of_environment(options *out, const char *name)
+{
+  char text[32] = "";
+  const char *value = getenv("OMP_NUM_THREADS");
+  if (out->threads > 0 || value == NULL || *value == '\0') return 0;
+  const size_t length = strcspn(value, ",");
+  if (length < sizeof text) snprintf(text, sizeof text, "%.*s", (int)length, value);
+  out->threads = threads_of(text);
+  if (out->threads > 0) return 0;
+  fprintf(stderr, "%s: OMP_NUM_THREADS takes a number from 1 to %d, and it is '%.60s'\n", name,
+          MOST_THREADS, value);
+  return complain(name);
+}
+
 int options_parse(int argc, char **argv, options *out)
 {
   static const struct option table[] = {
@@ -114,7 +133,7 @@ int options_parse(int argc, char **argv, options *out)
     return complain(name);
   }
   out->deck = argv[optind];
-  return 0;
+  return threads_of_environment(out, name);
 }
 
 static int written(FILE *out)

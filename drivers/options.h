@@ -23,7 +23,7 @@ typedef struct options {
   const char *deck;   /* NULL for help and version */
   const char *output; /* instead of the deck's; NULL: not given */
   const char *log;    /* NULL: none */
-  int threads;        /* 0: OMP_NUM_THREADS, or all cores */
+  int threads;        /* of --threads or OMP_NUM_THREADS; 0: all cores */
   int quiet;
 } options;
 

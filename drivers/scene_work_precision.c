@@ -6,6 +6,7 @@
  * they take turns, so that whoever is timed is alone.
  */
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 
 #include "contest.h"
@@ -32,6 +33,7 @@ static const struct {
 typedef struct work {
   const deck *d;
   farm *farm;
+  pthread_mutex_t turn;
   work_unit unit;
   size_t methods, tolerances;
   contest *contest; /* [method][tolerance] */
@@ -74,9 +76,10 @@ static pendres_status contend(work *w, size_t task)
 static pendres_status take_turn(void *arg, size_t task, pendres_context *ctx)
 {
   work *w = arg;
-  pendres_status status;
-#pragma omp critical(work_precision)
-  status = task < w->methods * w->tolerances ? contend(w, task) : settle(w, ctx);
+  pthread_mutex_lock(&w->turn);
+  const pendres_status status =
+    task < w->methods * w->tolerances ? contend(w, task) : settle(w, ctx);
+  pthread_mutex_unlock(&w->turn);
   return status;
 }
 
@@ -326,8 +329,8 @@ static void plan(const deck *d, FILE *out)
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  work w = { .d = d, .farm = run->farm, .methods = d->methods.count,
-             .tolerances = d->axis[DECK_AXIS_TOLERANCE].count,
+  work w = { .d = d, .farm = run->farm, .turn = PTHREAD_MUTEX_INITIALIZER,
+             .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count,
              .settled = { NAN, NAN, NAN }, .settled_error = { 0.0, NAN, 0.0 } };
   const size_t n = w.methods * w.tolerances;
   pendres_status status = work_unit_make(d->unit, &w.unit);

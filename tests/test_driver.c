@@ -277,13 +277,41 @@ static void test_two_runs(void **state)
   check_code(RUN("-o", "one.h5", "small.nml"), DONE);
 }
 
+/* What a batch system may set: small stacks, of the program and of threads, which ended in a crash;
+   and numbers of threads that are none. */
+static void test_scarce(void **state)
+{
+  static const char *const counts[] = { "0", "-2", "99999999", "two", "1000000000000000000000" };
+  struct rlimit stack;
+  (void)state;
+  assert_int_equal(getrlimit(RLIMIT_STACK, &stack), 0);
+  assert_int_equal(setenv("OMP_STACKSIZE", "64k", 1), 0);
+  assert_int_equal(setrlimit(RLIMIT_STACK, &(struct rlimit){ 100 << 10, stack.rlim_max }), 0);
+  const int small = RUN("--threads=2", "-o", "small.h5", "orbit.nml");
+  assert_int_equal(setrlimit(RLIMIT_STACK, &stack), 0);
+  assert_int_equal(unsetenv("OMP_STACKSIZE"), 0);
+  check_code(small, DONE);
+
+  for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+    assert_int_equal(setenv("OMP_NUM_THREADS", counts[i], 1), 0);
+    check_code(RUN("small.nml"), 2);
+    check_says(err, "OMP_NUM_THREADS");
+    check_code(RUN("--threads=1", "small.nml"), DONE);
+    check_code(RUN("--help"), DONE);
+  }
+  assert_int_equal(setenv("OMP_NUM_THREADS", "3,2", 1), 0);
+  check_code(RUN("-n", "small.nml"), DONE);
+  check_says(out, "threads   3");
+  assert_int_equal(unsetenv("OMP_NUM_THREADS"), 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_usage),          TEST(test_bad_decks),     TEST(test_dry),
     TEST(test_output_refused), TEST(test_table_refused), TEST(test_streams_closed),
     TEST(test_signals),        TEST(test_deck_is_kept),  TEST(test_output_targets),
-    TEST(test_two_runs),
+    TEST(test_two_runs),       TEST(test_scarce),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -7,6 +7,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "farm.h"
 
@@ -108,6 +109,29 @@ static void test_all(void **state)
     free(s);
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__
+/* The stacks of so many threads do not fit: fewer do as well, and nothing ends the program. */
+static void test_few_threads(void **state)
+{
+  const rlim_t room = (rlim_t)1 << 30;
+  struct rlimit space;
+  scene *s = new_scene();
+  farm *f = new_farm(TASKS, s);
+  (void)state;
+  assert_true((rlim_t)TASKS * FARM_STACK > room);
+  assert_int_equal(getrlimit(RLIMIT_AS, &space), 0);
+  assert_int_equal(setrlimit(RLIMIT_AS, &(struct rlimit){ room, space.rlim_max }), 0);
+  const pendres_status status = farm_run(f, "tasks", TASKS, task, collect, s);
+  const pendres_status again = farm_run(f, "tasks", TASKS, task, NULL, s);
+  assert_int_equal(setrlimit(RLIMIT_AS, &space), 0);
+  check_ok(status);
+  check_ok(again);
+  check_collected(s, TASKS);
+  farm_free(f);
+  free(s);
+}
+#endif
 
 /* Of two failures the one with the lower number is reported, whichever came first. */
 static void test_failure(void **state)
@@ -211,6 +235,9 @@ int main(void)
     cmocka_unit_test(test_failure_ends_others),
     cmocka_unit_test(test_collector_refuses),
     cmocka_unit_test(test_stop),
+#ifndef __SANITIZE_ADDRESS__ /* needs terabytes of address space itself */
+    cmocka_unit_test(test_few_threads),
+#endif
     cmocka_unit_test(test_context),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

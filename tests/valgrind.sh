@@ -6,7 +6,7 @@ set -u
 command -v valgrind >/dev/null 2>&1 || { echo "no valgrind"; exit 77; }
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
-# Threads that spin while they wait would take the time of the one that runs.
+# Threads of tests that spin while they wait would take the time of the one that runs.
 export OMP_WAIT_POLICY=passive
 valgrind -q --fair-sched=yes --leak-check=full --errors-for-leak-kinds=none --error-exitcode=99 \
   --trace-children=yes --trace-children-skip='*/sh,*python*' --log-file="$folder/%p" \
