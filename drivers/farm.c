@@ -22,6 +22,7 @@ struct farm {
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
   farm *farm;
+  int hired;            /* threads that work; those with higher numbers go home */
   pthread_mutex_t lock;
   size_t tasks;
   farm_task *task;
@@ -175,7 +176,10 @@ typedef struct hand {
 static void *hand_work(void *arg)
 {
   const hand *h = arg;
-  work(h->crew, h->number);
+  pthread_mutex_lock(&h->crew->lock); /* until it is known how many there are */
+  const int needed = h->number < h->crew->hired;
+  pthread_mutex_unlock(&h->crew->lock);
+  if (needed) work(h->crew, h->number);
   return NULL;
 }
 
@@ -191,22 +195,29 @@ static int start_thread(pthread_t *thread, void *(*run)(void *), void *arg)
   return error;
 }
 
-/* Work with `threads` threads, or with as many as there can be: the results are the same. */
+/*
+ * Work with `threads` threads, or with fewer where there cannot be so many: the results are the
+ * same. As a rule it is memory that there is no more of: half of them leave theirs to the rest.
+ */
 static void work_together(crew *c, int threads, hand *hands)
 {
   int started = 1, error = 0;
+  pthread_mutex_lock(&c->lock);
   while (started < threads && error == 0) {
     hands[started] = (hand){ .crew = c, .number = started };
     error = start_thread(&hands[started].thread, hand_work, &hands[started]);
     if (error == 0) started++;
   }
+  c->hired = error == 0 ? started : (started + 1) / 2;
+  pthread_mutex_unlock(&c->lock);
+  for (int i = c->hired; i < started; i++) (void)pthread_join(hands[i].thread, NULL);
   if (error != 0) {
-    progress_note(c->farm->options.progress, "going on with %d of %d threads: %s", started, threads,
-                  strerror(error));
-    c->farm->short_of = started;
+    progress_note(c->farm->options.progress, "going on with %d of %d threads: %s", c->hired,
+                  threads, strerror(error));
+    c->farm->short_of = c->hired;
   }
   work(c, 0);
-  for (int i = 1; i < started; i++) (void)pthread_join(hands[i].thread, NULL);
+  for (int i = 1; i < c->hired; i++) (void)pthread_join(hands[i].thread, NULL);
 }
 
 typedef struct errand {

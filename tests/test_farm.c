@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "farm.h"
 
@@ -120,6 +123,9 @@ static void test_few_threads(void **state)
   farm *f = new_farm(TASKS, s);
   (void)state;
   assert_true((rlim_t)TASKS * FARM_STACK > room);
+#ifdef __GLIBC__ /* whose heaps, one for some threads each, take address space by the 64 MiB */
+  assert_int_equal(mallopt(M_ARENA_MAX, 1), 1);
+#endif
   assert_int_equal(getrlimit(RLIMIT_AS, &space), 0);
   assert_int_equal(setrlimit(RLIMIT_AS, &(struct rlimit){ room, space.rlim_max }), 0);
   const pendres_status status = farm_run(f, "tasks", TASKS, task, collect, s);
