@@ -52,7 +52,7 @@ static void count_members(const pendres_response *r, double *all, double *loops)
   *all = *loops = 0.0;
   for (size_t i = 0; i < r->states; i++) {
     const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->loop_area)) continue;
+    if (!isfinite(o->x)) continue;
     *all += (double)r->state_members[i];
     if (o->winding == 0) *loops += (double)r->state_members[i];
   }
@@ -130,7 +130,7 @@ static harmonic still_harmonic(const pendres_response *r, double loops)
   harmonic h = { 0 };
   for (size_t i = 0; i < r->states; i++) {
     const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->loop_area) || o->winding != 0) continue;
+    if (!isfinite(o->x) || o->winding != 0) continue;
     h.c += (double)r->state_members[i] / loops * o->cosine[0];
     h.s += (double)r->state_members[i] / loops * o->sine[0];
   }
@@ -168,7 +168,7 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
     pendres_langevin_cloud cloud;
     pendres_langevin_bias bias;
     const double members = (double)r->state_members[i];
-    if (!isfinite(r->state[i].orbit.loop_area)) continue;
+    if (!isfinite(r->state[i].orbit.x)) continue;
     const double n = ceil(members / all * (double)w->d->noise.trajectories);
     const pendres_status status =
       measure_state(w, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias);

@@ -239,7 +239,11 @@ static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   pendres_attractor *a = &c->attractors[c->count];
   *a = (pendres_attractor){.orbit = points[representative],
-                           .trap_radius = traps[representative].radius};
+                           .trap_radius = traps[representative].radius,
+                           .drift = NAN,
+                           .drift_error = NAN,
+                           .watched_periods = NAN,
+                           .escape_rate_bound = NAN};
   set_lyapunov(a, &points[0]);
   memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
   for (int j = 0; j < q; j++) {
@@ -405,20 +409,40 @@ static pendres_orbit no_orbit(const pendres_pendulum *p)
   return o;
 }
 
-pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
-                                           double lyapunov, double error, pendres_cover *cover)
+/* Means over time, a drive cycle; everything else is that of an orbit which does not close. */
+static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_measures *m)
 {
+  const double cycles = p->drive_frequency / two_pi;
+  pendres_orbit o = no_orbit(p);
+  o.loop_area = m->work.value;
+  o.loop_area_error = m->work.error;
+  o.mean_power = cycles * m->work.value;
+  o.mean_power_error = cycles * m->work.error;
+  o.dissipation = m->loss.value;
+  o.dissipation_error = m->loss.error;
+  o.amplitude = m->amplitude.value;
+  o.amplitude_error = m->amplitude.error;
+  return o;
+}
+
+pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
+                                           const pendres_chaos_measures *m, pendres_cover *cover)
+{
+  const double tau = two_pi / c->pendulum.drive_frequency;
   if (reserve(c, 0) != 0) {
     free(cover);
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   }
-  pendres_attractor *a = &c->attractors[c->count];
-  *a = (pendres_attractor){.label = PENDRES_LABEL_CHAOTIC,
-                           .lyapunov = lyapunov,
-                           .lyapunov_error = error,
-                           .trap_metric = {NAN, NAN, NAN},
-                           .trap_radius = NAN};
-  a->orbit = no_orbit(&c->pendulum);
+  c->attractors[c->count] = (pendres_attractor){.label = PENDRES_LABEL_CHAOTIC,
+                                                .orbit = mean_cycle(&c->pendulum, m),
+                                                .lyapunov = m->growth.value / tau,
+                                                .lyapunov_error = m->growth.error / tau,
+                                                .trap_metric = {NAN, NAN, NAN},
+                                                .trap_radius = NAN,
+                                                .drift = m->turns.value,
+                                                .drift_error = m->turns.error,
+                                                .watched_periods = m->watched_periods,
+                                                .escape_rate_bound = m->escape_rate_bound};
   cover->attractor = (int)c->count++;
   c->cover[c->covers++] = cover;
   return PENDRES_OK;

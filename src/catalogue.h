@@ -27,6 +27,7 @@ typedef struct pendres_catalogue {
   int *owner; /* attractor of each trap */
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
+  double transient; /* drive periods that chaos which ends has lasted on average; 0: none met */
 } pendres_catalogue;
 
 /* A state of a parameter set to start from, or to look for an orbit near. */
@@ -50,7 +51,7 @@ pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *ca
 
 /* Add a chaotic attractor; the cover becomes the catalogue's. */
 pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
-                                           double lyapunov, double error, pendres_cover *cover);
+                                           const pendres_chaos_measures *m, pendres_cover *cover);
 
 /* Put attractors into their physical order, and label them; rank[old number] = new number, for as
    many as there are (rank may be NULL). */

@@ -30,7 +30,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
   for (size_t i = 0; i < n; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
       const pendres_orbit *o = &points[i].response.state[j].orbit;
-      if (isfinite(o->loop_area))
+      if (isfinite(o->x))
         guess[k++] = (pendres_orbit_guess){.pendulum = o->pendulum,
                                            .x = o->x,
                                            .v = o->v,
@@ -42,7 +42,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
       pendres_orbit *o = &points[i].response.state[j].orbit;
-      if (!isfinite(o->loop_area)) continue;
+      if (!isfinite(o->x)) continue;
       if (outcome[k] != PENDRES_NOT_CONVERGED) *o = orbit[k];
       k++;
     }
@@ -102,7 +102,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_scan_point *fro
   for (size_t j = 0; j < to->response.states; j++) {
     pendres_orbit *o = &to->response.state[j].orbit;
     const double step = omega - o->pendulum.drive_frequency;
-    if (!isfinite(o->loop_area)) continue;
+    if (!isfinite(o->x)) continue;
     if (isfinite(o->frequency_derivative[0])) {
       o->x += step * o->frequency_derivative[0];
       o->v += step * o->frequency_derivative[1];
@@ -287,7 +287,7 @@ static const pendres_attractor *ending_state(const pendres_response *here,
          square-root rush into its fold. */
       goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
     }
-    if (!goes_on && isfinite(o->loop_area)) return &here->state[i];
+    if (!goes_on && isfinite(o->x)) return &here->state[i];
   }
   return NULL;
 }

@@ -1,45 +1,30 @@
 /* settle_hunt.c -- what attracts pendulums that are in no known trap; see settle_hunt.h. */
 #include "settle_hunt.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "recurrence.h"
 
-static const double two_pi = 6.28318530717958647693;
+enum { MOST_GUESSES = 8 /* orbits looked for at a time in one parameter set */ };
 
-enum {
-  LONGEST_PERIOD = 32, /* of an orbit that is looked for: half the history */
-  MOST_GUESSES = 8     /* orbits looked for at a time in one parameter set */
-};
-
-/* A history that comes back closer than this may be near an orbit. */
-static const double near_orbit = 0.3;
-
-/*
- * The shortest period that a history repeats itself with about as closely as with any; rounding
- * alone must not prefer a multiple. Returns 0 if it does not come near itself.
- */
+/* The orbit that a history, a ring buffer, comes back to; 0 if it does not. */
 static int recurrence(const pendres_settle_history *h, pendres_scout *s)
 {
-  double distance[LONGEST_PERIOD + 1], closest = near_orbit;
-  const long last = h->filled - 1;
-  const double y = h->y[last % PENDRES_SETTLE_HISTORY], w = h->w[last % PENDRES_SETTLE_HISTORY];
-  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
-    const long k = (last - q) % PENDRES_SETTLE_HISTORY;
-    const double dy = y - h->y[k];
-    distance[q] = hypot(dy - two_pi * rint(dy / two_pi), w - h->w[k]);
-    closest = fmin(closest, distance[q]);
+  double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
+  pendres_recurrence r;
+  const long points = h->filled < PENDRES_SETTLE_HISTORY ? h->filled : PENDRES_SETTLE_HISTORY;
+  for (long k = 0; k < points; k++) {
+    const long at = (h->filled - points + k) % PENDRES_SETTLE_HISTORY;
+    y[k] = h->y[at];
+    w[k] = h->w[at];
   }
-  s->y = y;
-  s->w = w;
-  for (int q = 1; q <= LONGEST_PERIOD && q <= last; q++) {
-    if (distance[q] > fmax(3.0 * closest, 1e-6)) continue;
-    s->period = q;
-    s->winding = (int)rint((y - h->y[(last - q) % PENDRES_SETTLE_HISTORY]) / two_pi);
-    return closest < near_orbit;
-  }
-  return 0;
+  if (!pendres_recurrence_find((int)points, y, w, &r)) return 0;
+  s->y = r.y;
+  s->w = r.w;
+  s->period = r.period;
+  s->winding = r.winding;
+  return 1;
 }
 
 /* Everything about the pendulums that a batch has lost so far. */
@@ -110,19 +95,23 @@ static int nowhere(const pendres_catalogue *c, const pendres_strobe_lane *lane)
   return pendres_catalogue_locate(c, lane, &well) < 0;
 }
 
-/* Chaos among the lost lanes, set by set, one attractor after the other. */
+/*
+ * Chaos among the lost lanes, set by set, one attractor after the other. Lanes on their way to
+ * what has been found before, or that left a chaos which ends, get there by going on.
+ */
 static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
 {
   pendres_status status = PENDRES_OK;
   for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
     pendres_catalogue *c = &catalogues[l->set[first]];
+    pendres_chaos_verdict verdict = PENDRES_CHAOS_NEW;
     for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
-    for (int found = 1; found && status == PENDRES_OK;) {
+    while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)
         if (l->outcome[i].attractor < 0 && nowhere(c, &l->lanes[i]))
           l->suspects[n++] = &l->lanes[i];
-      status = pendres_chaos_find(ctx, c, n, l->suspects, &found);
+      status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
     }
   }
   return status;

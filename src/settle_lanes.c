@@ -22,7 +22,10 @@ long pendres_settle_first_budget(const pendres_pendulum *p)
   return (long)ceil(fmin(20.0 + 10.0 * settling_time(p), 1e7));
 }
 
-/* Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. */
+/*
+ * Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. So
+ * does chaos that ends: of those in it one in e^10 is left then.
+ */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c)
 {
   if (ctx->options.period_budget > 0) return ctx->options.period_budget;
@@ -32,7 +35,8 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalo
     const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
     if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
   }
-  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4);
+  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4) +
+                      10.0 * fmin(c->transient, 1e4);
   return (long)ceil(fmin(most, 1e8));
 }
 

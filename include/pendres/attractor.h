@@ -46,12 +46,22 @@ const char *pendres_label_name(pendres_label label);
 /** An attractor of one parameter set. */
 typedef struct pendres_attractor {
   pendres_label label;
-  pendres_orbit orbit;      /**< for a chaotic attractor only pendulum is set, results are NaN */
+  pendres_orbit orbit;      /**< for a chaotic attractor pendulum and means over time a drive cycle:
+                                 loop_area, dissipation, mean_power, and amplitude (half peak to peak
+                                 within a cycle, cycles from drive phases 0 and pi on), with errors
+                                 that hold with a confidence of 99.9 %; the rest is NaN */
   double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
   double lyapunov;          /**< largest Lyapunov exponent a unit time */
   double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's */
+  double drift, drift_error; /**< mean whole turns a drive period of a chaotic motion, with an error
+                                 that holds with a confidence of 99.9 %; NaN of closed orbits */
+  double watched_periods;   /**< drive periods, added up over walkers, that a chaotic attractor was
+                                 watched for without one leaving it; NaN of closed orbits */
+  double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
+                                 have been seen to end with a probability of 95 %; smaller rates
+                                 are not excluded; NaN of closed orbits */
 } pendres_attractor;
 
 /** Opaque: attractors of one or more parameter sets. */

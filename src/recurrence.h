@@ -1,0 +1,22 @@
+/*
+ * recurrence.h -- strobe points that come back to where they were.
+ *
+ * Owns: guessing the period and winding of an orbit that a motion is near.
+ */
+#ifndef PENDRES_RECURRENCE_H
+#define PENDRES_RECURRENCE_H
+
+enum { PENDRES_RECURRENCE_POINTS = 65 /* looked at: twice the longest period, and one */ };
+
+typedef struct pendres_recurrence {
+  double y, w;         /* the latest point */
+  int period, winding; /* of the orbit that it may be near */
+} pendres_recurrence;
+
+/*
+ * The shortest period that the strobe points y[], w[], the latest one last, repeat themselves with
+ * about as closely as with any; angles with whole turns. Returns 0 if they do not come near.
+ */
+int pendres_recurrence_find(int points, const double *y, const double *w, pendres_recurrence *out);
+
+#endif
