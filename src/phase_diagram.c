@@ -63,7 +63,7 @@ static int other_of(const pendres_attractor *a)
 static void judge_ensemble(const border *b, const pendres_ensemble *e, const pendres_response *r,
                            pendres_phase_point *p)
 {
-  size_t sa = 0, la = 0, others = 0;
+  size_t sa = 0, la = 0, others = r->unlisted;
   const double all = (double)e->members;
   const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
   for (size_t i = 0; i < states; i++) {
@@ -91,7 +91,7 @@ static void judge_ensemble(const border *b, const pendres_ensemble *e, const pen
   p->sa_fraction = b->distinct ? (double)sa / all : NAN;
   p->la_fraction = b->distinct ? (double)la / all : NAN;
   p->sa_fraction_error = p->la_fraction_error =
-    b->distinct ? (double)(r->unresolved + r->uncertain) / all : NAN;
+    b->distinct ? (double)(r->unresolved + r->uncertain + r->unlisted) / all : NAN;
   p->mean_loop_area = r->mean_loop_area;
   p->mean_loop_area_error = r->mean_loop_area_error;
   p->mean_loop_amplitude = r->mean_loop_amplitude;

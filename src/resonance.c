@@ -75,7 +75,8 @@ static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
 /* The members are on the same states at both points: nothing jumped in between. */
 static int same_states(const pendres_response *a, const pendres_response *b)
 {
-  if (a->states != b->states || a->unresolved != b->unresolved) return 0;
+  if (a->states != b->states || a->unresolved != b->unresolved || a->unlisted != b->unlisted)
+    return 0;
   for (size_t i = 0; i < a->states; i++)
     if (a->state_members[i] != b->state_members[i] ||
         !goes_on(&a->state[i].orbit, &b->state[i].orbit))
@@ -114,7 +115,7 @@ static double largest_area(const pendres_response *r, double width)
  */
 static double share_above(const pendres_response *r, double width, double cut, double *below)
 {
-  size_t members = r->unresolved, above = r->unresolved;
+  size_t members = r->unresolved + r->unlisted, above = members;
   for (size_t i = 0; i < r->states; i++) {
     const double area = grown_area(&r->state[i].orbit, width);
     members += r->state_members[i];

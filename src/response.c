@@ -13,25 +13,52 @@ static const double two_pi = 6.28318530717958647693;
 
 enum { BATCH_SETS = 32 };
 
-/* Sums over states, weighted by their share of the resolved members. */
+/* An ensemble's members by attractor; attractors without members count for nothing. */
+typedef struct parted {
+  size_t attractors;
+  const pendres_attractor *attractor;
+  const size_t *members; /* of each attractor */
+  size_t lost;           /* members of which nothing is known */
+} parted;
+
+/* Sums over attractors, weighted by their share of the members that are on one. */
 typedef struct sums {
-  double area, area_error, amplitude, amplitude_error, power, power_error;
-  double loop_share, loop_error;
+  double area, area_error, power, power_error;
+  double amplitude_share, amplitude, amplitude_error;
+  double loop_share, loop_error, loop_amplitude_error;
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS];
+  double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
+  size_t attractors; /* that have members */
 } sums;
 
-static void add_state(sums *s, const pendres_orbit *o, double share)
+/* Whole turns again and again: such a motion has no amplitude and no loop. */
+static int running(const pendres_attractor *a)
 {
-  if (!isfinite(o->loop_area)) return;
+  /* The mean drift of a chaos that has none is within twice its error for certain. */
+  return a->label == PENDRES_LABEL_CHAOTIC ? fabs(a->drift) > 2.0 * a->drift_error
+                                           : a->orbit.winding != 0;
+}
+
+static void add_attractor(sums *s, const pendres_attractor *a, double share)
+{
+  const pendres_orbit *o = &a->orbit;
+  s->attractors++;
   s->area += share * o->loop_area;
   s->area_error += share * o->loop_area_error;
   s->power += share * o->mean_power;
   s->power_error += share * o->mean_power_error;
-  if (o->winding != 0) return;
-  s->loop_share += share;
+  s->largest = fmax(s->largest, fabs(o->loop_area));
+  s->least = fmin(s->least, o->loop_area);
+  s->most = fmax(s->most, o->loop_area);
+  if (running(a)) return;
+  s->amplitude_share += share;
   s->amplitude += share * o->amplitude;
   s->amplitude_error += share * o->amplitude_error;
+  s->widest = fmax(s->widest, o->amplitude);
+  if (a->label == PENDRES_LABEL_CHAOTIC) return;
+  s->loop_share += share;
   s->loop_error += share * o->x_error;
+  s->loop_amplitude_error += share * o->amplitude_error;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
     s->cosine[m] += share * o->cosine[m];
     s->sine[m] += share * o->sine[m];
@@ -48,36 +75,42 @@ static void clear_means(pendres_response *r)
   r->sa_fraction = r->la_fraction = r->sa_fraction_error = r->la_fraction_error = NAN;
 }
 
-void pendres_response_average(pendres_response *r)
+/* The loop averaged over the members that have one; lost, doubt: shares of all members. */
+static void average_loops(pendres_response *r, sums *s, double lost, double doubt)
 {
-  sums s = {0};
-  size_t resolved = 0;
-  double sa = 0.0, la = 0.0, largest = 0.0, least = INFINITY, most = -INFINITY, widest = 0.0;
-  size_t all = r->unresolved;
-  for (size_t i = 0; i < r->states; i++) {
-    all += r->state_members[i];
-    /* A chaotic member has no closed loop: it is left out of the means like an unresolved one. */
-    if (isfinite(r->state[i].orbit.loop_area)) resolved += r->state_members[i];
+  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
+    s->cosine[m] /= s->loop_share;
+    s->sine[m] /= s->loop_share;
   }
+  r->mean_loop_amplitude = pendres_orbit_series_half_range(s->cosine, s->sine);
+  r->mean_loop_amplitude_error =
+    fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share + lost * r->mean_amplitude +
+    2.0 * doubt * s->widest; /* what goes from one loop to another takes from the one as well */
+  r->phase_lag =
+    pendres_orbit_phase_lag(s->cosine[0], s->sine[0], r->pendulum.drive_amplitude);
+  if (!isnan(r->phase_lag))
+    r->phase_lag_error = r->mean_loop_amplitude_error / hypot(s->cosine[0], s->sine[0]);
+}
+
+static void average(pendres_response *r, const parted *p)
+{
+  sums s = {.least = INFINITY, .most = -INFINITY};
+  size_t resolved = 0;
+  double sa = 0.0, la = 0.0;
+  for (size_t i = 0; i < p->attractors; i++) resolved += p->members[i];
   clear_means(r);
   if (resolved == 0) return;
 
-  for (size_t i = 0; i < r->states; i++) {
-    const double share = (double)r->state_members[i] / (double)resolved;
-    add_state(&s, &r->state[i].orbit, share);
-    if (r->state[i].label == PENDRES_LABEL_SA) sa += (double)r->state_members[i];
-    if (r->state[i].label == PENDRES_LABEL_LA) la += (double)r->state_members[i];
-    const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->loop_area)) continue;
-    largest = fmax(largest, fabs(o->loop_area));
-    least = fmin(least, o->loop_area);
-    most = fmax(most, o->loop_area);
-    if (o->winding == 0) widest = fmax(widest, o->amplitude);
+  for (size_t i = 0; i < p->attractors; i++) {
+    if (p->members[i] == 0) continue;
+    add_attractor(&s, &p->attractor[i], (double)p->members[i] / (double)resolved);
+    if (p->attractor[i].label == PENDRES_LABEL_SA) sa += (double)p->members[i];
+    if (p->attractor[i].label == PENDRES_LABEL_LA) la += (double)p->members[i];
   }
-  const double members = (double)all, lost = (double)(all - resolved) / members;
+  const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
   /* An uncertain member may belong to any state, but to one of those that are there. */
-  const double doubt = r->states > 1 ? (double)r->uncertain / members : 0.0;
-  const double area_doubt = lost * largest + doubt * (most - least);
+  const double doubt = s.attractors > 1 ? (double)r->uncertain / members : 0.0;
+  const double area_doubt = lost * s.largest + doubt * (s.most - s.least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state. */
   r->mean_loop_area_error = s.area_error + area_doubt;
@@ -85,49 +118,78 @@ void pendres_response_average(pendres_response *r)
   r->mean_power_error = s.power_error + area_doubt * r->pendulum.drive_frequency / two_pi;
   r->sa_fraction = sa / members;
   r->la_fraction = la / members;
-  r->sa_fraction_error = r->la_fraction_error = (double)r->unresolved / members + doubt;
-  if (s.loop_share == 0.0) return;
-
-  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
-    s.cosine[m] /= s.loop_share;
-    s.sine[m] /= s.loop_share;
+  r->sa_fraction_error = r->la_fraction_error = lost + doubt;
+  if (s.amplitude_share > 0.0) {
+    r->mean_amplitude = s.amplitude / s.amplitude_share;
+    r->mean_amplitude_error =
+      s.amplitude_error / s.amplitude_share + lost * r->mean_amplitude + doubt * s.widest;
   }
-  r->mean_amplitude = s.amplitude / s.loop_share;
-  r->mean_amplitude_error =
-    s.amplitude_error / s.loop_share + lost * r->mean_amplitude + doubt * widest;
-  r->mean_loop_amplitude = pendres_orbit_series_half_range(s.cosine, s.sine);
-  r->mean_loop_amplitude_error =
-    fmax(s.loop_error, s.amplitude_error) / s.loop_share + lost * r->mean_amplitude +
-    2.0 * doubt * widest; /* what goes from one loop to another takes from the one as well */
-  r->phase_lag =
-    pendres_orbit_phase_lag(s.cosine[0], s.sine[0], r->pendulum.drive_amplitude);
-  if (!isnan(r->phase_lag))
-    r->phase_lag_error = r->mean_loop_amplitude_error / hypot(s.cosine[0], s.sine[0]);
+  if (s.loop_share > 0.0) average_loops(r, &s, lost, doubt);
 }
 
-/* Members of each state, from their outcomes. */
+void pendres_response_average(pendres_response *r)
+{
+  average(r, &(parted){.attractors = r->states, .attractor = r->state,
+                       .members = r->state_members, .lost = r->unresolved + r->unlisted});
+}
+
+/* The attractor with the most members among those not listed yet; the first of equals. */
+static size_t most_members(size_t n, const size_t *members, const char *listed)
+{
+  size_t best = n;
+  for (size_t a = 0; a < n; a++)
+    if (!listed[a] && members[a] > 0 && (best == n || members[a] > members[best])) best = a;
+  return best;
+}
+
+/*
+ * Members of each attractor, from their outcomes, and the means over all of them. Of more
+ * attractors than can be listed those with the most members are. members, listed: one an attractor.
+ */
 static void count_states(const pendres_catalogue *c, size_t n, const pendres_outcome *outcome,
-                         pendres_response *r)
+                         size_t *members, char *listed, pendres_response *r)
 {
   memset(r, 0, sizeof *r);
   r->pendulum = c->pendulum;
-  int slot[PENDRES_RESPONSE_STATES];
-  for (size_t a = 0; a < c->count; a++) {
-    size_t members = 0;
-    for (size_t i = 0; i < n; i++) members += outcome[i].attractor == (int)a;
-    if (members == 0) continue;
-    if (r->states == PENDRES_RESPONSE_STATES) {
-      r->unresolved += members; /* more states than are listed: said, not dropped in silence */
+  for (size_t a = 0; a < c->count; a++) members[a] = 0, listed[a] = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (outcome[i].attractor < 0) {
+      r->unresolved++;
       continue;
     }
-    slot[r->states] = (int)a;
-    r->state[r->states] = c->attractors[slot[r->states]];
-    r->state_members[r->states++] = members;
+    members[outcome[i].attractor]++;
+    r->uncertain += !outcome[i].certain;
   }
-  for (size_t i = 0; i < n; i++) {
-    r->unresolved += outcome[i].attractor < 0;
-    r->uncertain += outcome[i].attractor >= 0 && !outcome[i].certain;
+  for (int k = 0; k < PENDRES_RESPONSE_STATES; k++) {
+    const size_t a = most_members(c->count, members, listed);
+    if (a < c->count) listed[a] = 1;
   }
+  for (size_t a = 0; a < c->count; a++) {
+    if (!listed[a]) {
+      r->unlisted += members[a];
+      continue;
+    }
+    r->state[r->states] = c->attractors[a];
+    r->state_members[r->states++] = members[a];
+  }
+  average(r, &(parted){.attractors = c->count, .attractor = c->attractors, .members = members,
+                       .lost = r->unresolved});
+}
+
+static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c, size_t n,
+                                const pendres_outcome *outcome, pendres_response *r)
+{
+  pendres_status status = PENDRES_OK;
+  size_t *members = malloc((c->count + 1) * sizeof *members);
+  char *listed = malloc(c->count + 1);
+  if (members != NULL && listed != NULL)
+    count_states(c, n, outcome, members, listed, r);
+  else
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu attractors",
+                                  c->count);
+  free(members);
+  free(listed);
+  return status;
 }
 
 static pendres_status compute_batch(pendres_context *ctx, size_t sets,
@@ -154,10 +216,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
     }
   }
   status = pendres_settle_batch(ctx, sets, catalogues, 1, n, set, x, v, outcome);
-  for (size_t s = 0; s < sets && status == PENDRES_OK; s++) {
-    count_states(&catalogues[s], e->members, outcome + s * e->members, &out[s]);
-    pendres_response_average(&out[s]);
-  }
+  for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
+    status = summarize(ctx, &catalogues[s], e->members, outcome + s * e->members, &out[s]);
 done:
   for (size_t s = 0; s < sets; s++) pendres_catalogue_clear(&catalogues[s]);
   free(x);

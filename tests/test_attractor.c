@@ -133,7 +133,7 @@ static void check_fact(pendres_context *ctx, const fact *f)
     assert_int_equal(a->label, f->label);
     if (f->label == PENDRES_LABEL_CHAOTIC) {
       assert_true(a->lyapunov > 5.0 * a->lyapunov_error && a->lyapunov_error > 0.0);
-      assert_true(isnan(a->orbit.x) && isnan(a->orbit.amplitude) && isnan(a->trap_radius));
+      assert_true(isnan(a->orbit.x) && isnan(a->orbit.phase_lag) && isnan(a->trap_radius));
     } else {
       assert_int_equal(a->orbit.period, f->period);
       assert_int_equal(abs(a->orbit.winding), f->winding);

@@ -7,10 +7,19 @@
  * mean_loop_area is the mean of the members' loop areas (paper, section II);
  * mean_loop_amplitude is the amplitude of the loop averaged over the members, mean_amplitude the
  * mean of the members' own amplitudes; the phase lag is that of the averaged loop. An orbit of
- * several drive periods counts with its mean cycle. Running members close but for whole turns: they
- * count in the mean area and power, not in the loop. Chaotic and unresolved members count in
- * none; the error of a mean allows for their share, and for that of members whose state is
- * uncertain.
+ * several drive periods counts with its mean cycle. What enters which mean:
+ *
+ *                area, power   amplitude   loop, phase lag
+ *   closed       yes           yes         yes
+ *   running      yes           no          no   (closes but for whole turns)
+ *   chaotic      yes           yes         no   (has no well to be shifted to)
+ *   chaotic with a drift: as running; unresolved: in none
+ *
+ * Of a chaotic member the means over time on its attractor count, a drive cycle: the work of the
+ * drive (loop area, power), half peak to peak of the angle (amplitude); attractor.h has their
+ * errors, which are statistical. Where no member enters a mean it is NaN, as in an ensemble that is
+ * all chaotic the loop and its phase lag. Errors allow for the share of unresolved members, and of
+ * those whose state is uncertain.
  */
 #ifndef PENDRES_RESPONSE_H
 #define PENDRES_RESPONSE_H
@@ -37,12 +46,14 @@ typedef struct pendres_response {
                                               uncertain */
   double la_fraction, la_fraction_error;
   size_t unresolved;                     /**< members without an attractor; left out of means */
-  size_t states;                         /**< attractors that members settled on */
+  size_t states;                         /**< attractors listed: those that most members are on */
   pendres_attractor state[PENDRES_RESPONSE_STATES];
   size_t state_members[PENDRES_RESPONSE_STATES];
   size_t uncertain;                      /**< members among them that may belong to another state
                                               (pendres_outcome.certain); means count them where they
                                               were found, errors allow for any other state */
+  size_t unlisted;                       /**< members on attractors beyond those that are listed; in
+                                              the means of pendres_response_compute like all others */
 } pendres_response;
 
 /**
@@ -53,7 +64,10 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, pendres_response *out);
 
-/** The means of a response whose state[], state_members[], unresolved and uncertain are set. */
+/**
+ * The means of a response whose state[], state_members[], unresolved, uncertain and unlisted are
+ * set; what is unlisted can only count as unresolved here.
+ */
 void pendres_response_average(pendres_response *r);
 
 #pragma GCC visibility pop
