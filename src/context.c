@@ -142,6 +142,11 @@ pendres_status pendres_context_poll(pendres_context *ctx)
   return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted on request");
 }
 
+int pendres_context_stops(void *ctx)
+{
+  return pendres_context_poll(ctx) != PENDRES_OK;
+}
+
 pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
                                     const char *format, ...)
 {
@@ -155,6 +160,8 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
 pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
                                            pendres_status status)
 {
+  if (status == PENDRES_INTERRUPTED)
+    return pendres_context_fail(ctx, status, "interrupted on request");
   if (status == PENDRES_OUT_OF_MEMORY)
     return pendres_context_fail(ctx, status, "out of memory for the steps of a period");
   return pendres_context_fail(ctx, status, "ARKODE gave up within a drive period (code %d)",
@@ -170,6 +177,8 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pen
     const pendres_flow_options options = {.rows = rows[kind],
                                           .lanes = (size_t)ctx->options.block_lanes,
                                           .table = ctx->options.table,
+                                          .stop = pendres_context_stops,
+                                          .stop_arg = ctx,
                                           .tolerance = kind == PENDRES_FLOW_ADAPTIVE
                                                          ? ctx->options.tolerance
                                                          : 0.0};

@@ -53,6 +53,8 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pen
 
 /* PENDRES_INTERRUPTED when the caller asked to stop. */
 pendres_status pendres_context_poll(pendres_context *ctx);
+/* The same as a function to hand on; ctx is a context. */
+int pendres_context_stops(void *ctx);
 
 /* Record a failure of the integrator. */
 pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,

@@ -15,6 +15,9 @@
 
 static const double two_pi = 6.28318530717958647693;
 
+/* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
+static const double steps_between = 300000.0;
+
 /* cos(theta) at the right-hand sides of one period, in their order: the same every period. */
 typedef struct drive_memo {
   double *theta, *cosine;
@@ -33,6 +36,10 @@ struct pendres_flow {
   drive_memo memo;
   void *arkode;
   double evaluations, steps_taken;
+  int (*stop)(void *arg); /* asked now and then within a period; NULL: nobody is */
+  void *stop_arg;
+  double next_asked;      /* once so many steps have been taken */
+  int stopped;
   size_t lanes; /* in use */
   int failure;
 };
@@ -84,7 +91,10 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
   (void)theta;
   (void)y;
   flow->steps_taken += (double)flow->lanes;
-  return 0;
+  if (flow->steps_taken < flow->next_asked) return 0;
+  flow->next_asked = flow->steps_taken + steps_between;
+  flow->stopped = flow->stop != NULL && flow->stop(flow->stop_arg) != 0;
+  return flow->stopped ? -1 : 0;
 }
 
 /* With fixed steps nobody reads the weights: leave them at one. */
@@ -167,6 +177,9 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
     goto fail;
   flow->shape.norm_unused = options->tolerance == 0.0;
   flow->lanes = options->lanes;
+  flow->stop = options->stop;
+  flow->stop_arg = options->stop_arg;
+  flow->next_asked = steps_between;
   flow->tolerance = options->tolerance;
   for (int i = 0; i < 4; i++) {
     flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
@@ -289,10 +302,16 @@ double *pendres_flow_state(pendres_flow *flow)
 static pendres_status start_period(pendres_flow *flow, double end)
 {
   flow->memo.next = 0;
+  flow->stopped = 0;
   pendres_lanes_write(flow->state, flow->rows);
   flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
   if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, end);
   return flow->failure == 0 ? PENDRES_OK : PENDRES_INTEGRATION_FAILED;
+}
+
+static pendres_status failed(const pendres_flow *flow)
+{
+  return flow->stopped ? PENDRES_INTERRUPTED : PENDRES_INTEGRATION_FAILED;
 }
 
 static pendres_status advance_to(pendres_flow *flow, double end)
@@ -302,7 +321,7 @@ static pendres_status advance_to(pendres_flow *flow, double end)
   if (status != PENDRES_OK) return status;
   flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
   pendres_lanes_read(flow->state, flow->rows);
-  return flow->failure < 0 ? PENDRES_INTEGRATION_FAILED : PENDRES_OK;
+  return flow->failure < 0 ? failed(flow) : PENDRES_OK;
 }
 
 pendres_status pendres_flow_period(pendres_flow *flow)
@@ -325,7 +344,7 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
   if (status != PENDRES_OK) return status;
   for (int step = 1; step <= flow->steps; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
-    if (flow->failure < 0) return PENDRES_INTEGRATION_FAILED;
+    if (flow->failure < 0) return failed(flow);
     pendres_lanes_read(flow->state, flow->rows);
     sample(arg, step, reached, flow->shape.stride, flow->rows);
   }

@@ -30,6 +30,8 @@ typedef struct pendres_flow_options {
   size_t lanes;     /* capacity */
   pendres_table table;
   double tolerance; /* 0: fixed steps; else adaptive, this relative and absolute tolerance */
+  int (*stop)(void *arg); /* NULL, or: asked within long periods; nonzero ends the period */
+  void *stop_arg;
 } pendres_flow_options;
 
 /* sun is kept, not owned, and must outlive the flow. */
@@ -58,7 +60,7 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
 /* Rows of the block, valid until the next call that advances or resizes. */
 double *pendres_flow_state(pendres_flow *flow);
 
-/* Advance all lanes by one drive period. */
+/* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() said so. */
 pendres_status pendres_flow_period(pendres_flow *flow);
 
 /*

@@ -34,15 +34,22 @@ typedef struct problem {
   SUNNonlinearSolver fixed_point;
   SUNMatrix matrix;
   SUNLinearSolver linear;
-  int failure;
+  int failure, stopped;
+  long evaluations;
 } problem;
+
+/* Between two questions whether to go on: some hundredths of a second. */
+enum { EVALUATIONS_BETWEEN = 300000 };
 
 static int slope(sunrealtype theta, N_Vector state, N_Vector out, void *arg)
 {
-  const problem *b = arg;
+  problem *b = arg;
   const double *s = N_VGetArrayPointer(state), omega = b->p->drive_frequency;
   double *d = N_VGetArrayPointer(out);
   b->ctx->cost.rhs_evaluations += 1.0;
+  if (++b->evaluations % EVALUATIONS_BETWEEN == 0 && !b->stopped)
+    b->stopped = pendres_context_stops(b->ctx);
+  if (b->stopped) return -1;
   d[0] = s[1];
   d[1] = (b->p->drive_amplitude * cos(theta) - sin(s[0])) / (omega * omega) -
          b->p->damping / omega * s[1];
@@ -162,6 +169,8 @@ static pendres_status advance(problem *b, long period)
     b->failure = CVode(b->cvode, end, b->state, &reached, CV_NORMAL);
   }
   b->ctx->cost.pendulum_periods += 1.0;
+  if (b->stopped)
+    return pendres_context_fail(b->ctx, PENDRES_INTERRUPTED, "interrupted on request");
   if (b->failure < 0)
     return pendres_context_fail(b->ctx, PENDRES_INTEGRATION_FAILED,
                                 "method %s gave up in drive period %ld (code %d)",

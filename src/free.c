@@ -143,12 +143,6 @@ static pendres_status settle_clocks(pendres_context *ctx, size_t n, swing *s,
   return status;
 }
 
-/* For a second context: asks as the first one does, which is in use meanwhile. */
-static int ask(void *ctx)
-{
-  return pendres_context_poll(ctx) != PENDRES_OK;
-}
-
 /*
  * Methods that choose their own steps: a run with a far smaller tolerance is the result, and the
  * error is that of the run as asked for, which is larger.
@@ -163,7 +157,8 @@ static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
   pendres_status status = pendres_context_create(&options, &tight);
   if (status != PENDRES_OK)
     return pendres_context_fail(ctx, status, "out of memory for a second context");
-  pendres_context_set_interrupt(tight, ask, ctx);
+  /* It asks as the first one does, which is in use meanwhile. */
+  pendres_context_set_interrupt(tight, pendres_context_stops, ctx);
 
   status = settle_clocks(ctx, n, s, lane, which);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
