@@ -14,6 +14,7 @@
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
+#include "safe_text.h"
 #include "scene.h"
 #include "signals.h"
 
@@ -101,13 +102,20 @@ static int dump(job *j)
   return check_stdout(j);
 }
 
+static void print_line(const char *name, const char *text)
+{
+  printf("%-9s ", name);
+  safe_text_write(stdout, text);
+  putchar('\n');
+}
+
 static int dry_run(job *j)
 {
   const deck *d = &j->deck;
-  printf("deck      %s\n", d->name);
-  if (d->title[0] != '\0') printf("title     %s\n", d->title);
-  printf("scene     %s\n", deck_kind_name(d->kind));
-  printf("output    %s\n", d->output);
+  print_line("deck", d->name);
+  if (d->title[0] != '\0') print_line("title", d->title);
+  print_line("scene", deck_kind_name(d->kind));
+  print_line("output", d->output);
   printf("tolerance %g\n", d->precision.tolerance);
   printf("threads   %d\n\n", farm_threads(j->farm));
   j->scene->plan(d, stdout);

@@ -14,26 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "safe_text.h"
+
 /* What is shown of a long source line, and how much of it stands before the caret. */
 enum { WINDOW = 100, BEFORE = 60, MESSAGE = 600 };
 
-static int is_continuation_byte(char c)
-{
-  return ((unsigned char)c & 0xC0u) == 0x80u;
-}
-
-/* The bytes of one character of the line, so that a cut never splits one. */
-static size_t character_size(const char *text, size_t left)
-{
-  size_t size = 1;
-  while (size < left && is_continuation_byte(text[size])) size++;
-  return size;
-}
-
-/*
- * The source line and the caret below it. Tabs stay tabs in both, so that they line up; other
- * control bytes become '?', so that no deck writes escape sequences to a terminal.
- */
+/* The source line and the caret below it. Tabs stay tabs in both, so that they line up. */
 static void write_source(FILE *out, const namelist *nl, int line, int column, int width)
 {
   const char *text = nl->text + nl->line[line - 1];
@@ -47,12 +33,12 @@ static void write_source(FILE *out, const namelist *nl, int line, int column, in
   while (left > 0 && (text[left - 1] == '\r' || text[left - 1] == ' ')) left--;
   fprintf(out, "\n  %s", first > 1 ? "..." : "");
   while (left > 0 && shown < WINDOW) {
-    const size_t size = character_size(text, left);
+    int safe;
+    const size_t size = safe_text_character(text, left, &safe);
     if (at >= first) {
       const int tab = *text == '\t';
-      const int bad = !tab && ((unsigned char)*text < 0x20 || *text == 0x7f);
-      if (bad) fputc('?', out);
-      else fwrite(text, 1, size, out);
+      if (safe || tab) fwrite(text, 1, size, out);
+      else fputc('?', out);
       if (at < column) pad[pads++] = tab ? '\t' : ' ';
       shown++;
     }
@@ -77,8 +63,11 @@ static char *format_error(const namelist *nl, int line, int column, int width, c
   FILE *out = open_memstream(&text, &size);
   const char *name = nl->name != NULL ? nl->name : "deck";
   if (out == NULL) return NULL;
-  if (line < 1) fprintf(out, "%s: error: %s", name, message);
-  else fprintf(out, "%s:%d:%d: error: %s", name, line, column, message);
+  /* The deck's own words are in the message, and the name may be anything. */
+  safe_text_write(out, name);
+  if (line < 1) fputs(": error: ", out);
+  else fprintf(out, ":%d:%d: error: ", line, column);
+  safe_text_write(out, message);
   if (line >= 1 && line <= nl->lines) write_source(out, nl, line, column, width);
   if (fclose(out) != 0) {
     free(text);

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "safe_text.h"
+
 void lex_advance(reader *r)
 {
   const int c = lex_peek(r);
@@ -126,21 +128,6 @@ int lex_is_end_word(const reader *r, size_t at)
          lex_lower(lex_at(r, at + 2)) == 'd' && lex_name_end(r, at) == at + 3;
 }
 
-/* Bytes of the well-formed UTF-8 character at text, 0 if it is malformed (RFC 3629). */
-static size_t utf8_size(const unsigned char *t, size_t left)
-{
-  const size_t size = t[0] < 0x80 ? 1 : t[0] >= 0xC2 && t[0] <= 0xDF ? 2 :
-                      (t[0] & 0xF0) == 0xE0 ? 3 : t[0] >= 0xF0 && t[0] <= 0xF4 ? 4 : 0;
-  if (size == 0 || size > left) return 0;
-  for (size_t i = 1; i < size; i++)
-    if ((t[i] & 0xC0) != 0x80) return 0;
-  if (t[0] == 0xE0 && t[1] < 0xA0) return 0;
-  if (t[0] == 0xED && t[1] > 0x9F) return 0;
-  if (t[0] == 0xF0 && t[1] < 0x90) return 0;
-  if (t[0] == 0xF4 && t[1] > 0x8F) return 0;
-  return size;
-}
-
 /*
  * The text is kept in the output and shown on terminals: no control bytes, nothing but UTF-8.
  * Returns 0 where reading on makes no sense.
@@ -151,12 +138,18 @@ int lex_check_bytes(reader *r)
   int readable = 1;
   while (lex_peek(r) != LEX_END) {
     const int c = lex_peek(r);
-    const size_t size = utf8_size((const unsigned char *)r->nl->text + r->at,
-                                  r->nl->length - r->at);
+    const char *text = r->nl->text + r->at;
+    const size_t size = safe_text_utf8(text, r->nl->length - r->at);
+    int safe = 0;
+    (void)safe_text_character(text, r->nl->length - r->at, &safe);
     readable = (c >= 0x20 || lex_is_blank(c)) && c != 0x7f;
     if (!readable)
       namelist_error_at(r->nl, r->line, r->column, 1, r->errors,
                         "control byte 0x%02X: is this a deck?", c);
+    else if (size > 1 && !safe)
+      namelist_error_at(r->nl, r->line, r->column, 1, r->errors,
+                        "a control character of %zu bytes, 0x%02X 0x%02X ...: terminals may take "
+                        "it for a command", size, c, (unsigned char)text[1]);
     else if (size == 0)
       namelist_error_at(r->nl, r->line, r->column, 1, r->errors,
                         "byte 0x%02X is not UTF-8; save the deck as UTF-8", c);

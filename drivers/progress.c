@@ -8,6 +8,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "safe_text.h"
+
 enum { BAR = 30, LINE_STEP = 10 };
 
 /* Redrawing more often would only make a terminal flicker. */
@@ -108,6 +110,7 @@ static void say(progress *p, int silent, const char *kind, const char *format, v
   char text[2048];
   const int n = snprintf(text, sizeof text, "%s", kind);
   (void)vsnprintf(text + n, sizeof text - (size_t)n, format, args);
+  safe_text_clean(text);
   log_line(p, text);
   if (silent) return;
   clear(p);

@@ -91,6 +91,55 @@ static void test_dry(void **state)
   assert_int_equal(count_names(".h5"), 0);
 }
 
+/* No control character but line ends and tabs: of ASCII, of Latin-1 as two bytes, or as a byte that
+   is no UTF-8 and that some terminals take for Latin-1. */
+static void check_harmless(const char *text)
+{
+  int follow = 0; /* bytes that belong to the character begun */
+  for (const unsigned char *c = (const unsigned char *)text; *c != '\0'; c++) {
+    assert_true(*c >= 0x20 || *c == '\n' || *c == '\t');
+    assert_int_not_equal(*c, 0x7f);
+    assert_false(*c == 0xC2 && c[1] < 0xA0);
+    if (follow > 0) assert_int_equal(*c & 0xC0, 0x80);
+    else assert_false(*c >= 0x80 && *c < 0xC2);
+    follow = follow > 0 ? follow - 1 : *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
+  }
+}
+
+/* A deck that is sent by somebody else writes nothing but text to the terminal. */
+static void test_no_escape_sequences(void **state)
+{
+  static const char *const decks[] = {
+    /* bytes that are no UTF-8, after which reading goes on */
+    "! \xff\n&scene kind = '\x1b[31mred' /\n",
+    "! \xff\n&scene kind = 'orbit' /\n&pendulum damping = \x1b]0;title\x07 /\n",
+    "! \xff\n&pendulum damping = 1\x9b\x33\x31m /\n",
+    "! \xff\n&scene kind = '\xc2\x9b\x33\x31m' /\n",
+    "! \xff\n&sc\x1b[2Jene kind\x1b = 1 /\n",
+    "! \xff\n&scene kind = 'orbit', output = '\x1b[2J' /\n",
+    "&scene kind = 'free_oscillation', title = '\xc2\x9b\x33\x31m' /\n&sweep amplitude = 1 /\n",
+    "&scene kind = 'free_oscillation', title = '\xe2\x80\xae evil' /\n&sweep amplitude = 1 /\n",
+    "&scene kind = 'nonsense\x7f\xc2\x85' /\n",
+  };
+  static const char name[] = "\x1b[31mred.nml";
+  (void)state;
+  for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
+    write_text("bad.nml", decks[i]);
+    check_code(RUN("-n", "bad.nml"), 2);
+    check_harmless(err);
+    check_harmless(out);
+  }
+  write_text(name, small_deck);
+  check_code(RUN("-n", name), DONE);
+  check_harmless(out);
+  check_code(RUN("-o", "x.h5", "--log", "log.txt", name), DONE);
+  check_harmless(err);
+  read_text("log.txt", out, sizeof out);
+  check_harmless(out);
+  check_code(RUN("\x1b[31mabsent.nml"), 2);
+  check_harmless(err);
+}
+
 /* Whatever it is called: the deck is a file, and no other file of the run may be it. */
 static void test_deck_is_kept(void **state)
 {
@@ -311,7 +360,7 @@ int main(void)
     TEST(test_usage),          TEST(test_bad_decks),     TEST(test_dry),
     TEST(test_output_refused), TEST(test_table_refused), TEST(test_streams_closed),
     TEST(test_signals),        TEST(test_deck_is_kept),  TEST(test_output_targets),
-    TEST(test_two_runs),       TEST(test_scarce),
+    TEST(test_two_runs),       TEST(test_scarce),         TEST(test_no_escape_sequences),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

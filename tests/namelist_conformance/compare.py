@@ -143,7 +143,7 @@ def build(folder):
     cc = os.environ.get('CC', 'cc').split()
     sources = [os.path.join(HERE, 'ours.c')] + sorted(
         os.path.join(TOP, 'drivers', f) for f in os.listdir(os.path.join(TOP, 'drivers'))
-        if f.endswith('.c') and (f.startswith('namelist') or f.startswith('deck')))
+        if f.endswith('.c') and f.startswith(('namelist', 'deck', 'safe_text')))
     sources.append(os.path.join(TOP, 'src', 'sweep.c'))  # what lists and ranges make of an axis
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)
