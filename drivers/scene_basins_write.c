@@ -131,6 +131,21 @@ static const struct {
   ORBIT(loop_area, "loop area a drive cycle", "1"),
   {"attractor_lyapunov", "largest Lyapunov exponent a unit time", "1",
    offsetof(pendres_attractor, lyapunov), offsetof(pendres_attractor, lyapunov_error)},
+  {"attractor_drift", "mean whole turns a drive period, of chaos", "1",
+   offsetof(pendres_attractor, drift), offsetof(pendres_attractor, drift_error)},
+};
+
+/* What is said of a verdict itself, without an error. */
+static const struct {
+  const char *name, *long_name;
+  size_t value;
+} verdicts[] = {
+  {"attractor_watched_periods",
+   "drive periods that chaos was watched for without ending, all walkers together",
+   offsetof(pendres_attractor, watched_periods)},
+  {"attractor_escape_rate_bound",
+   "largest rate of ending of chaos, a drive period, that is not excluded at 95 %",
+   offsetof(pendres_attractor, escape_rate_bound)},
 };
 
 static double field(const pendres_attractor *a, size_t offset)
@@ -152,6 +167,13 @@ static pendres_status write_fields(const basins *b, size_t n, double *value, dou
       error[i] = field(a, fields[k].error);
     }
     status = pendres_store_put_result(b->run->store, &spec, value, error, n);
+  }
+  for (size_t k = 0; k < sizeof verdicts / sizeof verdicts[0] && status == PENDRES_OK; k++) {
+    const pendres_store_spec spec = {.name = verdicts[k].name, .dimensions = {"attractor"},
+                                     .long_name = verdicts[k].long_name, .units = "1"};
+    for (size_t i = 0; i < n; i++)
+      value[i] = field(pendres_attractors_get(b->set, i), verdicts[k].value);
+    status = pendres_store_put(b->run->store, &spec, value, n);
   }
   return status;
 }
@@ -393,6 +415,9 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
     print_orbit(out, &a->orbit);
     fprintf(out, "   %9.6f +- %.0e   %.6f +- %.0e\n", a->lyapunov, a->lyapunov_error, fraction[i],
             error[i]);
+    if (a->label == PENDRES_LABEL_CHAOTIC)
+      fprintf(out, "   watched for %.3g drive periods: chaos that ends at a rate above %.1e would "
+                   "have been seen to\n", a->watched_periods, a->escape_rate_bound);
   }
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
           s->uncertain_states);

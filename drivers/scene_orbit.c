@@ -31,6 +31,7 @@ typedef struct work {
   int closed;                    /* nonzero: there is a closed orbit */
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
+  double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
   char message[256];             /* why there is no such attractor; "" */
 } work;
 
@@ -43,6 +44,10 @@ static void keep_orbit(work *w, const pendres_attractor *a)
   w->orbit = a->orbit;
   w->lyapunov = a->lyapunov;
   w->lyapunov_error = a->lyapunov_error;
+  w->drift = a->drift;
+  w->drift_error = a->drift_error;
+  w->watched_periods = a->watched_periods;
+  w->escape_rate_bound = a->escape_rate_bound;
 }
 
 /* "sa, la": what there is instead. */
@@ -209,31 +214,39 @@ static pendres_status put_scalars(scene_run *run, const work *w)
   const struct {
     const char *name, *long_name, *units;
     double value, error;
-    int always; /* also without a closed orbit */
+    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, or whatever there is */
   } scalars[] = {
     { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
-      o->loop_area_error, 0 },
+      o->loop_area_error, CHAOTIC },
     { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
-      o->dissipation_error, 0 },
-    { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error, 0 },
+      o->dissipation_error, CHAOTIC },
+    { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error,
+      CHAOTIC },
     { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
-      o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, 0 },
+      o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, CLOSED },
     { "phase_lag", "lag of the first harmonic behind the drive", "rad", o->phase_lag,
-      o->phase_lag_error, 0 },
+      o->phase_lag_error, CLOSED },
     { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error,
-      0 },
-    { "period", "drive periods until the orbit closes", "1", o->period, 0.0, 0 },
-    { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, 0 },
+      CHAOTIC },
+    { "period", "drive periods until the orbit closes", "1", o->period, 0.0, CLOSED },
+    { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, CLOSED },
     { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)w->well : NAN, 0.0,
-      0 },
+      CLOSED },
     { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
-      1 },
+      ALWAYS },
     { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", w->lyapunov,
-      w->lyapunov_error, 1 },
+      w->lyapunov_error, ALWAYS },
+    { "drift", "mean whole turns a drive period, of chaos", "1", w->drift, w->drift_error, CHAOTIC },
+    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers", "1",
+      w->watched_periods, 0.0, CHAOTIC },
+    { "escape_rate_bound", "largest rate of ending, a drive period, that is not excluded at 95 %",
+      "1", w->escape_rate_bound, 0.0, CHAOTIC },
   };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
-    const double value = w->closed || scalars[i].always ? scalars[i].value : NAN;
+    const int there = w->closed || scalars[i].of == ALWAYS ||
+                      (scalars[i].of == CHAOTIC && w->label == PENDRES_LABEL_CHAOTIC);
+    const double value = there ? scalars[i].value : NAN;
     const double error = isnan(value) ? NAN : scalars[i].error;
     status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value,
                  &error, 1);
@@ -279,6 +292,12 @@ static void tabulate(FILE *out, const work *w)
   if (isfinite(w->lyapunov))
     fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", w->closed ? 12 : 6, w->lyapunov,
             w->lyapunov_error);
+  if (w->label == PENDRES_LABEL_CHAOTIC)
+    fprintf(out, "%-26s %.4g drive periods; ends at less than %.1g a period, if at all\n"
+                 "%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n",
+            "watched for", w->watched_periods, w->escape_rate_bound, "drift", w->drift,
+            w->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
+            "mean amplitude", o->amplitude, o->amplitude_error);
   if (!w->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
   if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", w->well);
@@ -311,6 +330,7 @@ static pendres_status run_scene(scene_run *run)
   const deck *d = run->deck;
   work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples),
              .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
+             .drift = NAN, .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN,
              /* On a named attractor there is no transient. */
              .transient = d->orbit.transient && d->orbit.start[0] == '\0',
              .pendulum = { .damping = d->pendulum.damping,

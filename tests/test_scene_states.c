@@ -75,11 +75,17 @@ static void orbits_of_baker_and_gollub(void **state)
     assert_int_equal(scene_scalar(store, "label"), facts[i].label);
     if (facts[i].label != PENDRES_LABEL_CHAOTIC) {
       check_closed_orbit(store, &facts[i]);
+      assert_true(isnan(scene_scalar(store, "watched_periods")));
     } else {
       const double error = scene_scalar(store, "lyapunov_exponent_error");
       assert_true(error > 0.0 && scene_scalar(store, "lyapunov_exponent") > 5.0 * error);
-      assert_true(isnan(scene_scalar(store, "loop_area")) && isnan(scene_scalar(store, "loop_area_error")));
-      assert_true(isnan(scene_scalar(store, "period")) && isnan(scene_scalar(store, "amplitude")));
+      /* Means over time, and for how long: test_chaos.c compares them with other codes. */
+      assert_true(scene_scalar(store, "loop_area") > 30.0 * scene_scalar(store, "loop_area_error"));
+      assert_true(scene_scalar(store, "amplitude") > 30.0 * scene_scalar(store, "amplitude_error"));
+      check_near(scene_scalar(store, "drift"), 0.0, scene_scalar(store, "drift_error"));
+      assert_true(scene_scalar(store, "watched_periods") > 1e5);
+      check_near(scene_scalar(store, "escape_rate_bound"), 2.5e-5, 1e-6);
+      assert_true(isnan(scene_scalar(store, "period")) && isnan(scene_scalar(store, "phase_lag")));
     }
     free(x);
     pendres_store_free(store);
@@ -98,8 +104,14 @@ static void basins_of_baker_and_gollub(void **state)
     double *share = scene_values(store, "basin_fraction", &n);
     double *lyapunov = scene_values(store, "attractor_lyapunov", &n);
     double *of_state = scene_values(store, "label", &states);
+    double *watched = scene_values(store, "attractor_watched_periods", &n);
+    double *escape = scene_values(store, "attractor_escape_rate_bound", &n);
+    double *drift = scene_values(store, "attractor_drift", &n);
     assert_int_equal(n, facts[i].attractors);
     for (size_t k = 0; k < n; k++) {
+      const int chaotic = facts[i].label == PENDRES_LABEL_CHAOTIC;
+      assert_int_equal(isfinite(drift[k]) != 0, chaotic);
+      assert_true(chaotic ? watched[k] > 1e5 && escape[k] < 3e-5 : isnan(watched[k] + escape[k]));
       assert_int_equal(label[k], facts[i].label);
       assert_int_equal(lyapunov[k] > 0.0, facts[i].label == PENDRES_LABEL_CHAOTIC);
       sum += share[k];
@@ -111,6 +123,9 @@ static void basins_of_baker_and_gollub(void **state)
     free(label);
     free(share);
     free(lyapunov);
+    free(watched);
+    free(escape);
+    free(drift);
     free(of_state);
     pendres_store_free(store);
   }
