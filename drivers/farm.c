@@ -15,6 +15,8 @@ struct farm {
   farm_options options;
   int threads;
   int short_of;              /* threads that could be had, when there were fewer; else 0 */
+  pthread_mutex_t lock;      /* of `added` */
+  pendres_cost added;
   pendres_context **context; /* one a thread, made at its first task */
   char message[512];
 };
@@ -77,7 +79,8 @@ pendres_status farm_create(const farm_options *options, farm **out)
   f->options = *options;
   f->threads = options->threads > 0 ? options->threads : processors();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
-  if (f->context == NULL) {
+  if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
+    free(f->context);
     free(f);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -90,6 +93,7 @@ void farm_free(farm *f)
   if (f == NULL) return;
   for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
   free(f->context);
+  (void)pthread_mutex_destroy(&f->lock);
   free(f);
 }
 
@@ -291,17 +295,29 @@ int farm_threads(const farm *f)
   return f->threads;
 }
 
+static void add_cost(pendres_cost *sum, const pendres_cost *one)
+{
+  sum->pendulum_periods += one->pendulum_periods;
+  sum->rhs_evaluations += one->rhs_evaluations;
+  sum->steps += one->steps;
+  sum->newton_steps += one->newton_steps;
+  sum->settled_pendulums += one->settled_pendulums;
+}
+
+void farm_add_cost(farm *f, const pendres_cost *cost)
+{
+  pthread_mutex_lock(&f->lock);
+  add_cost(&f->added, cost);
+  pthread_mutex_unlock(&f->lock);
+}
+
 void farm_cost(const farm *f, pendres_cost *cost)
 {
-  *cost = (pendres_cost){ 0 };
+  *cost = f->added;
   for (int i = 0; i < f->threads; i++) {
     pendres_cost one = { 0 };
     if (f->context[i] == NULL) continue;
     pendres_context_cost(f->context[i], &one);
-    cost->pendulum_periods += one.pendulum_periods;
-    cost->rhs_evaluations += one.rhs_evaluations;
-    cost->steps += one.steps;
-    cost->newton_steps += one.newton_steps;
-    cost->settled_pendulums += one.settled_pendulums;
+    add_cost(cost, &one);
   }
 }

@@ -67,7 +67,10 @@ int farm_threads(const farm *f);
    that of pendres_langevin_set_interrupt. */
 int farm_stopped(void *farm);
 
-/* What all contexts have spent so far. */
+/* Add what tasks have spent without their contexts; any thread may. */
+void farm_add_cost(farm *f, const pendres_cost *cost);
+
+/* What all contexts have spent so far, and what was added. */
 void farm_cost(const farm *f, pendres_cost *cost);
 
 #endif

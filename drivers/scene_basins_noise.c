@@ -181,7 +181,7 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   if (status == PENDRES_OK)
     status =
       scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
-  pendres_langevin_free(lv);
+  scene_noise_close(w->farm, lv);
   return status;
 }
 
@@ -228,7 +228,7 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
   if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* all have left: an empty part */
   if (status == PENDRES_OK) keep_strobes(w, number, first, count, points, points + n);
   free(points);
-  pendres_langevin_free(lv);
+  scene_noise_close(w->farm, lv);
   return status;
 }
 

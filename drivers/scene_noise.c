@@ -20,6 +20,15 @@ pendres_status scene_noise_open(farm *f, int64_t seed, pendres_langevin **out)
   return status;
 }
 
+void scene_noise_close(farm *f, pendres_langevin *lv)
+{
+  pendres_cost cost;
+  if (lv == NULL) return;
+  pendres_langevin_cost(lv, &cost);
+  farm_add_cost(f, &cost);
+  pendres_langevin_free(lv);
+}
+
 /* Steele, Lea and Flood, OOPSLA 2014: the output function of SplitMix64. */
 static uint64_t mix(uint64_t z)
 {

@@ -17,6 +17,9 @@ enum {
 /* A handle for a task; it stops with the run. */
 pendres_status scene_noise_open(farm *f, int64_t seed, pendres_langevin **out);
 
+/* Free a handle, NULL is allowed, and count in the farm what it has spent. */
+void scene_noise_close(farm *f, pendres_langevin *lv);
+
 /* The first id of trajectories of a pendulum that start on attractor number `attractor`. Ids follow
    from parameters, so that results do not depend on what else a deck asks for. */
 uint64_t scene_noise_first_id(const pendres_pendulum *p, size_t attractor);

@@ -77,7 +77,7 @@ static pendres_status measure_state(const work *w, const pendres_response *r, si
   request.trajectories = trajectories;
   request.record = (long)w->d->noise.periods;
   if (status == PENDRES_OK) status = pendres_langevin_measure(lv, &request, cloud, NULL, NULL);
-  pendres_langevin_free(lv);
+  scene_noise_close(w->farm, lv);
   return status;
 }
 

@@ -86,7 +86,7 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
   if (status == PENDRES_OK)
     status = scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
   if (status == PENDRES_OK) w->steps[task] = 2 * bias.steps_per_period;
-  pendres_langevin_free(lv);
+  scene_noise_close(w->farm, lv);
   return status;
 }
 
@@ -125,7 +125,7 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
   if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_of(w));
   if (status == PENDRES_OK) status = pendres_switching_count(lv, &request, &w->tallies[task]);
-  pendres_langevin_free(lv);
+  scene_noise_close(w->farm, lv);
   return status;
 }
 

@@ -101,6 +101,21 @@ double pendres_langevin_spent(const pendres_langevin *lv)
   return lv != NULL && !pendres_guard_used_elsewhere(&lv->guard) ? lv->spent : NAN;
 }
 
+void pendres_langevin_count(pendres_langevin *lv, const pendres_langevin_block *b)
+{
+  const double n = (double)b->count;
+  lv->cost.pendulum_periods += n;
+  lv->cost.steps += n * b->steps;
+  lv->cost.rhs_evaluations += 2.0 * n * b->steps; /* a step has two kicks, each by one force */
+}
+
+void pendres_langevin_cost(const pendres_langevin *lv, pendres_cost *cost)
+{
+  if (cost == NULL) return;
+  *cost = (pendres_cost){ NAN, NAN, NAN, NAN, NAN };
+  if (lv != NULL && !pendres_guard_used_elsewhere(&lv->guard)) *cost = lv->cost;
+}
+
 void pendres_langevin_set_interrupt(pendres_langevin *lv, int (*stop)(void *arg), void *arg)
 {
   if (lv == NULL || pendres_guard_busy(&lv->guard)) return;
@@ -175,6 +190,7 @@ static pendres_status run(pendres_langevin *lv, size_t first, long first_period,
     if (status != PENDRES_OK) return status;
     pendres_langevin_block_period(b, (uint32_t)(first_period + k));
     lv->spent += (double)b->count;
+    pendres_langevin_count(lv, b);
     if (observer == NULL) continue;
     switch (show(lv, first, first_period + k + 1, observer)) {
     case PENDRES_LANGEVIN_GO_ON: break;

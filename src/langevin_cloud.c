@@ -183,6 +183,8 @@ static pendres_status follow(run *r, pendres_langevin_block *b, pendres_langevin
     if (status != PENDRES_OK) return status;
     r->exposure += (double)staying;
     r->lv->spent += (double)b->count * (coarse != NULL ? 3.0 : 1.0);
+    pendres_langevin_count(r->lv, b);
+    if (coarse != NULL) pendres_langevin_count(r->lv, coarse);
     if (coarse != NULL) {
       pendres_langevin_block_pair(b, coarse, (uint32_t)k);
       ask(r, coarse, first, k + 1);

@@ -15,6 +15,7 @@ struct pendres_langevin {
   pendres_langevin_block block;
   pendres_langevin_block partner; /* the coarse one of a pair; made when first asked for */
   double spent;
+  pendres_cost cost;
   int (*stop)(void *arg);
   void *stop_arg;
 };
@@ -34,6 +35,9 @@ pendres_status pendres_langevin_fail(pendres_langevin *lv, pendres_status status
 
 /* PENDRES_INTERRUPTED if the caller wants to stop. */
 pendres_status pendres_langevin_poll(pendres_langevin *lv);
+
+/* Count a period of a block's trajectories. */
+void pendres_langevin_count(pendres_langevin *lv, const pendres_langevin_block *b);
 
 /* Check one pendulum, its state and the periods asked for; index is for the message. */
 pendres_status pendres_langevin_accept(pendres_langevin *lv, const pendres_pendulum *p, double x,

@@ -172,6 +172,27 @@ static void test_input(void **state)
 }
 
 /* A point without a result: the file is there, and says so. */
+/* The provenance tells all that was done, what noise costs included. */
+static void test_cost_of_noise(void **state)
+{
+  pendres_store *store = NULL;
+  double periods = 0.0, forces = 0.0;
+  (void)state;
+  write_text("noise.nml", "&scene kind = 'switching' /\n"
+                          "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
+                          "&sweep temperature = 0.02 /\n&noise trajectories = 200, periods = 500 /\n");
+  check_code(RUN("-q", "-t", "2", "-o", "noise.h5", "noise.nml"), DONE);
+  assert_int_equal(pendres_store_open("noise.h5", &store), PENDRES_OK);
+  assert_int_equal(pendres_store_read(store, "provenance", "pendulum_periods",
+                                      PENDRES_STORE_DOUBLE, &periods, 1), PENDRES_OK);
+  assert_int_equal(pendres_store_read(store, "provenance", "rhs_evaluations",
+                                      PENDRES_STORE_DOUBLE, &forces, 1), PENDRES_OK);
+  pendres_store_free(store);
+  /* The trajectories themselves, at 8 steps a period at least; and choices and settling beside. */
+  assert_true(periods >= 200.0 * 500.0 && periods < 10.0 * 200.0 * 500.0);
+  assert_true(forces >= 2.0 * 8.0 * 200.0 * 500.0);
+}
+
 static void test_failed_points(void **state)
 {
   (void)state;
@@ -189,7 +210,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_run),   TEST(test_orbit),         TEST(test_transient),
-    TEST(test_input), TEST(test_failed_points),
+    TEST(test_input), TEST(test_failed_points), TEST(test_cost_of_noise),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -186,6 +186,13 @@ static void interruptions(void **state)
                    PENDRES_INTERRUPTED);
   check_near(x, 1.0, 0.0);
   check_near(pendres_langevin_spent(lv), 2.0, 0.0);
+  pendres_cost cost;
+  pendres_langevin_cost(lv, &cost);
+  check_near(cost.pendulum_periods, 2.0, 0.0); /* 16 steps a period, of two forces each */
+  check_near(cost.steps, 32.0, 0.0);
+  check_near(cost.rhs_evaluations, 64.0, 0.0);
+  pendres_langevin_cost(NULL, &cost);
+  assert_true(isnan(cost.pendulum_periods));
   pendres_langevin_set_interrupt(lv, NULL, NULL);
   const pendres_langevin_observer observer = {stop_at_two, &seen, 0};
   assert_int_equal(pendres_langevin_advance(lv, 1, &p, NULL, 0, 5, &x, &v, &observer),

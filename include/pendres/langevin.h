@@ -28,6 +28,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <pendres/context.h>
 #include <pendres/pendulum.h>
 #include <pendres/status.h>
 
@@ -65,6 +66,10 @@ pendres_status pendres_langevin_set_steps(pendres_langevin *lv, int steps_per_pe
 /** Pendulum-periods advanced since creation; a pair of pendres_langevin_bias counts three.
  *  NaN without a handle, and while another thread uses it. */
 double pendres_langevin_spent(const pendres_langevin *lv);
+
+/** What a handle has spent since its creation, both of a pair counted as what they are; a step
+ *  evaluates two forces. NaN without a handle, and while another thread uses it. */
+void pendres_langevin_cost(const pendres_langevin *lv, pendres_cost *cost);
 
 /** As pendres_context_set_interrupt: asked once a period of a block. */
 void pendres_langevin_set_interrupt(pendres_langevin *lv, int (*stop)(void *arg), void *arg);
