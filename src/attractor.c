@@ -150,7 +150,7 @@ static pendres_status attractors_settle(pendres_context *ctx, const pendres_attr
                                 "these are attractors of several parameter sets");
   pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
-  return pendres_settle_known(ctx, set->catalogues, n, x, v, 10.0 * ctx->options.tolerance,
+  return pendres_settle_known(ctx, set->catalogues, n, x, v, pendres_settle_accuracy(ctx),
                               PENDRES_SETTLE_FULL, outcome);
 }
 

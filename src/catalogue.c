@@ -35,19 +35,26 @@ void pendres_catalogue_clear(pendres_catalogue *c)
   free(c->trap);
   free(c->owner);
   for (size_t i = 0; i < c->covers; i++) free(c->cover[i]);
-  *c = (pendres_catalogue){.pendulum = c->pendulum, .effort = c->effort};
+  *c = (pendres_catalogue){.pendulum = c->pendulum, .effort = c->effort, .any_well = c->any_well};
+}
+
+const pendres_trap *pendres_catalogue_trap(const pendres_catalogue *c,
+                                           const pendres_strobe_lane *lane)
+{
+  for (size_t i = 0; i < c->traps; i++) {
+    const pendres_trap *t = &c->trap[i];
+    if (pendres_trap_norm2(t, lane->y, lane->w) <= t->radius * t->radius) return t;
+  }
+  return NULL;
 }
 
 int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
                              long *well)
 {
-  for (size_t i = 0; i < c->traps; i++) {
-    const pendres_trap *t = &c->trap[i];
-    if (pendres_trap_norm2(t, lane->y, lane->w) > t->radius * t->radius) continue;
-    *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / two_pi);
-    return c->owner[i];
-  }
-  return -1;
+  const pendres_trap *t = pendres_catalogue_trap(c, lane);
+  if (t == NULL) return -1;
+  *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / two_pi);
+  return c->owner[t - c->trap];
 }
 
 /* ---- numbering and labels ---- */

@@ -20,6 +20,7 @@ enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
 typedef struct pendres_catalogue {
   pendres_pendulum pendulum;
   pendres_trap_effort effort;
+  int any_well; /* nobody asks for the well that a pendulum settles in */
   size_t count, capacity;
   pendres_attractor *attractors;
   size_t traps, trap_capacity;
@@ -60,5 +61,9 @@ pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *
 /* The trap that a lane is in: its attractor and well; -1 if in none. */
 int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
                              long *well);
+
+/* The same trap itself; NULL if in none. */
+const pendres_trap *pendres_catalogue_trap(const pendres_catalogue *c,
+                                           const pendres_strobe_lane *lane);
 
 #endif

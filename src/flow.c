@@ -33,6 +33,7 @@ struct pendres_flow {
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
   double *coefficient[4]; /* stiffness, drive, friction, inverse */
+  double *off[4];         /* errors: yy, yw, ww, added; NULL until they are first carried */
   drive_memo memo;
   void *arkode;
   double evaluations, steps_taken;
@@ -89,7 +90,7 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
 {
   pendres_flow *flow = arg;
   (void)theta;
-  (void)y;
+  if (flow->shape.off.yy != NULL) pendres_lanes_carry(y, two_pi / flow->steps);
   flow->steps_taken += (double)flow->lanes;
   if (flow->steps_taken < flow->next_asked) return 0;
   flow->next_asked = flow->steps_taken + steps_between;
@@ -207,7 +208,10 @@ void pendres_flow_free(pendres_flow *flow)
   if (flow->state != NULL) N_VDestroy(flow->state);
   pendres_lanes_close(&flow->shape);
   free(flow->rows);
-  for (int i = 0; i < 4; i++) free(flow->coefficient[i]);
+  for (int i = 0; i < 4; i++) {
+    free(flow->coefficient[i]);
+    free(flow->off[i]);
+  }
   free(flow->memo.theta);
   free(flow->memo.cosine);
   free(flow);
@@ -251,7 +255,10 @@ void pendres_flow_resize(pendres_flow *flow, size_t lanes)
   /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
   for (size_t i = lanes; i < stride; i++) {
     for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
-    for (int c = 0; c < 4; c++) flow->coefficient[c][i] = 0.0;
+    for (int c = 0; c < 4; c++) {
+      flow->coefficient[c][i] = 0.0;
+      if (flow->off[c] != NULL) flow->off[c][i] = 0.0;
+    }
   }
 }
 
@@ -290,7 +297,38 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
   double *data = flow->rows;
   for (size_t r = 0; r < flow->shape.rows; r++)
     data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
-  for (int c = 0; c < 4; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
+  for (int c = 0; c < 4; c++) {
+    flow->coefficient[c][to] = flow->coefficient[c][from];
+    if (flow->off[c] != NULL) flow->off[c][to] = flow->off[c][from];
+  }
+}
+
+pendres_status pendres_flow_carry(pendres_flow *flow, int on)
+{
+  flow->shape.off = (pendres_carried){0};
+  if (!on) return PENDRES_OK;
+  if (flow->shape.rows != PENDRES_ROWS_STATE || flow->tolerance != 0.0)
+    return PENDRES_INVALID_ARGUMENT;
+  for (int i = 0; i < 4; i++) {
+    if (flow->off[i] == NULL) flow->off[i] = pendres_lanes_allocate(flow->shape.capacity);
+    if (flow->off[i] == NULL) return PENDRES_OUT_OF_MEMORY;
+  }
+  flow->shape.off = (pendres_carried){flow->off[0], flow->off[1], flow->off[2], flow->off[3]};
+  return PENDRES_OK;
+}
+
+void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
+                            double added)
+{
+  flow->off[0][lane] = error->yy;
+  flow->off[1][lane] = error->yw;
+  flow->off[2][lane] = error->ww;
+  flow->off[3][lane] = added;
+}
+
+pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
+{
+  return (pendres_flow_error){flow->off[0][lane], flow->off[1][lane], flow->off[2][lane]};
 }
 
 double *pendres_flow_state(pendres_flow *flow)

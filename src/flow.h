@@ -54,6 +54,21 @@ size_t pendres_flow_capacity(const pendres_flow *flow);
 void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
                            double w);
 
+/* What a lane is off by: variance of y, of y and w, of w. */
+typedef struct pendres_flow_error {
+  double yy, yw, ww;
+} pendres_flow_error;
+
+/*
+ * From now on carry the errors of the lanes along, or no longer; blocks of states with fixed steps
+ * only. Each step adds the lane's `added` to the variance of y, and to that of v = omega w; what is
+ * there grows and shrinks as the equation linearised along the trajectory has it.
+ */
+pendres_status pendres_flow_carry(pendres_flow *flow, int on);
+void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
+                            double added);
+pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane);
+
 /* Copy a lane with all its coefficients. */
 void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
 

@@ -163,6 +163,35 @@ static void rhs_sensitivity(size_t stride, const pendres_coefficients *k, double
   }
 }
 
+/*
+ * Errors over the step from half a step before a state to half a step after it: half a step's
+ * drift, what spring and drag at the state make of it (the drag's by the mean of both ends, so that
+ * it contracts however large it is), and the other half.
+ */
+static void carry(const pendres_strip *s, const pendres_operation *o)
+{
+  const double *restrict y = o->from + s->at, *restrict added = s->off.added;
+  const double *restrict stiffness = s->k.stiffness, *restrict friction = s->k.friction;
+  double *restrict yy = s->off.yy, *restrict yw = s->off.yw, *restrict ww = s->off.ww;
+  const double step = o->carry, half = 0.5 * step;
+#pragma omp simd
+  for (size_t i = 0; i < s->lanes; i++) {
+    double sine, cosine;
+    pendres_kernels_sincos(y[i], &sine, &cosine);
+    const double drag = half * friction[i], scale = 1.0 / (1.0 + drag);
+    const double keep = (1.0 - drag) * scale, kick = step * stiffness[i] * cosine * scale;
+    double b = FMA(half, ww[i], yw[i]);
+    double a = FMA(half, yw[i] + b, yy[i]);
+    const double mixed = FMA(keep, b, -(kick * a));
+    const double c = FMA(keep, FMA(keep, ww[i], -(kick * b)), -(kick * mixed));
+    b = FMA(half, c, mixed);
+    a = FMA(half, mixed + b, a);
+    yy[i] = a + added[i];
+    yw[i] = b;
+    ww[i] = FMA(stiffness[i], added[i], c);
+  }
+}
+
 /* What is neither sum nor slope, of n elements from `at` on. */
 static void set(const pendres_operation *o, size_t at, size_t n)
 {
@@ -200,6 +229,8 @@ PENDRES_VECTOR_INLINE void run_state(int count, const pendres_strip *s, const pe
     } else if (o->slope != NULL) {
       for (; lane + step <= s->lanes; lane += step) slope_vectors(count, s, lane, o);
       for (; lane < s->lanes; lane += REST * LANES) slope_vectors(REST, s, lane, o);
+    } else if (o->carry != 0.0) {
+      carry(s, o);
     } else {
       set(o, s->at, size);
     }

@@ -55,6 +55,7 @@ typedef struct pendres_sum {
  *                     needs z any more, and its contents are undefined
  *   from, slope       slope = right-hand side at from, another vector
  *   from, to          to = from
+ *   from, carry       the errors of the strip's lanes over a step of this length that ends at from
  *   to                to = 0
  *   nothing           nothing
  */
@@ -63,14 +64,26 @@ typedef struct pendres_operation {
   const double *from;
   double *to, *slope;
   double cos_theta;
+  double carry; /* 0: errors are not carried */
   int keep;
 } pendres_operation;
+
+/*
+ * What each lane is off by, as variances: of y, of y and w, of w; and the variance that a step adds
+ * to y, to w by 1/omega^2 as much. Carried along with steps of second order, which cost a
+ * twentieth of the state's own: a growth within a few per cent is all that is asked of them.
+ */
+typedef struct pendres_carried {
+  double *yy, *yw, *ww;
+  const double *added;
+} pendres_carried;
 
 /* A few lanes side by side: where in each vector they are, and their coefficients. */
 typedef struct pendres_strip {
   size_t lanes; /* a multiple of 8 */
   size_t at;    /* a vector's rows are at x + at, x + at + lanes, ... */
   pendres_coefficients k;
+  pendres_carried off; /* read and written where errors are carried */
 } pendres_strip;
 
 typedef struct pendres_kernels {

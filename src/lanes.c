@@ -149,6 +149,11 @@ void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta)
   pendres_lanes_tape_slope(of(y)->shape, y, slope, cos_theta);
 }
 
+void pendres_lanes_carry(N_Vector y, double step)
+{
+  pendres_lanes_tape_carry(of(y)->shape, y, step);
+}
+
 static int linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
   if (n > PENDRES_KERNELS_TERMS) return -1;

@@ -36,6 +36,7 @@ typedef struct pendres_lanes_shape {
   int norm_unused; /* fixed steps: nobody reads the norm, so do not compute it */
   const pendres_kernels *kernels;
   pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */
+  pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
   size_t vectors;                    /* made so far, for their place in the cache */
   struct pendres_lanes_tape *tape;   /* what was put off */
 } pendres_lanes_shape;
@@ -67,5 +68,8 @@ void pendres_lanes_read(N_Vector v, double *rows);
 
 /* slope = the right-hand side at y, of the equation that belongs to the number of rows. */
 void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta);
+
+/* The errors of the lanes over a step of this length that has ended at y. */
+void pendres_lanes_carry(N_Vector y, double step);
 
 #endif

@@ -51,10 +51,14 @@ void pendres_lanes_tape_run(pendres_lanes_shape *s)
   for (size_t lane = 0, lanes; lane < s->stride; lane += lanes) {
     const pendres_coefficients *k = &s->coefficients;
     lanes = pendres_lanes_strip(s, lane);
-    const pendres_strip strip = {
+    const pendres_carried *off = &s->off;
+    pendres_strip strip = {
       .lanes = lanes,
       .at = s->rows * lane,
       .k = {k->stiffness + lane, k->drive + lane, k->friction + lane, k->inverse + lane}};
+    if (off->yy != NULL)
+      strip.off =
+        (pendres_carried){off->yy + lane, off->yw + lane, off->ww + lane, off->added + lane};
     s->kernels->run(s->rows, &strip, t->operation, t->operations);
   }
   t->operations = 0;
@@ -151,9 +155,16 @@ void pendres_lanes_tape_copy(pendres_lanes_shape *s, N_Vector from, N_Vector to)
   note(s->tape, o, pendres_lanes_of(from)->bit, to);
 }
 
+void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step)
+{
+  pendres_operation *o = next(s);
+  *o = (pendres_operation){.from = data_of(y), .carry = step};
+  s->tape->unread &= ~pendres_lanes_of(y)->bit;
+}
+
 /*
- * The sum put off that made y, if the slope at y may be taken in the same go: nothing but a copy
- * came after it, and one that has nothing to do with the slope.
+ * The sum put off that made y, if the slope at y may be taken in the same go: nothing but errors
+ * that were carried and a copy came after it, and one that has nothing to do with the slope.
  */
 static pendres_operation *made_by(pendres_lanes_tape *t, const double *y, const double *slope)
 {
@@ -161,6 +172,7 @@ static pendres_operation *made_by(pendres_lanes_tape *t, const double *y, const 
   if (t->operations > 1 && o[-1].from != NULL && o[-1].to != NULL && o[-1].to != y &&
       o[-1].to != slope && o[-1].from != slope)
     o--;
+  if (o > t->operation && o[-1].carry != 0.0) o--;
   if (o == t->operation || o[-1].sum == NULL || o[-1].slope != NULL || o[-1].to != y) return NULL;
   return o - 1;
 }

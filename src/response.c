@@ -28,7 +28,6 @@ typedef struct sums {
   double loop_share, loop_error, loop_amplitude_error;
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS];
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
-  size_t attractors; /* that have members */
 } sums;
 
 /* Whole turns again and again: such a motion has no amplitude and no loop. */
@@ -39,22 +38,27 @@ static int running(const pendres_attractor *a)
                                            : a->orbit.winding != 0;
 }
 
+/* Of an attractor that no member has been found on, an uncertain one may still be. */
+static void add_extremes(sums *s, const pendres_attractor *a)
+{
+  const pendres_orbit *o = &a->orbit;
+  s->least = fmin(s->least, o->loop_area);
+  s->most = fmax(s->most, o->loop_area);
+  if (!running(a)) s->widest = fmax(s->widest, o->amplitude);
+}
+
 static void add_attractor(sums *s, const pendres_attractor *a, double share)
 {
   const pendres_orbit *o = &a->orbit;
-  s->attractors++;
   s->area += share * o->loop_area;
   s->area_error += share * o->loop_area_error;
   s->power += share * o->mean_power;
   s->power_error += share * o->mean_power_error;
   s->largest = fmax(s->largest, fabs(o->loop_area));
-  s->least = fmin(s->least, o->loop_area);
-  s->most = fmax(s->most, o->loop_area);
   if (running(a)) return;
   s->amplitude_share += share;
   s->amplitude += share * o->amplitude;
   s->amplitude_error += share * o->amplitude_error;
-  s->widest = fmax(s->widest, o->amplitude);
   if (a->label == PENDRES_LABEL_CHAOTIC) return;
   s->loop_share += share;
   s->loop_error += share * o->x_error;
@@ -102,6 +106,7 @@ static void average(pendres_response *r, const parted *p)
   if (resolved == 0) return;
 
   for (size_t i = 0; i < p->attractors; i++) {
+    add_extremes(&s, &p->attractor[i]);
     if (p->members[i] == 0) continue;
     add_attractor(&s, &p->attractor[i], (double)p->members[i] / (double)resolved);
     if (p->attractor[i].label == PENDRES_LABEL_SA) sa += (double)p->members[i];
@@ -109,7 +114,7 @@ static void average(pendres_response *r, const parted *p)
   }
   const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
   /* An uncertain member may belong to any state, but to one of those that are there. */
-  const double doubt = s.attractors > 1 ? (double)r->uncertain / members : 0.0;
+  const double doubt = p->attractors > 1 ? (double)r->uncertain / members : 0.0;
   const double area_doubt = lost * s.largest + doubt * (s.most - s.least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state. */
@@ -208,6 +213,7 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
   }
   for (size_t s = 0; s < sets; s++) {
     catalogues[s].pendulum = pendulums[s];
+    catalogues[s].any_well = 1;
     for (size_t k = 1; k <= e->members; k++) {
       const size_t i = s * e->members + k - 1;
       set[i] = s;

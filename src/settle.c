@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "context_internal.h"
+#include "settle_certain.h"
 #include "settle_hunt.h"
 #include "settle_lanes.h"
 #include "steps.h"
@@ -15,15 +16,6 @@
 enum { SCOUTS = 12 /* members of a parameter set sent ahead */ };
 
 /* ---- batches ---- */
-
-static pendres_status load_lane(pendres_context *ctx, const pendres_pendulum *p, double x, double v,
-                                pendres_strobe_lane *lane)
-{
-  *lane = (pendres_strobe_lane){.pendulum = p, .w = v / p->drive_frequency};
-  pendres_strobe_angle(x, &lane->y, &lane->turns);
-  /* An error of the size of the tolerance moves a basin's boundary by about as much. */
-  return pendres_steps_choose(ctx, p, fabs(v), 10.0 * ctx->options.tolerance, &lane->steps);
-}
 
 /* Members of a set are consecutive: every so many of them is sent ahead. */
 static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
@@ -70,22 +62,33 @@ static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catal
   return status;
 }
 
+double pendres_settle_accuracy(const pendres_context *ctx)
+{
+  /* An error of the size of the tolerance moves a basin's boundary by about as much; a loose one
+     would leave most labels in doubt. */
+  return fmin(10.0 * ctx->options.tolerance, 1e-5);
+}
+
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_catalogue *catalogues, int explore, size_t n,
                                     const size_t *set, const double *x, const double *v,
                                     pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
+  const double accuracy = pendres_settle_accuracy(ctx);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes), *starts = NULL;
+  double *doubt = malloc((n + 1) * sizeof *doubt);
   long *budget = malloc((sets + 1) * sizeof *budget);
   if (explore) starts = malloc((n + 1) * sizeof *starts);
-  if (lanes == NULL || budget == NULL || (explore && starts == NULL)) {
+  if (lanes == NULL || doubt == NULL || budget == NULL || (explore && starts == NULL)) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     outcome[i] = pendres_settle_unresolved;
-    status = load_lane(ctx, &catalogues[set[i]].pendulum, x[i], v[i], &lanes[i]);
+    doubt[i] = NAN;
+    status = pendres_settle_load(ctx, &catalogues[set[i]].pendulum, x[i], v[i], accuracy,
+                                 &lanes[i]);
     if (explore) starts[i] = lanes[i];
   }
   for (size_t s = 0; s < sets; s++) {
@@ -96,19 +99,23 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   if (explore && status == PENDRES_OK)
     status = send_scouts(ctx, sets, catalogues, n, set, lanes);
   pendres_settle_labelling l = {
-    .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome};
+    .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
   if (explore && status == PENDRES_OK)
     status = pendres_settle_hunt(
       ctx, &(pendres_settle_quarry){.sets = sets, .catalogues = catalogues, .budget = budget,
                                     .n = n, .set = set, .starts = starts, .lanes = lanes,
                                     .outcome = outcome});
+  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
+                                            .accuracy = accuracy};
+  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
   if (explore && status == PENDRES_OK)
     status = order_all(ctx, sets, catalogues, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
   free(starts);
+  free(doubt);
   free(budget);
   return status;
 }
@@ -163,7 +170,9 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
   size_t *order = malloc((n + 1) * sizeof *order);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
   pendres_outcome *found = malloc((n + 1) * sizeof *found);
-  if (table == NULL || steps == NULL || order == NULL || lanes == NULL || found == NULL) {
+  double *doubt = malloc((n + 1) * sizeof *doubt), *found_doubt = malloc((n + 1) * sizeof *doubt);
+  if (table == NULL || steps == NULL || order == NULL || lanes == NULL || found == NULL ||
+      doubt == NULL || found_doubt == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
     goto done;
   }
@@ -176,15 +185,28 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
     const size_t i = order[k];
     found[k] = pendres_settle_unresolved;
     lanes[k] = (pendres_strobe_lane){
-      .pendulum = p, .w = v[i] / p->drive_frequency, .steps = steps[i]};
+      .pendulum = p, .w = v[i] / p->drive_frequency, .steps = steps[i],
+      .added = k > 0 && lanes[k - 1].steps == steps[i]
+                 ? lanes[k - 1].added
+                 : pendres_settle_added(ctx, accuracy, steps[i])};
     pendres_strobe_angle(x[i], &lanes[k].y, &lanes[k].turns);
+    found_doubt[k] = NAN;
   }
   long most = pendres_settle_last_budget(ctx, catalogue);
   const long soon = pendres_settle_first_budget(p);
   if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
-  pendres_settle_labelling l = {.catalogues = catalogue, .budget = &most, .outcome = found};
+  pendres_settle_labelling l = {.catalogues = catalogue, .budget = &most, .outcome = found,
+                                .doubt = found_doubt};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) outcome[order[k]] = found[k];
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    outcome[order[k]] = found[k];
+    doubt[order[k]] = found_doubt[k];
+  }
+  l.outcome = outcome;
+  l.doubt = doubt;
+  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
+                                            .accuracy = accuracy};
+  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(table);
@@ -192,5 +214,7 @@ done:
   free(order);
   free(lanes);
   free(found);
+  free(doubt);
+  free(found_doubt);
   return status;
 }

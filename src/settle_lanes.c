@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "steps.h"
+#include "strobe_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -40,6 +42,28 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalo
   return (long)ceil(fmin(most, 1e8));
 }
 
+int pendres_settle_carries(const pendres_context *ctx)
+{
+  return ctx->options.method == PENDRES_BLOCK_FIXED && ctx->options.steps_per_period == 0;
+}
+
+double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps)
+{
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
+  if (!pendres_settle_carries(ctx)) return 0.0;
+  return accuracy * accuracy / steps + rounding * rounding;
+}
+
+pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                   double v, double accuracy, pendres_strobe_lane *lane)
+{
+  *lane = (pendres_strobe_lane){.pendulum = p, .w = v / p->drive_frequency};
+  pendres_strobe_angle(x, &lane->y, &lane->turns);
+  const pendres_status status = pendres_steps_choose(ctx, p, fabs(v), accuracy, &lane->steps);
+  if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
+  return status;
+}
+
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
 {
   const long k = h->filled++ % PENDRES_SETTLE_HISTORY;
@@ -62,6 +86,37 @@ static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *
 }
 
 /*
+ * How much larger an error is than what a label can bear. An error carried as a standard deviation
+ * counts three times. Inside a trap a twentieth of the radius is free (trap.h). On the way
+ * there the error has to stay small against the structure of the basins as far as it has unfolded:
+ * near a boundary, error and distance to it grow alike, until the distance is that of different
+ * fates, of order one; a thirtieth of that is borne.
+ */
+static const double deviations = 3.0, borne = 0.03;
+
+static double doubt_on_way(double worst)
+{
+  return deviations * sqrt(worst) / borne;
+}
+
+static double doubt_in_trap(const pendres_trap *t, const pendres_strobe_lane *lane)
+{
+  const pendres_flow_error *e = &lane->off;
+  const double variance =
+    t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
+  const double here = deviations * sqrt(variance) / (pendres_trap_margin * t->radius);
+  const double before = doubt_on_way(lane->worst);
+  if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
+  return isnan(before) || before > here ? before : here;
+}
+
+static void judge(const pendres_settle_labelling *l, size_t i, double doubt)
+{
+  l->outcome[i].certain = doubt <= 1.0; /* what is no number is not */
+  if (l->doubt != NULL) l->doubt[i] = doubt;
+}
+
+/*
  * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
  * transients are over.
  */
@@ -69,13 +124,14 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_ca
                    const pendres_strobe_lane *lane)
 {
   const int streak = l->streak[i] = longer_streak(c, lane, l->streak[i]);
+  if (streak % STREAK_SCALE <= 1) l->entry[i] = lane->worst;
   if (streak % STREAK_SCALE < CHAOTIC_STREAK) return 0;
   if (lane->period < pendres_settle_first_budget(&c->pendulum)) return 0;
   l->outcome[i] =
     (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
                       .attractor = c->cover[streak / STREAK_SCALE]->attractor,
-                      .settling_periods = lane->period - streak % STREAK_SCALE + 1,
-                      .certain = 1};
+                      .settling_periods = lane->period - streak % STREAK_SCALE + 1};
+  judge(l, i, lane->added > 0.0 ? doubt_on_way(l->entry[i]) : NAN);
   return 1;
 }
 
@@ -88,7 +144,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_ca
   o->attractor = attractor;
   o->label = c->attractors[attractor].label;
   o->settling_periods = lane->period;
-  o->certain = 1;
+  judge(l, i, doubt_in_trap(pendres_catalogue_trap(c, lane), lane));
   return 1;
 }
 
@@ -128,7 +184,8 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
   }
   if (covers) {
     l->streak = calloc(n, sizeof *l->streak);
-    if (l->streak == NULL) goto no_memory;
+    l->entry = calloc(n, sizeof *l->entry);
+    if (l->streak == NULL || l->entry == NULL) goto no_memory;
   }
   l->origin = origin;
   status = pendres_strobe_run(ctx, left, rest, settle_look, l);
@@ -142,7 +199,9 @@ no_memory:
   (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
 done:
   free(l->streak);
+  free(l->entry);
   l->streak = NULL;
+  l->entry = NULL;
   free(rest);
   free(origin);
   return status;

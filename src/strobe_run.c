@@ -101,6 +101,7 @@ typedef struct block {
   pendres_strobe_lane *lanes;
   size_t *slot; /* which lane sits in a slot of the block */
   size_t filled;
+  int carry; /* errors */
   pendres_strobe_visit *visit;
   void *arg;
 } block;
@@ -110,6 +111,7 @@ static void put(block *b, size_t slot, size_t index)
   const pendres_strobe_lane *l = &b->lanes[index];
   b->slot[slot] = index;
   pendres_flow_set_lane(b->flow, slot, l->pendulum, l->y, l->w);
+  if (b->carry) pendres_flow_set_error(b->flow, slot, &l->off, l->added);
 }
 
 /* Take the states over from the block after a period; returns whether the lane is done. */
@@ -124,6 +126,11 @@ static int look(block *b, size_t slot)
   pendres_strobe_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   state[slot] = l->y;
   state[stride + slot] = l->w;
+  if (b->carry) {
+    l->off = pendres_flow_get_error(b->flow, slot);
+    const double off = l->off.yy + l->off.ww;
+    if (!(off <= l->worst)) l->worst = off; /* no number is no error to live with */
+  }
   return b->visit(b->arg, b->slot[slot], l);
 }
 
@@ -204,12 +211,17 @@ static pendres_status run_blocks(pendres_context *ctx, size_t n, pendres_strobe_
     queue[i] = (pendres_strobe_rank){.steps = adaptive ? 1 : lanes[i].steps, .index = i};
   pendres_strobe_order(n, queue);
 
+  b.carry = !adaptive && lanes[0].added > 0.0;
+  if (b.carry) status = pendres_flow_carry(b.flow, 1);
+  if (status != PENDRES_OK)
+    (void)pendres_context_fail(ctx, status, "out of memory for the errors of %zu lanes", n);
   for (size_t first = 0; first < n && status == PENDRES_OK;) {
     size_t last = first;
     while (last < n && queue[last].steps == queue[first].steps) last++;
     status = run_class(&b, queue + first, last - first);
     first = last;
   }
+  if (b.carry) (void)pendres_flow_carry(b.flow, 0);
 done:
   free(queue);
   free(b.slot);

@@ -12,6 +12,8 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
+#include "flow.h"
+
 /* One pendulum under way. y is kept within half a turn of zero; whole turns are counted. */
 typedef struct pendres_strobe_lane {
   const pendres_pendulum *pendulum; /* not owned */
@@ -19,6 +21,10 @@ typedef struct pendres_strobe_lane {
   long turns;                       /* whole turns taken out of y */
   long period;                      /* strobes so far */
   int steps;                        /* a period; unused by adaptive methods */
+  double added;                     /* variance that a step adds to y's error (flow.h); 0: errors
+                                       are not carried. Fixed steps only */
+  pendres_flow_error off;           /* what y and w are off by */
+  double worst;                     /* largest variance at a strobe so far, of y and w together */
 } pendres_strobe_lane;
 
 /* A lane's place in a list, and its steps. */
@@ -35,7 +41,8 @@ typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_l
 
 /*
  * Run n lanes until visit() has declared each of them done. Lanes keep their final state.
- * Pendulums with the same steps a period share blocks; retired lanes are replaced at once.
+ * Pendulums with the same steps a period share blocks; retired lanes are replaced at once. Errors
+ * are carried along if the first lane says so.
  */
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);

@@ -40,8 +40,6 @@ static const double home_share = 0.9;
 /* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
    to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
 static const double widest_gap = 1.0;
-/* A ring shown to lie in the basin counts with this share of its radius. */
-static const double margin = 0.95;
 
 /*
  * Close to a fold one direction is slow, and the metric below would make the ellipse short just
@@ -412,7 +410,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       judge(&s[i], points, &orbits[s[i].orbit], effort);
-      traps[s[i].orbit].radius = margin * s[i].proven;
+      traps[s[i].orbit].radius = (1.0 - pendres_trap_margin) * s[i].proven;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
     left = again;

@@ -34,6 +34,10 @@ static inline double pendres_trap_norm2(const pendres_trap *t, double y, double 
   return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
 }
 
+/* The radius is that of the largest ring shown to lie in the basin, less this share of it: so much
+   room is left for the error of a pendulum that is inside. */
+static const double pendres_trap_margin = 0.05;
+
 /* How hard to look for large traps. */
 typedef enum pendres_trap_effort {
   PENDRES_TRAP_FEW = 0, /* for ensembles of hundreds: the radius within a factor 1.5 */

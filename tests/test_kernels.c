@@ -243,7 +243,7 @@ static void sines(const pendres_kernels *k, const double *y, double *sine, size_
   double *minus = pendres_lanes_allocate(LANES), *zero = pendres_lanes_allocate(LANES);
   assert_true(x && slope && minus && zero);
   for (int i = 0; i < LANES; i++) minus[i] = -1.0;
-  const pendres_strip s = {LANES, 0, {minus, zero, zero, zero}};
+  const pendres_strip s = {.lanes = LANES, .k = {minus, zero, zero, zero}};
   const pendres_operation o = {.from = x, .slope = slope, .cos_theta = 0.0};
   for (size_t done = 0; done < n; done += LANES) {
     const size_t now = n - done < LANES ? n - done : LANES;
