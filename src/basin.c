@@ -16,12 +16,23 @@ enum {
   MOST_EXTENSIONS = 4
 };
 
+/* As in strobe_run.h: positions beyond, and those that speeds beyond lead to, are not known. */
+static const double farthest = 1e15;
+
 static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
                                  const pendres_basin_grid *grid)
 {
   if (set->sets != 1 || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "a grid needs x and v, and attractors of one parameter set");
+  /* The attractors' parameters are good: what is left are the states. */
+  for (size_t i = 0; i < grid->nx + grid->nv; i++) {
+    const double value = i < grid->nx ? grid->x[i] : grid->v[i - grid->nx];
+    if (!(fabs(value) <= farthest))
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "%c of a grid must be finite, and 1e15 at most",
+                                  i < grid->nx ? 'x' : 'v');
+  }
   return PENDRES_OK;
 }
 
@@ -69,6 +80,7 @@ static double smallest_spacing(size_t n, const double *values)
 
 double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid)
 {
+  if (ctx == NULL || grid == NULL || grid->x == NULL || grid->v == NULL) return NAN;
   const double spacing =
     fmin(smallest_spacing(grid->nx, grid->x), smallest_spacing(grid->nv, grid->v));
   const double finest = 10.0 * ctx->options.tolerance;
@@ -196,6 +208,9 @@ static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set
   const size_t scouts = n < EXTEND_SCOUTS ? n : EXTEND_SCOUTS, before = set->count;
   for (size_t k = 0; k < scouts; k++) {
     const size_t one = index[k * n / scouts];
+    if (one / grid->nv >= grid->nx)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
+                                  one);
     x[k] = grid->x[one / grid->nv];
     v[k] = grid->v[one % grid->nv];
   }

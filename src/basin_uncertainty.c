@@ -104,6 +104,13 @@ static pendres_status basin_uncertainty(pendres_context *ctx, const pendres_attr
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "an uncertainty exponent needs states and at least %d distances",
                                 LEAST_SCALES);
+  int bad = !(window->x_low < window->x_high && window->v_low < window->v_high &&
+              fmax(fmax(fabs(window->x_low), fabs(window->x_high)),
+                   fmax(fabs(window->v_low), fabs(window->v_high))) <= 1e15);
+  for (int k = 0; k < scales; k++) bad |= !(distance[k] > 0.0 && distance[k] <= 1e15);
+  if (bad)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "an uncertainty exponent needs a window and positive distances");
   pendres_scatter counts = {0};
   *out = (pendres_basin_statistics){.states = n, .scales = scales,
                                     .entropy = NAN, .entropy_error = NAN, .boundary_entropy = NAN,

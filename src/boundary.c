@@ -9,6 +9,7 @@
 
 #include "boundary_grow.h"
 #include "context_internal.h"
+#include "orbit_newton.h"
 #include "steps.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -213,14 +214,16 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
                                     const pendres_boundary_options *options, pendres_boundary **out)
 {
   if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
-  if (saddle->period < 1)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: this is no orbit");
+  const char *no_orbit = pendres_orbit_refuses(saddle);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", no_orbit);
   *out = NULL;
   pendres_boundary_options o = {0};
   const char *why = NULL;
   if (options != NULL) o = *options;
   why = resolve(&o);
   if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
+  if (why == NULL && saddle->stable) why = "an attractor has no stable manifold that bounds a basin";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
 
   pendres_boundary *b = calloc(1, sizeof *b);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "context_internal.h"
+#include "orbit_newton.h"
 #include "continuation_walk.h"
 
 enum { MOST_ADVANCES = 300 };
@@ -65,8 +66,9 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
                                   pendres_orbit *out)
 {
   if (attractor == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractor and out");
-  if (attractor->period < 1)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: this is no orbit");
+  const char *no_orbit = pendres_orbit_refuses(attractor);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: %s", no_orbit);
   pendres_status status = PENDRES_NOT_FOUND;
   /* Softening springs: a small orbit's fold is above its frequency, a large one's below. */
   for (int i = 0; i < 2 && status == PENDRES_NOT_FOUND; i++) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "context_internal.h"
+#include "orbit_newton.h"
 #include "continuation_locate.h"
 
 enum { MOST_BIFURCATIONS = 256 };
@@ -282,7 +283,8 @@ done:
 
 /* ---- following ---- */
 
-static const char *check(const pendres_branch_options *o)
+const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
+                                   const pendres_orbit *starts)
 {
   if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
   if (!(o->low < o->high && isfinite(o->low) && isfinite(o->high)))
@@ -291,6 +293,10 @@ static const char *check(const pendres_branch_options *o)
     return "drive frequencies must be positive";
   if (o->parameter == PENDRES_DAMPING && !(o->low >= 0.0)) return "damping must not be negative";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
+  for (size_t i = 0; i < n; i++) {
+    const char *why = pendres_orbit_refuses(&starts[i]);
+    if (why != NULL) return why;
+  }
   return NULL;
 }
 
@@ -313,7 +319,7 @@ static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendre
   for (size_t i = 0; i < n; i++) out[i] = NULL;
   if (n == 0) return PENDRES_OK;
   const pendres_branch_options *o = options;
-  const char *why = check(o);
+  const char *why = pendres_branch_refuses(o, n, starts);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
 
   size_t which = 0;
@@ -396,6 +402,8 @@ static pendres_status branch_cross(pendres_context *ctx, const pendres_branch *b
 {
   if (b == NULL || found == NULL || (room > 0 && out == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
   *found = 0;
   const int closed = b->end[0] == PENDRES_END_CLOSED;
   const size_t chords = b->count > 1 ? (closed ? b->count : b->count - 1) : 0;
@@ -445,6 +453,9 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "no branch crosses at a bifurcation of this kind");
+  const char *why = pendres_orbit_refuses(&at->orbit);
+  if ((unsigned)at->parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;

@@ -23,6 +23,10 @@ struct pendres_branch {
 pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
                                  double spacing, double u[PENDRES_U_COUNT]);
 
+/* NULL, or what is wrong with options and starts: a static sentence. */
+const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,
+                                   const pendres_orbit *starts);
+
 /* The parameter of point i. */
 double pendres_branch_value(const pendres_branch *branch, size_t i);
 

@@ -168,6 +168,8 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
   if (options == NULL || out == NULL || (n > 0 && orbits == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "orbits, options and out");
   *out = NULL;
+  const char *why = pendres_branch_refuses(options, n, orbits);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branches: %s", why);
   pendres_status status = PENDRES_OK;
   pendres_branches *set = calloc(1, sizeof *set);
   if (set == NULL)

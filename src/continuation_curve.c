@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "context_internal.h"
+#include "orbit_newton.h"
 #include "continuation_locate.h"
 #include "continuation_stencil.h"
 #include "continuation_trail.h"
@@ -237,8 +238,12 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
       return "a parameter's range is empty";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   for (size_t i = 0; i < n; i++) {
-    if (starts[i].kind == PENDRES_REGULAR) return "a start is no bifurcation";
+    if (starts[i].kind == PENDRES_REGULAR ||
+        (unsigned)starts[i].kind > PENDRES_SYMMETRY_BREAKING)
+      return "a start is no bifurcation";
     if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+    const char *why = pendres_orbit_refuses(&starts[i].orbit);
+    if (why != NULL) return why;
     if (starts[i].parameter == o->second) return "the second parameter is the first once more";
   }
   return NULL;
@@ -300,6 +305,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
 {
   if (c == NULL || found == NULL || (room > 0 && out == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "curve, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
   *found = 0;
   const int closed = c->end[0] == PENDRES_END_CLOSED;
   const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
@@ -380,7 +387,11 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
   if (near->kind != PENDRES_FOLD)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
-  if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter)
+  const char *no_orbit = pendres_orbit_refuses(&near->orbit);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", no_orbit);
+  if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter ||
+      (unsigned)near->parameter >= PENDRES_PARAMETER_COUNT)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "cusp: the second parameter must be another one than the fold's");
   double u[PENDRES_U_COUNT], approach[2];

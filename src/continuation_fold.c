@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "context_internal.h"
+#include "orbit_newton.h"
 #include "continuation_locate.h"
 #include "continuation_walk.h"
 
@@ -55,8 +56,9 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
 static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
 {
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
-  if (near->period < 1)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: this is no orbit");
+  const char *no_orbit = pendres_orbit_refuses(near);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", no_orbit);
   double u[PENDRES_U_COUNT], approach[2];
   pendres_located located;
   pendres_walk walk[2], ahead[2];

@@ -5,15 +5,26 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "strobe_run.h"
 
 static const double two_pi = 6.28318530717958647693;
 
 enum { MOST_ITERATIONS = 20 };
 
+static const int longest_period = 1000000;
+
 /* A step longer than this is cut: guesses come from within a well. */
 static const double longest_step = 0.6;
 /* Below this the next iterate is within rounding (quadratic convergence). */
 static const double last_step = 1e-7;
+
+const char *pendres_orbit_refuses(const pendres_orbit *o)
+{
+  const char *why = NULL;
+  if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
+  if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
+  return pendres_strobe_refuses(&o->pendulum, o->x, o->v);
+}
 
 void pendres_newton_tape_free(pendres_newton_tape *tape)
 {

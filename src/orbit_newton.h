@@ -44,6 +44,9 @@ static inline const double *pendres_newton_sample(const pendres_newton_tape *t, 
   return t->data + (sample * t->lanes + lane) * t->rows;
 }
 
+/* NULL, or why a caller's orbit is none that could be followed: a static sentence. */
+const char *pendres_orbit_refuses(const pendres_orbit *o);
+
 void pendres_newton_tape_free(pendres_newton_tape *tape);
 
 /*

@@ -93,13 +93,15 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
 static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                              double *x, double *v, double *x_error, double *v_error)
 {
-  enum { MOST_TRIES = 5 };
+  enum { MOST_TRIES = 5, MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
   curve coarse = {.memory = NULL}, fine = {.memory = NULL};
   if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
-  if (count < 1 || orbit->steps < 1 || orbit->period < 1 || !isfinite(orbit->x) ||
-      !isfinite(orbit->v) || pendres_pendulum_check(&orbit->pendulum, NULL) != PENDRES_OK)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "samples of an orbit: one at least, and an orbit that closes");
+  const char *why = pendres_orbit_refuses(orbit);
+  if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS)) why = "it has no steps";
+  if (why == NULL && (count < 1 || count > MOST_SAMPLES / orbit->period))
+    why = "one a period at least, 100 million in all at most";
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "samples of an orbit: %s", why);
   int steps = orbit->steps;
   pendres_status status = trace(ctx, orbit, steps, &fine);
   if (status == PENDRES_OK && (x_error != NULL || v_error != NULL)) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "strobe_run.h"
 
 enum { MOST_CROSSINGS = 16 };
 
@@ -169,6 +170,8 @@ static pendres_status check_line(pendres_context *ctx, size_t n, const pendres_p
   const char *why = e->members == 0 ? "an ensemble needs members" : NULL;
   for (size_t i = 0; i < n && why == NULL; i++) {
     if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) break;
+    why = pendres_strobe_refuses(&p[i], fmax(fabs(e->x_first), fabs(e->x_last)), e->v);
+    if (why != NULL) break;
     if (p[i].damping != p[0].damping || p[i].drive_amplitude != p[0].drive_amplitude)
       why = "a line has one damping and one drive amplitude";
     else if (i > 0 && !(p[i].drive_frequency > p[i - 1].drive_frequency))
@@ -252,6 +255,9 @@ static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_p
 {
   if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and points");
+  if (!(spacing >= 0.0))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "phase diagram: the spacing must not be negative");
   pendres_status status = check_line(ctx, n, pendulums, ensemble);
   if (status != PENDRES_OK || n == 0) return status;
   pendres_branches *found = NULL;

@@ -7,6 +7,7 @@
 
 #include "context_internal.h"
 #include "resonance_refine.h"
+#include "strobe_run.h"
 
 enum {
   SCAN_POINTS = 19,   /* over the range at first: 0.04 apart in the default range */
@@ -309,6 +310,16 @@ static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendre
   if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the range of frequencies must be positive and ascending");
+  const char *why = NULL;
+  for (int i = 0; i < 2 && why == NULL; i++) {
+    pendres_pendulum at = *p;
+    at.drive_frequency = i == 0 ? lowest : highest;
+    if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
+      why = pendres_strobe_refuses(&at, fmax(fabs(ensemble->x_first), fabs(ensemble->x_last)),
+                                   ensemble->v);
+  }
+  if (ensemble->members < 1) why = "an ensemble needs members";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   search s = {.ctx = ctx, .pendulum = *p, .ensemble = ensemble};
   s.points = malloc(MOST_POINTS * sizeof *s.points);
   if (s.points == NULL)

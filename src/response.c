@@ -8,6 +8,7 @@
 #include "context_internal.h"
 #include "orbit_measure.h"
 #include "settle.h"
+#include "strobe_run.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -245,8 +246,11 @@ static pendres_status response_compute(pendres_context *ctx, size_t n,
                                 "an ensemble needs members and finite starts");
   for (size_t i = 0; i < n; i++) {
     const char *why = NULL;
-    if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK && pendulums[i].damping == 0.0)
-      why = "without damping nothing settles";
+    if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK) {
+      why = pendres_strobe_refuses(&pendulums[i], fmax(fabs(ensemble->x_first),
+                                                       fabs(ensemble->x_last)), ensemble->v);
+      if (pendulums[i].damping == 0.0) why = "without damping nothing settles";
+    }
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
