@@ -170,7 +170,8 @@ static int compute(job *j)
 {
   progress_note(&j->progress, "%s: %s on %d thread%s", j->deck.name, deck_kind_name(j->deck.kind),
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
-  const pendres_status status = j->scene->run(&j->run);
+  pendres_status status = j->scene->run(&j->run);
+  if (status == PENDRES_OK) status = scene_write_identity(&j->run);
   if (status == PENDRES_OK) return DONE;
   if (status == PENDRES_INTERRUPTED) {
     const char *signal = signals_name();

@@ -1,6 +1,7 @@
 /* scene.c -- the list of scenes, and what several of them need; see scene.h. */
 #include "scene.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,25 +88,57 @@ pendres_status scene_farm_failed(scene_run *run, pendres_status status)
   return scene_fail(run, status, "%s", farm_message(run->farm));
 }
 
-/* ---- axes and ensembles -------------------------------------------------------------------- */
+/* ---- axes, fixed parameters and ensembles -------------------------------------------------- */
+
+static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
+  [DECK_AXIS_AMPLITUDE] = { "amplitude of the angle", "rad" },
+  [DECK_AXIS_DAMPING] = { "friction coefficient gamma", "1" },
+  [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
+  [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
+  [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
+  [DECK_AXIS_X] = { "initial position", "rad" },
+  [DECK_AXIS_V] = { "initial velocity", "1" },
+  [DECK_AXIS_TEMPERATURE] = { "temperature in units of the depth of the potential", "1" },
+  [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
+};
 
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
 {
-  static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
-    [DECK_AXIS_AMPLITUDE] = { "amplitude of the angle", "rad" },
-    [DECK_AXIS_DAMPING] = { "friction coefficient gamma", "1" },
-    [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
-    [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
-    [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
-    [DECK_AXIS_X] = { "initial position", "rad" },
-    [DECK_AXIS_V] = { "initial velocity", "1" },
-    [DECK_AXIS_TEMPERATURE] = { "temperature in units of the depth of the potential", "1" },
-    [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
-  };
   const deck_axis *a = &run->deck->axis[axis];
   const pendres_status status =
     pendres_store_dimension(run->store, group, deck_axis_name(axis), a->count, a->value,
                             about[axis].words, about[axis].units);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+pendres_status scene_write_identity(scene_run *run)
+{
+  const deck *d = run->deck;
+  const struct { deck_axis_id axis; double value; } fixed[] = {
+    { DECK_AXIS_DRIVE_AMPLITUDE, d->pendulum.drive_amplitude },
+    { DECK_AXIS_DAMPING, d->pendulum.damping },
+    { DECK_AXIS_DRIVE_FREQUENCY, d->pendulum.drive_frequency },
+    { DECK_AXIS_DRIVE_PERIOD, d->pendulum.drive_period },
+  };
+  char coordinates[4 * DECK_NAME] = "";
+  const char *slash = strrchr(d->name, '/');
+  pendres_status status =
+    pendres_store_attribute_text(run->store, "", NULL, "scene", deck_kind_name(d->kind));
+  if (status == PENDRES_OK)
+    status = pendres_store_attribute_text(run->store, "", NULL, "deck",
+                                          slash != NULL ? slash + 1 : d->name);
+  for (size_t i = 0; i < sizeof fixed / sizeof *fixed && status == PENDRES_OK; i++) {
+    const deck_axis_id axis = fixed[i].axis;
+    if (isnan(fixed[i].value) || d->axis[axis].count > 0) continue;
+    const pendres_store_spec spec = { .name = deck_axis_name(axis),
+                                      .long_name = about[axis].words,
+                                      .units = about[axis].units };
+    status = pendres_store_put(run->store, &spec, &fixed[i].value, 1);
+    if (coordinates[0] != '\0') strcat(coordinates, " ");
+    strcat(coordinates, spec.name);
+  }
+  if (status == PENDRES_OK && coordinates[0] != '\0')
+    status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 

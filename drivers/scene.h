@@ -63,6 +63,12 @@ pendres_status scene_farm_failed(scene_run *run, pendres_status status);
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
 
+/*
+ * Which run this is: attributes `scene` and `deck` of the file, and the pendulum's parameters that
+ * the deck holds fixed as scalar coordinates, so that files of several runs can be put together.
+ */
+pendres_status scene_write_identity(scene_run *run);
+
 /* The deck's ensemble. */
 pendres_ensemble scene_ensemble(const deck *d);
 

@@ -138,6 +138,31 @@ static void test_orbit(void **state)
   }
 }
 
+static void check_attribute(const char *path, const char *name, const char *want)
+{
+  pendres_store *store = NULL;
+  char *text = NULL;
+  check_ok(pendres_store_open(path, &store));
+  check_ok(pendres_store_read_attribute_text(store, "", NULL, name, &text));
+  assert_string_equal(text, want);
+  free(text);
+  pendres_store_free(store);
+}
+
+/* A file says which run it is of, so that several can be put together. */
+static void test_identity(void **state)
+{
+  (void)state;
+  check_code(RUN("-q", "orbit.nml"), DONE);
+  check_attribute("orbit.h5", "scene", "orbit");
+  check_attribute("orbit.h5", "deck", "orbit.nml");
+  check_attribute("orbit.h5", "coordinates",
+                  "drive_amplitude damping drive_frequency drive_period");
+  check_near(read_one("orbit.h5", "drive_amplitude"), 0.2, 0.0);
+  check_near(read_one("orbit.h5", "damping"), 0.12, 0.0);
+  check_near(read_one("orbit.h5", "drive_period"), 8.0, 0.0);
+}
+
 /* A start in the next well: the record begins there, and the orbit is the same one beside. */
 static void test_transient(void **state)
 {
@@ -209,8 +234,8 @@ static void test_failed_points(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    TEST(test_run),   TEST(test_orbit),         TEST(test_transient),
-    TEST(test_input), TEST(test_failed_points), TEST(test_cost_of_noise),
+    TEST(test_run),        TEST(test_orbit), TEST(test_identity),      TEST(test_transient),
+    TEST(test_input),      TEST(test_failed_points), TEST(test_cost_of_noise),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }
