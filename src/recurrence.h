@@ -6,7 +6,7 @@
 #ifndef PENDRES_RECURRENCE_H
 #define PENDRES_RECURRENCE_H
 
-enum { PENDRES_RECURRENCE_POINTS = 65 /* looked at: twice the longest period, and one */ };
+enum { PENDRES_RECURRENCE_POINTS = 129 /* looked at, at most: the longest period, and one */ };
 
 typedef struct pendres_recurrence {
   double y, w;         /* the latest point */
@@ -15,7 +15,9 @@ typedef struct pendres_recurrence {
 
 /*
  * The shortest period that the strobe points y[], w[], the latest one last, repeat themselves with
- * about as closely as with any; angles with whole turns. Returns 0 if they do not come near.
+ * about as closely as with any; angles with whole turns. Periods above 32 are found where points
+ * come back very closely: by chance some of so many are always close. Returns 0 if they do not
+ * come near.
  */
 int pendres_recurrence_find(int points, const double *y, const double *w, pendres_recurrence *out);
 

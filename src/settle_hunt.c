@@ -6,7 +6,10 @@
 #include "context_internal.h"
 #include "recurrence.h"
 
-enum { MOST_GUESSES = 8 /* orbits looked for at a time in one parameter set */ };
+enum {
+  MOST_GUESSES = 8,  /* orbits looked for at a time in one parameter set */
+  FIRST_HISTORY = 65 /* strobe points that the first round takes for looking at */
+};
 
 /* The orbit that a history, a ring buffer, comes back to; 0 if it does not. */
 static int recurrence(const pendres_settle_history *h, pendres_scout *s)
@@ -146,7 +149,7 @@ static int raise_budgets(const pendres_context *ctx, const pendres_settle_quarry
     const pendres_catalogue *c = &q->catalogues[s];
     long *budget = &q->budget[s];
     const long most = pendres_settle_last_budget(ctx, c);
-    const long more = (pendres_settle_first_budget(&c->pendulum) + PENDRES_SETTLE_HISTORY) << round;
+    const long more = (pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY) << round;
     if (*budget >= most) continue;
     longer = 1;
     *budget = *budget < most - more ? *budget + more : most;

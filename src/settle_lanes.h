@@ -8,8 +8,10 @@
 #define PENDRES_SETTLE_LANES_H
 
 #include "catalogue.h"
+#include "recurrence.h"
 
-enum { PENDRES_SETTLE_HISTORY = 65 /* strobe points kept of a pendulum that does not settle */ };
+/* Strobe points kept of a pendulum that does not settle. */
+enum { PENDRES_SETTLE_HISTORY = PENDRES_RECURRENCE_POINTS };
 
 /* The latest strobe points of a lane, a ring buffer. */
 typedef struct pendres_settle_history {
