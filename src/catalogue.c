@@ -65,28 +65,6 @@ static int named_family(const pendres_orbit *o)
          fabs(o->pendulum.drive_amplitude) <= strongest_named_drive;
 }
 
-typedef struct numbered {
-  pendres_attractor attractor;
-  const pendres_cover *cover; /* NULL: an orbit */
-  int number;                 /* the old one */
-} numbered;
-
-/*
- * Orbits first, by amplitude, then by Poincaré point; amplitudes of mirror images differ by
- * rounding alone, and must not decide.
- */
-static int physical_order(const void *a, const void *b)
-{
-  const numbered *m = a, *n = b;
-  const pendres_orbit *p = &m->attractor.orbit, *q = &n->attractor.orbit;
-  if ((m->cover == NULL) != (n->cover == NULL)) return m->cover == NULL ? -1 : 1;
-  if (m->cover != NULL) return m->cover->mean_w < n->cover->mean_w ? -1 : 1;
-  if (fabs(p->amplitude - q->amplitude) > 1e-7) return p->amplitude < q->amplitude ? -1 : 1;
-  if (fabs(p->x - q->x) > same_point) return p->x < q->x ? -1 : 1;
-  if (p->v != q->v) return p->v < q->v ? -1 : 1;
-  return 0;
-}
-
 static void label_all(pendres_catalogue *c)
 {
   size_t named = 0;
@@ -110,27 +88,26 @@ static void label_all(pendres_catalogue *c)
 
 pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank)
 {
-  numbered *sorted = malloc((c->count + 1) * sizeof *sorted);
+  pendres_attractor *old = malloc((c->count + 1) * sizeof *old);
+  int *order = malloc((c->count + 1) * sizeof *order);
   int *moved = malloc((c->count + 1) * sizeof *moved);
   pendres_status status = PENDRES_OK;
-  if (sorted == NULL || moved == NULL) {
+  if (old == NULL || order == NULL || moved == NULL || pendres_catalogue_sort(c, order) != 0) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
     goto done;
   }
-  for (size_t i = 0; i < c->count; i++)
-    sorted[i] = (numbered){.attractor = c->attractors[i], .number = (int)i};
-  for (size_t i = 0; i < c->covers; i++) sorted[c->cover[i]->attractor].cover = c->cover[i];
-  qsort(sorted, c->count, sizeof *sorted, physical_order);
+  if (c->count > 0) memcpy(old, c->attractors, c->count * sizeof *old);
   for (size_t i = 0; i < c->count; i++) {
-    c->attractors[i] = sorted[i].attractor;
-    moved[sorted[i].number] = (int)i;
+    c->attractors[i] = old[order[i]];
+    moved[order[i]] = (int)i;
   }
   for (size_t t = 0; t < c->traps; t++) c->owner[t] = moved[c->owner[t]];
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
 done:
-  free(sorted);
+  free(old);
+  free(order);
   free(moved);
   return status;
 }
@@ -228,6 +205,11 @@ static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   a->lyapunov = fmax(least, log(size) / time);
   a->lyapunov_error = 4.0 * DBL_EPSILON * fabs(a->lyapunov);
+  if (isnan(size + o->multiplier_error)) { /* fmax would take the other one */
+    a->lyapunov = isnan(size) ? NAN : a->lyapunov;
+    a->lyapunov_error = NAN;
+    return;
+  }
   if (fabs(o->multiplier_im[0]) > off) return;
   const double high = log(size + off) / time;
   const double low = fmax(least, log(fmax(0.0, size - off)) / time);

@@ -54,6 +54,14 @@ pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *ca
 pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
                                            const pendres_chaos_measures *m, pendres_cover *cover);
 
+/*
+ * The physical order of attractors: order[place] = number. Orbits first, by amplitude, then by
+ * Poincaré point; chaos by its means. What differs by rounding alone does not decide: attractors in
+ * whose list of one key's values no two neighbours are further apart than that go on to the next
+ * key. So the order is one, whatever that of discovery. Nonzero if out of memory.
+ */
+int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
+
 /* Put attractors into their physical order, and label them; rank[old number] = new number, for as
    many as there are (rank may be NULL). */
 pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);

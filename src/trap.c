@@ -222,8 +222,10 @@ static double ring_departure(const ring *r, const point *points, const pendres_o
     pendres_trap predicted = *t;
     predicted.y = t->y + dy;
     predicted.w = t->w + dw;
-    worst = fmax(worst, sqrt(pendres_trap_norm2(&predicted, points[i].y[r->looks],
-                                                points[i].w[r->looks])));
+    const double departure = sqrt(
+      pendres_trap_norm2(&predicted, points[i].y[r->looks], points[i].w[r->looks]));
+    if (isnan(departure)) return INFINITY;
+    worst = fmax(worst, departure);
   }
   return r->margin > 0.0 ? worst / r->margin : INFINITY;
 }

@@ -295,6 +295,20 @@ static void independent_of_company(void **state)
   }
 }
 
+/* What is no number proves nothing. */
+static void no_numbers(void **state)
+{
+  pendres_trap trap;
+  pendres_orbit o = orbit_near(*state, &(pendres_pendulum){.damping = 0.24, .drive_amplitude = 0.2,
+                                                           .drive_frequency = 0.9},
+                               0.5 * pi + 0.5, 0.5, 1, 0);
+  check_ok(pendres_trap_find(*state, 1, &o, PENDRES_TRAP_FEW, &trap));
+  assert_true(trap.radius > 0.01);
+  o.x = NAN;
+  check_ok(pendres_trap_find(*state, 1, &o, PENDRES_TRAP_FEW, &trap));
+  check_near(trap.radius, 0.0, 0.0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -305,6 +319,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(unstable_orbits_have_none, setup, teardown),
     cmocka_unit_test_setup_teardown(period_two, setup, teardown),
     cmocka_unit_test(across_the_top),
+    cmocka_unit_test_setup_teardown(no_numbers, setup, teardown),
     cmocka_unit_test_setup_teardown(independent_of_company, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,85 @@
+/*
+ * test_catalogue.c -- the order of attractors does not know that of their discovery.
+ */
+#include "check.h"
+
+#include <string.h>
+
+#include "catalogue.h"
+
+enum { ALL = 6 };
+
+/* Names of attractors in their order, for one order of discovery. */
+static void order_of(const pendres_attractor *a, const int *discovered, size_t n, double *names)
+{
+  pendres_attractor found[ALL];
+  int order[ALL];
+  const pendres_catalogue c = {.count = n, .attractors = found};
+  for (size_t i = 0; i < n; i++) found[i] = a[discovered[i]];
+  assert_int_equal(pendres_catalogue_sort(&c, order), 0);
+  for (size_t i = 0; i < n; i++) names[i] = found[order[i]].orbit.phase_lag;
+}
+
+/* All orders of discovery give one order; Heap's algorithm. */
+static void all_orders(const pendres_attractor *a, size_t n)
+{
+  int discovered[ALL], count[ALL] = {0};
+  double wanted[ALL], names[ALL];
+  for (size_t i = 0; i < n; i++) discovered[i] = (int)i;
+  order_of(a, discovered, n, wanted);
+  for (size_t i = 0; i < n;) {
+    if ((size_t)count[i] >= i) {
+      count[i++] = 0;
+      continue;
+    }
+    const size_t k = i % 2 == 0 ? 0 : (size_t)count[i];
+    const int other = discovered[k];
+    discovered[k] = discovered[i];
+    discovered[i] = other;
+    count[i]++;
+    i = 0;
+    order_of(a, discovered, n, names);
+    assert_memory_equal(names, wanted, n * sizeof *names);
+  }
+}
+
+/*
+ * Amplitudes less than rounding apart from one to the next, but not from first to last; points
+ * likewise: comparing two at a time, a < b < c < a. phase_lag is but a name here.
+ */
+static void one_order(void **state)
+{
+  pendres_attractor a[ALL] = {
+    {.orbit = {.amplitude = 1.0, .x = 3.0, .v = 0.0, .phase_lag = 0}},
+    {.orbit = {.amplitude = 1.0 + 0.8e-7, .x = 2.0, .v = 0.0, .phase_lag = 1}},
+    {.orbit = {.amplitude = 1.0 + 1.6e-7, .x = 1.0, .v = 0.0, .phase_lag = 2}},
+    {.orbit = {.amplitude = 2.0, .x = 1.0, .v = 3.0, .phase_lag = 3}},
+    {.orbit = {.amplitude = 2.0, .x = 1.0 + 0.8e-6, .v = 2.0, .phase_lag = 4}},
+    {.orbit = {.amplitude = 2.0, .x = 1.0 + 1.6e-6, .v = 1.0, .phase_lag = 5}}};
+  (void)state;
+  all_orders(a, ALL);
+  double names[ALL];
+  order_of(a, (int[ALL]){0, 1, 2, 3, 4, 5}, ALL, names);
+  check_near(names[0], 2.0, 0.0);
+  check_near(names[5], 3.0, 0.0);
+}
+
+/* Chaos comes last, by its means, and what is no number last of its kind. */
+static void chaos_last(void **state)
+{
+  pendres_cover one = {.attractor = 0, .mean_w = 0.5}, two = {.attractor = 2, .mean_w = -0.5};
+  pendres_attractor a[4] = {{.lyapunov = 0.1}, {.orbit = {.amplitude = NAN}}, {.lyapunov = 0.1},
+                            {.orbit = {.amplitude = 2.0}}};
+  const pendres_catalogue c = {
+    .count = 4, .attractors = a, .covers = 2, .cover = {&one, &two}};
+  int order[4];
+  (void)state;
+  assert_int_equal(pendres_catalogue_sort(&c, order), 0);
+  assert_memory_equal(order, ((int[4]){3, 1, 2, 0}), sizeof order);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(chaos_last)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
