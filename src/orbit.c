@@ -111,7 +111,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   /* What the point is to the other measures its derivative is to the slope. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_doubt slope_doubt = {
-    .apart = derivative + doubt.apart,
+    .apart = 1.5 * (derivative + doubt.apart),
     .rounding = doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw))};
   o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
                                                  pi * fabs(p->drive_amplitude), &slope_doubt);

@@ -13,13 +13,13 @@ static const double root_two = 1.41421356237309504880;
 
 /*
  * With 1.4 times the steps an order-8 method's error falls to a fifteenth. A quarter of a value's
- * own difference is claimed, for where the order has not set in yet, and as much as a tenth of the
+ * own difference is claimed, for where the order has not set in yet, and as much as an eighth of the
  * difference of the whole orbits could make.
  */
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
                            const pendres_orbit_doubt *doubt)
 {
-  return 0.25 * fabs(fine - coarse) + sensitivity * (0.1 * doubt->apart + doubt->rounding);
+  return 0.25 * fabs(fine - coarse) + sensitivity * (0.12 * doubt->apart + doubt->rounding);
 }
 
 /*
@@ -88,7 +88,7 @@ static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbi
   const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
   const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
                             s->by_point[1][0][0] + s->by_point[1][1][1]);
-  return 0.25 * fabs(upper + lower) + 0.2 * (fabs(upper) + fabs(lower)) +
+  return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) +
          bend * (0.1 * doubt->apart + doubt->rounding) + s->rounding * size_of(s->fine);
 }
 

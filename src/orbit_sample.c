@@ -1,5 +1,5 @@
 /* orbit_sample.c -- points along a closed orbit, with their errors; see orbit.h. */
-#include <pendres/orbit.h>
+#include "orbit_sample.h"
 
 #include <float.h>
 #include <math.h>
@@ -57,6 +57,20 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
                   fmax(o->amplitude, fabs(c.w)) * sqrt((double)n) * fmax(1.0, stretch);
 done:
   pendres_newton_tape_free(&tape);
+  return status;
+}
+
+pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_orbit *orbit,
+                                           double share, pendres_orbit_series *sum)
+{
+  curve c = {.memory = NULL};
+  const size_t q = (size_t)orbit->period;
+  const pendres_status status = trace(ctx, orbit, orbit->steps, &c);
+  for (size_t m = 1; m < sum->modes && status == PENDRES_OK && m * q < c.series.modes; m++) {
+    sum->re[m] += share * c.series.re[m * q];
+    sum->im[m] += share * c.series.im[m * q];
+  }
+  free(c.memory);
   return status;
 }
 

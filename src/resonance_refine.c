@@ -11,6 +11,7 @@
 #include <pendres/continuation.h>
 
 #include "context_internal.h"
+#include "response_loop.h"
 
 /* ---- evaluating frequencies ---- */
 
@@ -110,11 +111,9 @@ static pendres_status follow(pendres_context *ctx, const pendres_scan_point *fro
     o->pendulum.drive_frequency = omega;
   }
   const pendres_status status = add_slopes(ctx, 1, to);
-  if (status == PENDRES_OK) {
-    average_slope(to);
-    pendres_response_average(&to->response);
-  }
-  return status;
+  if (status != PENDRES_OK) return status;
+  average_slope(to);
+  return pendres_response_renew(ctx, &to->response);
 }
 
 /* ---- smooth peaks ---- */
@@ -205,8 +204,7 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
             hypot(o->x - r->state[i].orbit.x, o->v - r->state[i].orbit.v) < 1e-5;
     r->state[i].label = there.state[i].label;
   }
-  pendres_response_average(r);
-  return PENDRES_OK;
+  return pendres_response_renew(ctx, r);
 }
 
 pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,

@@ -7,6 +7,7 @@
 
 #include "context_internal.h"
 #include "orbit_measure.h"
+#include "response_loop.h"
 #include "settle.h"
 #include "strobe_run.h"
 
@@ -27,6 +28,8 @@ typedef struct sums {
   double area, area_error, power, power_error;
   double amplitude_share, amplitude, amplitude_error;
   double loop_share, loop_error, loop_amplitude_error;
+  double lone; /* amplitude of the only loop, NaN if there are more */
+  double rest; /* bounds the harmonics that are not kept */
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS];
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
 } sums;
@@ -60,8 +63,11 @@ static void add_attractor(sums *s, const pendres_attractor *a, double share)
   s->amplitude_share += share;
   s->amplitude += share * o->amplitude;
   s->amplitude_error += share * o->amplitude_error;
-  if (a->label == PENDRES_LABEL_CHAOTIC) return;
+  if (!pendres_response_has_loop(a)) return;
+  /* Of one loop alone that closes in a cycle nothing need be added up. */
+  s->lone = s->loop_share == 0.0 && o->period == 1 ? o->amplitude : NAN;
   s->loop_share += share;
+  s->rest += share * o->harmonics_rest;
   s->loop_error += share * o->x_error;
   s->loop_amplitude_error += share * o->amplitude_error;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
@@ -87,14 +93,18 @@ static void average_loops(pendres_response *r, sums *s, double lost, double doub
     s->cosine[m] /= s->loop_share;
     s->sine[m] /= s->loop_share;
   }
-  r->mean_loop_amplitude = pendres_orbit_series_half_range(s->cosine, s->sine);
-  r->mean_loop_amplitude_error =
-    fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share + lost * r->mean_amplitude +
-    2.0 * doubt * s->widest; /* what goes from one loop to another takes from the one as well */
+  /* What goes from one loop to another takes from the one as well. */
+  const double error = fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share +
+                       lost * r->mean_amplitude + 2.0 * doubt * s->widest;
+  r->mean_loop_amplitude = s->lone;
+  r->mean_loop_amplitude_error = error;
+  if (isnan(s->lone)) {
+    r->mean_loop_amplitude = pendres_orbit_series_half_range(s->cosine, s->sine);
+    r->mean_loop_amplitude_error += s->rest / s->loop_share;
+  }
   r->phase_lag =
     pendres_orbit_phase_lag(s->cosine[0], s->sine[0], r->pendulum.drive_amplitude);
-  if (!isnan(r->phase_lag))
-    r->phase_lag_error = r->mean_loop_amplitude_error / hypot(s->cosine[0], s->sine[0]);
+  if (!isnan(r->phase_lag)) r->phase_lag_error = error / hypot(s->cosine[0], s->sine[0]);
 }
 
 static void average(pendres_response *r, const parted *p)
@@ -193,6 +203,8 @@ static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c
   else
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu attractors",
                                   c->count);
+  if (status == PENDRES_OK)
+    status = pendres_response_refine_loop(ctx, c->count, c->attractors, members, r);
   free(members);
   free(listed);
   return status;

@@ -9,6 +9,8 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
+#include "response_loop.h"
+
 static const double pi = 3.14159265358979323846;
 
 enum {
@@ -160,6 +162,64 @@ static void one_state(void **state)
   check_near(r.mean_power, (double)cycle.mean_power, 10.0 * r.mean_power_error);
 }
 
+/*
+ * A slow strong drive, whose loop has hundreds of harmonics: all members are on one state, and its
+ * amplitude is that of the averaged loop, 70.697454443115 in extended precision.
+ */
+static void slow_drive(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 2.0, .drive_frequency = 0.05};
+  const pendres_ensemble e = {.members = 4, .x_first = -0.5 * pi, .x_last = 1.5 * pi};
+  pendres_context *ctx = NULL;
+  pendres_response r;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  pendres_context_free(ctx);
+  assert_int_equal(r.states, 1);
+  check_near(r.mean_loop_amplitude, 70.697454443115, r.mean_loop_amplitude_error + 1e-12);
+  check_near(r.mean_loop_amplitude, r.mean_amplitude, 0.0);
+  assert_true(r.mean_loop_amplitude_error < 1e-8);
+}
+
+/*
+ * The average of two loops of many harmonics, of a fast and a slow orbit here so that there are
+ * two, against samples of both: 0.03 apart in time, and a parabola errs by that to the fourth.
+ * Without a context harmonics are cut, and the error says by how much.
+ */
+static void loops_of_many_harmonics(void **state)
+{
+  enum { COUNT = STEPS };
+  pendres_orbit_guess g[] = {{{0.5, 2.0, 0.05, 0.0}, 0.5 * pi, 0.0, 1, 0},
+                             {{0.08, 0.95, 0.2, 0.0}, 0.5 * pi, 0.0, 1, 0}};
+  pendres_response r = {.states = 2, .state_members = {1, 3}};
+  pendres_context *ctx = NULL;
+  pendres_orbit o[2];
+  pendres_status outcome[2];
+  static double x[COUNT], loop[COUNT];
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  for (int i = 0; i < 2; i++)
+    check_ok(pendres_strobe_advance(ctx, 1, &g[i].pendulum, &g[i].x, &g[i].v, 40, NULL));
+  check_ok(pendres_orbit_refine(ctx, 2, g, PENDRES_ORBIT_PLAIN, o, outcome));
+  for (int i = 0; i < 2; i++) {
+    assert_int_not_equal(outcome[i], PENDRES_NOT_CONVERGED);
+    r.state[i].label = PENDRES_LABEL_PERIODIC;
+    r.state[i].orbit = o[i];
+    check_ok(pendres_orbit_sample(ctx, &o[i], COUNT, x, NULL));
+    for (int k = 0; k < COUNT; k++)
+      loop[k] = i == 0 ? 0.25 * x[k] : loop[k] + 0.75 * x[k];
+  }
+  pendres_response_average(&r);
+  const double cut = r.mean_loop_amplitude, cut_error = r.mean_loop_amplitude_error;
+  check_ok(pendres_response_renew(ctx, &r));
+  check_near(r.mean_loop_amplitude, half_range(loop), 1e-6);
+  assert_true(r.mean_loop_amplitude_error < 1e-8);
+  assert_true(fabs(cut - r.mean_loop_amplitude) > 1e-4);
+  check_near(cut, r.mean_loop_amplitude, cut_error);
+  pendres_context_free(ctx);
+}
+
 /* Parameter sets side by side do not influence each other. */
 static void side_by_side(void **state)
 {
@@ -228,7 +288,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(members_one_by_one),
-    cmocka_unit_test(one_state),
+    cmocka_unit_test(one_state),            cmocka_unit_test(slow_drive),
+    cmocka_unit_test(loops_of_many_harmonics),
     cmocka_unit_test(side_by_side),
     cmocka_unit_test(doubts_count),
   };

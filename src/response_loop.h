@@ -1,0 +1,27 @@
+/*
+ * response_loop.h -- the loop averaged over an ensemble where its harmonics are many.
+ *
+ * Owns: orbits keep 24 harmonics. A slow drive's have hundreds that matter: then the loops are
+ * traced anew.
+ */
+#ifndef PENDRES_RESPONSE_LOOP_H
+#define PENDRES_RESPONSE_LOOP_H
+
+#include <pendres/response.h>
+
+/*
+ * After an average over n attractors with members[n] each: what the harmonics that orbits do not
+ * keep may add to the averaged loop is in r->mean_loop_amplitude_error. Where that is more than a
+ * tenth of the tolerance both are computed from all harmonics.
+ */
+pendres_status pendres_response_refine_loop(pendres_context *ctx, size_t n,
+                                            const pendres_attractor *attractor,
+                                            const size_t *members, pendres_response *r);
+
+/* pendres_response_average, and the same of the attractors that are listed. */
+pendres_status pendres_response_renew(pendres_context *ctx, pendres_response *r);
+
+/* Whether an attractor has a loop that belongs into the average. */
+int pendres_response_has_loop(const pendres_attractor *a);
+
+#endif
