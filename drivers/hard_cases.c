@@ -65,6 +65,24 @@ double hard_larger(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
+double hard_over_claim(double error, double claim, double most)
+{
+  if (!(claim >= 0.0 && claim <= most && claim < INFINITY)) return NAN;
+  if (claim == 0.0) return error == 0.0 ? 0.0 : isnan(error) ? NAN : INFINITY;
+  return error / claim;
+}
+
+double hard_above_zero(double value, double error)
+{
+  if (isnan(value) || !(error >= 0.0)) return NAN;
+  return value > 0.0 ? 4.0 * error / value : INFINITY;
+}
+
+int hard_misplaced(double distance, double claim, double most)
+{
+  return !(hard_over_claim(distance, claim, most) <= 10.0);
+}
+
 void hard_sheet_clear(hard_sheet *sheet)
 {
   free(sheet->row);

@@ -46,6 +46,7 @@ typedef struct fall {
   double left;           /* largest distance from the top, */
   double off;            /* largest error, both as if they had been made at the start */
   double underestimated; /* largest ratio of the error to its estimate */
+  double most_claimed;   /* a larger estimate is of no use, see hard_over_claim */
 } fall;
 
 /* (x, v) against where the pendulum went that started at x0, at rest. */
@@ -73,7 +74,8 @@ static pendres_status watch(pendres_context *ctx, const pendres_pendulum *p, dou
     if (status == PENDRES_OK) status = error_from_rest(p, x0, k, x, v, &error);
     f->left = hard_larger(f->left, (double)fabsl((long double)x - top) * shrink);
     f->off = hard_larger(f->off, error * shrink);
-    f->underestimated = hard_larger(f->underestimated, error / estimate);
+    f->underestimated =
+      hard_larger(f->underestimated, hard_over_claim(error, estimate, f->most_claimed));
   }
   return status;
 }
@@ -89,7 +91,7 @@ static pendres_status put_tops(hard_sheet *sheet, const char *name, double dampi
                                pendres_context *ctx, pendres_context *naive)
 {
   const pendres_pendulum p = { .damping = damping, .drive_frequency = 1.0 };
-  fall ours = { 0 }, theirs = { 0 };
+  fall ours = { .most_claimed = INFINITY }, theirs = { .most_claimed = INFINITY };
   pendres_context_cost_reset(ctx);
   pendres_status status = watch_tops(ctx, &p, &ours);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
@@ -111,7 +113,8 @@ static pendres_status put_fall(hard_sheet *sheet, double d, pendres_context *ctx
   const double x0 = 1.5 * pi - d;
   pendres_context *const way[] = { ctx, naive };
   double error[2] = { NAN, NAN }, bound = NAN;
-  fall f[2] = { { .rate = 0.0 }, { .rate = 0.0 } };
+  /* Within the four periods of a fall an error of the start grows by up to 1 / d. */
+  fall f[2] = { { .most_claimed = 0.1 }, { .most_claimed = INFINITY } };
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2 && status == PENDRES_OK; i++) {
     double x = x0, v = 0.0;
@@ -217,8 +220,9 @@ pendres_status hard_separatrix(hard_sheet *sheet)
                                fabs(ours / exact - 1.0),
                                tolerance + moved / (d * quarter) + 4.0 * last_place,
                                fabs(theirs / exact - 1.0));
-    worst = hard_larger(worst, fabs(ours - exact) / error);
-    worst_naive = hard_larger(worst_naive, fabs(theirs - exact) / their_error);
+    worst = hard_larger(worst, hard_over_claim(fabs(ours - exact), error, 1e-3 * exact));
+    worst_naive =
+      hard_larger(worst_naive, hard_over_claim(fabs(theirs - exact), their_error, INFINITY));
   }
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "separatrix_estimate", "error over its estimate, the worst of "

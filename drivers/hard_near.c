@@ -8,6 +8,7 @@
  * from extended precision (reference.h).
  */
 #include <math.h>
+#include <stdlib.h>
 
 #include <pendres/reference.h>
 
@@ -187,7 +188,7 @@ static pendres_status add_beyond(hard_sheet *sheet, const place folds[2], double
 
 /* The largest of an orbit's errors over the claimed one; infinite if it was not found. */
 static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, double tolerance,
-                                         double *ratio)
+                                         double most, double *ratio)
 {
   const pendres_orbit_guess guess = { .pendulum = t->p, .x = (double)t->node.y + half_pi,
                                       .v = (double)t->node.v, .period = 1 };
@@ -203,10 +204,16 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
     /* Newton's method may have gone to the twin: that is an orbit, too. */
     const pendres_reference_cycle *e = t->saddles && !o.stable ? &t->saddle : &t->node;
     const long double exact_x = e->y + 1.57079632679489661923132169163975144L;
-    *ratio = (double)fabsl(o.x - exact_x) / o.x_error;
-    *ratio = hard_larger(*ratio, (double)fabsl(o.v - e->v) / o.v_error);
-    *ratio = hard_larger(*ratio, (double)fabsl(o.amplitude - e->amplitude) / o.amplitude_error);
-    *ratio = hard_larger(*ratio, (double)fabsl(o.loop_area - e->loop_area) / o.loop_area_error);
+    const struct { long double off; double claim; } measures[] = {
+      { o.x - exact_x, o.x_error },
+      { o.v - e->v, o.v_error },
+      { o.amplitude - e->amplitude, o.amplitude_error },
+      { o.loop_area - e->loop_area, o.loop_area_error },
+    };
+    *ratio = 0.0;
+    for (size_t i = 0; i < sizeof measures / sizeof *measures; i++)
+      *ratio = hard_larger(*ratio, hard_over_claim((double)fabsl(measures[i].off),
+                                                   measures[i].claim, most));
   }
   pendres_context_free(ctx);
   return status;
@@ -218,11 +225,13 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
  * with such errors or not at all. The naive way starts next to the orbit and claims what it moves
  * in the last period, and no less than its tolerance.
  */
-static pendres_status worst_orbit(hard_sheet *sheet, const truth *t, double *worst, double *naive)
+static pendres_status worst_orbit(hard_sheet *sheet, const truth *t, double off_by, double *worst,
+                                  double *naive)
 {
   double ratio, loose, x = (double)t->node.y + half_pi + 1e-3, v = (double)t->node.v, moved;
-  pendres_status status = error_over_claimed(sheet, t, tightest, &ratio);
-  if (status == PENDRES_OK) status = error_over_claimed(sheet, t, standard, &loose);
+  /* At the tightest tolerance the claim tells the orbit from its twin, sqrt(off) away. */
+  pendres_status status = error_over_claimed(sheet, t, tightest, 0.1 * sqrt(off_by), &ratio);
+  if (status == PENDRES_OK) status = error_over_claimed(sheet, t, standard, vicinity, &loose);
   if (status == PENDRES_OK) status = go_naively(sheet, &t->p, &x, &v, &moved);
   if (status != PENDRES_OK) return status;
   *worst = hard_larger(*worst, ratio);
@@ -257,7 +266,16 @@ static void place_starts(const truth *t, double x[STARTS], double v[STARTS])
   }
 }
 
-static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t,
+/* Nearer folds a pendulum takes longer than anybody waits here, some 10 / sqrt(off) periods; that it
+   is found to belong nowhere is right then. */
+static const double least_settling = 0.9e-6;
+
+static long budget_at(double off)
+{
+  return off > least_settling ? (long)fmax(BUDGET, 10.0 / sqrt(off)) : BUDGET;
+}
+
+static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t, double off,
                                    double tolerance, int *wrong, double *reach)
 {
   const double scout_x[SCOUTS] = { (double)t->node.y + half_pi, half_pi, 0.0 };
@@ -268,7 +286,7 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   pendres_context *ctx = NULL;
   place_starts(t, x, v);
   pendres_status status = hard_context(
-    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = BUDGET }, &ctx);
+    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = budget_at(off) }, &ctx);
   if (status != PENDRES_OK) return status;
   status = pendres_attractors_find(ctx, &t->p, SCOUTS, scout_x, scout_v, &found);
   if (status == PENDRES_OK)
@@ -277,11 +295,14 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   for (int i = 0; i < STARTS && status == PENDRES_OK; i++)
     *wrong += outcome[i].attractor >= 0 &&
               labelled_here(l, found, &outcome[i]) != (beyond[i] < 0.0);
+  /* Starts far from the saddle have time enough: a label that is none is no right one. */
+  for (int i = 0; i < STARTS && status == PENDRES_OK; i++)
+    *wrong += off > least_settling && fabs(beyond[i]) > 0.01 && outcome[i].attractor < 0;
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
     const pendres_attractor *a = pendres_attractors_get(found, i);
     if (in_vicinity(l, a->orbit.x, a->orbit.v)) here = reach_of(a, t);
   }
-  if (!(here <= *reach)) *reach = here; /* NaN, not found, stays */
+  *reach = hard_larger(*reach, here); /* NaN, not found, stays */
   pendres_attractors_free(found);
   pendres_context_free(ctx);
   return status;
@@ -302,7 +323,8 @@ static pendres_status label_naively(hard_sheet *sheet, const place *l, const tru
 
 /*
  * Labels right at the tightest tolerance, and at the standard one while the fold is further than
- * the ten tolerances that each period is allowed; unresolved is not wrong. A trap is part of the
+ * the ten tolerances that each period is allowed; unresolved is not wrong for starts close to the
+ * saddle, and close to the fold; but the attractor itself must be found everywhere. A trap is part of the
  * basin and the saddle on the basin's edge: the trap ends before the saddle.
  */
 static pendres_status add_before(hard_sheet *sheet, const place folds[2], double off)
@@ -314,11 +336,11 @@ static pendres_status add_before(hard_sheet *sheet, const place folds[2], double
     truth t;
     look_around(&folds[f], folds[f].exists, off, &t);
     if (!t.nodes || !t.saddles) return hard_failed(sheet, PENDRES_NOT_FOUND, NULL);
-    status = worst_orbit(sheet, &t, &worst, &naive_worst);
+    status = worst_orbit(sheet, &t, off, &worst, &naive_worst);
     if (status == PENDRES_OK)
-      status = label_starts(sheet, &folds[f], &t, tightest, &wrong, &reach);
+      status = label_starts(sheet, &folds[f], &t, off, tightest, &wrong, &reach);
     if (status == PENDRES_OK && off > 9.0 * standard)
-      status = label_starts(sheet, &folds[f], &t, standard, &wrong, &reach);
+      status = label_starts(sheet, &folds[f], &t, off, standard, &wrong, &reach);
     if (status == PENDRES_OK) status = label_naively(sheet, &folds[f], &t, &naive);
   }
   if (status == PENDRES_OK)
@@ -351,7 +373,7 @@ pendres_status hard_fold(hard_sheet *sheet)
 
 /*
  * At the cusp's damping one orbit exists at every drive frequency, before the cusp and beyond, and
- * is all that pendulums can settle on: one attractor at most, errors as above.
+ * is all that pendulums can settle on: one attractor, errors as above.
  */
 static pendres_status count_others(hard_sheet *sheet, const place *l, const truth *t, int *wrong)
 {
@@ -360,8 +382,8 @@ static pendres_status count_others(hard_sheet *sheet, const place *l, const trut
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
   const pendres_status status = settle_starts(sheet, t, tightest, x, v, outcome, &found);
-  if (status == PENDRES_OK && pendres_attractors_count(found) > 1)
-    *wrong += (int)pendres_attractors_count(found) - 1;
+  /* It must be found, too. */
+  if (status == PENDRES_OK) *wrong += abs((int)pendres_attractors_count(found) - 1);
   pendres_attractors_free(found);
   return status;
 }
@@ -379,7 +401,7 @@ pendres_status hard_cusp(hard_sheet *sheet)
       truth t;
       look_around(&cusp, side, off, &t);
       if (!t.nodes) return hard_failed(sheet, PENDRES_NOT_FOUND, NULL);
-      status = worst_orbit(sheet, &t, &worst, &naive);
+      status = worst_orbit(sheet, &t, off, &worst, &naive);
       if (status == PENDRES_OK) status = count_others(sheet, &cusp, &t, &wrong);
     }
     if (status == PENDRES_OK)
@@ -387,7 +409,7 @@ pendres_status hard_cusp(hard_sheet *sheet)
                                  "both sides of the cusp: errors over the claimed", worst, 10.0,
                                  naive);
     if (status == PENDRES_OK)
-      status = hard_sheet_add_at(sheet, "cusp_label", off, "attractors beside the only one", wrong,
+      status = hard_sheet_add_at(sheet, "cusp_label", off, "attractors beside the only one, or none", wrong,
                                  0.0, NAN);
   }
   return status;

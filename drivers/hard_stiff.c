@@ -147,9 +147,12 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
   double off = NAN;
   if (!wrong) {
     const pendres_orbit *o = &pendres_attractors_get(found, 0)->orbit;
-    off = (double)fabsl(o->amplitude - exact.amplitude) / o->amplitude_error;
-    off = hard_larger(off, (double)fabsl(o->loop_area - exact.loop_area) / o->loop_area_error);
-    off = hard_larger(off, (double)fabsl(o->x - 0.5L * pi - exact.y) / o->x_error);
+    const double most = 1e-6; /* of amplitudes below 1, at a tolerance far below: more is no answer */
+    off = hard_over_claim((double)fabsl(o->amplitude - exact.amplitude), o->amplitude_error, most);
+    off = hard_larger(off, hard_over_claim((double)fabsl(o->loop_area - exact.loop_area),
+                                           o->loop_area_error, most));
+    off = hard_larger(off, hard_over_claim((double)fabsl(o->x - 0.5L * pi - exact.y), o->x_error,
+                                           most));
   }
   status = hard_sheet_add_at(sheet, "stiff_settled", damping,
                              "pendulums that did not settle on the only orbit", wrong, 0.0, NAN);

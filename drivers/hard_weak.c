@@ -41,11 +41,12 @@ static pendres_status refer(hard_sheet *sheet, const pendres_orbit *o, pendres_r
 /* The worst of an orbit's errors over their estimates. */
 static double orbit_underestimated(const pendres_orbit *o, const pendres_reference_cycle *c)
 {
+  const double most = 1e-4; /* a larger claim is no answer */
   const double ratio[] = {
-    off_point(c, o->x, o->v) / fmax(o->x_error, o->v_error),
-    (double)fabsl(o->loop_area - c->loop_area) / o->loop_area_error,
-    (double)fabsl(o->amplitude - c->amplitude) / o->amplitude_error,
-    (double)fabsl(o->phase_lag - c->phase_lag) / o->phase_lag_error,
+    hard_over_claim(off_point(c, o->x, o->v), hard_larger(o->x_error, o->v_error), most),
+    hard_over_claim((double)fabsl(o->loop_area - c->loop_area), o->loop_area_error, most),
+    hard_over_claim((double)fabsl(o->amplitude - c->amplitude), o->amplitude_error, most),
+    hard_over_claim((double)fabsl(o->phase_lag - c->phase_lag), o->phase_lag_error, most),
   };
   double worst = 0.0;
   for (size_t i = 0; i < sizeof ratio / sizeof *ratio; i++)

@@ -93,6 +93,33 @@ static void rows(void **state)
   hard_sheet_clear(&sheet);
 }
 
+/* What rows are judged by does not hold where there is nothing to hold: each is broken on purpose. */
+static void judges(void **state)
+{
+  static const double useless[] = { NAN, INFINITY, -1e-9, 1.1e-6 };
+  const double most = 1e-6;
+  (void)state;
+  check_near(hard_over_claim(2e-9, 1e-9, most), 2.0, 1e-15);
+  check_near(hard_over_claim(0.0, 0.0, most), 0.0, 0.0);
+  assert_false(hard_over_claim(1e-300, 0.0, most) <= 10.0);
+  assert_false(hard_over_claim(NAN, 0.0, most) <= 10.0);
+  assert_false(hard_over_claim(NAN, 1e-9, most) <= 10.0);
+  for (size_t i = 0; i < sizeof useless / sizeof *useless; i++) {
+    assert_false(hard_over_claim(0.0, useless[i], most) <= 10.0);
+    assert_true(hard_misplaced(0.0, useless[i], most));
+  }
+  assert_false(hard_over_claim(0.0, INFINITY, INFINITY) <= 10.0); /* not even for the naive way */
+  assert_false(hard_misplaced(9e-9, 1e-9, most));
+  assert_true(hard_misplaced(11e-9, 1e-9, most));
+  assert_true(hard_misplaced(NAN, 1e-9, most));
+  assert_true(hard_above_zero(0.05, 0.01) <= 1.0);
+  assert_false(hard_above_zero(0.03, 0.01) <= 1.0);
+  static const double none[][2] = { { -0.05, 0.01 }, { 0.0, 0.0 },  { NAN, 0.01 },
+                                    { 0.05, NAN },   { 0.05, INFINITY }, { 0.05, -0.01 } };
+  for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+    assert_false(hard_above_zero(none[i][0], none[i][1]) <= 1.0);
+}
+
 /* CPU seconds of many periods from a start with the speed v0, the best of three. */
 static double seconds(double damping, double v0)
 {
@@ -138,6 +165,7 @@ int main(void)
   { #name, run_case, NULL, NULL, (void *)(uintptr_t)hard_case_find(#name) },
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(rows),
+    cmocka_unit_test(judges),
     cmocka_unit_test(denormal_numbers_do_not_stall),
     HARD_CASE_LIST(HARD_CASE_TEST)
   };
