@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "context_internal.h"
+#include "label.h"
 
-static const double pi = 3.14159265358979323846;
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
@@ -19,8 +19,6 @@ static const double half_pi = 1.57079632679489661923;
 static const double same_point = 1e-6;
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */
 static const double same_guess = 0.05;
-/* SA and LA are names for the response to the weak drives of the paper. */
-static const double strongest_named_drive = 0.25;
 
 const char *pendres_label_name(pendres_label label)
 {
@@ -59,30 +57,15 @@ int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_la
 
 /* ---- numbering and labels ---- */
 
-static int named_family(const pendres_orbit *o)
-{
-  return o->period == 1 && o->winding == 0 && o->symmetric &&
-         fabs(o->pendulum.drive_amplitude) <= strongest_named_drive;
-}
-
 static void label_all(pendres_catalogue *c)
 {
-  size_t named = 0;
-  for (size_t i = 0; i < c->count; i++) named += named_family(&c->attractors[i].orbit);
-  size_t rank = 0;
+  pendres_label_states states = {.count = 0};
+  for (size_t i = 0; i < c->count; i++)
+    if (c->attractors[i].label != PENDRES_LABEL_CHAOTIC)
+      pendres_label_note(&states, &c->attractors[i].orbit);
   for (size_t i = 0; i < c->count; i++) {
-    const pendres_orbit *o = &c->attractors[i].orbit;
-    pendres_label *label = &c->attractors[i].label;
-    if (*label == PENDRES_LABEL_CHAOTIC) continue;
-    if (o->winding != 0)
-      *label = PENDRES_LABEL_RUNNING;
-    else if (!named_family(o))
-      *label = PENDRES_LABEL_PERIODIC;
-    else if (named == 1)
-      /* At rest there is no phase lag, and no amplitude. */
-      *label = o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;
-    else
-      *label = rank++ == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+    pendres_attractor *a = &c->attractors[i];
+    if (a->label != PENDRES_LABEL_CHAOTIC) a->label = pendres_label_of(&states, NULL, &a->orbit);
   }
 }
 

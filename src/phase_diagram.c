@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "context_internal.h"
+#include "label.h"
 #include "strobe_run.h"
 
 enum { MOST_CROSSINGS = 16 };
@@ -18,37 +19,33 @@ const char *pendres_regime_name(pendres_regime regime)
 
 /* ---- what tells SA from LA at one damping ---- */
 
-/* The fold at which SA ends; there is a distinction only if there is one. */
-typedef struct border {
-  int distinct;
-  double frequency, amplitude;
-} border;
-
-/* Orbits that can be SA or LA, whatever their stability. */
-static int named_family(const pendres_orbit *o)
+/* Orbits on the sheets that fold over each other, whatever their stability. */
+static int on_sheets(const pendres_orbit *o)
 {
-  return o->period == 1 && o->winding == 0 && o->symmetric;
+  return pendres_label_named(o) && o->symmetric;
 }
 
 /* Among the folds below whose frequency two orbits exist, the one of the smallest amplitude. */
-static border find_border(const pendres_branches *branches)
+static pendres_label_border find_border(const pendres_branches *branches)
 {
-  border b = {.distinct = 0};
+  pendres_label_border b = {.distinct = 0};
   for (size_t i = 0; i < pendres_branches_count(branches); i++) {
     const pendres_branch *branch = pendres_branches_get(branches, i);
     for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
       const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
-      if (f->kind != PENDRES_FOLD || !named_family(&f->orbit) || !(f->curvature < 0.0)) continue;
+      if (f->kind != PENDRES_FOLD || !on_sheets(&f->orbit) || !(f->curvature < 0.0)) continue;
       if (b.distinct && f->orbit.amplitude >= b.amplitude) continue;
-      b = (border){.distinct = 1, .frequency = f->value, .amplitude = f->orbit.amplitude};
+      b = (pendres_label_border){
+        .distinct = 1, .frequency = f->value, .amplitude = f->orbit.amplitude};
     }
   }
   return b;
 }
 
-static int is_sa(const border *b, const pendres_orbit *o)
+/* Whether the names mean something where these states are. */
+static int distinct(const pendres_label_border *b, const pendres_label_states *s)
 {
-  return o->pendulum.drive_frequency <= b->frequency && o->amplitude < b->amplitude;
+  return b->distinct || s->count > 1;
 }
 
 /* ---- by the ensemble ---- */
@@ -58,41 +55,42 @@ static int other_of(const pendres_attractor *a)
   if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
   if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
   if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
-  return PENDRES_OTHER_ASYMMETRIC;
+  return a->orbit.symmetric ? 0 : PENDRES_OTHER_ASYMMETRIC;
 }
 
-static void judge_ensemble(const border *b, const pendres_ensemble *e, const pendres_response *r,
+static void judge_ensemble(const pendres_label_border *b, const pendres_label_states *known,
+                           const pendres_ensemble *e, const pendres_response *r,
                            pendres_phase_point *p)
 {
   size_t sa = 0, la = 0, others = r->unlisted;
   const double all = (double)e->members;
+  const int names = distinct(b, known);
   const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
   for (size_t i = 0; i < states; i++) {
     const pendres_attractor *a = &r->state[i];
-    if (a->label == PENDRES_LABEL_CHAOTIC || !named_family(&a->orbit)) {
-      p->other |= other_of(a);
+    p->other |= other_of(a);
+    if (a->label == PENDRES_LABEL_CHAOTIC || !pendres_label_named(&a->orbit))
       others += r->state_members[i];
-    } else if (b->distinct && is_sa(b, &a->orbit)) {
+    else if (pendres_label_of(known, b, &a->orbit) == PENDRES_LABEL_SA)
       sa += r->state_members[i];
-    } else {
+    else
       la += r->state_members[i];
-    }
   }
   if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
   p->unresolved = r->unresolved;
   p->uncertain = r->uncertain;
   if (others > 0 || sa + la == 0)
     p->regime = PENDRES_REGIME_OTHER;
-  else if (!b->distinct)
+  else if (!names)
     p->regime = PENDRES_REGIME_SINGLE;
   else
     p->regime = sa > 0 && la > 0 ? PENDRES_REGIME_COEXISTENCE
                 : sa > 0         ? PENDRES_REGIME_SA
                                  : PENDRES_REGIME_LA;
-  p->sa_fraction = b->distinct ? (double)sa / all : NAN;
-  p->la_fraction = b->distinct ? (double)la / all : NAN;
+  p->sa_fraction = names ? (double)sa / all : NAN;
+  p->la_fraction = names ? (double)la / all : NAN;
   p->sa_fraction_error = p->la_fraction_error =
-    b->distinct ? (double)(r->unresolved + r->uncertain + r->unlisted) / all : NAN;
+    names ? (double)(r->unresolved + r->uncertain + r->unlisted) / all : NAN;
   p->mean_loop_area = r->mean_loop_area;
   p->mean_loop_area_error = r->mean_loop_area_error;
   p->mean_loop_amplitude = r->mean_loop_amplitude;
@@ -101,65 +99,68 @@ static void judge_ensemble(const border *b, const pendres_ensemble *e, const pen
 
 /* ---- by the branches ---- */
 
-/* Amplitudes of the stable named orbits at one point. */
-static void note_orbit(const border *b, const pendres_orbit *o, int *single, pendres_phase_point *p)
+/* Amplitudes of SA and LA at a point, from the states that are known there. */
+static void judge_amplitudes(const pendres_label_border *b, const pendres_label_states *s,
+                             pendres_phase_point *p)
 {
-  if (!o->stable || !named_family(o)) return;
-  *single = 1;
-  if (!b->distinct) return;
-  if (is_sa(b, o)) {
-    p->sa_amplitude = o->amplitude;
-    p->sa_amplitude_error = o->amplitude_error;
-  } else if (!(o->amplitude <= p->la_amplitude)) {
-    p->la_amplitude = o->amplitude;
-    p->la_amplitude_error = o->amplitude_error;
+  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
+  p->exact = s->count > 0 ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
+  if (s->count == 0 || !distinct(b, s)) return;
+  const size_t least = pendres_label_extreme(s, 0), most = pendres_label_extreme(s, 1);
+  const pendres_orbit orbit = {
+    .pendulum = p->pendulum, .period = 1, .amplitude = s->amplitude[least]};
+  const int sa = pendres_label_of(s, b, &orbit) == PENDRES_LABEL_SA;
+  if (sa) {
+    p->sa_amplitude = s->amplitude[least];
+    p->sa_amplitude_error = s->error[least];
   }
+  if (!sa || s->count > 1) {
+    p->la_amplitude = s->amplitude[most];
+    p->la_amplitude_error = s->error[most];
+  }
+  p->exact = s->count > 1 ? PENDRES_REGIME_COEXISTENCE
+             : sa         ? PENDRES_REGIME_SA
+                          : PENDRES_REGIME_LA;
 }
 
-static void judge_amplitudes(const border *b, int single, pendres_phase_point *p)
+/* Whether all that can be SA or LA is known of a point: both, the one beyond the fold at which SA
+   ends, or the only one. */
+static int enough(const pendres_label_border *b, const pendres_label_states *s,
+                  const pendres_phase_point *p)
 {
-  const int sa = !isnan(p->sa_amplitude), la = !isnan(p->la_amplitude);
-  if (!b->distinct)
-    p->exact = single ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
-  else
-    p->exact = sa && la ? PENDRES_REGIME_COEXISTENCE
-               : sa     ? PENDRES_REGIME_SA
-               : la     ? PENDRES_REGIME_LA
-                        : PENDRES_REGIME_OTHER;
+  if (!b->distinct) return s->count > 0;
+  return s->count > 1 || (s->count > 0 && p->pendulum.drive_frequency > b->frequency);
 }
 
-/* What is not known yet of a point is looked up on the branches from number `first` on; where both
-   states are known, or only one can be, nothing is missing. */
-static pendres_status look_up(pendres_context *ctx, const border *b,
-                              const pendres_branches *branches, size_t first, int single,
-                              pendres_orbit *there, pendres_phase_point *p)
+/* What is not known yet of a point is looked up on the branches from number `first` on. */
+static pendres_status look_up(pendres_context *ctx, const pendres_label_border *b,
+                              const pendres_branches *branches, size_t first,
+                              pendres_label_states *s, pendres_orbit *there,
+                              pendres_phase_point *p)
 {
   pendres_status status = PENDRES_OK;
-  const int both = !isnan(p->sa_amplitude) && !isnan(p->la_amplitude);
-  const int beyond = b->distinct && p->pendulum.drive_frequency > b->frequency;
-  const int enough = both || (beyond && !isnan(p->la_amplitude)) || (!b->distinct && single);
-  for (size_t i = first; i < pendres_branches_count(branches) && !enough; i++) {
+  const int known = enough(b, s, p);
+  for (size_t i = first; i < pendres_branches_count(branches) && !known; i++) {
     size_t found = 0;
     status = pendres_branch_cross(ctx, pendres_branches_get(branches, i),
                                   p->pendulum.drive_frequency, MOST_CROSSINGS, there, &found);
     if (status != PENDRES_OK) return status;
-    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++)
-      note_orbit(b, &there[k], &single, p);
+    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++) pendres_label_note(s, &there[k]);
   }
-  judge_amplitudes(b, single, p);
+  judge_amplitudes(b, s, p);
   return status;
 }
 
 /* All orbits at one point: those that members reach, and those of the branches. */
-static pendres_status judge_branches(pendres_context *ctx, const border *b,
+static pendres_status judge_branches(pendres_context *ctx, const pendres_label_border *b,
                                      const pendres_branches *branches, const pendres_response *r,
-                                     pendres_orbit *there, pendres_phase_point *p)
+                                     pendres_label_states *s, pendres_orbit *there,
+                                     pendres_phase_point *p)
 {
-  int single = 0;
-  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
+  *s = (pendres_label_states){.count = 0};
   for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
-    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) note_orbit(b, &r->state[i].orbit, &single, p);
-  return look_up(ctx, b, branches, 0, single, there, p);
+    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) pendres_label_note(s, &r->state[i].orbit);
+  return look_up(ctx, b, branches, 0, s, there, p);
 }
 
 /* ---- lines ---- */
@@ -216,11 +217,12 @@ static pendres_status judge_line(pendres_context *ctx, size_t n, const pendres_e
                                  pendres_orbit *there, pendres_phase_point *out)
 {
   pendres_status status = PENDRES_OK;
-  const border b = find_border(branches);
+  const pendres_label_border b = find_border(branches);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     out[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
-    judge_ensemble(&b, ensemble, &r[i], &out[i]);
-    status = judge_branches(ctx, &b, branches, &r[i], there, &out[i]);
+    pendres_label_states known;
+    status = judge_branches(ctx, &b, branches, &r[i], &known, there, &out[i]);
+    if (status == PENDRES_OK) judge_ensemble(&b, &known, ensemble, &r[i], &out[i]);
   }
   return status;
 }
@@ -285,7 +287,7 @@ static int bounds_named(const pendres_curve *c)
 {
   const pendres_special kind = pendres_curve_kind(c);
   return (kind == PENDRES_FOLD || kind == PENDRES_SYMMETRY_BREAKING) &&
-         pendres_curve_count(c) > 0 && named_family(&pendres_curve_get(c, 0)->orbit);
+         pendres_curve_count(c) > 0 && on_sheets(&pendres_curve_get(c, 0)->orbit);
 }
 
 /* Beyond all cusps no small orbit ends, whatever folds there are. */
@@ -326,8 +328,23 @@ static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *cur
   return status;
 }
 
+/* The states that a point has been found to have, but for one without a name. */
+static pendres_label_states states_of(const pendres_phase_point *p)
+{
+  pendres_label_states s = {.count = 0};
+  pendres_orbit orbit = {.stable = 1, .period = 1};
+  const double amplitude[2] = {p->sa_amplitude, p->la_amplitude};
+  const double error[2] = {p->sa_amplitude_error, p->la_amplitude_error};
+  for (int i = 0; i < 2; i++) {
+    orbit.amplitude = amplitude[i];
+    orbit.amplitude_error = error[i];
+    if (!isnan(amplitude[i])) pendres_label_note(&s, &orbit);
+  }
+  return s;
+}
+
 /* All points again, now that there are branches from number `first` on. */
-static pendres_status judge_again(pendres_context *ctx, size_t n, const border *b,
+static pendres_status judge_again(pendres_context *ctx, size_t n, const pendres_label_border *b,
                                   const pendres_branches *branches, size_t first,
                                   pendres_phase_point *points)
 {
@@ -335,9 +352,12 @@ static pendres_status judge_again(pendres_context *ctx, size_t n, const border *
   pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
   if (there == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    status = look_up(ctx, b, branches, first, points[i].exact == PENDRES_REGIME_SINGLE, there,
-                     &points[i]);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_label_states known = states_of(&points[i]);
+    /* Where there is one state without a name, nothing is missing. */
+    if (points[i].exact != PENDRES_REGIME_SINGLE)
+      status = look_up(ctx, b, branches, first, &known, there, &points[i]);
+  }
   free(there);
   return status;
 }
@@ -366,9 +386,10 @@ static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
   if (n == 0) return PENDRES_OK;
   pendres_status status = PENDRES_OK;
   const size_t first = pendres_branches_count(branches);
-  /* What the points were judged by. */
-  const border before =
-    isnan(points[0].sa_fraction) ? (border){.distinct = 0} : find_border(branches);
+  /* What the points were judged by: without that fold, those with one state have no names. */
+  pendres_label_border before = find_border(branches);
+  for (size_t i = 0; i < n; i++)
+    if (isnan(points[i].sa_fraction)) before = (pendres_label_border){.distinct = 0};
   const pendres_branch_options options =
     options_of(&points[0].pendulum, &points[n - 1].pendulum, spacing);
   for (size_t i = 0; i < pendres_curves_count(curves) && status == PENDRES_OK; i++) {
@@ -376,7 +397,7 @@ static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
     if (bounds_named(c)) status = add_crossed(ctx, c, &points[0].pendulum, &options, branches);
   }
   if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
-  const border b =
+  const pendres_label_border b =
     above_cusps(curves, points[0].pendulum.damping) ? before : find_border(branches);
   if (b.distinct != before.distinct || b.frequency != before.frequency)
     return compute_again(ctx, n, ensemble, spacing, points, branches);

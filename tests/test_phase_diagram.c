@@ -171,14 +171,15 @@ static void others_are_told(void **state)
       .damping = 0.08, .drive_amplitude = 0.2, .drive_frequency = 0.530 + 0.003 * i};
   check_ok(pendres_phase_line(ctx, 4, line, &e, 0.0, points, NULL));
   int told = 0;
-  for (int i = 0; i < 4; i++)
-    if (points[i].regime == PENDRES_REGIME_OTHER) {
-      assert_true(points[i].other != 0);
-      assert_true(points[i].exact == PENDRES_REGIME_SA);
-      told += (points[i].other & PENDRES_OTHER_ASYMMETRIC) != 0;
-    } else {
-      assert_int_equal(points[i].other & ~PENDRES_OTHER_UNRESOLVED, 0);
-    }
+  for (int i = 0; i < 4; i++) {
+    /* The pair is one state, LA, beside SA. */
+    const int pair = (points[i].other & PENDRES_OTHER_ASYMMETRIC) != 0;
+    told += pair;
+    if (pair) assert_true(points[i].exact == PENDRES_REGIME_COEXISTENCE);
+    if (pair) assert_true(points[i].la_amplitude > 2.0 && points[i].la_fraction > 0.0);
+    if (points[i].regime == PENDRES_REGIME_OTHER)
+      assert_true((points[i].other & ~PENDRES_OTHER_ASYMMETRIC) != 0);
+  }
   assert_true(told > 0);
   pendres_context_free(ctx);
 }

@@ -25,15 +25,18 @@ extern "C" {
 #pragma GCC visibility push(default)
 
 /**
- * Labels. SA (small amplitude, phase lag below pi/3) and LA (large amplitude, large phase lag)
- * are orbits of period one, mirror symmetric, without winding, under the weak drive that the
- * paper is about (|F0| <= 0.25). Where two such orbits coexist the smaller is SA, and
- * so is rest, without a drive.
+ * Labels. Of the orbits of one drive period without winding that coexist at a pendulum's parameters,
+ * the one of smallest amplitude is SA, those of larger amplitude are LA, whatever the drive; a pair
+ * of mirror images counts as one. An orbit that is alone continues one of the two if both coexist at
+ * other parameters: what is found at one set of parameters does not tell. Under the weak drives of
+ * the paper (|F0| <= 0.25) it is SA if it lags less than pi/3 behind the drive (or is at rest), else
+ * LA, which comes to the same; under stronger ones it is PERIODIC until pendres_response_name() or a
+ * phase diagram has seen it among its neighbours.
  */
 typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,
   PENDRES_LABEL_LA = 1,
-  PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit */
+  PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit, or one without a name */
   PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5,

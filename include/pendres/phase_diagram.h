@@ -7,11 +7,12 @@
  * state exists but its basin misses all members. A branch that no member of a line reaches at all
  * is found from neighbouring lines, see pendres_phase_line_complete.
  *
- * SA and LA are the orbits of period one, each its own mirror image, on the two sheets that meet in
- * a cusp. At a given damping with a fold at which the small orbit ends, an orbit beyond that
- * frequency is LA; below it, it is SA if its amplitude is less than the fold's, else LA. Where
- * no such fold exists there is only one state, and no distinction. (A line by itself can miss that
- * fold, if its members are on LA alone and LA's branch does not lead to it.)
+ * SA and LA are named as everywhere (see pendres_label): of the orbits of period one without winding
+ * that coexist, the one of smallest amplitude is SA, the others are LA, a pair of mirror images
+ * counting as one. Where there is one alone, at a damping with a fold at which the small orbit ends,
+ * it is LA beyond that frequency; below it, it is SA if its amplitude is less than the fold's, else
+ * LA. Without such a fold it has no name. (A line by itself can miss that fold, if its members are
+ * on LA alone and LA's branch does not lead to it.)
  */
 #ifndef PENDRES_PHASE_DIAGRAM_H
 #define PENDRES_PHASE_DIAGRAM_H
@@ -38,7 +39,8 @@ const char *pendres_regime_name(pendres_regime regime);
 
 /** What else lives there: bits, 0 for nothing. */
 typedef enum pendres_other {
-  PENDRES_OTHER_ASYMMETRIC = 1, /**< period one, but not its own mirror image */
+  PENDRES_OTHER_ASYMMETRIC = 1, /**< period one, but not its own mirror image: SA or LA
+                                       all the same */
   PENDRES_OTHER_PERIODIC = 2,   /**< closes after several drive periods */
   PENDRES_OTHER_RUNNING = 4,    /**< closes but for whole turns */
   PENDRES_OTHER_CHAOTIC = 8,

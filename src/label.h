@@ -1,0 +1,46 @@
+/*
+ * label.h -- what orbits are called: the one place that says which states are SA and LA.
+ *
+ * Of the orbits of one drive period without winding that coexist at a pendulum's parameters, the
+ * one of smallest amplitude is SA, those of larger amplitude are LA, whatever the drive; a pair of
+ * mirror images counts as one. One that is alone has the name of the branch that it continues, told
+ * by the fold at which SA ends (see pendres_label_border), and none where there is no such fold.
+ * Where nothing is known of folds, as for a single set of parameters, the weak drives of the paper
+ * have the rule that comes to the same there: SA lags less than pi/3 behind, LA more.
+ *
+ * Owns: that definition. No integration here.
+ */
+#ifndef PENDRES_LABEL_H
+#define PENDRES_LABEL_H
+
+#include <pendres/attractor.h>
+
+enum { PENDRES_LABEL_STATES = 16 };
+
+/* The states that coexist: amplitudes of stable orbits that can have a name, each once. */
+typedef struct pendres_label_states {
+  size_t count;
+  double amplitude[PENDRES_LABEL_STATES], error[PENDRES_LABEL_STATES];
+} pendres_label_states;
+
+/* The fold at which SA ends, at one damping and drive amplitude: an orbit alone beyond its frequency
+   is LA; below, it is SA if its amplitude is less than the fold's, else LA. */
+typedef struct pendres_label_border {
+  int distinct; /* 0: there is no such fold, and no distinction */
+  double frequency, amplitude;
+} pendres_label_border;
+
+/* Whether an orbit can be SA or LA: one drive period, no winding. */
+int pendres_label_named(const pendres_orbit *orbit);
+
+/* Add a stable orbit that can be, unless its amplitude is known. */
+void pendres_label_note(pendres_label_states *states, const pendres_orbit *orbit);
+
+/* Which state has the smallest amplitude (most = 0) or the largest; there must be one. */
+size_t pendres_label_extreme(const pendres_label_states *states, int most);
+
+/* The label of a closed orbit among the states. border: NULL where nothing is known of folds. */
+pendres_label pendres_label_of(const pendres_label_states *states,
+                               const pendres_label_border *border, const pendres_orbit *orbit);
+
+#endif
