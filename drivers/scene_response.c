@@ -117,6 +117,13 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   return status;
 }
 
+/* States that are alone at a point have their names from the others of its damping. */
+static pendres_status name_states(void *arg, size_t task, pendres_context *ctx)
+{
+  grid *g = arg;
+  return pendres_response_name(ctx, g->drives, g->points + task * g->drives);
+}
+
 /* Results of a point: a value and its error by their offsets in pendres_response. */
 #define FIELD(name, text, unit)                                                              \
   {#name, text, unit, offsetof(pendres_response, name), offsetof(pendres_response, name##_error)}
@@ -315,6 +322,8 @@ static pendres_status run_scene(scene_run *run)
     goto done;
   }
   status = farm_run(run->farm, "chunks", g.dampings * (g.chunks + 1), compute, NULL, &g);
+  if (status == PENDRES_OK)
+    status = farm_run(run->farm, "dampings", g.dampings, name_states, NULL, &g);
   if (status != PENDRES_OK) {
     (void)scene_fail(run, status, "%s", farm_message(run->farm));
     goto done;

@@ -7,6 +7,7 @@
 
 #include "context_internal.h"
 #include "resonance_refine.h"
+#include "response_name.h"
 #include "strobe_run.h"
 
 enum {
@@ -300,6 +301,18 @@ static pendres_status choose(search *s, pendres_resonance *out, int *again)
   return PENDRES_OK;
 }
 
+/* A state that is alone at the resonance has its name from the other frequencies. */
+static pendres_status name_states(const search *s, pendres_response *r)
+{
+  const pendres_response *line[MOST_POINTS];
+  pendres_label_border border;
+  if (!pendres_response_nameless(r)) return PENDRES_OK;
+  for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
+  const pendres_status status = pendres_response_border(s->ctx, s->count, line, &border);
+  if (status == PENDRES_OK) pendres_response_name_by(&border, r);
+  return status;
+}
+
 static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
                                               double lowest, double highest,
                                               const pendres_ensemble *ensemble,
@@ -334,6 +347,7 @@ static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendre
     status = resolve_jumps(&s);
     if (status == PENDRES_OK) status = choose(&s, out, &again);
   }
+  if (status == PENDRES_OK) status = name_states(&s, &out->response);
   free(s.points);
   return status;
 }

@@ -112,7 +112,11 @@ static void average(pendres_response *r, const parted *p)
   sums s = {.least = INFINITY, .most = -INFINITY};
   size_t resolved = 0;
   double sa = 0.0, la = 0.0;
-  for (size_t i = 0; i < p->attractors; i++) resolved += p->members[i];
+  int named = 0;
+  for (size_t i = 0; i < p->attractors; i++) {
+    resolved += p->members[i];
+    named += p->attractor[i].label == PENDRES_LABEL_SA || p->attractor[i].label == PENDRES_LABEL_LA;
+  }
   clear_means(r);
   if (resolved == 0) return;
 
@@ -132,9 +136,11 @@ static void average(pendres_response *r, const parted *p)
   r->mean_loop_area_error = s.area_error + area_doubt;
   r->mean_power = s.power;
   r->mean_power_error = s.power_error + area_doubt * r->pendulum.drive_frequency / two_pi;
-  r->sa_fraction = sa / members;
-  r->la_fraction = la / members;
-  r->sa_fraction_error = r->la_fraction_error = lost + doubt;
+  if (named > 0) {
+    r->sa_fraction = sa / members;
+    r->la_fraction = la / members;
+    r->sa_fraction_error = r->la_fraction_error = lost + doubt;
+  }
   if (s.amplitude_share > 0.0) {
     r->mean_amplitude = s.amplitude / s.amplitude_share;
     r->mean_amplitude_error =

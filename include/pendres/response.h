@@ -43,7 +43,7 @@ typedef struct pendres_response {
   double phase_lag, phase_lag_error;
   double mean_power, mean_power_error;
   double sa_fraction, sa_fraction_error; /**< error: the share of members that are unresolved or
-                                              uncertain */
+                                              uncertain; NaN where no attractor is SA or LA */
   double la_fraction, la_fraction_error;
   size_t unresolved;                     /**< members without an attractor; left out of means */
   size_t states;                         /**< attractors listed: those that most members are on */
@@ -69,6 +69,15 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
  * set; what is unlisted can only count as unresolved here.
  */
 void pendres_response_average(pendres_response *r);
+
+/**
+ * Names for what is alone: of n responses of one damping and drive amplitude, at frequencies in any
+ * order, those with a single orbit of one drive period and no name for it yet (see pendres_label) are
+ * named SA or LA by the fold at which SA ends, if SA and LA coexist at any of the n; labels, shares
+ * and their errors are brought up to date. Otherwise nothing changes.
+ * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
+ */
+pendres_status pendres_response_name(pendres_context *ctx, size_t n, pendres_response *responses);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus
