@@ -428,6 +428,7 @@ static void ensembles(void **state)
   REFUSED(pendres_response_compute(f->ctx, 1, NULL, &some, &r));
   REFUSED(pendres_response_compute(f->ctx, 1, &good, NULL, &r));
   REFUSED(pendres_response_compute(f->ctx, 1, &good, &some, NULL));
+  REFUSED(pendres_response_name(f->ctx, 1, NULL));
   REFUSED(pendres_resonance_find(f->ctx, NULL, 0.7, 0.9, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, 0.7, 0.9, NULL));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, NULL, 0.7, 0.9, &some, &peak));
