@@ -31,6 +31,7 @@ typedef struct sums {
   double lone; /* amplitude of the only loop, NaN if there are more */
   double rest; /* bounds the harmonics that are not kept */
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS];
+  double cosine_error, sine_error; /* of the first harmonic */
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
 } sums;
 
@@ -49,6 +50,18 @@ static void add_extremes(sums *s, const pendres_attractor *a)
   s->least = fmin(s->least, o->loop_area);
   s->most = fmax(s->most, o->loop_area);
   if (!running(a)) s->widest = fmax(s->widest, o->amplitude);
+}
+
+/* Errors along and across a first harmonic, as errors of its parts. */
+static void add_harmonic_error(sums *s, const pendres_orbit *o, double share)
+{
+  const double r = o->first_harmonic_amplitude;
+  if (!(r > 0.0)) return;
+  const double along = share * o->first_harmonic_amplitude_error;
+  const double across = share * r * o->phase_lag_error;
+  const double c = fabs(o->cosine[0]) / r, d = fabs(o->sine[0]) / r;
+  s->cosine_error += c * along + d * across;
+  s->sine_error += d * along + c * across;
 }
 
 static void add_attractor(sums *s, const pendres_attractor *a, double share)
@@ -70,6 +83,7 @@ static void add_attractor(sums *s, const pendres_attractor *a, double share)
   s->rest += share * o->harmonics_rest;
   s->loop_error += share * o->x_error;
   s->loop_amplitude_error += share * o->amplitude_error;
+  add_harmonic_error(s, o, share);
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) {
     s->cosine[m] += share * o->cosine[m];
     s->sine[m] += share * o->sine[m];
@@ -94,17 +108,22 @@ static void average_loops(pendres_response *r, sums *s, double lost, double doub
     s->sine[m] /= s->loop_share;
   }
   /* What goes from one loop to another takes from the one as well. */
-  const double error = fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share +
-                       lost * r->mean_amplitude + 2.0 * doubt * s->widest;
+  const double moved = lost * r->mean_amplitude + 2.0 * doubt * s->widest;
   r->mean_loop_amplitude = s->lone;
-  r->mean_loop_amplitude_error = error;
+  r->mean_loop_amplitude_error =
+    fmax(s->loop_error, s->loop_amplitude_error) / s->loop_share + moved;
   if (isnan(s->lone)) {
     r->mean_loop_amplitude = pendres_orbit_series_half_range(s->cosine, s->sine);
     r->mean_loop_amplitude_error += s->rest / s->loop_share;
   }
   r->phase_lag =
     pendres_orbit_phase_lag(s->cosine[0], s->sine[0], r->pendulum.drive_amplitude);
-  if (!isnan(r->phase_lag)) r->phase_lag_error = error / hypot(s->cosine[0], s->sine[0]);
+  if (isnan(r->phase_lag)) return;
+  /* Across the mean harmonic, whose direction is the lag. */
+  const double length = hypot(s->cosine[0], s->sine[0]);
+  const double across =
+    (fabs(s->sine[0]) * s->cosine_error + fabs(s->cosine[0]) * s->sine_error) / length;
+  r->phase_lag_error = (across / s->loop_share + moved) / length;
 }
 
 static void average(pendres_response *r, const parted *p)
