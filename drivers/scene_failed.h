@@ -20,7 +20,8 @@
   X(NOT_CONVERGED, "not_converged", "an iteration did not converge within its budget")           \
   X(NOT_FOUND, "not_found", "nothing with the properties asked for exists")                      \
   X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
-  X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")
+  X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                            \
+  X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")
 
 typedef enum scene_failure {
 #define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,
@@ -32,6 +33,15 @@ typedef enum scene_failure {
 /* The reason for a status that a point's own parameters cause; SCENE_FAILURE_NONE for success and
    for what ends the run: no memory, a signal, a file, a bug. */
 scene_failure scene_failure_of(pendres_status status);
+
+/*
+ * Would pendulums of these parameters, settled `runs` times one after another, take more steps than
+ * a run is worth waiting for? Strong damping asks for short steps (their length times the damping
+ * stays below 4) and for a long time: the rate at which an overdamped pendulum settles is one over
+ * the damping, so that steps go with its square. By the parameters alone, so that the same points
+ * are refused in all runs. words[size] then says how many steps.
+ */
+int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
 
 /* The reasons of n points; all SCENE_FAILURE_NONE at first. */
 typedef struct scene_failures {

@@ -6,7 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 4 }; /* of following curves, see below */
+enum {
+  MOST_ROUNDS = 4,  /* of following curves, see below */
+  RUNS_A_POINT = 5  /* as long as settling its members: following branches and curves through it */
+};
 
 /* ---- a line -------------------------------------------------------------------------------- */
 
@@ -19,6 +22,12 @@ static pendres_status find_good(scene_lines *l, size_t task, pendres_context *ct
   line->count = 0;
   for (size_t k = 0; k < l->drives; k++) {
     pendres_response r;
+    char words[120];
+    if (scene_failure_too_long(&p[k], RUNS_A_POINT, words, sizeof words)) {
+      scene_failures_mark(&l->failed, task * l->drives + k, SCENE_FAILURE_TOO_LONG, words);
+      line->place[k] = SIZE_MAX;
+      continue;
+    }
     const pendres_status status = pendres_response_compute(ctx, 1, &p[k], &l->ensemble, &r);
     line->place[k] = status == PENDRES_OK ? line->count++ : SIZE_MAX;
     const pendres_status rest = scene_failures_note(&l->failed, task * l->drives + k, status,
@@ -75,13 +84,17 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   line->points = calloc(l->drives, sizeof *line->points);
   line->place = calloc(l->drives, sizeof *line->place);
   if (p == NULL || line->points == NULL || line->place == NULL) goto done;
+  int too_long = 0;
   for (size_t k = 0; k < l->drives; k++) {
+    char words[120];
     p[k] = pendres_sweep_pendulum(&l->sweep, task * l->drives + k, NULL, NULL);
     line->place[k] = k;
+    too_long |= scene_failure_too_long(&p[k], RUNS_A_POINT, words, sizeof words);
   }
   line->count = l->drives;
-  status = pendres_phase_line(ctx, l->drives, p, &l->ensemble, l->spacing, line->points,
-                              &line->branches);
+  status = too_long ? PENDRES_NOT_CONVERGED
+                    : pendres_phase_line(ctx, l->drives, p, &l->ensemble, l->spacing,
+                                         line->points, &line->branches);
   if (scene_failure_of(status) != SCENE_FAILURE_NONE) {
     status = find_good(l, task, ctx, p);
     if (status == PENDRES_OK) status = compute_good(l, task, ctx, p);

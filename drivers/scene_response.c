@@ -54,7 +54,15 @@ static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
 
 static pendres_status compute_peak(grid *g, size_t i, pendres_context *ctx)
 {
-  const pendres_pendulum p = pendulum_at(g, i, 0);
+  enum { FREQUENCIES = 50 /* of a search, about */ };
+  char words[120];
+  pendres_pendulum p = pendulum_at(g, i, 0);
+  p.drive_frequency = g->d->search[0];
+  if (scene_failure_too_long(&p, FREQUENCIES, words, sizeof words)) {
+    scene_failures_mark(&g->peak_failed, i, SCENE_FAILURE_TOO_LONG, words);
+    g->outcome[i] = PENDRES_NOT_CONVERGED;
+    return PENDRES_OK;
+  }
   g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
                                                   &g->ensemble, &g->peaks[i]);
   return scene_failures_note(&g->peak_failed, i, g->outcome[i], pendres_context_message(ctx));
@@ -73,10 +81,22 @@ static pendres_status compute_points(grid *g, size_t first, size_t n,
                                      const pendres_pendulum *pendulums, pendres_context *ctx)
 {
   pendres_response *out = g->points + first;
-  pendres_status status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, out);
-  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  pendres_status status = PENDRES_OK;
+  char words[120];
+  int too_long = 0;
+  for (size_t i = 0; i < n; i++)
+    too_long |= scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words);
+  if (!too_long) {
+    status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, out);
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  }
   status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words)) {
+      out[i] = no_response(&pendulums[i], g->ensemble.members);
+      scene_failures_mark(&g->failed, first + i, SCENE_FAILURE_TOO_LONG, words);
+      continue;
+    }
     status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &out[i]);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
     out[i] = no_response(&pendulums[i], g->ensemble.members);
