@@ -3,7 +3,7 @@
  *
  * Owns: the handlers of TERM, INT, HUP, USR1, USR2 and XCPU, which terminals and batch systems send
  * before they kill, and the flag that they set. A second one, a fifth of a second or more after the
- * first, ends the program at once, as if there were no handlers; not XCPU, which comes every second.
+ * first, ends the program at once, as if there were no handlers; but not XCPU, which is repeated.
  * PIPE and XFSZ are ignored, so that a closed pipe
  * and a limit on file sizes become errors of writing, which are reported. The flag is the only
  * state of the program that is not passed around: a handler has no arguments.

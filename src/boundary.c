@@ -43,32 +43,32 @@ size_t pendres_boundary_count(const pendres_boundary *b)
 
 const double *pendres_boundary_x(const pendres_boundary *b)
 {
-  return b->x;
+  return b != NULL ? b->x : NULL;
 }
 
 const double *pendres_boundary_v(const pendres_boundary *b)
 {
-  return b->v;
+  return b != NULL ? b->v : NULL;
 }
 
 const int *pendres_boundary_piece(const pendres_boundary *b)
 {
-  return b->piece;
+  return b != NULL ? b->piece : NULL;
 }
 
 const double *pendres_boundary_error(const pendres_boundary *b)
 {
-  return b->error;
+  return b != NULL ? b->error : NULL;
 }
 
 double pendres_boundary_bound(const pendres_boundary *b)
 {
-  return b->bound;
+  return b != NULL ? b->bound : 0.0;
 }
 
 int pendres_boundary_complete(const pendres_boundary *b)
 {
-  return b->complete;
+  return b != NULL && b->complete;
 }
 
 /* ---- what is wanted ---- */
@@ -223,7 +223,7 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
   if (options != NULL) o = *options;
   why = resolve(&o);
   if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
-  if (why == NULL && saddle->stable) why = "an attractor has no stable manifold that bounds a basin";
+  if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
 
   pendres_boundary *b = calloc(1, sizeof *b);

@@ -130,7 +130,8 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, out and outcome");
   for (size_t i = 0; i < n; i++)
     if (!(pendulums[i].temperature >= 0.0 && pendulums[i].damping < 1e15 &&
-          pendulums[i].drive_amplitude < 1e15 && pendulums[i].damping > 0.0 && pendulums[i].drive_amplitude > 0.0 &&
+          pendulums[i].drive_amplitude < 1e15 && pendulums[i].damping > 0.0 &&
+          pendulums[i].drive_amplitude > 0.0 &&
           isfinite(pendulums[i].damping) && isfinite(pendulums[i].drive_amplitude)))
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                   "pendulum %zu: a backbone needs damping and drive", i);

@@ -41,7 +41,7 @@ const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *b, s
 
 pendres_branch_end pendres_branch_end_of(const pendres_branch *b, int which)
 {
-  return b->end[which != 0];
+  return b != NULL ? b->end[which != 0] : PENDRES_END_STUCK;
 }
 
 /* ---- bifurcations on the way ---- */

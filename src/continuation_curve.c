@@ -38,7 +38,7 @@ void pendres_curve_free(pendres_curve *c)
 
 pendres_special pendres_curve_kind(const pendres_curve *c)
 {
-  return c->kind;
+  return c != NULL ? c->kind : PENDRES_REGULAR;
 }
 
 size_t pendres_curve_count(const pendres_curve *c)
@@ -63,7 +63,7 @@ const pendres_cusp *pendres_curve_cusp(const pendres_curve *c, size_t i)
 
 pendres_branch_end pendres_curve_end_of(const pendres_curve *c, int which)
 {
-  return c->end[which != 0];
+  return c != NULL ? c->end[which != 0] : PENDRES_END_STUCK;
 }
 
 static int place_of(pendres_parameter parameter)

@@ -28,6 +28,7 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t)
 {
+  if (p == NULL) return NAN;
   return cos(x) - p->damping * v + p->drive_amplitude * cos(p->drive_frequency * t);
 }
 
@@ -35,8 +36,8 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, do
                                double *dv)
 {
   (void)v;
-  *dx = -sin(x);
-  *dv = -p->damping;
+  if (dx != NULL) *dx = -sin(x);
+  if (dv != NULL) *dv = p != NULL ? -p->damping : NAN;
 }
 
 double pendres_pendulum_energy(double x, double v)
@@ -54,8 +55,8 @@ long pendres_pendulum_well(double x)
 
 void pendres_pendulum_mirror(double *x, double *v)
 {
-  *x = 2.0 * half_pi - *x;
-  *v = -*v;
+  if (x != NULL) *x = 2.0 * half_pi - *x;
+  if (v != NULL) *v = -*v;
 }
 
 pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out)

@@ -211,7 +211,7 @@ static double least_steps(const pendres_pendulum *p, double speed)
   return fmax(period * p->damping / 4.0, period * fmax(1.0, speed / 4.0) / 1.5);
 }
 
-/* A drive that swings a pendulum through so many turns a period leaves less than two steps a turn. */
+/* A drive that swings a pendulum so far in a period leaves it less than two steps a turn. */
 static int shaken(const pendres_pendulum *p)
 {
   const double speed = fabs(p->drive_amplitude) / fmax(p->drive_frequency, p->damping);

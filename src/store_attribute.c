@@ -119,6 +119,9 @@ pendres_status pendres_store_provenance(pendres_store *store, const pendres_stor
                                         size_t n)
 {
   const char group[] = "provenance";
+  if (!store) return PENDRES_INVALID_ARGUMENT;
+  if (n && !entries)
+    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "provenance without entries");
   pendres_status status = pendres_store_group(store, group);
 
   for (size_t i = 0; i < n && !status; i++) {

@@ -281,6 +281,10 @@ pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec 
                                  const void *data, size_t n)
 {
   int id = -1;
+  /* Before there is a variable that nobody fills. */
+  if (store && spec && n && !data)
+    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data",
+                              spec->name ? spec->name : "");
   pendres_status status = pendres_store_variable(store, spec, &id);
 
   return status ? status : pendres_store_write(store, id, data, n);
@@ -290,6 +294,9 @@ pendres_status pendres_store_put_result(pendres_store *store, const pendres_stor
                                         const void *data, const double *error, size_t n)
 {
   int id = -1, error_id = -1;
+  if (store && spec && n && (!data || !error))
+    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data or no errors",
+                              spec->name ? spec->name : "");
   pendres_status status = pendres_store_result(store, spec, &id, &error_id);
 
   if (!status) status = pendres_store_write(store, id, data, n);

@@ -34,6 +34,7 @@ static double decimal_of(double value, double rounding)
 
 double pendres_range_value(const pendres_range *range, size_t i)
 {
+  if (range == NULL || i >= range->count) return NAN;
   const double n = (double)(range->count - 1), k = (double)i;
   if (i == 0) return range->first + 0.0; /* no negative zeros */
   if (i + 1 == range->count) return range->last + 0.0;
@@ -137,6 +138,7 @@ static void set(pendres_quantity quantity, double value, pendres_pendulum *p, do
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v)
 {
+  if (sweep == NULL) return (pendres_pendulum){NAN, NAN, NAN, NAN};
   pendres_pendulum p = sweep->pendulum;
   double position = sweep->x, velocity = sweep->v;
   for (size_t i = sweep->axes; i-- > 0;) {
@@ -156,5 +158,6 @@ pendres_ensemble pendres_ensemble_default(void)
 
 double pendres_ensemble_x(const pendres_ensemble *e, size_t k)
 {
+  if (e == NULL) return NAN;
   return e->x_first + (e->x_last - e->x_first) * ((double)k / (double)e->members);
 }

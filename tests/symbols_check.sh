@@ -1,8 +1,9 @@
 #!/bin/sh
 # symbols_check.sh -- what the library exports, keeps and calls.
 #
-# Exported: exactly the functions that the public headers declare. Kept: no data that can be
-# written, so nothing is shared between contexts. Called: nothing that prints or ends a program.
+# Exported: exactly the functions that the public headers declare, all of them tried with arguments
+# that are none. Kept: no data that can be written, so nothing is shared between contexts. Called:
+# nothing that prints or ends a program.
 # Run by make check, which sets BUILD and CC.
 set -u
 BUILD=${BUILD:-build}
@@ -65,6 +66,12 @@ comm -13 "$scratch/declared" "$scratch/exported" >"$scratch/extra"
 [ ! -s "$scratch/extra" ] || fail "exported but not declared:" $(cat "$scratch/extra")
 grep -v '^pendres_' "$scratch/exported" >"$scratch/foreign" &&
   fail "without the prefix:" $(cat "$scratch/foreign")
+
+# Each is called with arguments that are none.
+for name in $(cat "$scratch/declared"); do
+  cat tests/test_arguments*.c | grep -q "$name(" || echo "$name"
+done >"$scratch/untried"
+[ ! -s "$scratch/untried" ] || fail "not in tests/test_arguments*.c:" $(cat "$scratch/untried")
 
 # Names that cross files inside the archive carry the prefix too.
 nm --defined-only --extern-only "$BUILD/libpendres.a" 2>/dev/null |

@@ -184,6 +184,7 @@ static void orbits(void **state)
     const pendres_orbit_guess g = { o->pendulum, o->x, o->v, o->period, o->winding };
     REFUSED(pendres_orbit_refine(f->ctx, 1, &g, PENDRES_ORBIT_PLAIN, &out, &how));
     REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v));
+    REFUSED(pendres_orbit_sample_with_error(f->ctx, o, 8, x, v, x, v));
   }
   REFUSED(pendres_orbit_sample(f->ctx, NULL, 8, x, v));
   REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, 0, x, v));

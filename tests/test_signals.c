@@ -61,7 +61,7 @@ static int count_then_stop(void *arg)
 }
 
 /*
- * A single period of many steps, by every method: it ends when the fourth question is answered, long
+ * A single period of many steps, by every method: it ends when the fourth question is answered, far
  * before the period. Steps of friction's stability at damping 3e4 number some 1e5 or more.
  */
 static void asked_within_a_period(void **state)
@@ -77,8 +77,8 @@ static void asked_within_a_period(void **state)
     x[i] = v[i] = 0.0;
   }
   for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
-    const pendres_options o = { .method = methods[m],
-                                .steps_per_period = methods[m] == PENDRES_BLOCK_FIXED ? 800000 : 0 };
+    const int steps = methods[m] == PENDRES_BLOCK_FIXED ? 800000 : 0;
+    const pendres_options o = { .method = methods[m], .steps_per_period = steps };
     pendres_context *ctx = NULL;
     pendres_cost cost;
     int asked = 0;

@@ -383,7 +383,7 @@ static void test_far_starts(void **state)
 
 /*
  * Far from the origin the angle is that of the position as it stands, in both ways to advance. The
- * angles are x - pi/2 less whole turns of 2 pi, by decimals of 60 digits. What is left: the rounding
+ * angles are x - pi/2 less whole turns of 2 pi, by decimals of 60 digits. What is left: rounding
  * of a step's angle and velocity, some 1e-15 each; the last place of x is claimed.
  */
 static void test_far_angles(void **state)

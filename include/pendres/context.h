@@ -113,10 +113,10 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost);
 void pendres_context_cost_reset(pendres_context *ctx);
 
 /**
- * A function that is asked now and then, within long drive periods too, whether to go on: it returns nonzero to stop, and the
- * computation then ends with PENDRES_INTERRUPTED. NULL removes it. arg is kept, not owned. Within
- * that function the context is in use, and may be asked for its cost and options alone. A context
- * in use keeps the function that it has.
+ * A function that is asked now and then, within long drive periods too, whether to go on: it
+ * returns nonzero to stop, and the computation then ends with PENDRES_INTERRUPTED. NULL removes
+ * it. arg is kept, not owned. Within that function the context is in use, and may be asked for its
+ * cost and options alone. A context in use keeps the function that it has.
  */
 void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg);
 

@@ -23,13 +23,14 @@ extern "C" {
  * pendulums[n] are read; x[n] and v[n] (position and velocity at drive phase 0) are
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
- * error[n], if not NULL, receives an estimate of the larger of the errors of x and v, twice what is
- * between the first run and better ones, which are taken to be off by up to half as much: a second
- * run with more steps a period and, where errors have grown, a third with still more; or, where the method's steps are adaptive, runs with a tenth and a hundredth of the
- * tolerance (1e-6 at most). It covers discretisation and rounding,
- * amplified along each trajectory as the trajectory itself amplifies them; where that is by more
- * than the tolerance allows, the estimate says so (infinite: nothing is known), it is not an error
- * of the function. It costs four to five times as much as the first run.
+ * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice what is
+ * between the first run and better ones, which are taken to be off by up to half as much. Those are
+ * a second run with more steps a period and, where errors have grown, a third with still more; or,
+ * where the method's steps are adaptive, runs with a tenth and a hundredth of the tolerance (1e-6
+ * at most). It covers discretisation and rounding, amplified along each trajectory as that
+ * itself amplifies them; where that is by more than the tolerance allows, the estimate says so
+ * (infinite: nothing is known), it is not an error of the function. It costs four to five times as
+ * much as the first run.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.
@@ -40,10 +41,10 @@ extern "C" {
  *
  * Errors: PENDRES_INVALID_ARGUMENT (message names the pendulum; nothing was changed), also where
  * double precision cannot say what is asked: positions beyond 1e15, where a tenth of a radian is
- * lost, or parameters and speeds that lead there within a period, or a damping of more than 1e15
- * times the drive frequency; PENDRES_INTEGRATION_FAILED, also where a state is no number at the end;
- * PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED. On any of these x and v
- * are unchanged.
+ * lost, parameters and speeds that lead there within a period, or a damping of more than 1e15 times
+ * the drive frequency; PENDRES_INTEGRATION_FAILED, also where a state is no number at the end;
+ * PENDRES_TOLERANCE_UNREACHABLE, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED. On any of these x and
+ * v are unchanged.
  */
 pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,

@@ -29,7 +29,7 @@ typedef struct pendres_range {
   size_t count;
 } pendres_range;
 
-/** Value number i < count. */
+/** Value number i < count; NaN beyond, or without a range. */
 double pendres_range_value(const pendres_range *range, size_t i);
 
 /**
