@@ -17,7 +17,8 @@ enum {
   SLICE = 16384,          /* states a task of a refinement */
   SMALL = 2048,           /* so few are not worth a task */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
-  SAMPLE = 10000,         /* filled states that are verified */
+  LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
+  SAMPLED = 256,
   LOST_A_TASK = 64,       /* unresolved states that a task remembers */
   MOST_EXTENSIONS = 4
 };
@@ -213,20 +214,35 @@ static pendres_status follow_plan(basins *b, pendres_basin_plan *p)
 }
 
 /* A sample of what was filled in; what turns out wrong is put right with its surroundings. */
-static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
+static pendres_status verify_once(basins *b, pendres_basin_plan *p, size_t sample, uint64_t seed,
+                                  size_t *drawn, size_t *missed)
 {
   const size_t *index = NULL;
-  size_t drawn = 0, missed = 0;
   pendres_basin_state *state = NULL;
-  const double share = (double)rows / (double)b->grid.nx;
-  pendres_status status =
-    pendres_basin_plan_sample(p, (size_t)ceil(SAMPLE * share), 1, &drawn, &index);
-  if (status == PENDRES_OK) status = integrate(b, drawn, index, &state);
-  if (status == PENDRES_OK) status = pendres_basin_plan_verify(p, state, &missed);
+  *drawn = *missed = 0;
+  pendres_status status = pendres_basin_plan_sample(p, sample, seed, drawn, &index);
+  if (status == PENDRES_OK) status = integrate(b, *drawn, index, &state);
+  if (status == PENDRES_OK) status = pendres_basin_plan_verify(p, state, missed);
   free(state);
-  b->verified += drawn;
-  b->missed += missed;
+  b->verified += *drawn;
+  b->missed += *missed;
   return status == PENDRES_OK ? follow_plan(b, p) : status;
+}
+
+/* Samples until one is clean: each that is not makes the plan's lattice finer, so that there is an
+   end. */
+static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
+{
+  const size_t all = b->grid.nx * b->grid.nv / SAMPLED;
+  const double sample = (double)(all > LEAST_SAMPLE ? all : LEAST_SAMPLE);
+  const size_t n = (size_t)ceil(sample * (double)rows / (double)b->grid.nx);
+  size_t drawn = 0, missed = 1;
+  pendres_status status = PENDRES_OK;
+  for (uint64_t seed = 1; missed > 0 && status == PENDRES_OK; seed++)
+    status = verify_once(b, p, n, seed, &drawn, &missed);
+  b->clean += drawn;
+  b->filled += pendres_basin_plan_filled(p);
+  return status;
 }
 
 /* Rows first .. first + rows - 1 by a plan; index[0 .. *lost) are some that are unresolved. */
@@ -263,9 +279,11 @@ static pendres_status refine_once(basins *b, size_t *grown, int last)
   size_t index[LOST_A_TASK], lost = 0;
   pendres_status status = restart(b);
   *grown = 0;
-  b->integrated = b->verified = b->missed = 0;
+  b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
   for (size_t i = 0; i < b->grid.nx && status == PENDRES_OK; i += band)
     status = refine_band(b, i, b->grid.nx - i < band ? b->grid.nx - i : band, &lost, index);
+  if (status == PENDRES_OK)
+    status = pendres_basin_sums_suspect(b->sums, pendres_basin_plan_suspected(b->filled, b->clean));
   if (status == PENDRES_OK && !last) status = extend(b, lost, index, grown);
   return status;
 }

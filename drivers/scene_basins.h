@@ -26,6 +26,7 @@ typedef struct basins {
   const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
   /* refinement alone: */
   size_t integrated, verified, missed;
+  size_t filled, clean; /* filled states in the end, and those of clean samples among them */
   /* the line v = 0: */
   pendres_basin_state *cut;
 } basins;

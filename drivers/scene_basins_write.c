@@ -343,7 +343,12 @@ static pendres_status write_counts(basins *b)
                          b->verified);
     if (status == PENDRES_OK)
       status = put_count(store, "verification_misses",
-                         "verified states that had been filled in wrongly", b->missed);
+                         "verified states that had been filled in wrongly, and were put right with "
+                         "their surroundings until a fresh sample was clean", b->missed);
+    if (status == PENDRES_OK)
+      status = put_count(store, "suspected_states",
+                         "filled states that may be wrong at most, with a confidence of 95 %",
+                         (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean)));
   }
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
 }
@@ -422,9 +427,12 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
           s->uncertain_states);
   if (b->d->basins.refine)
-    fprintf(out, "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong\n",
+    fprintf(out,
+            "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong%s,\n"
+            "of %zu that are filled in at most %.0f are wrong with a confidence of 95 %%\n",
             b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
-            b->missed);
+            b->missed, b->missed > 0 ? " and put right" : "", b->filled,
+            ceil(pendres_basin_plan_suspected(b->filled, b->clean)));
   basins_print_wells(b, out);
   if (b->d->basins.statistics) print_statistics(out, s);
   if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is known of a state. */
-typedef enum knowledge { UNKNOWN, INTEGRATED, FILLED, ASKED } knowledge;
+/* What is known of a state; UNSURE: integrated, but it may belong elsewhere. */
+typedef enum knowledge { UNKNOWN, FILLED, ASKED, INTEGRATED, UNSURE } knowledge;
 
 typedef enum stage { STAGE_CELLS, STAGE_SCAN, STAGE_FOLLOW } stage;
 
@@ -28,6 +28,7 @@ typedef struct fate {
 
 struct pendres_basin_plan {
   size_t first, rows, nv;
+  size_t stride;         /* of the lattice of states that are integrated everywhere */
   stage stage;
   uint16_t *fate_of;     /* of each state, an index of fates */
   uint8_t *knowledge;
@@ -62,7 +63,7 @@ static int grow(void **array, size_t *capacity, size_t used, size_t size)
 /* Ask for a state of these rows, unless it has been integrated or asked for. */
 static int ask(pendres_basin_plan *p, size_t k)
 {
-  if (p->knowledge[k] == INTEGRATED || p->knowledge[k] == ASKED) return 0;
+  if (p->knowledge[k] >= ASKED) return 0;
   if (grow((void **)&p->queue, &p->queue_capacity, p->queued, sizeof *p->queue) != 0) return -1;
   p->knowledge[k] = ASKED;
   p->queue[p->queued++] = offset_of(p) + k;
@@ -88,8 +89,9 @@ static size_t next_line(size_t line, size_t stride, size_t count)
   return line + stride < count - 1 ? line + stride : count - 1;
 }
 
-static int coarse_lattice(pendres_basin_plan *p, size_t stride)
+static int coarse_lattice(pendres_basin_plan *p)
 {
+  const size_t stride = p->stride;
   for (size_t i = 0;; i = next_line(i, stride, p->rows)) {
     for (size_t j = 0;; j = next_line(j, stride, p->nv)) {
       if (ask_at(p, i, j) != 0) return -1;
@@ -118,12 +120,13 @@ pendres_status pendres_basin_plan_create(const pendres_basin_grid *grid, size_t 
   pendres_basin_plan *p = calloc(1, sizeof *p);
   if (p == NULL) return PENDRES_OUT_OF_MEMORY;
   const size_t n = rows * grid->nv;
-  *p = (pendres_basin_plan){.first = first, .rows = rows, .nv = grid->nv};
+  *p = (pendres_basin_plan){.first = first, .rows = rows, .nv = grid->nv,
+                              .stride = (size_t)stride};
   p->fate_of = calloc(n, sizeof *p->fate_of);
   p->knowledge = calloc(n, sizeof *p->knowledge);
   p->periods = calloc(n, sizeof *p->periods);
   if (p->fate_of == NULL || p->knowledge == NULL || p->periods == NULL ||
-      coarse_lattice(p, (size_t)stride) != 0) {
+      coarse_lattice(p) != 0) {
     pendres_basin_plan_free(p);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -164,7 +167,7 @@ static int take(pendres_basin_plan *p, size_t k, const pendres_basin_state *s)
   if (number == UINT16_MAX) return -1;
   p->fate_of[k] = number;
   p->periods[k] = s->settling_periods;
-  p->knowledge[k] = INTEGRATED;
+  p->knowledge[k] = s->how == PENDRES_BASIN_UNCERTAIN ? UNSURE : INTEGRATED;
   p->integrated++;
   return 0;
 }
@@ -252,8 +255,32 @@ static int ask_unlike(pendres_basin_plan *p, size_t k)
 static int scan(pendres_basin_plan *p)
 {
   for (size_t k = 0; k < p->rows * p->nv; k++)
-    if ((p->knowledge[k] == INTEGRATED || p->knowledge[k] == FILLED) && ask_unlike(p, k) != 0)
-      return -1;
+    if (p->knowledge[k] != ASKED && ask_unlike(p, k) != 0) return -1;
+  return 0;
+}
+
+/* ---- what was filled in wrongly ---- */
+
+/* Ask for all that was filled in around state k, as far as the lattice is wide. */
+static int ask_around(pendres_basin_plan *p, size_t k)
+{
+  const size_t row = k / p->nv, column = k % p->nv, far = p->stride;
+  const size_t top = row > far ? row - far : 0, left = column > far ? column - far : 0;
+  const size_t bottom = row + far < p->rows ? row + far : p->rows - 1;
+  const size_t right = column + far < p->nv ? column + far : p->nv - 1;
+  for (size_t i = top; i <= bottom; i++)
+    for (size_t j = left; j <= right; j++)
+      if (ask_at(p, i, j) != 0) return -1;
+  return 0;
+}
+
+/* A lattice of half the width everywhere: where one piece slipped through others may have. */
+static int finer_lattice(pendres_basin_plan *p)
+{
+  if (p->stride > 1) p->stride /= 2;
+  for (size_t i = 0; i < p->rows; i += p->stride)
+    for (size_t j = 0; j < p->nv; j += p->stride)
+      if (ask_at(p, i, j) != 0) return -1;
   return 0;
 }
 
@@ -280,27 +307,32 @@ pendres_status pendres_basin_plan_next(pendres_basin_plan *p, size_t *n, const s
   return PENDRES_OK;
 }
 
-/* Take over the queue; states that are unlike their surroundings raise new questions. */
+/* Take over the queue; states that are unlike their surroundings raise new questions, and so does
+   what a sample shows to have been filled in wrongly. */
 static pendres_status accept(pendres_basin_plan *p, const pendres_basin_state *state,
                              size_t *missed)
 {
   const size_t n = p->queued;
   size_t *done = p->queue;
-  pendres_status status = PENDRES_OK;
+  int bad = 0;
   if (!p->asked || (n > 0 && state == NULL)) return PENDRES_INVALID_ARGUMENT;
   p->queue = NULL;
   p->queued = p->queue_capacity = 0;
   p->asked = 0;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+  for (size_t i = 0; i < n && !bad; i++) {
     const size_t k = done[i] - offset_of(p);
     const uint16_t before = p->fate_of[k];
-    if (take(p, k, &state[i]) != 0) status = PENDRES_OUT_OF_MEMORY;
-    if (missed != NULL) *missed += p->fate_of[k] != before;
+    bad = take(p, k, &state[i]) != 0;
+    if (bad || missed == NULL || p->fate_of[k] == before) continue;
+    done[(*missed)++] = done[i]; /* those before are done with */
   }
-  for (size_t i = 0; i < n && p->stage == STAGE_FOLLOW && status == PENDRES_OK; i++)
-    if (ask_unlike(p, done[i] - offset_of(p)) != 0) status = PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n && missed == NULL && p->stage == STAGE_FOLLOW && !bad; i++)
+    bad = ask_unlike(p, done[i] - offset_of(p)) != 0;
+  for (size_t i = 0; missed != NULL && i < *missed && !bad; i++)
+    bad = ask_around(p, done[i] - offset_of(p)) != 0;
+  if (missed != NULL && *missed > 0 && !bad) bad = finer_lattice(p) != 0;
   free(done);
-  return status;
+  return bad ? PENDRES_OUT_OF_MEMORY : PENDRES_OK;
 }
 
 pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan, const pendres_basin_state *state)
@@ -354,9 +386,24 @@ pendres_status pendres_basin_plan_states(const pendres_basin_plan *p, pendres_ba
       .attractor = f->attractor,
       .label = f->label,
       .settling_periods = filled ? -2 : p->periods[k],
-      .how = filled ? PENDRES_BASIN_FILLED : PENDRES_BASIN_INTEGRATED};
+      .how = filled                        ? PENDRES_BASIN_FILLED
+             : p->knowledge[k] == UNSURE ? PENDRES_BASIN_UNCERTAIN
+                                           : PENDRES_BASIN_INTEGRATED};
   }
   return PENDRES_OK;
+}
+
+size_t pendres_basin_plan_filled(const pendres_basin_plan *p)
+{
+  size_t filled = 0;
+  for (size_t k = 0; p != NULL && k < p->rows * p->nv; k++) filled += p->knowledge[k] == FILLED;
+  return filled;
+}
+
+double pendres_basin_plan_suspected(size_t filled, size_t drawn)
+{
+  const double all = (double)filled;
+  return drawn > 3 ? all * 3.0 / (double)drawn : all;
 }
 
 size_t pendres_basin_plan_integrated(const pendres_basin_plan *p)

@@ -188,6 +188,20 @@ static void count_unlike(pendres_basin_sums *s, const int16_t *a)
   }
 }
 
+/* The states of a row by attractor and well, one run of like ones after the other. */
+static pendres_status count_states(pendres_basin_sums *s, const int16_t *a,
+                                   const pendres_basin_state *state)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t j = 0, end; j < s->nv && status == PENDRES_OK; j = end) {
+    for (end = j + 1; end < s->nv && a[end] == a[j] && state[end].well == state[j].well; end++) {}
+    s->members[a[j]].states += end - j;
+    if ((size_t)a[j] < s->attractors)
+      status = pendres_basin_tally_add(&s->tally, a[j], state[j].well, end - j);
+  }
+  return status;
+}
+
 static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *state)
 {
   const size_t row = s->rows++, slot = row % BOX;
@@ -196,21 +210,17 @@ static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *
     const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
     a[j] = known ? state[j].attractor : (int16_t)s->attractors;
     s->row_share[a[j]] += s->v_share[j];
-    s->members[a[j]].states++;
     if (state[j].how == PENDRES_BASIN_UNCERTAIN) {
       s->uncertain++;
       s->box_doubt[j]++;
-    }
-    if (known) {
-      const pendres_status status =
-        pendres_basin_tally_add(&s->tally, state[j].attractor, state[j].well);
-      if (status != PENDRES_OK) return status;
     }
     if (j > 0 && a[j] != a[j - 1]) {
       s->members[a[j]].crossings += 1.0;
       s->members[a[j - 1]].crossings += 1.0;
     }
   }
+  const pendres_status status = count_states(s, a, state);
+  if (status != PENDRES_OK) return status;
   add_shares(s, row);
   count_unlike(s, a);
   if (slot == BOX - 1) {

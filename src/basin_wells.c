@@ -28,27 +28,20 @@ static pendres_status make_room(pendres_basin_tally *t)
   free(t->place);
   t->place = place;
   t->places = places;
-  t->last = 0;
   return PENDRES_OK;
 }
 
-pendres_status pendres_basin_tally_add(pendres_basin_tally *t, int attractor, long well)
+pendres_status pendres_basin_tally_add(pendres_basin_tally *t, int attractor, long well,
+                                       size_t states)
 {
-  if (t->used > 0) {
-    pendres_basin_well *last = &t->place[t->last];
-    if (last->states > 0 && last->attractor == attractor && last->well == well) {
-      last->states++;
-      return PENDRES_OK;
-    }
-  }
   const pendres_status status = make_room(t);
   if (status != PENDRES_OK) return status;
-  const size_t i = t->last = find(t->place, t->places, attractor, well);
+  const size_t i = find(t->place, t->places, attractor, well);
   if (t->place[i].states == 0) {
     t->place[i] = (pendres_basin_well){.attractor = attractor, .well = well};
     t->used++;
   }
-  t->place[i].states++;
+  t->place[i].states += states;
   return PENDRES_OK;
 }
 

@@ -10,11 +10,11 @@
 typedef struct pendres_basin_tally {
   pendres_basin_well *place; /* states 0: free */
   size_t places, used;       /* places: a power of 2, or none */
-  size_t last;               /* place of the latest: neighbours mostly go where it went */
 } pendres_basin_tally;
 
-/* Count one more state; PENDRES_OUT_OF_MEMORY leaves the table as it was. */
-pendres_status pendres_basin_tally_add(pendres_basin_tally *t, int attractor, long well);
+/* Count so many more states; PENDRES_OUT_OF_MEMORY leaves the table as it was. */
+pendres_status pendres_basin_tally_add(pendres_basin_tally *t, int attractor, long well,
+                                       size_t states);
 
 /* All entries by attractor, then by well, in out[t->used]. */
 void pendres_basin_tally_list(const pendres_basin_tally *t, pendres_basin_well *out);

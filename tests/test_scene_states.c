@@ -228,6 +228,51 @@ static void refined_is_whole(void **state)
   pendres_store_free(refined);
 }
 
+/*
+ * Basins of which pieces fit between the points of the coarse lattice: a sample finds some, what is
+ * around them is looked at, and again, until a fresh sample is clean. What may be left is said,
+ * and fractions' errors contain it.
+ */
+static void refined_until_a_sample_is_clean(void **state)
+{
+#define PIECES                                                                                     \
+  "&scene kind = 'basins' /\n"                                                                     \
+  "&pendulum drive_amplitude = 1.1495102972657845, damping = 0.22350456150056097,\n"               \
+  "          drive_frequency = 1.0932641592038927 /\n"                                             \
+  "&sweep x_range = -1.5, 4.5, 256, v_range = -3, 3, 256 /\n"                                      \
+  "&precision tolerance = 1e-6 /\n"
+  (void)state;
+  scene_run_deck(PIECES, 2, "pieces");
+  scene_run_deck(PIECES "&basins refine = T /\n", 2, "pieces-refined");
+  pendres_store *whole = scene_open("pieces"), *refined = scene_open("pieces-refined");
+  size_t n = 0, m = 0, differ = 0;
+  double *a = scene_values(whole, "attractor_index", &n);
+  double *b = scene_values(refined, "attractor_index", &n);
+  for (size_t k = 0; k < n; k++) differ += a[k] != b[k];
+  const double suspected = scene_scalar(refined, "suspected_states");
+  assert_true(scene_scalar(refined, "verification_misses") > 0);
+  assert_true(differ <= suspected);
+  assert_true(suspected < 1e-3 * (double)n); /* 3 in 10,000 of what was filled in */
+  double *share = scene_values(whole, "basin_fraction", &n);
+  double *other = scene_values(refined, "basin_fraction", &m);
+  double *error = scene_values(whole, "basin_fraction_error", &n);
+  double *other_error = scene_values(refined, "basin_fraction_error", &m);
+  assert_int_equal(n, m);
+  for (size_t k = 0; k < n; k++) {
+    /* The same grid: what the errors of sampling it are does not separate the two. */
+    check_near(other[k], share[k], suspected / (256.0 * 256.0));
+    assert_true(other_error[k] >= suspected / (256.0 * 256.0) && error[k] > 0.0);
+  }
+  free(a);
+  free(b);
+  free(share);
+  free(other);
+  free(error);
+  free(other_error);
+  pendres_store_free(whole);
+  pendres_store_free(refined);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -236,6 +281,7 @@ int main(void)
     cmocka_unit_test(wells_are_counted),
     cmocka_unit_test(exponent_of_a_fractal_boundary),
     cmocka_unit_test(same_bytes_on_any_threads),
+    cmocka_unit_test(refined_until_a_sample_is_clean),
     cmocka_unit_test(refined_is_whole), /* of what the test before has written */
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

@@ -100,7 +100,8 @@ pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *s
  * state that was filled in and has an unlike neighbour is integrated, until there is none. So
  * a boundary that has been met anywhere is followed all along. What can be missed are pieces of
  * a basin that fit between the points of the coarse lattice: pendres_basin_plan_sample is
- * there to look for them.
+ * there to look for them. It is to be asked again after what it showed has been followed, until
+ * a fresh sample is clean; pendres_basin_plan_suspected then says how many may be left.
  */
 typedef struct pendres_basin_plan pendres_basin_plan;
 
@@ -122,7 +123,9 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
 /**
  * Draw up to n different states that were filled in, evenly over the rows: *drawn of them. They
  * are integrated and handed to pendres_basin_plan_verify, which counts those that had been filled
- * in wrongly; what is around them is looked at again if pendres_basin_plan_next is asked.
+ * in wrongly. If any were, pendres_basin_plan_next asks for all that was filled in around them, as far
+ * as the lattice is wide, and for a lattice of half the width everywhere: so five samples in all
+ * find a default plan clean, or integrated as a whole.
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
@@ -134,6 +137,14 @@ pendres_status pendres_basin_plan_states(const pendres_basin_plan *plan,
                                          pendres_basin_state *state);
 /** How many of them were integrated. */
 size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
+/** How many are filled in. */
+size_t pendres_basin_plan_filled(const pendres_basin_plan *plan);
+/**
+ * How many of so many filled states may be wrong at most, with a confidence of 95 %, when a sample of
+ * so many was clean: filled * 3 / drawn (Hanley and Lippman-Hand, JAMA 249 (1983) 1743), and not
+ * more than all.
+ */
+double pendres_basin_plan_suspected(size_t filled, size_t drawn);
 
 /* ---- Statistics ------------------------------------------------------------------------------ */
 
