@@ -42,7 +42,9 @@ static void compact(const pendres_outcome *from, pendres_basin_state *to)
                               .settling_periods = (int32_t)from->settling_periods,
                               .attractor = (int16_t)from->attractor,
                               .label = (int8_t)from->label,
-                              .how = PENDRES_BASIN_INTEGRATED};
+                              .how = from->attractor >= 0 && !from->certain
+                                       ? PENDRES_BASIN_UNCERTAIN
+                                       : PENDRES_BASIN_INTEGRATED};
 }
 
 static pendres_status basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
@@ -71,6 +73,9 @@ pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pend
   return PENDRES_CONTEXT_CALL(ctx, basin_attractors(ctx, p, grid, out));
 }
 
+/* That of a context for which none was asked. */
+static const double default_tolerance = 1e-8;
+
 static double smallest_spacing(size_t n, const double *values)
 {
   double least = INFINITY;
@@ -84,6 +89,8 @@ double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_gr
   const double spacing =
     fmin(smallest_spacing(grid->nx, grid->x), smallest_spacing(grid->nv, grid->v));
   const double finest = 10.0 * ctx->options.tolerance;
+  /* Who asks for more than the default means it, even if a picture does not show it. */
+  if (ctx->options.tolerance < default_tolerance) return finest;
   return isfinite(spacing) ? fmax(finest, fmin(1e-3 * spacing, 1e-5)) : finest;
 }
 

@@ -182,6 +182,40 @@ static void accuracy(void **state)
   /* Ten times the tolerance, which is 1e-8 by default. */
   check_relative(pendres_basin_accuracy(*state, &c), 1e-7, 1e-12);
   check_relative(pendres_basin_accuracy(*state, &one), 1e-7, 1e-12);
+  /* A tolerance tighter than the default is kept, whatever the grid. */
+  pendres_context *tight = context_with(&(pendres_options){.tolerance = 1e-10});
+  check_relative(pendres_basin_accuracy(tight, &a), 1e-9, 1e-12);
+  check_relative(pendres_basin_accuracy(tight, &c), 1e-9, 1e-12);
+  pendres_context_free(tight);
+}
+
+/*
+ * Long transients, after which labels are another tolerance's if that is not kept: at 1e-12 a grid has
+ * those of its starts one by one, and not those of the default, of which some six in ten differ.
+ */
+static void tight_tolerance_is_kept(void **state)
+{
+  enum { N = 12 };
+  const pendres_pendulum p = {.damping = 0.03900408562322141,
+                              .drive_amplitude = 0.7471100769387439,
+                              .drive_frequency = 0.7827231855620003};
+  pendres_context *tight = context_with(&(pendres_options){.tolerance = 1e-12});
+  portrait q;
+  double x[N * N], v[N * N];
+  pendres_outcome outcome[N * N];
+  size_t loose = 0;
+  compute(tight, &p, N, N, 2.0, &q);
+  for (size_t k = 0; k < N * N; k++) {
+    x[k] = q.x[k / N];
+    v[k] = q.v[k % N];
+  }
+  check_ok(pendres_attractors_settle(tight, q.set, N * N, x, v, outcome));
+  for (size_t k = 0; k < N * N; k++) assert_int_equal(outcome[k].attractor, q.state[k].attractor);
+  check_ok(pendres_attractors_settle(*state, q.set, N * N, x, v, outcome));
+  for (size_t k = 0; k < N * N; k++) loose += outcome[k].attractor != q.state[k].attractor;
+  assert_true(loose > 0);
+  pendres_context_free(tight);
+  release(&q);
 }
 
 /* ---- refinement ---- */
@@ -526,6 +560,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(mirror_image, setup, teardown),
     cmocka_unit_test_setup_teardown(against_the_reference, setup, teardown),
     cmocka_unit_test_setup_teardown(accuracy, setup, teardown),
+    cmocka_unit_test_setup_teardown(tight_tolerance_is_kept, setup, teardown),
     cmocka_unit_test_setup_teardown(refined, setup, teardown),
     cmocka_unit_test(pictures),
     cmocka_unit_test(straight_boundary),
