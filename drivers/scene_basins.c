@@ -18,7 +18,7 @@ enum {
   SMALL = 2048,           /* so few are not worth a task */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
   LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
-  SAMPLED = 1024,
+  SAMPLED = 256,
   LOST_A_TASK = 64,       /* unresolved states that a task remembers */
   MOST_EXTENSIONS = 4
 };

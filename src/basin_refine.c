@@ -307,6 +307,13 @@ pendres_status pendres_basin_plan_next(pendres_basin_plan *p, size_t *n, const s
   return PENDRES_OK;
 }
 
+/* Whether a state of a sample is what had been filled in. */
+static int is_as_filled(const pendres_basin_plan *p, size_t k, const pendres_basin_state *state)
+{
+  const fate *f = &p->fates[p->fate_of[k]];
+  return f->attractor == state->attractor && f->well == state->well;
+}
+
 /* Take over the queue; states that are unlike their surroundings raise new questions, and so does
    what a sample shows to have been filled in wrongly. */
 static pendres_status accept(pendres_basin_plan *p, const pendres_basin_state *state,
@@ -321,10 +328,12 @@ static pendres_status accept(pendres_basin_plan *p, const pendres_basin_state *s
   p->asked = 0;
   for (size_t i = 0; i < n && !bad; i++) {
     const size_t k = done[i] - offset_of(p);
-    const uint16_t before = p->fate_of[k];
-    bad = take(p, k, &state[i]) != 0;
-    if (bad || missed == NULL || p->fate_of[k] == before) continue;
-    done[(*missed)++] = done[i]; /* those before are done with */
+    const int right = missed != NULL && is_as_filled(p, k, &state[i]);
+    if (right && state[i].how != PENDRES_BASIN_UNCERTAIN)
+      p->knowledge[k] = FILLED; /* as before: a sample is not to be seen in what is stored */
+    else
+      bad = take(p, k, &state[i]) != 0;
+    if (missed != NULL && !right && !bad) done[(*missed)++] = done[i]; /* done with those before */
   }
   for (size_t i = 0; i < n && missed == NULL && p->stage == STAGE_FOLLOW && !bad; i++)
     bad = ask_unlike(p, done[i] - offset_of(p)) != 0;

@@ -304,10 +304,12 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boundary;
   weight[PENDRES_SCATTER_BOUNDARY_BOXES] = -entropy / (boundary * boundary);
   out->boundary_entropy = entropy / boundary;
+  /* One that is suspect adds to a box with a boundary, or makes one with the least entropy. */
+  const double each = fmax(1.0, fabs(out->boundary_entropy / state_entropy - 1.0));
   out->boundary_entropy_error =
     sqrt(pendres_scatter_variance(&s->scatter, weight)) +
-    (part * s->entropy_doubt + suspect +
-     out->boundary_entropy * (part * s->boundary_doubt + suspect / state_entropy)) / boundary;
+    (part * (s->entropy_doubt + out->boundary_entropy * s->boundary_doubt) + suspect * each) /
+      boundary;
 }
 
 /* Shares of uncertain states by distance, and their exponent. */

@@ -218,7 +218,7 @@ static void refined_is_whole(void **state)
     free(b);
   }
   const double integrated = scene_scalar(refined, "integrated_states");
-  /* What was verified was filled in first, and counts as integrated since. */
+  /* What was verified stays filled in, if it was so rightly. */
   check_near(integrated + scene_scalar(refined, "filled_states"), 150 * 130, 0.0);
   assert_int_equal(scene_scalar(refined, "verified_states"), 10000);
   assert_int_equal(scene_scalar(refined, "verification_misses"), 0);

@@ -125,9 +125,9 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
 /**
  * Draw up to n different states that were filled in, evenly over the rows: *drawn of them. They
  * are integrated and handed to pendres_basin_plan_verify, which counts those that had been filled
- * in wrongly. If any were, pendres_basin_plan_next asks for all that was filled in around them, as far
- * as the lattice is wide, and for a lattice of half the width everywhere: so five samples in all
- * find a default plan clean, or integrated as a whole.
+ * in wrongly; the others stay filled in. If any were wrong, pendres_basin_plan_next asks for all that
+ * was filled in around them, as far as the lattice is wide, and for a lattice of half the width
+ * everywhere: so five samples in all find a default plan clean, or integrated as a whole.
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
