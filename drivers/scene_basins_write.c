@@ -215,9 +215,9 @@ static pendres_status write_attractors(basins *b, const double *fraction, const 
   if (status == PENDRES_OK) status = write_fields(b, n, value, value + n);
   const pendres_store_spec spec = {.name = "basin_fraction", .dimensions = {"attractor"},
                                    .long_name = "share of the window's area", .units = "1",
-                                   .comment = "each state stands for what is nearest to it, so that "
-                                              "ends of a range have half the weight; plain "
-                                              "counts are basin_states"};
+                                   .comment = "each state stands for what is nearest to it: ends "
+                                              "of a range count half; plain counts are "
+                                              "basin_states"};
   if (status == PENDRES_OK)
     status = pendres_store_put_result(b->run->store, &spec, fraction, error, n);
   if (status == PENDRES_OK) status = basins_write_wells(b, n);
@@ -332,7 +332,8 @@ static pendres_status write_counts(basins *b)
                                     b->unresolved);
   if (status == PENDRES_OK)
     status = put_count(store, "uncertain_states",
-                       "integrated states that may belong to another basin", b->uncertain);
+                       "integrated states that may go to another attractor, or well",
+                       b->uncertain);
   if (status == PENDRES_OK && b->d->basins.refine) {
     status = put_count(store, "integrated_states", "states that were integrated", b->integrated);
     if (status == PENDRES_OK)

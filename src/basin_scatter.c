@@ -94,8 +94,8 @@ static double slope(const usable *u, int m, double *c)
 }
 
 /*
- * How far one more slope between neighbouring distances may be from the mean of those over the first
- * m scales, beyond their own scatter.
+ * How far one more slope between neighbouring distances may be from the mean of those over the
+ * first m scales, beyond their own scatter.
  */
 static double bend(const pendres_scatter *s, const usable *u, int m)
 {

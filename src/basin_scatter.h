@@ -5,9 +5,10 @@
  *
  * A grid is no random sample: what changes slowly over its rows is known well, and only what
  * neighbouring groups of rows do not share is scatter. It is taken from second differences between
- * groups, which leave out a trend. Measured on grids that were shifted by parts of a step, errors made
- * so are 0.8 to 2 times the scatter; of independent groups they are the usual ones. Source: Wolter,
- * Introduction to Variance Estimation, 2nd edition (2007), section 8.2, on systematic samples.
+ * groups, which leave out a trend. Measured on grids that were shifted by parts of a step, errors
+ * made so are 0.8 to 2 times the scatter; of independent groups they are the usual ones. Source:
+ * Wolter, Introduction to Variance Estimation, 2nd edition (2007), section 8.2, on systematic
+ * samples.
  */
 #ifndef PENDRES_BASIN_SCATTER_H
 #define PENDRES_BASIN_SCATTER_H
@@ -34,12 +35,12 @@ void pendres_scatter_add(pendres_scatter *s, const double *group);
 /* Variance of sum weight[k] total[k], with Student's factor; NaN of fewer than four groups. */
 double pendres_scatter_variance(const pendres_scatter *s, const double *weight);
 
-/* Student's factor by which a standard error from so many degrees of freedom grows; at least one. */
+/* Student's factor by which a standard error from so many degrees of freedom grows; at least 1. */
 double pendres_scatter_student(double freedom);
 
 /*
- * The exponent alpha in f ~ distance^alpha over the smallest distances that are usable, from totals of
- * uncertain states and the numbers tried; NaN if fewer than three are.
+ * The exponent alpha in f ~ distance^alpha over the smallest distances that are usable, from totals
+ * of uncertain states and the numbers tried; NaN if fewer than three are.
  *
  * Its error: scatter, and what slopes between neighbouring distances differ by beyond their
  * scatter, as a power law holds only within limits. As many distances are used, from the smallest

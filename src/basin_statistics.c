@@ -38,7 +38,7 @@ struct pendres_basin_sums {
   pendres_scatter scatter; /* between rows of boxes */
   size_t uncertain;        /* states that may belong elsewhere */
   double entropy_doubt, boundary_doubt; /* what these can change of boxes' entropy, and boxes */
-  double suspect;          /* states that may be labelled wrongly without being known as uncertain */
+  double suspect;          /* states that may be labelled wrongly, though nobody knows which */
   pendres_basin_tally tally;
   pendres_basin_well *wells;
 };
@@ -134,29 +134,34 @@ static int count_kinds(const pendres_basin_sums *s, size_t left, int *count)
 }
 
 /* What uncertain states can change: a box's entropy, and whether there is a boundary in it. */
-static void add_doubt(pendres_basin_sums *s, size_t left, int largest)
+static void add_doubt(pendres_basin_sums *s, size_t left, int kinds, const int *count)
 {
-  int doubt = 0;
+  int doubt = 0, largest = count[0], smallest = count[0];
   for (size_t j = left; j < left + BOX; j++) doubt += s->box_doubt[j];
   if (doubt == 0) return;
-  s->entropy_doubt += state_entropy * doubt;
+  for (int k = 1; k < kinds; k++) {
+    if (count[k] > largest) largest = count[k];
+    if (count[k] < smallest) smallest = count[k];
+  }
+  /* One state that goes from m to n of its box changes the entropy by log(m / n) / 25. */
+  s->entropy_doubt +=
+    doubt * (kinds > 1 ? log((largest + 1.0) / smallest) / BOX_STATES : state_entropy);
   s->boundary_doubt += BOX_STATES - largest <= doubt;
 }
 
 static void add_boxes(pendres_basin_sums *s)
 {
   for (size_t left = 0; left + BOX <= s->nv; left += BOX) {
-    int count[BOX_STATES], largest = 0;
+    int count[BOX_STATES];
     const int kinds = count_kinds(s, left, count);
     double entropy = 0.0;
     for (int k = 0; k < kinds; k++) {
       const double p = (double)count[k] / BOX_STATES;
-      if (count[k] > largest) largest = count[k];
       if (kinds > 1) entropy -= p * log(p);
     }
     s->group[PENDRES_SCATTER_ENTROPY] += entropy;
     s->group[PENDRES_SCATTER_BOUNDARY_BOXES] += kinds > 1;
-    add_doubt(s, left, largest);
+    add_doubt(s, left, kinds, count);
   }
   memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
 }
@@ -252,21 +257,22 @@ pendres_status pendres_basin_sums_suspect(pendres_basin_sums *s, double states)
 /* ---- results ---- */
 
 /*
- * States that are missing from a basin, or too many in it, because so many are uncertain. They lie
- * on both sides of their boundaries, so that they cancel but for their scatter, twice which is
- * claimed, and a tenth of them for what does not cancel.
+ * States that are missing from a basin, or too many in it, because some are uncertain. They lie on
+ * both sides of their boundaries, so that they cancel but for their scatter, twice which is
+ * claimed, and a tenth of them for what does not cancel. Where there is one attractor alone, only
+ * its well is uncertain.
  */
-static double misplaced(size_t uncertain)
+static double misplaced(const pendres_basin_sums *s)
 {
-  const double n = (double)uncertain;
-  return fmin(n, 2.0 * sqrt(n) + 0.1 * n);
+  const double n = (double)s->uncertain;
+  return s->attractors > 1 ? fmin(n, 2.0 * sqrt(n) + 0.1 * n) : 0.0;
 }
 
 /*
  * Error of a share of the area. Rows scatter around a trend: two standard errors. At the least, a
- * basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice that, since
- * the boundary is as uncertain between the rows. Where rows are too few to scatter, half of what they
- * differ by.
+ * basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice that,
+ * since the boundary is as uncertain between the rows. Where rows are too few to scatter, half of
+ * what they differ by.
  */
 static double fraction_error(const pendres_basin_sums *s, size_t a)
 {
@@ -274,7 +280,7 @@ static double fraction_error(const pendres_basin_sums *s, size_t a)
   const double states = (double)s->rows * (double)s->nv, n = (double)s->rows;
   const double ends = sqrt((m->crossings + 1.0) / 3.0) / states;
   const double doubt =
-    (misplaced(s->uncertain) + s->suspect) / states + s->members[s->attractors].share;
+    (misplaced(s) + s->suspect) / states + s->members[s->attractors].share;
   if (s->rows == 1) return ends + doubt;
   if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
   const double student = pendres_scatter_student((n - 2.0) * 18.0 / 35.0);
@@ -289,7 +295,7 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   const double boundary = s->scatter.total[PENDRES_SCATTER_BOUNDARY_BOXES];
   const double all = (double)s->rows * (double)s->nv;
   /* Uncertain states change either way, as above; those that are suspect may be anywhere. */
-  const double part = s->uncertain > 0 ? misplaced(s->uncertain) / (double)s->uncertain : 0.0;
+  const double part = s->uncertain > 0 ? misplaced(s) / (double)s->uncertain : 0.0;
   const double suspect = state_entropy * s->suspect * boxes * BOX_STATES / all;
   double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
   out->boundary_boxes = out->entropy = out->entropy_error = NAN;

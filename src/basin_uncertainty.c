@@ -36,8 +36,8 @@ static void place(const pendres_basin_window *window, uint64_t seed, uint64_t i,
   }
 }
 
-/* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a group
-   of its own, since states know nothing of one another. */
+/* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a
+   group of its own, since states know nothing of one another. */
 static void count_sample(pendres_scatter *s, int scales, const pendres_outcome *outcome)
 {
   double unlike[PENDRES_SCATTER_QUANTITIES] = {0.0};

@@ -157,7 +157,9 @@ static void wells_are_counted(void **state)
     sum += count[i];
   }
   check_near(sum, 1600.0, 0.0);
-  assert_int_equal(scene_scalar(store, "uncertain_states"), 0);
+  /* Wells are harder to tell than attractors: some are uncertain; the one attractor is not. */
+  assert_true(scene_scalar(store, "uncertain_states") < 400);
+  check_near(scene_scalar(store, "basin_fraction_error"), 0.0, 1e-3);
   free(number);
   free(count);
   free(well);

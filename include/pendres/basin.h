@@ -53,10 +53,10 @@ typedef struct pendres_basin_state {
 } pendres_basin_state;
 
 /**
- * The error a drive period that labels of a grid are computed with at first: ten times the tolerance,
- * if that is tighter than the default of 1e-8. Else what a picture needs, a thousandth of the
- * smallest spacing, at most 1e-5 and at least ten times the tolerance. States about this close to
- * a basin's boundary may be on its other side: those that are not known to be certain are
+ * The error a drive period that labels of a grid are computed with at first: ten times the
+ * tolerance, if that is tighter than the default of 1e-8. Else what a picture needs, a thousandth
+ * of the smallest spacing, at most 1e-5 and at least ten times the tolerance. States about this
+ * close to a basin's boundary may be on its other side: those that are not known to be certain are
  * PENDRES_BASIN_UNCERTAIN.
  */
 double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid);
@@ -125,9 +125,9 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
 /**
  * Draw up to n different states that were filled in, evenly over the rows: *drawn of them. They
  * are integrated and handed to pendres_basin_plan_verify, which counts those that had been filled
- * in wrongly; the others stay filled in. If any were wrong, pendres_basin_plan_next asks for all that
- * was filled in around them, as far as the lattice is wide, and for a lattice of half the width
- * everywhere: so five samples in all find a default plan clean, or integrated as a whole.
+ * in wrongly; the others stay filled in. If any were wrong, pendres_basin_plan_next asks for all
+ * that was filled in around them, as far as the lattice is wide, and for a lattice of half the
+ * width everywhere: so five samples in all find a default plan clean, or integrated as a whole.
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
@@ -142,8 +142,8 @@ size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
 /** How many are filled in. */
 size_t pendres_basin_plan_filled(const pendres_basin_plan *plan);
 /**
- * How many of so many filled states may be wrong at most, with a confidence of 95 %, when a sample of
- * so many was clean: filled * 3 / drawn (Hanley and Lippman-Hand, JAMA 249 (1983) 1743), and not
+ * How many of so many filled states may be wrong at most, with a confidence of 95 %, when a sample
+ * of so many was clean: filled * 3 / drawn (Hanley and Lippman-Hand, JAMA 249 (1983) 1743), and not
  * more than all.
  */
 double pendres_basin_plan_suspected(size_t filled, size_t drawn);
@@ -188,9 +188,9 @@ typedef struct pendres_basin_well {
  * Errors hold for the sampling of the window by this grid: what the same grid finds that is shifted
  * by a part of its step. They are standard errors from the scatter between groups of rows around
  * their trend, of fractions two of them; NaN where a grid has fewer than 20 rows. States that are
- * uncertain count in those of fractions and entropies. An uncertainty exponent's error contains what
- * slopes differ by over the distances used. It cannot know of a limit far below the grid's step:
- * pendres_basin_uncertainty looks there.
+ * uncertain count in those of fractions and entropies. An uncertainty exponent's error contains
+ * what slopes differ by over the distances used. It cannot know of a limit far below the grid's
+ * step: pendres_basin_uncertainty looks there.
  *
  * Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán, Scientific Reports 6 (2016) 31416;
  * McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125.
@@ -210,8 +210,8 @@ pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
 pendres_status pendres_basin_sums_suspect(pendres_basin_sums *sums, double states);
 /**
  * fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
- * first to the last x and v, each state standing for what is nearest to it. So states at the ends of a
- * range have half the weight of others: pendres_basin_sums_counts has plain numbers. After all
+ * first to the last x and v, each state standing for what is nearest to it. So states at the ends
+ * of a range have half the weight of others: pendres_basin_sums_counts has plain numbers. After all
  * rows.
  */
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
@@ -221,9 +221,9 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
 /** states[attractors]: how many states of the grid go to each attractor. After all rows. */
 pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t *states);
 /**
- * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid until
- * this is asked again. All numbers and statistics but these are of attractors modulo one turn.
- * After all rows.
+ * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid
+ * until this is asked again. All numbers and statistics but these are of attractors modulo one
+ * turn. After all rows.
  */
 pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
                                         const pendres_basin_well **wells);
