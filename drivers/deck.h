@@ -119,7 +119,8 @@ typedef struct deck {
   } precision;
 
   struct {
-    char start[DECK_NAME];  /* "sa", "la", or "" for the start at x, v */
+    char start[DECK_NAME];  /* "sa", "la", the number of an attractor from "1" on, in the order of
+                               amplitude; or "" for the start at x, v */
     double x, v;
     int64_t periods;        /* drive periods recorded */
     int64_t samples;        /* per period */
@@ -134,6 +135,10 @@ typedef struct deck {
     int64_t seed;
     int64_t trajectories;
   } basins;
+
+  struct {
+    int64_t from, to;       /* numbers of attractors, from 1 on; both 0: SA and LA */
+  } switching;
 
   struct {
     int64_t seed;

@@ -170,7 +170,7 @@ static void check_idle_keys(deck_builder *b)
     const int line = x->group != NULL ? x->group->line : b->kind_line;
     const int column = x->group != NULL ? x->group->column : b->kind_column;
     namelist_error_at(b->nl, line, column, 1, b->errors,
-                      "scene 'orbit' needs 'start' ('sa' or 'la') or 'x' (and 'v') in &orbit");
+                      "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in &orbit");
   }
 }
 
@@ -214,6 +214,11 @@ static void check_size(deck_builder *b)
   if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
     complain(b, given(b, "orbit", "periods"), "periods",
              "'periods' times 'samples' must not exceed 1e8");
+  if ((d->switching.from == 0) != (d->switching.to == 0))
+    complain(b, given(b, "switching", d->switching.from != 0 ? "from" : "to"),
+             d->switching.from != 0 ? "from" : "to", "'from' and 'to' belong together");
+  else if (d->switching.from != 0 && d->switching.from == d->switching.to)
+    complain(b, given(b, "switching", "to"), "to", "'from' and 'to' are the same attractor");
   if (d->basins.boundary && (d->axis[DECK_AXIS_X].count == 1 || d->axis[DECK_AXIS_V].count == 1))
     complain(b, given(b, "basins", "boundary"), "boundary",
              "'boundary' is looked for in a window: give x and v at least two values");

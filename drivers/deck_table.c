@@ -10,6 +10,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <pendres/switching.h>
+
 #include "hard_cases.h"
 
 #define BIT(kind) (1u << DECK_##kind)
@@ -71,7 +73,7 @@ static const char *const compared[] = {
   "block_adaptive_tsit5", "block_adaptive_vern9", "block_adaptive_sh9", "block_adaptive_dp5",
   "single", "single_order8", "single_order5", "cvode_adams", "cvode_bdf", "gsl_rk8pd", "naive", NULL
 };
-static const char *const starts[] = { "", "sa", "la", NULL };
+static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "6", "7", "8", NULL };
 static const char *const cases[] = {
 #define CASE_NAME(name) #name,
   HARD_CASE_LIST(CASE_NAME)
@@ -131,6 +133,9 @@ const deck_key deck_table[] = {
   { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT), .number = 1000, .when = DECK_WITH_NOISE },
   { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
   { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS), RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE },
+
+  { INTEGER("switching", "from", switching.from), IN(SWITCHING), RANGE(0, PENDRES_SWITCHING_STATES), .number = 0 },
+  { INTEGER("switching", "to", switching.to), IN(SWITCHING), RANGE(0, PENDRES_SWITCHING_STATES), .number = 0 },
 
   { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
   { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING), RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE },

@@ -2,7 +2,8 @@
  * scene_orbit.c -- one pendulum's orbit: position, velocity and drive over some drive periods, and
  * all that is measured on the closed orbit. Figs. 5 and 6 of the paper.
  *
- * The orbit is a named attractor of the parameter set (start = 'sa', 'la'), or what a start at
+ * The orbit is a named attractor of the parameter set (start = 'sa', 'la', or
+ * '1', '2', ... by amplitude), or what a start at
  * x, v settles on, in the well where it settles. With transient = .true. the trajectory is
  * recorded from the start itself, and the measures are still those of the orbit it goes to.
  */
@@ -65,9 +66,12 @@ static pendres_status find_named(work *w, pendres_context *ctx)
   pendres_status status = pendres_attractors_find(ctx, &w->pendulum, 0, NULL, NULL, &set);
   if (status != PENDRES_OK) return status;
   status = PENDRES_NOT_FOUND;
+  const long number = strtol(w->d->orbit.start, NULL, 10); /* 0: a name */
   for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
-    if (strcmp(pendres_label_name(a->label), w->d->orbit.start) != 0) continue;
+    if (number > 0 ? (long)i + 1 != number
+                   : strcmp(pendres_label_name(a->label), w->d->orbit.start) != 0)
+      continue;
     keep_orbit(w, a);
     status = PENDRES_OK;
   }

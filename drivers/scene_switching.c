@@ -25,24 +25,52 @@ typedef struct work {
   farm *farm;
   pendres_pendulum pendulum;
   pendres_attractors *set;
-  int index[STARTS];      /* of the states in the set; -1: there is none */
+  int index[STARTS];      /* of the states in the set, those that the deck numbers or SA and LA;
+                             -1: there is none */
   size_t temperatures, chunks;
   int steps[STARTS];      /* a drive period; 0 where there is no such state */
   pendres_switching_tally *tallies; /* [temperature][start][chunk] */
   pendres_switching_tally *sums;    /* [temperature] */
   pendres_switching_rate *rates;    /* [kind][temperature] */
   pendres_switching_activation fit[KINDS];
+  char name[STARTS][24], state[STARTS][40];   /* of the states: "sa", "the small-amplitude state" */
+  char suffix[KINDS][56], words[KINDS][120];  /* of the kinds of transitions */
 } work;
 
 static const struct {
-  const char *suffix, *words;
   int from, to; /* to: WELLS for another well */
-} kinds[KINDS] = {
-  { "sa_la", "from the small- to the large-amplitude state", SA, LA },
-  { "la_sa", "from the large- to the small-amplitude state", LA, SA },
-  { "well_sa", "from the small-amplitude state to another well", SA, WELLS },
-  { "well_la", "from the large-amplitude state to another well", LA, WELLS },
-};
+} kinds[KINDS] = {{ SA, LA }, { LA, SA }, { SA, WELLS }, { LA, WELLS }};
+
+/* What the kinds of transitions are called: by the names of the states, or by their numbers. */
+static void name_kinds(work *w)
+{
+  static const char *const sizes[STARTS] = { "small", "large" };
+  const deck *d = w->d;
+  const long number[STARTS] = { (long)d->switching.from, (long)d->switching.to };
+  for (int s = 0; s < STARTS; s++) {
+    if (number[s] > 0) {
+      snprintf(w->name[s], sizeof w->name[s], "%ld", number[s]);
+      snprintf(w->state[s], sizeof w->state[s], "attractor %ld", number[s]);
+    } else {
+      snprintf(w->name[s], sizeof w->name[s], "%s", s == SA ? "sa" : "la");
+      snprintf(w->state[s], sizeof w->state[s], "the %s-amplitude state", sizes[s]);
+    }
+  }
+  for (int k = 0; k < KINDS; k++) {
+    const int from = kinds[k].from, to = kinds[k].to;
+    if (to == WELLS) {
+      snprintf(w->suffix[k], sizeof w->suffix[k], "well_%s", w->name[from]);
+      snprintf(w->words[k], sizeof w->words[k], "from %s to another well", w->state[from]);
+    } else {
+      snprintf(w->suffix[k], sizeof w->suffix[k], "%s_%s", w->name[from], w->name[to]);
+      if (number[SA] > 0)
+        snprintf(w->words[k], sizeof w->words[k], "from %s to %s", w->state[from], w->state[to]);
+      else
+        snprintf(w->words[k], sizeof w->words[k], "from the %s- to the %s-amplitude state",
+                 sizes[from], sizes[to]);
+    }
+  }
+}
 
 static void plan(const deck *d, FILE *out)
 {
@@ -129,6 +157,20 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   return status;
 }
 
+/* The states that the deck asks for by number: in the order of amplitude, from 1 on. */
+static pendres_status find_numbered(scene_run *run, work *w)
+{
+  const long wanted[STARTS] = { (long)w->d->switching.from, (long)w->d->switching.to };
+  const long count = (long)pendres_attractors_count(w->set);
+  for (int s = 0; s < STARTS; s++) {
+    if (wanted[s] > count)
+      return scene_fail(run, PENDRES_NOT_FOUND, "there is no attractor %ld at these parameters, but "
+                        "%ld", wanted[s], count);
+    w->index[s] = (int)wanted[s] - 1;
+  }
+  return PENDRES_OK;
+}
+
 static pendres_status find_states(scene_run *run, work *w)
 {
   pendres_context *ctx = farm_context(run->farm);
@@ -138,6 +180,7 @@ static pendres_status find_states(scene_run *run, work *w)
   if (status != PENDRES_OK)
     return scene_fail(run, status, "attractors: %s", pendres_context_message(ctx));
   w->index[SA] = w->index[LA] = -1;
+  if (w->d->switching.from > 0) return find_numbered(run, w);
   for (size_t i = 0; i < pendres_attractors_count(w->set); i++) {
     const pendres_label label = pendres_attractors_get(w->set, i)->label;
     if (label == PENDRES_LABEL_SA && w->index[SA] < 0) w->index[SA] = (int)i;
@@ -145,7 +188,8 @@ static pendres_status find_states(scene_run *run, work *w)
   }
   if (w->index[SA] < 0 && w->index[LA] < 0)
     return scene_fail(run, PENDRES_NOT_FOUND,
-                      "neither a small- nor a large-amplitude state exists at these parameters");
+                      "neither a small- nor a large-amplitude state exists at these parameters: "
+                      "'from' and 'to' in &switching take attractors by number");
   return PENDRES_OK;
 }
 
@@ -201,8 +245,8 @@ static pendres_status write_rates(scene_run *run, const work *w, int kind, doubl
   pendres_status status = PENDRES_OK;
   for (int part = 0; part < PARTS && status == PENDRES_OK; part++) {
     char name[64], words[160];
-    snprintf(name, sizeof name, parts[part].format, kinds[kind].suffix);
-    snprintf(words, sizeof words, "%s %s", parts[part].words, kinds[kind].words);
+    snprintf(name, sizeof name, parts[part].format, w->suffix[kind]);
+    snprintf(words, sizeof words, "%s %s", parts[part].words, w->words[kind]);
     const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
                                       .long_name = words };
     for (size_t i = 0; i < w->temperatures; i++) {
@@ -275,8 +319,8 @@ static pendres_status write_fit(scene_run *run, const work *w, int kind)
     "geometric mean of the fit's temperatures," };
   for (int k = 0; k < FIT_OUTCOMES; k++) meanings[k] = outcomes[k].name;
   for (int i = 0; i < NAMES; i++) {
-    snprintf(name[i], sizeof name[i], names[i], kinds[kind].suffix);
-    snprintf(words[i], sizeof words[i], "%s %s", about[i], kinds[kind].words);
+    snprintf(name[i], sizeof name[i], names[i], w->suffix[kind]);
+    snprintf(words[i], sizeof words[i], "%s %s", about[i], w->words[kind]);
   }
   const pendres_store_spec energy = { .name = name[ENERGY], .long_name = words[ENERGY] };
   const pendres_store_spec prefactor = { .name = name[PREFACTOR],
@@ -306,9 +350,6 @@ static pendres_status write_fit(scene_run *run, const work *w, int kind)
 /* Exposures, steps, and the interval's level. */
 static pendres_status write_circumstances(scene_run *run, const work *w, double *value)
 {
-  static const char *const names[STARTS] = { "exposure_sa", "exposure_la" };
-  static const char *const words[STARTS] = { "time spent on the small-amplitude state",
-                                             "time spent on the large-amplitude state" };
   const pendres_store_spec confidence = { .name = "confidence_level",
                                           .long_name = "level of the confidence intervals" };
   const int32_t steps_per_period = steps_of(w);
@@ -316,8 +357,11 @@ static pendres_status write_circumstances(scene_run *run, const work *w, double 
                                      .long_name = "steps a drive period of the noisy integrator" };
   pendres_status status = pendres_store_put(run->store, &confidence, &level, 1);
   for (int s = 0; s < STARTS && status == PENDRES_OK; s++) {
-    const pendres_store_spec spec = { .name = names[s], .dimensions = { "temperature" },
-                                      .long_name = words[s] };
+    char name[32], words[64];
+    snprintf(name, sizeof name, "exposure_%s", w->name[s]);
+    snprintf(words, sizeof words, "time spent on %s", w->state[s]);
+    const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
+                                      .long_name = words };
     for (size_t i = 0; i < w->temperatures; i++)
       value[i] = w->index[s] >= 0 ? w->sums[i].exposure[w->index[s]] * w->sums[i].period : NAN;
     status = pendres_store_put(run->store, &spec, value, w->temperatures);
@@ -343,14 +387,17 @@ static pendres_status write_results(scene_run *run, const work *w)
 static void print_table(FILE *out, const work *w)
 {
   const pendres_switching_rate *sa = w->rates, *la = w->rates + w->temperatures;
-  fprintf(out, "temperature  SA to LA      +-        events   LA to SA      +-        events\n");
+  char ways[STARTS][56] = { "SA to LA", "LA to SA" };
+  for (int k = 0; k < STARTS && w->d->switching.from > 0; k++)
+    snprintf(ways[k], sizeof ways[k], "%s to %s", w->name[k], w->name[1 - k]);
+  fprintf(out, "temperature  %-13s +-        events   %-13s +-        events\n", ways[0], ways[1]);
   for (size_t i = 0; i < w->temperatures; i++)
     fprintf(out, "%-12.5g %-13.4g %-9.2g %-8.0f %-13.4g %-9.2g %.0f\n",
             w->d->axis[DECK_AXIS_TEMPERATURE].value[i], sa[i].value, sa[i].error, sa[i].events,
             la[i].value, la[i].error, la[i].events);
   for (int k = 0; k < KINDS; k++) {
     const pendres_switching_activation *f = &w->fit[k];
-    fprintf(out, "activation energy %s: ", kinds[k].words);
+    fprintf(out, "activation energy %s: ", w->words[k]);
     if (!isnan(f->energy)) fprintf(out, "%.5f +- %.5f", f->energy, f->energy_error);
     fprintf(out, "%s\n", outcomes[fit_outcome(w, k)].words);
   }
@@ -383,6 +430,7 @@ static pendres_status run_scene(scene_run *run)
                            .drive_amplitude = d->pendulum.drive_amplitude,
                            .drive_frequency = d->pendulum.drive_frequency },
              .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count };
+  name_kinds(&w);
   pendres_status status = find_states(run, &w);
   if (status == PENDRES_OK) status = compute(run, &w);
   if (status == PENDRES_OK) status = write_results(run, &w);

@@ -118,6 +118,8 @@ static const char *const good[] = {
   "&scene kind='hard_cases' /",
   "&scene kind='hard_cases' /\n&sweep case='separatrix', 'tolerance' /",
   "&scene kind='switching' /\n" ONE "&sweep temperature_range=1e-3,1e-2,5 /\n",
+  "&scene kind='switching' /\n" ONE "&sweep temperature=0.01 /\n&switching from=1, to=3 /\n",
+  "&scene kind='orbit' /\n" ONE "&orbit start='2' /\n",
 };
 
 enum { GOOD = sizeof good / sizeof *good };
@@ -465,6 +467,10 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { BASINS "&sweep x=0 v=0 temperature=-1 /", { "3:28 'temperature' must not be negative" } },
   { BASINS "&sweep x=0 v=0 temperature=nan /", { "3:28 'temperature' must be a finite number" } },
   { "&scene kind='switching' /\n" ONE "&sweep temperature=0 /", { "3:20 'temperature' must be positive" } },
+  { "&scene kind='switching' /\n" ONE "&sweep temperature=1 /\n&switching to=2 /",
+    { "4:12 'from' and 'to' belong together" } },
+  { "&scene kind='switching' /\n" ONE "&sweep temperature=1 /\n&switching from=2, to=2 /",
+    { "4:20 'from' and 'to' are the same attractor" } },
   { "&scene kind='free_oscillation' /\n&sweep amplitude=0, 3.1415926535897932, 3.2, 1 /",
     { "2:18 must be positive", "2:21 must lie between 0 and 3.141593 (both excluded)", "2:41 must lie between" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble members=0 /\n&precision tolerance=1e-15 steps_per_period=-1 /",

@@ -47,6 +47,29 @@ static const char switching_deck[] =
   "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
   "&sweep temperature = 0.02, 0.03 /\n&noise seed = 5, trajectories = 600, periods = 300 /\n";
 
+/* Beyond the paper's drives there are both states as well; by number they are the same. */
+static void switching_goes_by_name_or_number(void **state)
+{
+  static const char *const names[2][3] = { { "rate_sa_la", "rate_la_sa", "exposure_la" },
+                                           { "rate_1_2", "rate_2_1", "exposure_2" } };
+  static const char deck[] =
+    "&scene kind = 'switching' /\n"
+    "&pendulum drive_amplitude = 0.35, damping = 0.1111, drive_frequency = 0.735 /\n"
+    "&sweep temperature = 0.02 /\n&noise trajectories = 64, periods = 100 /\n";
+  char numbered[400];
+  (void)state;
+  snprintf(numbered, sizeof numbered, "%s&switching from = 1, to = 2 /\n", deck);
+  run_deck(deck, 1, "named");
+  run_deck(numbered, 1, "numbered");
+  for (int i = 0; i < 3; i++) {
+    double value[2];
+    get("named", names[0][i], &value[0], 1);
+    get("numbered", names[1][i], &value[1], 1);
+    assert_true(value[0] > 0.0);
+    check_near(value[1], value[0], 0.0);
+  }
+}
+
 static void switching_counts_both_ways(void **state)
 {
   static const char *const names[2] = { "sa_la", "la_sa" };
@@ -323,6 +346,7 @@ int main(void)
     cmocka_unit_test(merging_parts_is_exact),
     cmocka_unit_test(bad_temperatures_are_deck_errors),
     cmocka_unit_test(switching_counts_both_ways),
+    cmocka_unit_test(switching_goes_by_name_or_number),
     cmocka_unit_test(clouds_agree_with_linear_theory),
     cmocka_unit_test(coldest_clouds_are_those_of_theory),
     cmocka_unit_test(few_strobes_are_no_agreement),
