@@ -31,6 +31,8 @@ struct pendres_context {
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
+  double probed_periods; /* those of the cost that went into choosing steps: once a lattice cell,
+                            so that they depend on what the context did before */
   int (*stop)(void *arg);
   void *stop_arg;
 };

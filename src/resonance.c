@@ -6,150 +6,30 @@
 #include <string.h>
 
 #include "context_internal.h"
-#include "resonance_refine.h"
+#include "resonance_gap.h"
+#include "resonance_search.h"
 #include "response_name.h"
 #include "strobe_run.h"
 
-enum {
-  SCAN_POINTS = 19,   /* over the range at first: 0.04 apart in the default range */
-  MOST_POINTS = 400,  /* of one search; a range that needs more is not resolved */
-  SECTIONS = 4        /* an interval with a jump is cut into */
-};
-
-/* An interval with a jump is cut until it is this narrow; then its fold is located. */
-static const double narrow = 2e-5;
-
-/* What happens between two neighbouring points of the scan. */
-typedef enum gap_kind { GAP_PLAIN, GAP_PEAK, GAP_JUMP } gap_kind;
-
-typedef struct search {
-  pendres_context *ctx;
-  pendres_pendulum pendulum;
-  const pendres_ensemble *ensemble;
-  size_t count;
-  pendres_scan_point *points; /* ascending in omega */
-} search;
-
-static int by_frequency(const void *a, const void *b)
-{
-  const pendres_scan_point *p = a, *q = b;
-  return p->response.pendulum.drive_frequency < q->response.pendulum.drive_frequency ? -1 : 1;
-}
-
-static pendres_status check_room(const search *s, size_t n)
-{
-  if (s->count + n <= MOST_POINTS) return PENDRES_OK;
-  return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
-                              "damping %g: the resonance needs more than %d frequencies",
-                              s->pendulum.damping, MOST_POINTS);
-}
-
-/* Evaluate n more frequencies and sort them in. */
-static pendres_status add_points(search *s, size_t n, const double *omega)
-{
-  pendres_status status = check_room(s, n);
-  if (status != PENDRES_OK) return status;
-  status = pendres_scan_evaluate(s->ctx, &s->pendulum, s->ensemble, n, omega, s->points + s->count);
-  if (status != PENDRES_OK) return status;
-  s->count += n;
-  qsort(s->points, s->count, sizeof *s->points, by_frequency);
-  return PENDRES_OK;
-}
-
-static double frequency_of(const pendres_scan_point *p)
-{
-  return p->response.pendulum.drive_frequency;
-}
+enum { SECTIONS = 4 /* a gap is cut into */ };
 
 /*
- * Whether an orbit goes on from one frequency to the next: its Poincaré point moves as the
- * slopes at both ends say. On a branch that bends sharply it does not, and the gap is looked into.
+ * A gap with a jump is cut until it is this narrow; then its fold is located, or the jump halved
+ * down to. Where members change to larger areas and to smaller ones it is cut until they are apart,
+ * or so close that they are not told apart.
  */
-static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
-{
-  const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
-  const double dx = 0.5 * step * (a->frequency_derivative[0] + b->frequency_derivative[0]);
-  const double dv = 0.5 * step * (a->frequency_derivative[1] + b->frequency_derivative[1]);
-  const double off = hypot(b->x - a->x - dx, b->v - a->v - dv);
-  return a->period == b->period && a->winding == b->winding && off <= 0.05 + 0.25 * hypot(dx, dv);
-}
+static const double narrow = 2e-5, narrowest = 1e-7;
 
-/* The members are on the same states at both points: nothing jumped in between. */
-static int same_states(const pendres_response *a, const pendres_response *b)
-{
-  if (a->states != b->states || a->unresolved != b->unresolved || a->unlisted != b->unlisted)
-    return 0;
-  for (size_t i = 0; i < a->states; i++)
-    if (a->state_members[i] != b->state_members[i] ||
-        !goes_on(&a->state[i].orbit, &b->state[i].orbit))
-      return 0;
-  return 1;
-}
+/* A search with its gaps. */
+typedef struct work {
+  pendres_search s;
+  pendres_gap *gap; /* gap[i] lies between points i and i + 1 */
+} work;
 
-static gap_kind kind_of(const pendres_scan_point *a, const pendres_scan_point *b)
+static void look_at_gaps(work *w)
 {
-  if (a->jump_to_next || !same_states(&a->response, &b->response)) return GAP_JUMP;
-  return a->slope > 0.0 && b->slope < 0.0 ? GAP_PEAK : GAP_PLAIN;
-}
-
-/*
- * A state's area, as large as it can become over `width`: by its slope, which may be steep next
- * to a fold, but not by more than a quarter.
- */
-static double grown_area(const pendres_orbit *o, double width)
-{
-  if (!isfinite(o->loop_area)) return 0.0;
-  const double slope = isfinite(o->loop_area_slope) ? fabs(o->loop_area_slope) : INFINITY;
-  return o->loop_area + fmin(width * slope, 0.25 * o->loop_area);
-}
-
-static double largest_area(const pendres_response *r, double width)
-{
-  double largest = 0.0;
-  for (size_t i = 0; i < r->states; i++)
-    largest = fmax(largest, grown_area(&r->state[i].orbit, width));
-  return largest;
-}
-
-/*
- * Share of the members that are, or for all that is known may be, on states with an area of at
- * least `cut`; *below is raised to the largest area of the other states.
- */
-static double share_above(const pendres_response *r, double width, double cut, double *below)
-{
-  size_t members = r->unresolved + r->unlisted, above = members;
-  for (size_t i = 0; i < r->states; i++) {
-    const double area = grown_area(&r->state[i].orbit, width);
-    members += r->state_members[i];
-    if (area >= cut)
-      above += r->state_members[i];
-    else
-      *below = fmax(*below, area);
-  }
-  return members > 0 ? (double)above / (double)members : 1.0;
-}
-
-/*
- * No mean area between two points exceeds this: states change their areas by their slopes, and
- * the share of those with a large area is at most that at either end, plus a tenth of the
- * members (a fiftieth in narrow gaps) for those that come and go in between.
- */
-static double bound_of(const pendres_scan_point *a, const pendres_scan_point *b)
-{
-  const double width = frequency_of(b) - frequency_of(a);
-  if (kind_of(a, b) != GAP_JUMP)
-    return fmax(a->response.mean_loop_area, b->response.mean_loop_area) +
-           0.5 * width * fmax(fabs(a->slope), fabs(b->slope));
-  const double largest =
-    fmax(largest_area(&a->response, width), largest_area(&b->response, width));
-  double other = 0.0;
-  double left = share_above(&a->response, width, 0.7 * largest, &other);
-  double right = share_above(&b->response, width, 0.7 * largest, &other);
-  /* A fold's own point is on the far side of the jump: inside the gap its shares do not hold. */
-  if (a->at_fold > 0) left = right;
-  if (b->at_fold < 0) right = left;
-  const double share = fmin(1.0, fmax(left, right) + (width > 0.01 ? 0.1 : 0.02));
-  return share * largest + (1.0 - share) * other;
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    pendres_gap_look(&w->s.points[i], &w->s.points[i + 1], w->s.ensemble->members, &w->gap[i]);
 }
 
 /* What is certain of a point's area: members that did not settle may be on any state. */
@@ -158,33 +38,36 @@ static double certain_area(const pendres_scan_point *p)
   return p->response.mean_loop_area - p->response.mean_loop_area_error;
 }
 
-static double best_area(const search *s)
+/* The point whose area is certain to be largest. */
+static const pendres_scan_point *best_point(const pendres_search *s)
 {
-  double best = -INFINITY;
-  for (size_t i = 0; i < s->count; i++) best = fmax(best, certain_area(&s->points[i]));
+  const pendres_scan_point *best = &s->points[0];
+  for (size_t i = 1; i < s->count; i++)
+    if (!(certain_area(best) >= certain_area(&s->points[i]))) best = &s->points[i];
   return best;
 }
 
-/* Whether a gap jumps and may hold more than the best value known. */
-static int promising(const search *s, size_t i, double best)
+/* A gap that cannot hold more than this is of no interest: the error of the best says as much. */
+static double threshold_of(const pendres_search *s)
 {
-  const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-  return kind_of(a, b) == GAP_JUMP && bound_of(a, b) > best;
+  const pendres_response *r = &best_point(s)->response;
+  return r->mean_loop_area + r->mean_loop_area_error;
 }
 
 /* Whether a gap has to be looked into further. */
-static int open_gap(const search *s, size_t i, double best)
+static int open_gap(const pendres_gap *g, double threshold)
 {
-  const double width = frequency_of(&s->points[i + 1]) - frequency_of(&s->points[i]);
-  return width > narrow && promising(s, i, best);
+  if (!(g->bound > threshold)) return 0;
+  if (g->kind == PENDRES_GAP_JUMP) return g->width > (g->mixed ? narrowest : narrow);
+  return g->loose || (g->kind == PENDRES_GAP_PLAIN && g->width > narrow);
 }
 
-/* The largest bound of all gaps that are still open; minus infinity if none is. */
-static double largest_bound(const search *s, double best)
+/* The largest bound of all gaps that are open; minus infinity if none is. */
+static double largest_bound(const work *w, double threshold)
 {
   double largest = -INFINITY;
-  for (size_t i = 0; i + 1 < s->count; i++)
-    if (open_gap(s, i, best)) largest = fmax(largest, bound_of(&s->points[i], &s->points[i + 1]));
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    if (open_gap(&w->gap[i], threshold)) largest = fmax(largest, w->gap[i].bound);
   return largest;
 }
 
@@ -193,123 +76,250 @@ static double largest_bound(const search *s, double best)
  * the place of the many frequencies close to it, where a ghost slows everything down. *sought:
  * there was such a gap; *found: one was added.
  */
-static pendres_status add_fold(search *s, int *sought, int *found)
+static pendres_status add_fold(work *w, int *sought, int *found)
 {
-  const double best = best_area(s);
+  pendres_search *s = &w->s;
+  double largest = threshold_of(s);
   size_t gap = s->count;
-  double largest = -INFINITY;
   *found = 0;
   for (size_t i = 0; i + 1 < s->count; i++) {
     const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    if (!promising(s, i, best) || a->fold_sought || a->at_fold || b->at_fold) continue;
-    if (bound_of(a, b) > largest) {
-      largest = bound_of(a, b);
+    if (w->gap[i].kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
+    if (w->gap[i].bound > largest) {
+      largest = w->gap[i].bound;
       gap = i;
     }
   }
   *sought = gap < s->count;
   if (!*sought) return PENDRES_OK;
-  pendres_scan_point in[2];
-  s->points[gap].fold_sought = 1;
-  pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, &s->points[gap],
-                                                      &s->points[gap + 1], in, found);
-  if (status == PENDRES_OK && *found) status = check_room(s, 2);
+  pendres_scan_point at, *a = &s->points[gap], *b = &s->points[gap + 1];
+  double beside;
+  a->fold_sought = 1;
+  pendres_status status =
+    pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &at, &beside, found);
+  pendres_search_account(s, pendres_scan_frequency(a));
   if (status != PENDRES_OK || !*found) return status;
-  s->points[s->count++] = in[0];
-  s->points[s->count++] = in[1];
-  qsort(s->points, s->count, sizeof *s->points, by_frequency);
-  return PENDRES_OK;
+  if (s->count + 2 > PENDRES_SEARCH_POINTS) {
+    s->crowded = 1;
+    return PENDRES_OK;
+  }
+  status = pendres_search_insert(s, &at, at.at_fold < 0 ? b : a);
+  if (status == PENDRES_OK) status = pendres_search_add(s, 1, &beside);
+  return status;
 }
 
 /*
- * Look into every gap that jumps and may hold more than the best value known, the most promising
- * first, until none is left but narrow ones.
+ * Cut the gaps that may hold more than the best value known, the most promising first, until none
+ * is left but narrow ones, or room or budget are spent.
  */
-static pendres_status resolve_jumps(search *s)
+static pendres_status resolve_gaps(work *w)
 {
+  pendres_search *s = &w->s;
   for (;;) {
-    double omega[MOST_POINTS];
+    double omega[PENDRES_SEARCH_POINTS];
     size_t n = 0;
     int sought = 0, found = 0;
-    pendres_status status = add_fold(s, &sought, &found);
+    look_at_gaps(w);
+    if (pendres_search_over(s)) return PENDRES_OK;
+    pendres_status status = add_fold(w, &sought, &found);
     if (status != PENDRES_OK) return status;
     if (found) continue;
-    const double best = best_area(s), largest = largest_bound(s, best);
+    const double threshold = threshold_of(s), largest = largest_bound(w, threshold);
     if (largest == -INFINITY && sought) continue;
     if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
-      const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-      const double width = frequency_of(b) - frequency_of(a);
+      const double first = pendres_scan_frequency(&s->points[i]), width = w->gap[i].width;
       /* Those that promise little may be ruled out by what the others turn up. */
-      if (!open_gap(s, i, best) || bound_of(a, b) < 0.5 * (best + largest)) continue;
-      for (int k = 1; k < SECTIONS && n < MOST_POINTS; k++)
-        omega[n++] = frequency_of(a) + width * k / SECTIONS;
+      if (!open_gap(&w->gap[i], threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
+        continue;
+      for (int k = 1; k < SECTIONS && n < PENDRES_SEARCH_POINTS; k++)
+        omega[n++] = first + width * k / SECTIONS;
     }
-    status = add_points(s, n, omega);
+    status = pendres_search_add(s, n, omega);
     if (status != PENDRES_OK) return status;
   }
 }
 
-/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
-static pendres_status choose(search *s, pendres_resonance *out, int *again)
+/*
+ * The resonance of one gap, or at the fold before it; jumps alone, or all else. *again: a jump
+ * turned up in it.
+ */
+static pendres_status choose_from(work *w, size_t i, int jumps, pendres_resonance *out, int *again)
 {
+  pendres_search *s = &w->s;
+  pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+  const pendres_gap *g = &w->gap[i];
+  const double best = certain_area(best_point(s));
+  pendres_resonance one;
   pendres_status status = PENDRES_OK;
-  int found = 0;
+  if (jumps != (g->kind == PENDRES_GAP_JUMP) && !a->at_fold) return status;
+  if (jumps && a->at_fold && certain_area(a) >= best) {
+    status = pendres_resonance_at_fold(s->ctx, a, &one);
+    /* As large: the gap before it was cut down to the same fold, less exactly. */
+    if (status == PENDRES_OK && !(one.loop_area < out->loop_area)) *out = one;
+  }
+  if (status != PENDRES_OK || g->kind == PENDRES_GAP_PLAIN) return status;
+  if (jumps != (g->kind == PENDRES_GAP_JUMP)) return status;
+  if (g->bound < best || g->bound < out->loop_area || pendres_search_ended(s)) return status;
+  status = g->kind == PENDRES_GAP_PEAK
+             ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
+             : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
+  pendres_search_account(s, pendres_scan_frequency(a));
+  if (status == PENDRES_NOT_FOUND) {
+    /* The slope changes its sign without a zero: there is a jump in between after all. */
+    a->jump_to_next = 1;
+    *again = 1;
+    return PENDRES_OK;
+  }
+  if (status == PENDRES_OK && !(one.loop_area - one.loop_area_error <= out->loop_area)) *out = one;
+  return status;
+}
 
+/* ---- what is left open ---- */
+
+/* Whether a gap that may hold more than an area was not resolved. */
+static int unresolved(const work *w, size_t i, double area)
+{
+  const pendres_gap *g = &w->gap[i];
+  if (!(g->bound > area)) return 0;
+  if (open_gap(g, area) || g->mixed) return 1;
+  return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
+}
+
+/* The largest area that gaps which were not resolved may hold; minus infinity if there are none. */
+static double left_open(const work *w, double area)
+{
+  double largest = -INFINITY;
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    if (unresolved(w, i, area)) largest = fmax(largest, w->gap[i].bound);
+  return largest;
+}
+
+/* Raise an error to the distance between two values. */
+static void spread(double *error, double a, double b)
+{
+  const double off = fabs(a - b);
+  if (off > *error) *error = off;
+}
+
+/*
+ * A peak among gaps that were not resolved: the largest value lies in one of them, and is at most
+ * `largest`. Errors are what the points around these gaps differ by.
+ */
+static void make_ragged(const work *w, double largest, pendres_resonance *out)
+{
+  pendres_response *r = &out->response;
+  out->peak = PENDRES_PEAK_RAGGED;
+  out->loop_area_error += largest - out->loop_area;
+  for (size_t i = 0; i + 1 < w->s.count; i++) {
+    if (!unresolved(w, i, out->loop_area)) continue;
+    for (size_t k = i; k <= i + 1; k++) {
+      const pendres_response *q = &w->s.points[k].response;
+      spread(&out->frequency_error, q->pendulum.drive_frequency, out->frequency);
+      spread(&r->mean_loop_amplitude_error, q->mean_loop_amplitude, r->mean_loop_amplitude);
+      spread(&r->mean_amplitude_error, q->mean_amplitude, r->mean_amplitude);
+      spread(&r->phase_lag_error, q->phase_lag, r->phase_lag);
+      spread(&r->mean_power_error, q->mean_power, r->mean_power);
+      spread(&r->sa_fraction_error, q->sa_fraction, r->sa_fraction);
+      spread(&r->la_fraction_error, q->la_fraction, r->la_fraction);
+    }
+  }
+  r->mean_loop_area_error = out->loop_area_error;
+}
+
+/* A point of the scan as it is: no better is known. */
+static pendres_resonance as_scanned(const pendres_scan_point *p)
+{
+  return (pendres_resonance){.peak = PENDRES_PEAK_RAGGED,
+                             .frequency = pendres_scan_frequency(p),
+                             .loop_area = p->response.mean_loop_area,
+                             .loop_area_error = p->response.mean_loop_area_error,
+                             .response = p->response,
+                             .fold_frequency = NAN,
+                             .fold_frequency_error = NAN};
+}
+
+static pendres_status at_the_end(const work *w, const pendres_scan_point *p)
+{
+  const int low = p == &w->s.points[0];
+  return pendres_context_fail(
+    w->s.ctx, PENDRES_NOT_FOUND,
+    "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
+    "drive frequency %g", w->s.pendulum.damping, w->s.pendulum.drive_amplitude,
+    low ? "lower" : "upper", pendres_scan_frequency(p));
+}
+
+/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
+static pendres_status choose(work *w, pendres_resonance *out, int *again)
+{
+  const pendres_search *s = &w->s;
+  pendres_status status = PENDRES_OK;
   *again = 0;
-  out->loop_area = -INFINITY;
-  for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK; i++) {
-    pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    const gap_kind kind = kind_of(a, b);
-    pendres_resonance one;
-    if (a->at_fold && certain_area(a) >= best_area(s)) {
-      status = pendres_resonance_at_fold(s->ctx, a, &one);
-      /* As large: the gap before it was cut down to the same fold, less exactly. */
-      if (status == PENDRES_OK && one.loop_area >= out->loop_area) {
-        *out = one;
-        found = 1;
-      }
-    }
-    if (status != PENDRES_OK || kind == GAP_PLAIN) continue;
-    if (bound_of(a, b) < fmax(best_area(s), out->loop_area)) continue;
-    status = kind == GAP_PEAK
-               ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
-               : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
-    if (status == PENDRES_NOT_FOUND) {
-      /* The slope changes its sign without a zero: there is a jump in between after all. */
-      a->jump_to_next = 1;
-      *again = 1;
-      return PENDRES_OK;
-    }
-    if (status == PENDRES_OK && one.loop_area - one.loop_area_error > out->loop_area) {
-      *out = one;
-      found = 1;
-    }
+  out->loop_area = NAN;
+  look_at_gaps(w);
+  /* Smooth peaks first: they cost little, and leave fewer jumps to look into. */
+  const int open = largest_bound(w, threshold_of(s)) > -INFINITY;
+  for (int jumps = 0; jumps < 2 && !open; jumps++)
+    for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK && !*again; i++)
+      status = choose_from(w, i, jumps, out, again);
+  if (status != PENDRES_OK || *again) return status;
+  const pendres_scan_point *best = best_point(s), *first = &s->points[0];
+  const pendres_scan_point *last = &s->points[s->count - 1];
+  if (!(out->loop_area >= best->response.mean_loop_area)) {
+    if (best == first || best == last) return at_the_end(w, best);
+    *out = as_scanned(best);
   }
-  if (status != PENDRES_OK) return status;
-  const pendres_scan_point *first = &s->points[0], *last = &s->points[s->count - 1];
-  const double ends =
-    fmax(first->response.mean_loop_area, last->response.mean_loop_area);
-  if (!found || ends > out->loop_area) {
-    const int low = first->response.mean_loop_area >= last->response.mean_loop_area;
-    return pendres_context_fail(
-      s->ctx, PENDRES_NOT_FOUND,
-      "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
-      "drive frequency %g", s->pendulum.damping, s->pendulum.drive_amplitude,
-      low ? "lower" : "upper", frequency_of(low ? first : last));
-  }
+  const double largest = left_open(w, out->loop_area + out->loop_area_error);
+  if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
+    make_ragged(w, fmax(largest, out->loop_area), out);
+  out->complete = out->peak != PENDRES_PEAK_RAGGED || !s->exhausted;
   return PENDRES_OK;
 }
 
-/* A state that is alone at the resonance has its name from the other frequencies. */
-static pendres_status name_states(const search *s, pendres_response *r)
+/* Nothing is known: NaN, not 0. */
+static void clear(pendres_resonance *out)
 {
-  const pendres_response *line[MOST_POINTS];
+  memset(out, 0, sizeof *out);
+  pendres_response_average(&out->response);
+  out->frequency = out->frequency_error = out->loop_area = out->loop_area_error = NAN;
+  out->fold_frequency = out->fold_frequency_error = NAN;
+}
+
+/* A state that is alone at the resonance has its name from the other frequencies. */
+static pendres_status name_states(const pendres_search *s, pendres_response *r)
+{
+  const pendres_response *line[PENDRES_SEARCH_POINTS];
   pendres_label_border border;
   if (!pendres_response_nameless(r)) return PENDRES_OK;
   for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
   const pendres_status status = pendres_response_border(s->ctx, s->count, line, &border);
   if (status == PENDRES_OK) pendres_response_name_by(&border, r);
+  return status;
+}
+
+static pendres_status no_area(pendres_context *ctx, const pendres_pendulum *p)
+{
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
+                              "damping %g, drive amplitude %g: the loop area is zero at all drive "
+                              "frequencies", p->damping, p->drive_amplitude);
+}
+
+static pendres_status search(work *w, double lowest, double highest, pendres_resonance *out)
+{
+  const pendres_pendulum *p = &w->s.pendulum;
+  pendres_status status = pendres_search_scan(&w->s, lowest, highest);
+  if (status != PENDRES_OK) return status;
+  if (w->s.count < 3)
+    return pendres_context_fail(w->s.ctx, PENDRES_NOT_CONVERGED,
+                                "damping %g, drive amplitude %g: the budget of a resonance's search "
+                                "is spent after %zu frequencies", p->damping, p->drive_amplitude,
+                                w->s.count);
+  if (!(best_point(&w->s)->response.mean_loop_area > 0.0)) return no_area(w->s.ctx, p);
+  for (int again = 1; again && status == PENDRES_OK;) {
+    status = resolve_gaps(w);
+    if (status == PENDRES_OK) status = choose(w, out, &again);
+  }
+  if (status == PENDRES_OK) status = name_states(&w->s, &out->response);
   return status;
 }
 
@@ -320,6 +330,7 @@ static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendre
 {
   if (p == NULL || ensemble == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, ensemble and out");
+  clear(out);
   if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the range of frequencies must be positive and ascending");
@@ -333,22 +344,16 @@ static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendre
   }
   if (ensemble->members < 1) why = "an ensemble needs members";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
-  search s = {.ctx = ctx, .pendulum = *p, .ensemble = ensemble};
-  s.points = malloc(MOST_POINTS * sizeof *s.points);
-  if (s.points == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
-
-  double omega[SCAN_POINTS];
-  for (int i = 0; i < SCAN_POINTS; i++)
-    omega[i] = lowest + (highest - lowest) * i / (SCAN_POINTS - 1);
-  memset(out, 0, sizeof *out);
-  pendres_status status = add_points(&s, SCAN_POINTS, omega);
-  for (int again = 1; again && status == PENDRES_OK;) {
-    status = resolve_jumps(&s);
-    if (status == PENDRES_OK) status = choose(&s, out, &again);
-  }
-  if (status == PENDRES_OK) status = name_states(&s, &out->response);
-  free(s.points);
+  /* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
+  if (p->drive_amplitude == 0.0 && p->damping > 0.0) return no_area(ctx, p);
+  work w = {.gap = malloc(PENDRES_SEARCH_POINTS * sizeof *w.gap)};
+  pendres_status status = pendres_search_create(ctx, p, ensemble, &w.s);
+  if (status == PENDRES_OK && w.gap == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
+  if (status == PENDRES_OK) status = search(&w, lowest, highest, out);
+  if (status != PENDRES_OK) clear(out);
+  pendres_search_free(&w.s);
+  free(w.gap);
   return status;
 }
 

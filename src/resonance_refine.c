@@ -11,7 +11,9 @@
 #include <pendres/continuation.h>
 
 #include "context_internal.h"
+#include "resonance_gap.h"
 #include "response_loop.h"
+#include "response_members.h"
 
 /* ---- evaluating frequencies ---- */
 
@@ -68,7 +70,8 @@ static void average_slope(pendres_scan_point *p)
 
 pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
                                      const pendres_ensemble *ensemble, size_t n,
-                                     const double *omega, pendres_scan_point *out)
+                                     const double *omega, signed char *where,
+                                     pendres_scan_point *out)
 {
   pendres_status status = PENDRES_OK;
   pendres_pendulum *pendulums = calloc(n, sizeof *pendulums);
@@ -81,7 +84,7 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulu
     pendulums[i] = *p;
     pendulums[i].drive_frequency = omega[i];
   }
-  status = pendres_response_compute(ctx, n, pendulums, ensemble, responses);
+  status = pendres_response_members(ctx, n, pendulums, ensemble, where, responses);
   if (status != PENDRES_OK) goto done;
   for (size_t i = 0; i < n; i++) out[i] = (pendres_scan_point){.response = responses[i]};
   status = add_slopes(ctx, n, out);
@@ -99,6 +102,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_scan_point *fro
                              pendres_scan_point *to)
 {
   *to = *from;
+  to->where = NULL;
   to->response.pendulum.drive_frequency = omega;
   for (size_t j = 0; j < to->response.states; j++) {
     pendres_orbit *o = &to->response.state[j].orbit;
@@ -291,6 +295,32 @@ static const pendres_attractor *ending_state(const pendres_response *here,
   return NULL;
 }
 
+/*
+ * Whether the jump between a and b lies beyond m. Of several the one next to the largest value
+ * counts, else the larger. What the states' own slopes explain is no jump: where a state comes or
+ * goes without one, as the partners of a mirror pair do, the states tell.
+ */
+static int jump_is_right(const pendres_scan_point *a, const pendres_scan_point *m,
+                         const pendres_scan_point *b)
+{
+  const double width =
+    b->response.pendulum.drive_frequency - a->response.pendulum.drive_frequency;
+  const double at_a = a->response.mean_loop_area, at_b = b->response.mean_loop_area;
+  const double at_m = m->response.mean_loop_area;
+  const double left = fabs(at_m - at_a), right = fabs(at_b - at_m);
+  const double drift = width * fmax(fabs(m->slope), fmax(fabs(a->slope), fabs(b->slope)));
+  if (left <= drift && right <= drift) {
+    pendres_gap before, behind;
+    pendres_gap_look(a, m, 0, &before);
+    pendres_gap_look(m, b, 0, &behind);
+    if ((before.kind == PENDRES_GAP_JUMP) != (behind.kind == PENDRES_GAP_JUMP))
+      return behind.kind == PENDRES_GAP_JUMP;
+  }
+  if (at_a >= fmax(at_m, at_b) && left > drift) return 0;
+  if (at_b >= fmax(at_a, at_m) && right > drift) return 1;
+  return right >= left;
+}
+
 /* Halve the gap between two different points until it is narrower than `width`. */
 static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
                              pendres_scan_point *a, pendres_scan_point *b)
@@ -302,19 +332,9 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
     if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
     pendres_scan_point m;
     const pendres_status status =
-      pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, &m);
+      pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, NULL, &m);
     if (status != PENDRES_OK) return status;
-    /* Of several jumps the one next to the largest value counts, else the larger. What the states'
-       own slopes explain is no jump. */
-    const double at_a = a->response.mean_loop_area, at_b = b->response.mean_loop_area;
-    const double at_m = m.response.mean_loop_area;
-    const double left = fabs(at_m - at_a), right = fabs(at_b - at_m);
-    const double drift =
-      (upper - lower) * fmax(fabs(m.slope), fmax(fabs(a->slope), fabs(b->slope)));
-    int keep_right = right >= left;
-    if (at_b >= fmax(at_a, at_m) && right > drift) keep_right = 1;
-    if (at_a >= fmax(at_m, at_b) && left > drift) keep_right = 0;
-    if (keep_right)
+    if (jump_is_right(a, &m, b))
       *a = m;
     else
       *b = m;
@@ -400,8 +420,8 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
 
 pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
                                            const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_point in[2],
-                                           int *found)
+                                           const pendres_scan_point *b, pendres_scan_point *at,
+                                           double *beside, int *found)
 {
   pendres_fold fold;
   const double lower = a->response.pendulum.drive_frequency;
@@ -422,16 +442,15 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   status = fold_decides(ctx, ensemble, &fold, side, &decides);
   if (status != PENDRES_OK || !decides) return status;
 
-  status = follow(ctx, without, fold.value, &in[0]);
+  status = follow(ctx, without, fold.value, at);
   if (status != PENDRES_OK) return status;
-  in[0].at_fold = side < 0.0 ? -1 : 1;
-  in[0].fold = fold.value;
-  in[0].fold_error = fold.value_error;
+  at->at_fold = side < 0.0 ? -1 : 1;
+  at->fold = fold.value;
+  at->fold_error = fold.value_error;
   const double room = fabs(fold.value - (side < 0 ? lower : upper));
-  const double beside = fold.value + side * fmin(1e-3, 0.5 * room);
-  status = pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &beside, &in[1]);
-  *found = status == PENDRES_OK;
-  return status;
+  *beside = fold.value + side * fmin(1e-3, 0.5 * room);
+  *found = 1;
+  return PENDRES_OK;
 }
 
 /* The resonance at a point, with what follows from the error of its frequency. */

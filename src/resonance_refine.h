@@ -15,12 +15,14 @@ typedef struct pendres_scan_point {
   int at_fold;               /* not 0: the point is at a fold, on the side without the state that
                                 ends there, which exists at lower (-1) or higher (1) omega */
   double fold, fold_error;
+  signed char *where;        /* the state that each member is on, -1: none; NULL: not asked for */
 } pendres_scan_point;
 
-/* Responses with slopes at n frequencies. */
+/* Responses with slopes at n frequencies; where[n * members] may be NULL, and is not kept. */
 pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
                                      const pendres_ensemble *ensemble, size_t n,
-                                     const double *omega, pendres_scan_point *out);
+                                     const double *omega, signed char *where,
+                                     pendres_scan_point *out);
 
 /*
  * The zero of the slope between a (rising) and b (falling), with the ensemble on the same states
@@ -31,13 +33,14 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
                                              const pendres_scan_point *b, pendres_resonance *out);
 
 /*
- * The fold that ends a state between a and b, if one does and if it makes a jump: in[0] is then
- * the point at the fold without that state, in[1] one on the side with it, close by. *found tells.
+ * The fold that ends a state between a and b, if one does and if it makes a jump: *at is then the
+ * point at the fold without that state, *beside a frequency on the side with it, close by. *found
+ * tells.
  */
 pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
                                            const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_point in[2],
-                                           int *found);
+                                           const pendres_scan_point *b, pendres_scan_point *at,
+                                           double *beside, int *found);
 
 /* The resonance at a point at a fold. */
 pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,

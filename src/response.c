@@ -8,6 +8,7 @@
 #include "context_internal.h"
 #include "orbit_measure.h"
 #include "response_loop.h"
+#include "response_members.h"
 #include "settle.h"
 #include "strobe_run.h"
 
@@ -225,8 +226,21 @@ static void count_states(const pendres_catalogue *c, size_t n, const pendres_out
                        .lost = r->unresolved});
 }
 
+/* The listed attractor that each member is on; -1: none. */
+static void locate_members(size_t n, const pendres_outcome *outcome, const char *listed,
+                           signed char *where)
+{
+  for (size_t i = 0; i < n; i++) {
+    const int on = outcome[i].attractor;
+    where[i] = on >= 0 && listed[on] ? 0 : -1;
+    for (int a = 0; a < on && where[i] >= 0; a++) where[i] = (signed char)(where[i] + listed[a]);
+  }
+}
+
+/* where[n] may be NULL. */
 static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                                const pendres_outcome *outcome, pendres_response *r)
+                                const pendres_outcome *outcome, signed char *where,
+                                pendres_response *r)
 {
   pendres_status status = PENDRES_OK;
   size_t *members = malloc((c->count + 1) * sizeof *members);
@@ -238,6 +252,7 @@ static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c
                                   c->count);
   if (status == PENDRES_OK)
     status = pendres_response_refine_loop(ctx, c->count, c->attractors, members, r);
+  if (status == PENDRES_OK && where != NULL) locate_members(n, outcome, listed, where);
   free(members);
   free(listed);
   return status;
@@ -245,7 +260,7 @@ static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c
 
 static pendres_status compute_batch(pendres_context *ctx, size_t sets,
                                     const pendres_pendulum *pendulums, const pendres_ensemble *e,
-                                    pendres_response *out)
+                                    signed char *where, pendres_response *out)
 {
   const size_t n = sets * e->members;
   pendres_status status = PENDRES_OK;
@@ -269,7 +284,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
   }
   status = pendres_settle_batch(ctx, sets, catalogues, 1, n, set, x, v, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
-    status = summarize(ctx, &catalogues[s], e->members, outcome + s * e->members, &out[s]);
+    status = summarize(ctx, &catalogues[s], e->members, outcome + s * e->members,
+                       where != NULL ? where + s * e->members : NULL, &out[s]);
 done:
   for (size_t s = 0; s < sets; s++) pendres_catalogue_clear(&catalogues[s]);
   free(x);
@@ -279,9 +295,10 @@ done:
   return status;
 }
 
-static pendres_status response_compute(pendres_context *ctx, size_t n,
-                                       const pendres_pendulum *pendulums,
-                                       const pendres_ensemble *ensemble, pendres_response *out)
+pendres_status pendres_response_members(pendres_context *ctx, size_t n,
+                                        const pendres_pendulum *pendulums,
+                                        const pendres_ensemble *ensemble, signed char *where,
+                                        pendres_response *out)
 {
   if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and out");
@@ -302,7 +319,8 @@ static pendres_status response_compute(pendres_context *ctx, size_t n,
   pendres_status status = PENDRES_OK;
   for (size_t first = 0; first < n && status == PENDRES_OK; first += BATCH_SETS) {
     const size_t sets = n - first < BATCH_SETS ? n - first : BATCH_SETS;
-    status = compute_batch(ctx, sets, pendulums + first, ensemble, out + first);
+    status = compute_batch(ctx, sets, pendulums + first, ensemble,
+                           where != NULL ? where + first * ensemble->members : NULL, out + first);
   }
   return status;
 }
@@ -311,5 +329,6 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, pendres_response *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, response_compute(ctx, n, pendulums, ensemble, out));
+  return PENDRES_CONTEXT_CALL(
+    ctx, pendres_response_members(ctx, n, pendulums, ensemble, NULL, out));
 }

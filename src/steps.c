@@ -173,6 +173,7 @@ static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p
     if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
   }
   ctx->cost.pendulum_periods += PROBES;
+  ctx->probed_periods += PROBES;
   return PENDRES_OK;
 }
 

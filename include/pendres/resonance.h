@@ -8,6 +8,12 @@
  * an attractor ends in a fold or a member changes its basin. The largest value is either a smooth
  * peak (a zero of dA/domega along the branch, from the variational equation) or an edge (the
  * largest value at a jump). Both are looked for in the whole range and compete.
+ *
+ * The range is scanned as finely as resonances may be narrow: damping times omega. Between two
+ * frequencies each state's area follows from its slopes at both, and each member is on a state that
+ * it, or a member beside it, is on at either; gaps that may then hold more than is known are cut,
+ * until single members' changes are located. Where members change so often that this has no end,
+ * the peak is ragged. What is narrower than the scan and leaves no trace at its points is not seen.
  */
 #ifndef PENDRES_RESONANCE_H
 #define PENDRES_RESONANCE_H
@@ -36,13 +42,20 @@ typedef struct pendres_resonance {
   double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
                                           at an edge made by basins alone */
   double fold_frequency_error;
+  int complete;                      /**< 0: the search ended at its budget of work, and what it has
+                                          not looked into may hold more */
 } pendres_resonance;
 
 /**
  * The resonance of pendulums with p's damping and drive amplitude for frequencies in [lowest,
  * highest] (p's own frequency is not read), with the paper's ensemble of 200.
  *
- * PENDRES_NOT_FOUND: the mean loop area is largest at an end of the range (message says which).
+ * PENDRES_NOT_FOUND: the mean loop area is largest at an end of the range (message says which), or
+ * zero throughout, as without a drive. On failure all numbers of *out are NaN.
+ * PENDRES_NOT_CONVERGED: not even a few frequencies could be computed within the budget of work.
+ *
+ * The budget, about ten seconds of a processor, is counted in periods and steps of Newton's method,
+ * so that results do not depend on the machine.
  */
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out);

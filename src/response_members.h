@@ -1,0 +1,18 @@
+/*
+ * response_members.h -- the response of an ensemble, and what became of each member.
+ */
+#ifndef PENDRES_RESPONSE_MEMBERS_H
+#define PENDRES_RESPONSE_MEMBERS_H
+
+#include <pendres/response.h>
+
+/*
+ * As pendres_response_compute. where[n * members], unless it is NULL, tells the state that each
+ * member is on, as a number in its response's state[]; -1: none of those.
+ */
+pendres_status pendres_response_members(pendres_context *ctx, size_t n,
+                                        const pendres_pendulum *pendulums,
+                                        const pendres_ensemble *ensemble, signed char *where,
+                                        pendres_response *out);
+
+#endif
