@@ -20,8 +20,9 @@
   X(NOT_CONVERGED, "not_converged", "an iteration did not converge within its budget")           \
   X(NOT_FOUND, "not_found", "nothing with the properties asked for exists")                      \
   X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
-  X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                            \
-  X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")
+  X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
+  X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
+  X(BUDGET, "budget", "the search ended at its budget of work: there may be more")
 
 typedef enum scene_failure {
 #define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,

@@ -36,6 +36,8 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   p.drive_frequency = c->d->search[0];
   c->outcome[task] = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
                                                      &c->ensemble, &c->points[task]);
+  if (c->outcome[task] == PENDRES_OK && !c->points[task].complete)
+    scene_failures_mark(&c->failed, task, SCENE_FAILURE_BUDGET, NULL);
   /* A damping whose area has no peak in the range is a point without a result, not a failure. */
   return scene_failures_note(&c->failed, task, c->outcome[task], pendres_context_message(ctx));
 }
@@ -136,6 +138,20 @@ static pendres_status write_kinds(scene_run *run, const curve *c, int8_t *peak)
   return scene_failures_write(run, &c->failed, "failed", "resonance", 1, &axis);
 }
 
+static pendres_status write_uncertain(scene_run *run, const curve *c)
+{
+  const size_t n = c->d->axis[DECK_AXIS_DAMPING].count;
+  const pendres_store_spec spec = {.name = "uncertain_members", .type = PENDRES_STORE_INT64,
+                                   .dimensions = {"damping"},
+                                   .long_name = "members that may belong to another state"};
+  int64_t *count = malloc(n * sizeof *count);
+  if (count == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) count[i] = (int64_t)c->points[i].response.uncertain;
+  const pendres_status status = pendres_store_put(run->store, &spec, count, n);
+  free(count);
+  return status;
+}
+
 static pendres_status write_results(scene_run *run, const curve *c)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
@@ -159,6 +175,7 @@ static pendres_status write_results(scene_run *run, const curve *c)
     }
     status = pendres_store_put_result(run->store, &spec, value_of, error, n);
   }
+  if (status == PENDRES_OK) status = write_uncertain(run, c);
   if (status == PENDRES_OK) status = write_kinds(run, c, peak);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
 done:

@@ -65,6 +65,8 @@ static pendres_status compute_peak(grid *g, size_t i, pendres_context *ctx)
   }
   g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
                                                   &g->ensemble, &g->peaks[i]);
+  if (g->outcome[i] == PENDRES_OK && !g->peaks[i].complete)
+    scene_failures_mark(&g->peak_failed, i, SCENE_FAILURE_BUDGET, NULL);
   return scene_failures_note(&g->peak_failed, i, g->outcome[i], pendres_context_message(ctx));
 }
 

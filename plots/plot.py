@@ -63,13 +63,16 @@ def draw_free_oscillation(h, path):
 
 def resonance_axes(ax, h, labels):
     amplitude, frequency = h["mean_loop_amplitude"], h["resonance_frequency"]
-    edge, damping = h["peak"] == 1, h["damping"]
+    edge, ragged, damping = h["peak"] == 1, h["peak"] == 2, h["damping"]
+    smooth = h["peak"] == 0
     x = np.linspace(0, max(2.4, np.nanmax(amplitude) * 1.1), 400)
     x = x[x < np.pi]
     ax.plot(x, free_frequency(x), "--", color=FREE, label="free oscillation, exact")
     ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
-    ax.plot(amplitude[~edge], frequency[~edge], "o", ms=3, color=SA, label="smooth peak")
+    ax.plot(amplitude[smooth], frequency[smooth], "o", ms=3, color=SA, label="smooth peak")
     ax.plot(amplitude[edge], frequency[edge], "s", ms=3, color=LA, label="edge: SA ends")
+    if ragged.any():
+        ax.plot(amplitude[ragged], frequency[ragged], "x", ms=3, color=LA, label="ragged")
     for value in labels:
         i = np.argmin(abs(damping - value))
         if abs(damping[i] - value) < 1e-9 and np.isfinite(amplitude[i]):

@@ -1,0 +1,90 @@
+/*
+ * test_resonance_search.c -- what a search for a resonance must not miss: single members that
+ * change their states, and what it must say where there is no answer.
+ *
+ * Tolerances: a value of the ensemble's own response within the range may exceed the resonance's by
+ * both errors at most: that is what a largest value means.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+
+enum { FREQUENCIES = 100 };
+
+static pendres_context *context(void)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  return ctx;
+}
+
+/* No response in the range lies above the resonance. */
+static void check_nothing_above(pendres_context *ctx, const pendres_resonance *r,
+                                const pendres_pendulum *p, const pendres_ensemble *e,
+                                double lowest, double highest)
+{
+  pendres_pendulum at[FREQUENCIES];
+  pendres_response there[FREQUENCIES];
+  for (int i = 0; i < FREQUENCIES; i++) {
+    at[i] = *p;
+    at[i].drive_frequency = lowest + (highest - lowest) * (i + 0.5) / FREQUENCIES;
+  }
+  check_ok(pendres_response_compute(ctx, FREQUENCIES, at, e, there));
+  for (int i = 0; i < FREQUENCIES; i++)
+    assert_true(there[i].mean_loop_area - there[i].mean_loop_area_error <=
+                r->loop_area + r->loop_area_error);
+}
+
+/*
+ * Largest areas between jumps of single members, one more on the large-amplitude state or one
+ * less: the second value was found by brute force at this very frequency.
+ */
+static void single_members(void **state)
+{
+  const double lowest = 0.6988006040454059, highest = 0.7737013165576684;
+  const pendres_ensemble e = pendres_ensemble_default();
+  pendres_pendulum p = {.damping = 0.03064417518711893, .drive_amplitude = 0.06818148069736377};
+  pendres_context *ctx = context();
+  pendres_resonance r;
+  pendres_response there;
+  (void)state;
+  check_ok(pendres_resonance_find(ctx, &p, lowest, highest, &r));
+  check_nothing_above(ctx, &r, &p, &e, lowest, highest);
+  p.drive_frequency = 0.7714542951823005;
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &there));
+  check_near(there.mean_loop_area, 0.0945177994, 2e-10); /* as printed */
+  assert_true(r.loop_area + r.loop_area_error >= there.mean_loop_area);
+  assert_true(r.complete && (r.peak == PENDRES_PEAK_RAGGED || r.loop_area_error < 1e-8));
+  pendres_context_free(ctx);
+}
+
+/* Without a drive there is no loop, and no largest one. */
+static void no_drive(void **state)
+{
+  static const double dampings[] = {0.2, 0.24};
+  pendres_context *ctx = context();
+  (void)state;
+  for (int i = 0; i < 4; i++) {
+    /* The square of the least drive is zero, and so is its area. */
+    const pendres_pendulum p = {.damping = dampings[i % 2], .drive_amplitude = i < 2 ? 0.0 : 1e-300};
+    const pendres_ensemble few = {.members = 3, .x_first = 0.0, .x_last = 3.0};
+    pendres_resonance r;
+    assert_int_equal(pendres_resonance_find_ensemble(ctx, &p, 0.5, 1.2, &few, &r),
+                     PENDRES_NOT_FOUND);
+    assert_non_null(strstr(pendres_context_message(ctx), "zero"));
+    assert_true(isnan(r.loop_area) && isnan(r.frequency) && isnan(r.response.phase_lag));
+  }
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(single_members),
+    cmocka_unit_test(no_drive),
+  };
+  return cmocka_run_group_tests_name("resonance_search", tests, NULL, NULL);
+}
