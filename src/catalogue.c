@@ -187,7 +187,7 @@ static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
   const double least = -0.5 * o->pendulum.damping, off = fmax(DBL_MIN, o->multiplier_error);
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   a->lyapunov = fmax(least, log(size) / time);
-  a->lyapunov_error = 4.0 * DBL_EPSILON * fabs(a->lyapunov);
+  a->lyapunov_error = DBL_EPSILON * (4.0 * fabs(a->lyapunov) + 1.0 / time);
   if (isnan(size + o->multiplier_error)) { /* fmax would take the other one */
     a->lyapunov = isnan(size) ? NAN : a->lyapunov;
     a->lyapunov_error = NAN;

@@ -112,7 +112,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_doubt slope_doubt = {
     .apart = 1.5 * (derivative + doubt.apart),
-    .rounding = doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw))};
+    .rounding = 2.0 * doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw))};
   o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
                                                  pi * fabs(p->drive_amplitude), &slope_doubt);
 }

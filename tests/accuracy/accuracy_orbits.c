@@ -25,6 +25,9 @@ typedef struct item {
   int false_; /* the library found one where the reference has none */
   pendres_orbit orbit;
   pendres_reference_cycle exact;
+  int settled; /* the attractor below is a closed orbit, and the reference has it */
+  pendres_attractor attractor;
+  pendres_reference_cycle of_attractor;
 } item;
 
 static pendres_context *context_with(double tolerance)
@@ -79,7 +82,24 @@ static void draw(accuracy_random *r, item *t)
   pendres_context_free(ctx);
 }
 
-static void compute(item *t)
+/* What the guess settles on. */
+static void settle(pendres_context *ctx, item *t)
+{
+  const pendres_orbit_guess *g = &t->guess;
+  pendres_outcome outcome;
+  pendres_attractors *found = NULL;
+  if (pendres_settle(ctx, 1, &g->pendulum, &g->x, &g->v, &outcome, &found) == PENDRES_OK &&
+      outcome.attractor >= 0) {
+    t->attractor = *pendres_attractors_get(found, (size_t)outcome.attractor);
+    const pendres_orbit *o = &t->attractor.orbit;
+    t->settled = t->attractor.label != PENDRES_LABEL_CHAOTIC &&
+                 pendres_reference_orbit(&g->pendulum, o->x - half_pi, o->v, o->period, o->winding,
+                                         &t->of_attractor) == PENDRES_OK;
+  }
+  pendres_attractors_free(found);
+}
+
+static void compute(item *t, int settles)
 {
   pendres_context *ctx = context_with(t->tolerance);
   pendres_status outcome = PENDRES_NOT_CONVERGED;
@@ -92,6 +112,7 @@ static void compute(item *t)
     t->there = status == PENDRES_OK;
     t->false_ = status == PENDRES_NOT_CONVERGED;
   }
+  if (ctx != NULL && settles && g->period > 0) settle(ctx, t);
   pendres_context_free(ctx);
 }
 
@@ -109,17 +130,57 @@ static double multipliers_apart(const pendres_orbit *o, const pendres_reference_
   return fmin(apart[0], apart[1]);
 }
 
+/* The exponent is the larger multiplier's logarithm in time. */
+static void note_attractor(accuracy *a, const item *t, const char *how)
+{
+  const pendres_reference_cycle *e = &t->of_attractor;
+  const long double time = two_pi * (long double)e->period / e->drive_frequency;
+  const long double exponent =
+    logl(hypotl(e->multiplier_re[0], e->multiplier_im[0])) / time;
+  accuracy_note(a, "Lyapunov exponent", t->attractor.lyapunov, t->attractor.lyapunov_error,
+                exponent, how);
+  accuracy_note(a, "loop area of an attractor", t->attractor.orbit.loop_area,
+                t->attractor.orbit.loop_area_error, e->loop_area, how);
+  accuracy_note(a, "amplitude of an attractor", t->attractor.orbit.amplitude,
+                t->attractor.orbit.amplitude_error, e->amplitude, how);
+}
+
+/* Points along the orbit, at drive phase 0 as far as the reference goes. */
+static void note_samples(accuracy *a, const item *t, const char *how)
+{
+  enum { MOST = 8 };
+  const pendres_orbit *o = &t->orbit;
+  double x[MOST], v[MOST], x_error = INFINITY, v_error = INFINITY, off[2] = {0.0, 0.0};
+  pendres_context *ctx = context_with(t->tolerance);
+  if (ctx != NULL && o->period <= MOST && o->period > 1 &&
+      pendres_orbit_sample_with_error(ctx, o, 1, x, v, &x_error, &v_error) == PENDRES_OK) {
+    for (int k = 0; k < o->period; k++) {
+      long double y = t->exact.y, w = t->exact.v;
+      if (pendres_reference_advance(&o->pendulum, &y, &w, NULL, k) != PENDRES_OK) continue;
+      const double turn = rint((double)((x[k] - half_pi) - y) / two_pi) * two_pi;
+      off[0] = fmax(off[0], (double)fabsl(x[k] - turn - half_pi - y));
+      off[1] = fmax(off[1], (double)fabsl(v[k] - w));
+    }
+    accuracy_note_error(a, "x of samples", off[0], x_error, how);
+    accuracy_note_error(a, "v of samples", off[1], v_error, how);
+  }
+  pendres_context_free(ctx);
+}
+
 static void note(accuracy *a, const item *t, long number)
 {
   const pendres_orbit *o = &t->orbit;
   const pendres_reference_cycle *e = &t->exact;
-  const pendres_pendulum *p = &o->pendulum;
+  const pendres_pendulum *p = &t->guess.pendulum;
   char how[HOW];
   snprintf(how, sizeof how,
            "item %ld: F0 %.17g, damping %.17g, frequency %.17g, q %d, winding %d, x %.17g, v %.17g,"
            " tolerance %.17g",
            number, p->drive_amplitude, p->damping, p->drive_frequency, t->guess.period,
            t->guess.winding, t->guess.x, t->guess.v, t->tolerance);
+  if (t->settled) note_attractor(a, t, how);
+  if (!t->there) return;
+  note_samples(a, t, how);
   const double turn = rint((double)((o->x - half_pi) - e->y) / two_pi) * two_pi;
   accuracy_note(a, "x", o->x - turn, o->x_error, e->y + half_pi, how);
   accuracy_note(a, "v", o->v, o->v_error, e->v, how);
@@ -158,13 +219,13 @@ void accuracy_orbits(accuracy *a)
       accuracy_random r = accuracy_item(a, base + i);
       items[i] = (item){0};
       draw(&r, &items[i]);
-      compute(&items[i]);
+      compute(&items[i], (base + i) % 4 == 0);
     }
     for (long i = 0; i < n; i++) {
       const item *t = &items[i];
       char how[HOW];
       snprintf(how, sizeof how, "item %ld", base + i);
-      if (t->there) note(a, t, base + i);
+      note(a, t, base + i);
       if (t->false_) accuracy_complain(a, "an orbit where the reference has none", how);
     }
   }
