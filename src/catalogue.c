@@ -216,7 +216,13 @@ static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
                            .drift_error = NAN,
                            .watched_periods = NAN,
                            .escape_rate_bound = NAN};
-  set_lyapunov(a, &points[0]);
+  /* All points of an orbit have the same multipliers: by what they differ they are not known. */
+  for (int j = 0; j < q; j++)
+    a->orbit.multiplier_error =
+      fmax(a->orbit.multiplier_error,
+           hypot(points[j].multiplier_re[0] - a->orbit.multiplier_re[0],
+                 fabs(points[j].multiplier_im[0]) - fabs(a->orbit.multiplier_im[0])));
+  set_lyapunov(a, &a->orbit);
   memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
   for (int j = 0; j < q; j++) {
     c->trap[c->traps] = traps[j];

@@ -476,6 +476,37 @@ static void strong_damping(void **state)
   }
 }
 
+/*
+ * Orbits of nine periods that are each other's mirror image, at the tightest tolerances: all of
+ * their points have one multiplier, 0.763721747964 in extended precision, which was once off by 54
+ * times its error. What is claimed holds, and the exponents of the two agree.
+ */
+static void one_multiplier(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.14587118499213428,
+                              .drive_amplitude = 0.875934161387738,
+                              .drive_frequency = 0.8044991803985567};
+  const double x[] = {-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0};
+  const double v[] = {0.0, 0.3, 0.6, 0.0, 0.3, 0.6, 0.0, 0.3, 0.6, 0.0, 0.3, 0.6};
+  pendres_context *ctx = NULL;
+  pendres_attractors *set = NULL;
+  const pendres_attractor *pair[2] = {NULL, NULL};
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-12}, &ctx));
+  check_ok(pendres_attractors_find(ctx, &p, sizeof x / sizeof *x, x, v, &set));
+  size_t found = 0;
+  for (size_t i = 0; i < pendres_attractors_count(set) && found < 2; i++)
+    if (pendres_attractors_get(set, i)->orbit.period == 9)
+      pair[found++] = pendres_attractors_get(set, i);
+  assert_int_equal(found, 2);
+  for (int i = 0; i < 2; i++)
+    check_near(pair[i]->orbit.multiplier_re[0], 0.763721747964, pair[i]->orbit.multiplier_error);
+  check_near(pair[0]->lyapunov, pair[1]->lyapunov,
+             pair[0]->lyapunov_error + pair[1]->lyapunov_error);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
 /* A pendulum that runs out of its budget is unresolved, whatever it may look like. */
 static void budget(void **state)
 {
@@ -558,6 +589,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(ghost_of_a_fold, setup, teardown),
     cmocka_unit_test_setup_teardown(rest, setup, teardown),
     cmocka_unit_test_setup_teardown(strong_damping, setup, teardown),
+    cmocka_unit_test(one_multiplier),
     cmocka_unit_test_setup_teardown(budget, setup, teardown),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
     cmocka_unit_test(names),
