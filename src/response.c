@@ -7,6 +7,7 @@
 
 #include "context_internal.h"
 #include "orbit_measure.h"
+#include "response_internal.h"
 #include "response_loop.h"
 #include "response_members.h"
 #include "settle.h"
@@ -237,10 +238,9 @@ static void locate_members(size_t n, const pendres_outcome *outcome, const char 
   }
 }
 
-/* where[n] may be NULL. */
-static pendres_status summarize(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                                const pendres_outcome *outcome, signed char *where,
-                                pendres_response *r)
+pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_catalogue *c,
+                                          size_t n, const pendres_outcome *outcome,
+                                          signed char *where, pendres_response *r)
 {
   pendres_status status = PENDRES_OK;
   size_t *members = malloc((c->count + 1) * sizeof *members);
@@ -284,8 +284,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
   }
   status = pendres_settle_batch(ctx, sets, catalogues, 1, n, set, x, v, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
-    status = summarize(ctx, &catalogues[s], e->members, outcome + s * e->members,
-                       where != NULL ? where + s * e->members : NULL, &out[s]);
+    status = pendres_response_summarize(ctx, &catalogues[s], e->members, outcome + s * e->members,
+                                        where != NULL ? where + s * e->members : NULL, &out[s]);
 done:
   for (size_t s = 0; s < sets; s++) pendres_catalogue_clear(&catalogues[s]);
   free(x);

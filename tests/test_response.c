@@ -9,6 +9,8 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
+#include "response_internal.h"
+
 #include "response_loop.h"
 
 static const double pi = 3.14159265358979323846;
@@ -284,6 +286,57 @@ static void doubts_count(void **state)
   assert_true(fabs(moved.phase_lag - r.phase_lag) <= r.phase_lag_error);
 }
 
+/*
+ * More attractors than are listed: all members count in the means, and none as unresolved. Areas
+ * and members are small whole numbers, so that the mean is exact but for a few roundings.
+ */
+static void more_than_are_listed(void **state)
+{
+  enum { ATTRACTORS = 12, ALL = ATTRACTORS * (ATTRACTORS + 1) / 2 + 3 };
+  static pendres_attractor attractors[ATTRACTORS];
+  static pendres_outcome outcome[ALL];
+  static signed char where[ALL];
+  pendres_context *ctx = NULL;
+  pendres_response r;
+  double area = 0.0, most = 0.0;
+  size_t n = 0;
+  (void)state;
+  for (int a = 0; a < ATTRACTORS; a++) {
+    attractors[a].label = a == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_PERIODIC;
+    attractors[a].orbit = (pendres_orbit){.pendulum = two_states, .period = 1,
+                                          .loop_area = 3.0 + a, .mean_power = 1.0, .amplitude = 2.0,
+                                          .cosine = {2.0}};
+    most = fmax(most, attractors[a].orbit.loop_area);
+    for (int k = 0; k <= a; k++) {
+      outcome[n++] = (pendres_outcome){.attractor = a, .certain = 1};
+      area += attractors[a].orbit.loop_area;
+    }
+  }
+  const size_t settled = n;
+  while (n < ALL) outcome[n++] = (pendres_outcome){.attractor = -1};
+  const pendres_catalogue c = {.pendulum = two_states, .count = ATTRACTORS,
+                               .attractors = attractors};
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_response_summarize(ctx, &c, n, outcome, where, &r));
+  pendres_context_free(ctx);
+  assert_int_equal(r.states, PENDRES_RESPONSE_STATES);
+  assert_int_equal(r.unresolved, 3);
+  assert_int_equal(r.unlisted, 1 + 2 + 3 + 4);
+  /* Those with the most members, in their own order. */
+  for (size_t i = 0; i < r.states; i++) assert_int_equal(r.state_members[i], 5 + i);
+  assert_int_equal(where[0], -1);
+  assert_int_equal(where[10], 0);
+  assert_int_equal(where[settled - 1], PENDRES_RESPONSE_STATES - 1);
+  assert_int_equal(where[settled], -1);
+  check_near(r.mean_loop_area, area / (double)settled, 1e-13);
+  check_near(r.mean_loop_area_error, 3.0 / ALL * most, 1e-13);
+  check_near(r.sa_fraction, 1.0 / ALL, 1e-15);
+  check_near(r.mean_amplitude, 2.0, 1e-14);
+  /* From what is listed alone the others can be anywhere. */
+  pendres_response_average(&r);
+  check_near(r.mean_loop_area_error, (3.0 + 10.0) / ALL * most, 1e-13);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -291,6 +344,7 @@ int main(void)
     cmocka_unit_test(one_state),            cmocka_unit_test(slow_drive),
     cmocka_unit_test(loops_of_many_harmonics),
     cmocka_unit_test(side_by_side),
+    cmocka_unit_test(more_than_are_listed),
     cmocka_unit_test(doubts_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
