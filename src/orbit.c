@@ -24,6 +24,7 @@ typedef struct result {
   double off[2];        /* from the point that m was taken at to the corrected one */
   double dy, dw; /* by omega */
   double slope;  /* dA/domega */
+  double derivative; /* root mean square of dw/domega along the orbit */
   pendres_orbit_measures measures;
 } result;
 
@@ -41,15 +42,18 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
   memcpy(out->off, shift, sizeof out->off);
-  out->slope = NAN;
+  out->slope = out->derivative = NAN;
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) {
     if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
-    double sum = 0.0;
+    double sum = 0.0, squares = 0.0;
     for (size_t k = 0; k < n; k++) {
       const double *row = pendres_newton_sample(tape, k, c->lane);
       const double theta = two_pi * c->guess->period * (double)k / (double)n;
-      sum += cos(theta) * (row[7] + row[3] * by_omega[0] + row[5] * by_omega[1]);
+      const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
+      sum += cos(theta) * derivative;
+      squares += derivative * derivative;
     }
+    out->derivative = sqrt(squares / (double)n);
     out->slope = c->guess->pendulum.drive_amplitude * two_pi * sum / (double)n;
   }
   out->dy = by_omega[0];
@@ -112,7 +116,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_doubt slope_doubt = {
     .apart = 1.5 * (derivative + doubt.apart),
-    .rounding = 2.0 * doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw))};
+    .rounding = 2.0 * doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
+                12.0 * rounding * noise * fine->derivative};
   o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
                                                  pi * fabs(p->drive_amplitude), &slope_doubt);
 }

@@ -99,9 +99,9 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
   const double omega = o->pendulum.drive_frequency;
   const double tail = pendres_orbit_series_tail(&fine->series);
   const double modes = (double)fine->series.modes / o->period;
-  error[0] = 0.25 * apart[0] + tail + fine->rounding +
+  error[0] = 0.25 * apart[0] + tail + 2.0 * fine->rounding +
              0.5 * DBL_EPSILON * (fabs(o->x) + two_pi * fabs((double)o->winding));
-  error[1] = 0.25 * apart[1] + omega * (tail * modes + fine->rounding);
+  error[1] = 0.25 * apart[1] + omega * tail * modes + 2.0 * fmax(1.0, omega) * fine->rounding;
 }
 
 static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
