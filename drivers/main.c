@@ -166,10 +166,22 @@ static int open_output(job *j)
   return FAILED;
 }
 
+/* Where orbits are wanted, a method that is not of fixed steps is told not to be theirs. */
+static void tell_method(job *j)
+{
+  const char *method = j->deck.precision.method;
+  const deck_kind k = j->deck.kind;
+  if (method[0] == '\0' || strcmp(method, pendres_method_name(PENDRES_BLOCK_FIXED)) == 0) return;
+  if (k == DECK_FREE_OSCILLATION || k == DECK_WORK_PRECISION || k == DECK_HARD_CASES) return;
+  progress_note(&j->progress, "method '%s' advances and settles pendulums; orbits and their "
+                "measures are by fixed steps", method);
+}
+
 static int compute(job *j)
 {
   progress_note(&j->progress, "%s: %s on %d thread%s", j->deck.name, deck_kind_name(j->deck.kind),
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
+  tell_method(j);
   pendres_status status = j->scene->run(&j->run);
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
   if (status == PENDRES_OK) return DONE;

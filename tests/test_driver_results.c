@@ -182,6 +182,17 @@ static void test_transient(void **state)
   assert_true(read_one("start.h5", "settling_periods") >= 0.0);
 }
 
+/* Another method than the default says what it is not for. */
+static void test_method(void **state)
+{
+  (void)state;
+  write_text("method.nml", "&scene kind = 'response' /\n"
+                           "&pendulum damping = 0.2 drive_amplitude = 0.2 drive_frequency = 0.8 /\n"
+                           "&ensemble members = 2 /\n&precision method = 'single' /\n");
+  check_code(RUN("--threads=1", "method.nml"), DONE);
+  check_says(err, "method 'single' advances and settles");
+}
+
 /* The decks of the repository that take no time. */
 static void test_input(void **state)
 {
@@ -235,6 +246,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_run),        TEST(test_orbit), TEST(test_identity),      TEST(test_transient),
+    TEST(test_method),
     TEST(test_input),      TEST(test_failed_points), TEST(test_cost_of_noise),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;

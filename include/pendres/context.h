@@ -27,7 +27,8 @@ typedef struct pendres_context pendres_context;
 /**
  * How pendulums are advanced. The first is the default and by far the fastest, and the only one
  * whose steps are chosen such that results meet the tolerance; with the others it is the tolerance
- * of each step.
+ * of each step. Advancing, settling and free oscillations go by the method; orbits, their measures,
+ * branches, trajectories that are recorded and boundaries have fixed steps whatever it is.
  */
 typedef enum pendres_method {
   PENDRES_BLOCK_FIXED = 0, /**< blocks on ARKODE, fixed steps, reset every period */
