@@ -240,6 +240,9 @@ static void plans(void **state)
   INVALID(pendres_basin_plan_verify(NULL, s, &n));
   INVALID(pendres_basin_plan_states(NULL, s));
   assert_int_equal(pendres_basin_plan_integrated(NULL), 0);
+  assert_int_equal(pendres_basin_plan_filled(NULL), 0);
+  assert_true(pendres_basin_plan_suspected(5, 0) == 5.0);
+  assert_true(pendres_basin_plan_suspected(0, SIZE_MAX) == 0.0);
   check_ok(pendres_basin_plan_create(&grid, 0, 2, 0, &plan));
   INVALID(pendres_basin_plan_next(plan, NULL, &index));
   INVALID(pendres_basin_plan_next(plan, &n, NULL));
