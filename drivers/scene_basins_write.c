@@ -262,6 +262,8 @@ static int random_states_tell_more(const basins *b, const pendres_basin_statisti
 {
   enum { MET = 50 /* twice what makes a share worth fitting */ };
   if (!(s->boundary_boxes > 0.0)) return 0;
+  /* States that are uncertain have a boundary as near as rounding: shares are no power above. */
+  if (3 * s->uncertain_states > s->states) return 0;
   if (!isfinite(s->uncertainty_exponent_error)) return 1;
   const double nearer = random_distance(b, 0) / s->distance[0];
   return nearer < 1.0 &&
