@@ -38,10 +38,10 @@ static double symmetry_defect(const pendres_orbit_series *s, int q)
   while ((size_t)q % (2 * closures) == 0) closures *= 2;
   for (size_t m = 1; m < s->modes; m++) {
     const int odd = m % closures == 0 && (m / closures) % 2 == 1;
-    const double size = 2.0 * hypot(s->re[m], s->im[m]);
-    if (!odd && size > largest) largest = size;
+    const double square = s->re[m] * s->re[m] + s->im[m] * s->im[m];
+    if (!odd && square > largest) largest = square;
   }
-  return largest;
+  return 2.0 * sqrt(largest);
 }
 
 /* Harmonics of the drive are numbers q, 2 q, ... of the whole orbit. */
