@@ -309,11 +309,6 @@ static pendres_status search(work *w, double lowest, double highest, pendres_res
   const pendres_pendulum *p = &w->s.pendulum;
   pendres_status status = pendres_search_scan(&w->s, lowest, highest);
   if (status != PENDRES_OK) return status;
-  if (w->s.count < 3)
-    return pendres_context_fail(w->s.ctx, PENDRES_NOT_CONVERGED,
-                                "damping %g, drive amplitude %g: the budget of a resonance's search "
-                                "is spent after %zu frequencies", p->damping, p->drive_amplitude,
-                                w->s.count);
   if (!(best_point(&w->s)->response.mean_loop_area > 0.0)) return no_area(w->s.ctx, p);
   for (int again = 1; again && status == PENDRES_OK;) {
     status = resolve_gaps(w);

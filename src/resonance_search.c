@@ -98,11 +98,14 @@ static pendres_status add_batch(pendres_search *s, size_t n, const double *omega
   return status;
 }
 
-/* What an ensemble costs, before any was computed: members that settle as small oscillations do. */
+/*
+ * What an ensemble may cost, before any was computed: members that settle as small oscillations do,
+ * and twenty times that for those that do not, or are integrated again.
+ */
 static double expected_work(const pendres_search *s, double omega)
 {
   const double periods = 20.0 + 10.0 * omega / (pi * s->pendulum.damping);
-  return work_of_period * periods * (double)s->ensemble->members * fmax(1.0, 1.0 / omega);
+  return 20.0 * work_of_period * periods * (double)s->ensemble->members * fmax(1.0, 1.0 / omega);
 }
 
 pendres_status pendres_search_add(pendres_search *s, size_t n, const double *omega)
@@ -121,7 +124,7 @@ pendres_status pendres_search_add(pendres_search *s, size_t n, const double *ome
     if (batch == 0) break;
     status = add_batch(s, batch, omega + done);
     done += batch;
-    cost = fmax(cost, (s->work - before) / (double)batch);
+    cost = (s->work - before) / (double)batch;
   }
   qsort(s->points, s->count, sizeof *s->points, by_frequency);
   return status;
@@ -196,6 +199,11 @@ pendres_status pendres_search_scan(pendres_search *s, double lowest, double high
     omega[i] = lowest + (highest - lowest) * i / (COARSE_POINTS - 1);
   pendres_status status = pendres_search_add(s, COARSE_POINTS, omega);
   if (status != PENDRES_OK) return status;
+  if (s->count < COARSE_POINTS)
+    return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
+                                "damping %g, drive amplitude %g: the budget of a resonance's search "
+                                "is spent after %zu frequencies", s->pendulum.damping,
+                                s->pendulum.drive_amplitude, s->count);
   for (int i = 0; i + 1 < COARSE_POINTS; i++) {
     count_widths(&s->pendulum, omega[i], omega[i + 1], widths);
     all += widths[PARTS];

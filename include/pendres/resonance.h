@@ -52,10 +52,10 @@ typedef struct pendres_resonance {
  *
  * PENDRES_NOT_FOUND: the mean loop area is largest at an end of the range (message says which), or
  * zero throughout, as without a drive. On failure all numbers of *out are NaN.
- * PENDRES_NOT_CONVERGED: not even a few frequencies could be computed within the budget of work.
+ * PENDRES_NOT_CONVERGED: not even a coarse scan could be computed within the budget of work.
  *
- * The budget, about ten seconds of a processor, is counted in periods and steps of Newton's method,
- * so that results do not depend on the machine.
+ * The budget, some ten seconds of a processor and up to forty where damping is about 0.001, is
+ * counted in periods and steps of Newton's method, so that results do not depend on the machine.
  */
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out);
