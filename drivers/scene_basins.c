@@ -338,6 +338,9 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK) status = basins_write_results(&b);
   if (status == PENDRES_OK) status = scene_basins_write_clouds(run, b.set);
   run->failed_points += b.unresolved;
+  if (b.unresolved > 0)
+    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%zu of %zu states", b.unresolved,
+                       b.grid.nx * b.grid.nv);
   pendres_attractors_free(b.set);
   pendres_basin_sums_free(b.sums);
   free(b.cut);

@@ -8,10 +8,17 @@
 
 #include <pendres/basin.h>
 
-#include "scene.h"
+#include "scene_failed.h"
 
 /* Variables of every state. */
-enum { BASINS_LABEL, BASINS_ATTRACTOR, BASINS_WELL, BASINS_PERIODS, BASINS_VARIABLES };
+enum {
+  BASINS_LABEL,
+  BASINS_ATTRACTOR,
+  BASINS_WELL,
+  BASINS_PERIODS,
+  BASINS_FAILED,
+  BASINS_VARIABLES
+};
 
 typedef struct basins {
   scene_run *run;

@@ -38,6 +38,11 @@ static pendres_store_spec state_spec(int k, const char *group, const char *secon
     s.comment = "0 for running and chaotic pendulums";
     s.type = PENDRES_STORE_INT32;
     break;
+  case BASINS_FAILED:
+    s.name = "failed";
+    s.long_name = "why there is no label for the state";
+    scene_failure_flags(&s);
+    break;
   default:
     s.name = "settling_periods";
     s.long_name = "drive periods until the pendulum is inside its attractor's trapping region";
@@ -65,12 +70,14 @@ static int32_t state_value(const pendres_basin_state *s, int k)
   return k == BASINS_ATTRACTOR ? s->attractor : k == BASINS_WELL ? s->well : s->settling_periods;
 }
 
-/* One variable of n states as an array for the store; int8 for the label, else int32. */
+/* One variable of n states as an array for the store; int8 for what has flags, else int32. */
 static const void *pack(size_t n, const pendres_basin_state *state, int k, int32_t *values)
 {
   int8_t *labels = (int8_t *)values;
   for (size_t i = 0; i < n; i++) {
     if (k == BASINS_LABEL) labels[i] = state[i].label;
+    else if (k == BASINS_FAILED)
+      labels[i] = state[i].attractor < 0 ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
     else values[i] = state_value(&state[i], k);
   }
   return values;

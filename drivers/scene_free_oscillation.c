@@ -3,7 +3,7 @@
  * Fig. 1 of the paper. The elliptic integral and two approximations (eqs. 1.1 to 1.5), and beside
  * them the frequency found by integrating the equation of motion: a check from end to end.
  */
-#include "scene.h"
+#include "scene_failed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,15 +15,27 @@ typedef struct work {
   const double *amplitude;
   size_t count;
   double *frequency, *error;
+  scene_failures failed;
 } work;
 
 static pendres_status integrate(void *arg, size_t task, pendres_context *ctx)
 {
-  const work *w = arg;
+  work *w = arg;
   const size_t first = task * CHUNK;
   const size_t n = w->count - first < CHUNK ? w->count - first : CHUNK;
-  return pendres_free_frequency_integrate(ctx, n, w->amplitude + first, w->frequency + first,
-                                          w->error + first);
+  pendres_status status = pendres_free_frequency_integrate(
+    ctx, n, w->amplitude + first, w->frequency + first, w->error + first);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  /* What cannot be had of several at a time is had, or not, of each. */
+  status = PENDRES_OK;
+  for (size_t i = first; i < first + n && status == PENDRES_OK; i++) {
+    status = pendres_free_frequency_integrate(ctx, 1, &w->amplitude[i], &w->frequency[i],
+                                              &w->error[i]);
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
+    w->frequency[i] = w->error[i] = NAN;
+    status = scene_failures_note(&w->failed, i, status, pendres_context_message(ctx));
+  }
+  return status;
 }
 
 /*
@@ -95,6 +107,10 @@ static pendres_status run(scene_run *r)
   if (memory == NULL)
     return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
   work w = { .amplitude = axis->value, .count = n, .frequency = memory, .error = memory + n };
+  if (scene_failures_create(n, &w.failed) != PENDRES_OK) {
+    free(memory);
+    return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
+  }
 
   status = farm_run(r->farm, "blocks of amplitudes", (n + CHUNK - 1) / CHUNK, integrate, NULL, &w);
   if (status != PENDRES_OK) (void)scene_farm_failed(r, status);
@@ -102,7 +118,11 @@ static pendres_status run(scene_run *r)
   if (status == PENDRES_OK)
     status = put(r, "frequency_integrated", "frequency by integration of the equation of motion",
                  w.frequency, w.error, n);
+  static const deck_axis_id axes[] = { DECK_AXIS_AMPLITUDE };
+  if (status == PENDRES_OK)
+    status = scene_failures_write(r, &w.failed, "failed", "frequency", 1, axes);
   if (status == PENDRES_OK) tabulate(r->table, &w);
+  scene_failures_free(&w.failed);
   free(memory);
   return status;
 }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene.h"
+#include "scene_failed.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double eps = 2.220446049250313e-16;
@@ -267,7 +267,14 @@ static pendres_status put_label(scene_run *run, const work *w)
   const pendres_store_spec spec = { .name = "label", .type = PENDRES_STORE_INT8,
                                     .long_name = "kind of attractor",
                                     .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings };
-  const pendres_status status = pendres_store_put(run->store, &spec, &label, 1);
+  const int lost = w->label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const int8_t failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
+  pendres_store_spec mark = { .name = "failed", .long_name = "why there is no orbit" };
+  scene_failure_flags(&mark);
+  pendres_status status = pendres_store_put(run->store, &spec, &label, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, &failed, 1);
+  if (lost) scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "orbit");
+  run->failed_points = (size_t)lost;
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
@@ -353,10 +360,7 @@ static pendres_status run_scene(scene_run *run)
   if (status != PENDRES_OK && w.message[0] != '\0') (void)scene_fail(run, status, "%s", w.message);
   else if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
   if (status == PENDRES_OK) status = write_all(run, &w);
-  if (status == PENDRES_OK) {
-    run->failed_points = w.label == PENDRES_LABEL_UNRESOLVED && !w.transient;
-    tabulate(run->table, &w);
-  }
+  if (status == PENDRES_OK) tabulate(run->table, &w);
   free(memory);
   return status;
 }

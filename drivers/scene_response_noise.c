@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_failed.h"
 #include "scene_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -35,7 +36,8 @@ typedef struct work {
   farm *farm;
   const scene_response_grid *grid;
   size_t temperatures;
-  point *points; /* [temperature][damping][drive] */
+  point *points;         /* [temperature][damping][drive] */
+  scene_failures failed; /* the same; of what noise adds alone */
 } work;
 
 /* The first harmonic, cosine and sine, with covariance of errors, and biases. */
@@ -146,7 +148,16 @@ static void still_point(const pendres_response *r, point *p)
   p->area = (quantity){ r->mean_loop_area, r->mean_loop_area_error, 0.0, 0.0 };
   p->power = (quantity){ r->mean_power, r->mean_power_error, 0.0, 0.0 };
   p->lag = (quantity){ r->phase_lag, r->phase_lag_error, 0.0, 0.0 };
-  p->amplitude = (quantity){ hypot(h.c, h.s), r->mean_loop_amplitude_error, 0.0, 0.0 };
+  p->amplitude = (quantity){ loops > 0.0 ? hypot(h.c, h.s) : NAN, r->mean_loop_amplitude_error,
+                             0.0, 0.0 };
+}
+
+/* Nothing but the reason why. */
+static pendres_status note_point(work *w, size_t task, pendres_status status)
+{
+  const quantity none = { NAN, NAN, NAN, NAN };
+  w->points[task] = (point){ .area = none, .power = none, .amplitude = none, .lag = none };
+  return scene_failures_note(&w->failed, task, status, NULL);
 }
 
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
@@ -172,7 +183,7 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
     const double n = ceil(members / all * (double)w->d->noise.trajectories);
     const pendres_status status =
       measure_state(w, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias);
-    if (status != PENDRES_OK) return status;
+    if (status != PENDRES_OK) return note_point(w, task, status);
     add_area(&p->area, members / all, &cloud, &bias);
     if (r->state[i].orbit.winding == 0) add_harmonic(&h, members / loops, &cloud, &bias);
     if (bias.steps_per_period > p->steps) p->steps = bias.steps_per_period;
@@ -313,6 +324,14 @@ static void print_table(FILE *out, const work *w)
   }
 }
 
+static pendres_status write_failed(scene_run *run, const work *w)
+{
+  const int by_period = w->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0;
+  const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE, DECK_AXIS_DAMPING,
+                                by_period ? DECK_AXIS_DRIVE_PERIOD : DECK_AXIS_DRIVE_FREQUENCY };
+  return scene_failures_write(run, &w->failed, "noise_failed", "response with noise", 3, axes);
+}
+
 pendres_status scene_response_write_noise(scene_run *run, const scene_response_grid *grid)
 {
   work w = { .d = run->deck, .farm = run->farm, .grid = grid,
@@ -320,11 +339,16 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
   const size_t n = w.temperatures * grid->dampings * grid->drives;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   w.points = calloc(n, sizeof *w.points);
-  if (w.points == NULL) return scene_fail(run, status, "out of memory for %zu points", n);
+  if (w.points == NULL || scene_failures_create(n, &w.failed) != PENDRES_OK) {
+    free(w.points);
+    return scene_fail(run, status, "out of memory for %zu points", n);
+  }
   status = farm_run(run->farm, "points with noise", n, compute, NULL, &w);
   if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
   if (status == PENDRES_OK) status = write_results(run, &w);
+  if (status == PENDRES_OK) status = write_failed(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
+  scene_failures_free(&w.failed);
   free(w.points);
   return status;
 }

@@ -240,6 +240,8 @@ static void test_failed_points(void **state)
   assert_true(isnan(read_one("free.h5", "loop_area")));
   assert_true(isnan(read_one("free.h5", "loop_area_error")));
   check_near(read_one("free.h5", "label"), PENDRES_LABEL_UNRESOLVED, 0.0);
+  check_near(read_one("free.h5", "failed"), 1.0, 0.0); /* unresolved */
+  check_says(err, "orbit: ");
 }
 
 int main(void)

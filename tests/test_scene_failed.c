@@ -121,12 +121,33 @@ static void lines_keep_the_others(void **state)
   }
 }
 
+/* States that do not settle in the time given. */
+static void states_are_marked(void **state)
+{
+  static const char basins[] = "&scene kind = 'basins' /\n"
+    "&pendulum damping = 0.12, drive_amplitude = 0.2, drive_period = 8 /\n"
+    "&sweep x_range = -1, 4, 6, v_range = -2, 2, 5 /\n&precision period_budget = 12 /\n";
+  int failed[30], label[30];
+  size_t unresolved = 0;
+  (void)state;
+  const size_t marked = scene_run_marked(NULL, basins, 1, "basins");
+  get_codes("basins", "failed", failed, 30);
+  get_codes("basins", "label", label, 30);
+  for (int i = 0; i < 30; i++) {
+    assert_int_equal(failed[i] == SCENE_FAILURE_UNRESOLVED, label[i] == PENDRES_LABEL_UNRESOLVED);
+    unresolved += failed[i] != SCENE_FAILURE_NONE;
+  }
+  assert_true(unresolved > 0);
+  assert_int_equal(marked, unresolved);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(reasons_of_statuses),
     cmocka_unit_test(response_keeps_the_others),
     cmocka_unit_test(lines_keep_the_others),
+    cmocka_unit_test(states_are_marked),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }
