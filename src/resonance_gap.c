@@ -55,8 +55,8 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
 }
 
 /*
- * A state that is known at one end: it may grow by its slope, which may be steep next to a fold, but
- * not by more than a quarter.
+ * A state that is known at one end: it may grow by its slope, which may be steep next to a fold,
+ * but not by more than a quarter.
  */
 static family one_end(const pendres_orbit *o, int end, double width)
 {

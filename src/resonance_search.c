@@ -201,8 +201,8 @@ pendres_status pendres_search_scan(pendres_search *s, double lowest, double high
   if (status != PENDRES_OK) return status;
   if (s->count < COARSE_POINTS)
     return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
-                                "damping %g, drive amplitude %g: the budget of a resonance's search "
-                                "is spent after %zu frequencies", s->pendulum.damping,
+                                "damping %g, drive amplitude %g: the budget of a resonance's "
+                                "search is spent after %zu frequencies", s->pendulum.damping,
                                 s->pendulum.drive_amplitude, s->count);
   for (int i = 0; i + 1 < COARSE_POINTS; i++) {
     count_widths(&s->pendulum, omega[i], omega[i + 1], widths);

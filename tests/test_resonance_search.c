@@ -69,7 +69,8 @@ static void no_drive(void **state)
   (void)state;
   for (int i = 0; i < 4; i++) {
     /* The square of the least drive is zero, and so is its area. */
-    const pendres_pendulum p = {.damping = dampings[i % 2], .drive_amplitude = i < 2 ? 0.0 : 1e-300};
+    const pendres_pendulum p = {.damping = dampings[i % 2],
+                                .drive_amplitude = i < 2 ? 0.0 : 1e-300};
     const pendres_ensemble few = {.members = 3, .x_first = 0.0, .x_last = 3.0};
     pendres_resonance r;
     assert_int_equal(pendres_resonance_find_ensemble(ctx, &p, 0.5, 1.2, &few, &r),
