@@ -56,9 +56,9 @@ pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalog
 
 /*
  * The physical order of attractors: order[place] = number. Orbits first, by amplitude, then by
- * Poincaré point; chaos by its means. What differs by rounding alone does not decide: attractors in
- * whose list of one key's values no two neighbours are further apart than that go on to the next
- * key. So the order is one, whatever that of discovery. Nonzero if out of memory.
+ * Poincaré point; chaos by its means. What differs by rounding alone does not decide: attractors
+ * whose values of one key follow each other no further apart than that go on to the next key. So
+ * the order is one, whatever that of discovery. Nonzero if out of memory.
  */
 int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
 

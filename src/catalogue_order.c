@@ -1,4 +1,4 @@
-/* catalogue_order.c -- the order of attractors, whatever that of their discovery; see catalogue.h. */
+/* catalogue_order.c -- one order of attractors, whatever that of discovery; see catalogue.h. */
 #include "catalogue.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
 /* The most exact run: there rounding, some hundred steps a period, is as large. */
 static const double most_exact = 1e-14;
 /* A run again has so much less error than is needed, and at least so much less than before. */
-static const double to_spare = 4.0, at_least = 100.0;
+static const double to_spare = 4.0, at_least = 30.0;
 
 /* The pendulums in doubt, those still to be run again first. */
 typedef struct doubtful {
@@ -83,12 +83,12 @@ static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled
   return status;
 }
 
-/* Error a period that leaves no doubt, by whole hundreds so that blocks stay full. */
+/* Error a period that leaves no doubt, by whole tens so that blocks stay full. */
 static double tighter(double accuracy, double doubt)
 {
   const double wanted = accuracy / fmax(at_least, to_spare * doubt);
   if (!(wanted > most_exact)) return most_exact;
-  return fmax(most_exact, pow(100.0, floor(0.5 * log10(wanted))));
+  return fmax(most_exact, pow(10.0, floor(log10(wanted))));
 }
 
 /* Few pendulums are run again: in few classes of steps they share blocks. */

@@ -44,7 +44,7 @@ long pendres_settle_first_budget(const pendres_pendulum *p);
 /* Periods after which it is given up. */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c);
 
-/* A pendulum at its start with steps for this error a period, which is carried along if it can be. */
+/* A pendulum at its start, its steps for this error a period, which is carried if it can be. */
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane);
 
