@@ -36,6 +36,12 @@ const char *pendres_langevin_options_check(const pendres_langevin_options *optio
   return resolve(&copy);
 }
 
+/* For the block, which asks within long periods. */
+static int stops(void *lv)
+{
+  return pendres_langevin_poll(lv) != PENDRES_OK;
+}
+
 pendres_status pendres_langevin_create(const pendres_langevin_options *options,
                                        pendres_langevin **out)
 {
@@ -52,6 +58,8 @@ pendres_status pendres_langevin_create(const pendres_langevin_options *options,
   status = pendres_langevin_block_make(&lv->block, (size_t)lv->options.block_lanes,
                                        lv->options.seed);
   if (status != PENDRES_OK) goto fail;
+  lv->block.stop = stops;
+  lv->block.stop_arg = lv;
   status = pendres_langevin_set_steps(lv, lv->options.steps_per_period);
   if (status != PENDRES_OK) goto fail;
   *out = lv;
@@ -186,9 +194,10 @@ static pendres_status run(pendres_langevin *lv, size_t first, long first_period,
 {
   pendres_langevin_block *b = &lv->block;
   for (long k = 0; k < periods; k++) {
-    const pendres_status status = pendres_langevin_poll(lv);
+    pendres_status status = pendres_langevin_poll(lv);
+    if (status == PENDRES_OK)
+      status = pendres_langevin_block_period(b, (uint32_t)(first_period + k));
     if (status != PENDRES_OK) return status;
-    pendres_langevin_block_period(b, (uint32_t)(first_period + k));
     lv->spent += (double)b->count;
     pendres_langevin_count(lv, b);
     if (observer == NULL) continue;

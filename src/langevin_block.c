@@ -37,6 +37,10 @@ enum { ALIGN = 64, ROWS = 25 };
 /* Beyond, an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
 
+/* Steps of all lanes together between two questions whether to go on: some hundredths of a
+   second, as in flow.c. */
+static const double steps_between = 300000.0;
+
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 {
 #if defined(__x86_64__)
@@ -241,21 +245,33 @@ static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
   return b->gauss + (size_t)row * b->stride;
 }
 
-void pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period)
+/* Is the period to end here, before that step? Short ones are never asked within. */
+static int stops(const pendres_langevin_block *b, int step)
 {
-  enter(b);
-  for (int k = 0; k < 2 * b->steps; k++) kick(b, k, noise(b, period, k));
-  leave(b);
+  const int every = (int)ceil(steps_between / (double)b->stride);
+  return step > 0 && step % every == 0 && b->stop != NULL && b->stop(b->stop_arg) != 0;
 }
 
-void pendres_langevin_block_pair(pendres_langevin_block *fine, pendres_langevin_block *coarse,
-                                 uint32_t period)
+pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period)
+{
+  enter(b);
+  for (int step = 0; step < b->steps; step++) {
+    if (stops(b, step)) return PENDRES_INTERRUPTED;
+    for (int k = 2 * step; k < 2 * step + 2; k++) kick(b, k, noise(b, period, k));
+  }
+  leave(b);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
+                                           pendres_langevin_block *coarse, uint32_t period)
 {
   const double root_half = 0.70710678118654752440;
 
   enter(fine);
   enter(coarse);
   for (int k = 0; k < coarse->steps * 2; k++) {
+    if (stops(fine, k)) return PENDRES_INTERRUPTED; /* one of its steps at a time */
     const double *first = noise(fine, period, 2 * k);
     kick(fine, 2 * k, first);
     const double *second = noise(fine, period, 2 * k + 1);
@@ -266,4 +282,5 @@ void pendres_langevin_block_pair(pendres_langevin_block *fine, pendres_langevin_
   }
   leave(fine);
   leave(coarse);
+  return PENDRES_OK;
 }

@@ -38,6 +38,8 @@ typedef struct pendres_langevin_block {
   pendres_langevin_rows rows;
   uint64_t *id, *words;
   double *phases;  /* cosine and sine of the drive phases at each step's start and two kicks */
+  int (*stop)(void *arg); /* asked within long periods, nonzero ends them; NULL: nobody is asked */
+  void *stop_arg;
 } pendres_langevin_block;
 
 /* Zeroed block to a block; on failure it can be freed all the same. */
@@ -54,15 +56,15 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
                                  uint64_t id, double x, double v);
 void pendres_langevin_block_finish(pendres_langevin_block *b);
 
-/* One drive period. */
-void pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period);
+/* One drive period. PENDRES_INTERRUPTED if stop() said so: then nothing of the lanes is valid. */
+pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period);
 
 /*
  * The same for a pair: `fine` has twice the steps of `coarse`, whose kicks take the sums of
- * two of fine's. Both have the same lanes.
+ * two of fine's. Both have the same lanes; fine's stop() is asked.
  */
-void pendres_langevin_block_pair(pendres_langevin_block *fine, pendres_langevin_block *coarse,
-                                 uint32_t period);
+pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
+                                           pendres_langevin_block *coarse, uint32_t period);
 
 /* NULL, or why no block can hold this pendulum with these steps. */
 const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps);

@@ -179,18 +179,16 @@ static pendres_status follow(run *r, pendres_langevin_block *b, pendres_langevin
   size_t staying = b->count;
 
   for (long k = 0; k < q->settle + q->record && staying > 0; k++) {
-    const pendres_status status = pendres_langevin_poll(r->lv);
+    pendres_status status = pendres_langevin_poll(r->lv);
     if (status != PENDRES_OK) return status;
     r->exposure += (double)staying;
     r->lv->spent += (double)b->count * (coarse != NULL ? 3.0 : 1.0);
     pendres_langevin_count(r->lv, b);
     if (coarse != NULL) pendres_langevin_count(r->lv, coarse);
-    if (coarse != NULL) {
-      pendres_langevin_block_pair(b, coarse, (uint32_t)k);
-      ask(r, coarse, first, k + 1);
-    } else {
-      pendres_langevin_block_period(b, (uint32_t)k);
-    }
+    status = coarse != NULL ? pendres_langevin_block_pair(b, coarse, (uint32_t)k)
+                            : pendres_langevin_block_period(b, (uint32_t)k);
+    if (status != PENDRES_OK) return status;
+    if (coarse != NULL) ask(r, coarse, first, k + 1);
     ask(r, b, first, k + 1);
     staying = count(r, b, r->all, first, k - q->settle);
     if (coarse != NULL) (void)count(r, coarse, r->coarse, first, k - q->settle);

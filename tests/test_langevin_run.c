@@ -203,6 +203,37 @@ static void interruptions(void **state)
 }
 
 /*
+ * A period of 500000 steps, alone and as the finer of a pair: it ends at the third question, the
+ * second within it. 192 lanes are asked about every 300000/192 steps.
+ */
+static void asked_within_a_period(void **state)
+{
+  enum { N = 192, STEPS = 500000 };
+  (void)state;
+  pendres_pendulum p[N];
+  double x[N] = {0}, v[N] = {0};
+  pendres_langevin *lv = make(0, STEPS, N);
+  pendres_langevin_bias bias;
+  pendres_langevin_cloud cloud;
+  int asked = 0;
+  for (int i = 0; i < N; i++) p[i] = figure7(1e-3);
+  const pendres_langevin_request q = {.pendulum = p[0], .trajectories = N, .record = 1};
+  pendres_langevin_set_interrupt(lv, third_time, &asked);
+  assert_int_equal(pendres_langevin_advance(lv, N, p, NULL, 0, 1, x, v, NULL), PENDRES_INTERRUPTED);
+  assert_int_equal(asked, 3);
+  assert_non_null(strstr(pendres_langevin_message(lv), "interrupted"));
+  check_near(x[0], 0.0, 0.0);
+  check_near(pendres_langevin_spent(lv), 0.0, 0.0);
+  asked = 0;
+  assert_int_equal(pendres_langevin_measure(lv, &q, &cloud, NULL, NULL), PENDRES_INTERRUPTED);
+  assert_int_equal(asked, 3);
+  asked = 0;
+  assert_int_equal(pendres_langevin_measure_bias(lv, &q, &bias), PENDRES_INTERRUPTED);
+  assert_int_equal(asked, 3);
+  pendres_langevin_free(lv);
+}
+
+/*
  * Errors from the scatter of two trajectories: the truth lies within one of them as often as within
  * one standard deviation, 68.3 %, where the naive error of two would have it in 50 %. Over 1000
  * pairs the share's own standard deviation is 1.5 %.
@@ -254,6 +285,7 @@ int main(void)
     cmocka_unit_test(wrong_arguments_are_refused),
     cmocka_unit_test(observers_see_what_happens),
     cmocka_unit_test(interruptions),
+    cmocka_unit_test(asked_within_a_period),
     cmocka_unit_test(errors_from_two_trajectories_cover),
     cmocka_unit_test(steps_are_not_chosen_by_what_is_no_number),
   };

@@ -71,7 +71,7 @@ double pendres_langevin_spent(const pendres_langevin *lv);
  *  evaluates two forces. NaN without a handle, and while another thread uses it. */
 void pendres_langevin_cost(const pendres_langevin *lv, pendres_cost *cost);
 
-/** As pendres_context_set_interrupt: asked once a period of a block. */
+/** As pendres_context_set_interrupt: asked once a period of a block, and within long periods. */
 void pendres_langevin_set_interrupt(pendres_langevin *lv, int (*stop)(void *arg), void *arg);
 
 /* ---- Advancing --------------------------------------------------------------------------- */
