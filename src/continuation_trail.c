@@ -268,6 +268,29 @@ done:
 
 /* ---- to the tolerance ---- */
 
+/*
+ * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
+ * value of it is known to is their distance there: the coarser is moved along the branch. Next to a
+ * fold that would lead around it: there a parameter that is off by so much moves the orbit by the
+ * root of it.
+ */
+static void to_one_parameter(const pendres_walk *w, const pendres_walk_point *at,
+                             pendres_continuation_pair *pair)
+{
+  const int place = w->unknown[2];
+  const double along = at->tangent[2];
+  const double off = (pair->fine[place] - pair->coarse[place]) / pendres_walk_scale[place];
+  if (!(fabs(off) < 0.05 * along * along)) {
+    pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
+    return;
+  }
+  for (int k = 0; k < w->unknowns; k++)
+    pair->coarse[w->unknown[k]] +=
+      pendres_walk_scale[w->unknown[k]] * at->tangent[k] * off / along;
+  pair->coarse[place] = pair->fine[place];
+  pair->rounding /= fmax(fabs(along), 1e-3);
+}
+
 pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t,
                                     pendres_continuation_pair *pairs, double (*error)[2])
 {
@@ -320,11 +343,15 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       pendres_continuation_pair *p = &pairs[index[i]];
+      const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
+                                 p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
       double worst = 0.0;
       for (int k = 0; k < w->unknowns; k++) {
         const int place = w->unknown[k];
-        const double e = pendres_continuation_orbit_error(p->coarse[place], p->fine[place],
-                                                          pendres_walk_scale[place] * p->rounding);
+        /* Where two values of a parameter agree by chance, it is not known better than its point. */
+        const double e = pendres_continuation_orbit_error(
+          p->coarse[place], p->fine[place],
+          pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
         if (k >= 2) error[index[i]][k - 2] = e;
         worst = fmax(worst, e);
       }
@@ -336,6 +363,9 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
     }
     left = again;
   }
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++)
+    if (w->unknowns == 3 && t->count > 1 && t->point[i].held == 0)
+      to_one_parameter(w, &t->point[i], &pairs[i]);
 done:
   free(point);
   free(u);

@@ -60,10 +60,10 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *walk,
                                   const double u[PENDRES_U_COUNT], double direction);
 
 /*
- * Correct n points of one kind of curve (the walk's map, condition, unknowns and what it keeps apart
- * from; its place is not read), each at its own steps and within the plane through it across its tangent. u is
- * replaced, *rounding[i] becomes the error of the scaled unknowns by rounding, NaN where the
- * correction failed, or led astray to orbits that the walk keeps apart from.
+ * Correct n points of one kind of curve (the walk's map, condition, unknowns and what it keeps
+ * apart from; its place is not read), each at its own steps and within the plane through it across
+ * its tangent. u is replaced, *rounding[i] becomes the error of the scaled unknowns by rounding,
+ * NaN where the correction failed, or led astray to orbits that the walk keeps apart from.
  */
 pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *kind, size_t n,
                                     const pendres_walk_point *points, const int *steps,

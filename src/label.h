@@ -23,8 +23,8 @@ typedef struct pendres_label_states {
   double amplitude[PENDRES_LABEL_STATES], error[PENDRES_LABEL_STATES];
 } pendres_label_states;
 
-/* The fold at which SA ends, at one damping and drive amplitude: an orbit alone beyond its frequency
-   is LA; below, it is SA if its amplitude is less than the fold's, else LA. */
+/* The fold at which SA ends, at one damping and drive amplitude: an orbit alone beyond its
+   frequency is LA; below, it is SA if its amplitude is less than the fold's, else LA. */
 typedef struct pendres_label_border {
   int distinct; /* 0: there is no such fold, and no distinction */
   double frequency, amplitude;

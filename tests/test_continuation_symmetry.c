@@ -167,6 +167,41 @@ static void branches_stay_on_themselves(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * A point of a branch has the errors of the orbit at its own frequency: next to a fold that moves
+ * with the root of what the frequency is off by, 8 times what the distance across the branch claims.
+ * Estimates, so twice the claim is allowed.
+ */
+static void orbits_next_to_a_fold_know_their_errors(void **state)
+{
+  (void)state;
+  static const double tolerances[] = {1e-4, 1e-8, 1e-11};
+  for (size_t i = 0; i < sizeof tolerances / sizeof *tolerances; i++) {
+    pendres_context *ctx = NULL;
+    size_t compared = 0;
+    check_ok(pendres_context_create(&(pendres_options){.tolerance = tolerances[i]}, &ctx));
+    const pendres_pendulum p = {
+      .damping = 0.1, .drive_amplitude = 0.35, .drive_frequency = 0.668508};
+    const pendres_orbit start = refined(
+      ctx, (pendres_orbit_guess){.pendulum = p, .x = 0.027643, .v = 1.321870, .period = 3});
+    pendres_branch *b = followed(ctx, &start, 0.668, 0.68);
+    for (size_t k = 0; k < pendres_branch_count(b); k++) {
+      const pendres_orbit *o = &pendres_branch_get(b, k)->orbit;
+      pendres_reference_cycle c;
+      if (pendres_branch_get(b, k)->bifurcation >= 0) continue;
+      if (pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, 3, 0, &c) != PENDRES_OK ||
+          fabs((double)c.y - (o->x - half_pi)) > 1e-3)
+        continue; /* right at the fold the reference finds none, or the other */
+      check_near(o->x - half_pi, (double)c.y, 2.0 * o->x_error);
+      check_near(o->amplitude, (double)c.amplitude, 2.0 * o->amplitude_error);
+      compared++;
+    }
+    assert_true(compared > 8);
+    pendres_branch_free(b);
+    pendres_context_free(ctx);
+  }
+}
+
 /* A branch that lacks a bifurcation, or has one by another name, is doubted where that is. */
 static void what_is_missing_is_doubted(void **state)
 {
@@ -208,6 +243,7 @@ int main(void)
     cmocka_unit_test(period_three_loses_its_symmetry),
     cmocka_unit_test(period_three_has_its_fold),
     cmocka_unit_test(branches_stay_on_themselves),
+    cmocka_unit_test(orbits_next_to_a_fold_know_their_errors),
     cmocka_unit_test(what_is_missing_is_doubted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

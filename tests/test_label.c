@@ -53,7 +53,8 @@ static void one_alone_continues_a_branch(void **state)
   const pendres_label_states s = {.count = 1, .amplitude = {0.9}};
   const pendres_label_border border = {.distinct = 1, .frequency = 0.8, .amplitude = 1.2};
   const pendres_label_border none = {.distinct = 0};
-  pendres_orbit small = orbit(0.9, 1, 0.7), large = orbit(1.5, 1, 0.7), beyond = orbit(0.9, 1, 0.81);
+  pendres_orbit small = orbit(0.9, 1, 0.7), large = orbit(1.5, 1, 0.7);
+  pendres_orbit beyond = orbit(0.9, 1, 0.81);
   assert_int_equal(pendres_label_of(&s, &border, &small), PENDRES_LABEL_SA);
   assert_int_equal(pendres_label_of(&s, &border, &large), PENDRES_LABEL_LA);
   assert_int_equal(pendres_label_of(&s, &border, &beyond), PENDRES_LABEL_LA);

@@ -7,12 +7,12 @@
  * state exists but its basin misses all members. A branch that no member of a line reaches at all
  * is found from neighbouring lines, see pendres_phase_line_complete.
  *
- * SA and LA are named as everywhere (see pendres_label): of the orbits of period one without winding
- * that coexist, the one of smallest amplitude is SA, the others are LA, a pair of mirror images
- * counting as one. Where there is one alone, at a damping with a fold at which the small orbit ends,
- * it is LA beyond that frequency; below it, it is SA if its amplitude is less than the fold's, else
- * LA. Without such a fold it has no name. (A line by itself can miss that fold, if its members are
- * on LA alone and LA's branch does not lead to it.)
+ * SA and LA are named as everywhere (see pendres_label): of the orbits of period one without
+ * winding that coexist, the one of smallest amplitude is SA, the others are LA, a pair of mirror
+ * images counting as one. Where there is one alone, at a damping with a fold at which the small
+ * orbit ends, it is LA beyond that frequency; below it, it is SA if its amplitude is less than the
+ * fold's, else LA. Without such a fold it has no name. (A line by itself can miss that fold, if its
+ * members are on LA alone and LA's branch does not lead to it.)
  */
 #ifndef PENDRES_PHASE_DIAGRAM_H
 #define PENDRES_PHASE_DIAGRAM_H

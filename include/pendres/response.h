@@ -72,9 +72,9 @@ void pendres_response_average(pendres_response *r);
 
 /**
  * Names for what is alone: of n responses of one damping and drive amplitude, at frequencies in any
- * order, those with a single orbit of one drive period and no name for it yet (see pendres_label) are
- * named SA or LA by the fold at which SA ends, if SA and LA coexist at any of the n; labels, shares
- * and their errors are brought up to date. Otherwise nothing changes.
+ * order, those with a single orbit of one drive period and no name for it yet (see pendres_label)
+ * are named SA or LA by the fold at which SA ends, if SA and LA coexist at any of the n; labels,
+ * shares and their errors are brought up to date. Otherwise nothing changes.
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
 pendres_status pendres_response_name(pendres_context *ctx, size_t n, pendres_response *responses);
