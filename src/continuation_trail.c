@@ -345,6 +345,10 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
       pendres_continuation_pair *p = &pairs[index[i]];
       const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                                  p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
+      /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
+      const double turning = t->count > 1 && t->point[index[i]].held == 0
+                               ? fmax(fabs(t->point[index[i]].tangent[2]), 1e-3)
+                               : 1.0;
       double worst = 0.0;
       for (int k = 0; k < w->unknowns; k++) {
         const int place = w->unknown[k];
@@ -353,7 +357,7 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
           p->coarse[place], p->fine[place],
           pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
         if (k >= 2) error[index[i]][k - 2] = e;
-        worst = fmax(worst, e);
+        worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
       }
       if (worst > tolerance && attempt + 1 < MOST_TRIES && ctx->options.steps_per_period == 0) {
         p->coarse_steps = p->fine_steps;
