@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "ending.h"
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
@@ -156,6 +157,10 @@ static int open_output(job *j)
   const pendres_store_options options = { .title = title, .history = history, .source = source,
                                           .references = j->scene->references };
   j->run = (scene_run){ .deck = d, .farm = j->farm };
+  if (ending_watch(&j->run.store) != 0) {
+    progress_error(&j->progress, "the system refuses handlers of exits and faults");
+    return FAILED;
+  }
   if (pendres_store_create(d->output, &options, &j->run.store) != PENDRES_OK) {
     progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
     return FAILED;
@@ -233,6 +238,7 @@ static int report(job *j)
 static void let_go(job *j)
 {
   pendres_store_free(j->run.store);
+  j->run.store = NULL;
   if (j->run.table != NULL) (void)fclose(j->run.table);
   free(j->table);
   farm_free(j->farm);
@@ -269,6 +275,8 @@ int main(int argc, char **argv)
   provenance_start(&j.provenance);
   progress_init(&j.progress, stderr, j.options.quiet);
   code = farm_errand(run_job, &j);
+  ending_told(code);
   let_go(&j);
+  ending_done();
   return code;
 }

@@ -5,8 +5,8 @@
  * before they kill, and the flag that they set. A second one, a fifth of a second or more after the
  * first, ends the program at once, as if there were no handlers; but not XCPU, which is repeated.
  * PIPE and XFSZ are ignored, so that a closed pipe
- * and a limit on file sizes become errors of writing, which are reported. The flag is the only
- * state of the program that is not passed around: a handler has no arguments.
+ * and a limit on file sizes become errors of writing, which are reported. The flag is, with that
+ * of ending.h, the only state of the program that is not passed around: a handler has no arguments.
  */
 #ifndef SIGNALS_H
 #define SIGNALS_H

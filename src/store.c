@@ -58,8 +58,11 @@ const char *pendres_store_message(const pendres_store *store)
 
 /* ---- Into and out of HDF5 -------------------------------------------------------------------- */
 
-void pendres_store_quiet_begin(pendres_store_quiet *quiet)
+int pendres_store_quiet_begin(pendres_store_quiet *quiet)
 {
+  /* Called again, an HDF5 that could not start would crash. */
+  quiet->dead = H5open() < 0;
+  if (quiet->dead) return -1;
   quiet->is_v2 = 1;
   quiet->print2 = NULL;
   quiet->data = NULL;
@@ -69,15 +72,17 @@ void pendres_store_quiet_begin(pendres_store_quiet *quiet)
   if (!quiet->is_v2) {
     H5Eget_auto1(&quiet->print1, &quiet->data);
     H5Eset_auto1(NULL, NULL);
-    return;
+    return 0;
   }
 #endif
   H5Eget_auto2(H5E_DEFAULT, &quiet->print2, &quiet->data);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  return 0;
 }
 
 void pendres_store_quiet_end(const pendres_store_quiet *quiet)
 {
+  if (quiet->dead) return;
   H5Eclear2(H5E_DEFAULT);
 #ifndef H5_NO_DEPRECATED_SYMBOLS
   if (!quiet->is_v2) {
@@ -88,11 +93,18 @@ void pendres_store_quiet_end(const pendres_store_quiet *quiet)
   H5Eset_auto2(H5E_DEFAULT, quiet->print2, quiet->data);
 }
 
+static pendres_status no_hdf5(pendres_store *store)
+{
+  return pendres_store_fail(store, PENDRES_OUT_OF_MEMORY, "HDF5 cannot start: out of memory?");
+}
+
 pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *quiet, int writing)
 {
-  pendres_store_quiet_begin(quiet);
+  const int dead = pendres_store_quiet_begin(quiet) < 0;
+
   if (!store) return PENDRES_INVALID_ARGUMENT;
   if (store->failed) return store->failed; /* with the message of then */
+  if (dead) return no_hdf5(store);
   store->message[0] = '\0';
   if (store->h5 < 0)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "the store is closed");
@@ -178,8 +190,11 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   if (!out) return PENDRES_INVALID_ARGUMENT;
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
-  pendres_store_quiet_begin(&quiet);
   store->writing = 1;
+  if (pendres_store_quiet_begin(&quiet) < 0) {
+    status = no_hdf5(store);
+    goto leave;
+  }
   if (!path || !*path) {
     status = store->failed =
       pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "a store needs the path of its file");
@@ -205,8 +220,9 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
   if (!out) return PENDRES_INVALID_ARGUMENT;
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
-  pendres_store_quiet_begin(&quiet);
-  if (!path || !*path) {
+  if (pendres_store_quiet_begin(&quiet) < 0) {
+    status = no_hdf5(store);
+  } else if (!path || !*path) {
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no path of a file given");
   } else {
     store->file.path = pendres_store_copy(path);
@@ -269,13 +285,20 @@ pendres_status pendres_store_close(pendres_store *store)
   return pendres_store_leave(store, &quiet, status);
 }
 
+void pendres_store_drop_part(const pendres_store *store)
+{
+  if (store && store->writing && !store->whole) pendres_store_file_unlink(&store->file);
+}
+
 pendres_status pendres_store_abandon(pendres_store *store, int keep_part)
 {
   pendres_store_quiet quiet;
   pendres_status status = PENDRES_OK;
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
-  pendres_store_quiet_begin(&quiet);
+  (void)pendres_store_quiet_begin(&quiet);
+  /* First, since an HDF5 that is short of memory may crash when it closes. */
+  if (!keep_part) pendres_store_drop_part(store);
   if (store->h5 >= 0) status = close_h5(store);
   pendres_store_file_abandon(&store->file, keep_part || store->whole);
   /* What is thrown away may have been broken. */

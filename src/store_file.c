@@ -180,11 +180,16 @@ void pendres_store_file_destroy(pendres_store_file *file)
   file->path = file->part = NULL;
 }
 
+void pendres_store_file_unlink(const pendres_store_file *file)
+{
+  /* Only our own: with locking off, another process may have taken the name. */
+  if (file->fd >= 0 && is_same_file(file->fd, file->part)) unlink(file->part);
+}
+
 void pendres_store_file_abandon(pendres_store_file *file, int keep)
 {
   if (file->fd < 0) return;
-  /* Only our own: with locking off, another process may have taken the name. */
-  if (!keep && is_same_file(file->fd, file->part)) unlink(file->part);
+  if (!keep) pendres_store_file_unlink(file);
   close(file->fd);
   file->fd = -1;
 }

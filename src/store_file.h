@@ -37,6 +37,9 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
 /* Close what is open and free; the part file stays where it is. */
 void pendres_store_file_destroy(pendres_store_file *file);
 
+/* Remove the part file if it is open and this run's. A signal handler may call this. */
+void pendres_store_file_unlink(const pendres_store_file *file);
+
 /* Close the part file if it is open, and remove it unless `keep`. */
 void pendres_store_file_abandon(pendres_store_file *file, int keep);
 

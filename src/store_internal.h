@@ -37,6 +37,7 @@ typedef struct pendres_store_quiet {
   H5E_auto1_t print1;
 #endif
   void *data;
+  int dead; /* HDF5 could not start: nothing of it may be called */
 } pendres_store_quiet;
 
 struct pendres_store {
@@ -69,7 +70,8 @@ pendres_status pendres_store_fail(pendres_store *store, pendres_status status,
 pendres_status pendres_store_fail_hdf5(pendres_store *store, const char *format, ...)
   __attribute__((format(printf, 2, 3)));
 /* The same without a store. */
-void pendres_store_quiet_begin(pendres_store_quiet *quiet);
+/* Negative if there is no HDF5: it could not start. */
+int pendres_store_quiet_begin(pendres_store_quiet *quiet);
 void pendres_store_quiet_end(const pendres_store_quiet *quiet);
 
 /* store_text.c: names and text. */

@@ -46,6 +46,7 @@ static void no_store(void **state)
   REFUSED(pendres_store_open("a.h5", NULL));
   REFUSED(pendres_store_close(NULL));
   (void)pendres_store_abandon(NULL, 0);
+  pendres_store_drop_part(NULL);
   pendres_store_free(NULL);
   assert_non_null(pendres_store_message(NULL));
   REFUSED(pendres_store_flush(NULL));

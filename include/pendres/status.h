@@ -8,7 +8,9 @@
  * Out of memory is a status where the library itself asks for memory. Where GSL (2.7) or SUNDIALS
  * (6.4) ask, they may end the program: GSL's default error handler does, and is not touched here;
  * with gsl_set_error_handler_off() some of its functions, and some of SUNDIALS', still follow a
- * null pointer.
+ * null pointer. HDF5 (1.10) calls exit(-1) where it gets no memory for one of its handles, and
+ * follows null pointers in other places, when attaching a dimension scale or when closing itself at
+ * exit after such a failure; see pendres_store_drop_part().
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H

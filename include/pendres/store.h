@@ -146,6 +146,13 @@ pendres_status pendres_store_close(pendres_store *store);
 pendres_status pendres_store_abandon(pendres_store *store, int keep_part);
 
 /**
+ * Remove PATH.part, unless it is whole, and do nothing else: for a program that is ended within a
+ * call of the store, as HDF5 does by exit() when it gets no memory for a handle (and it may crash).
+ * Only what a signal handler may do. NULL is allowed; a store without a part is left as it is.
+ */
+void pendres_store_drop_part(const pendres_store *store);
+
+/**
  * Free a store; NULL is allowed. One that was neither closed nor abandoned is abandoned, its part
  * removed. (If closing failed only at the rename, the part is complete and stays.)
  */

@@ -1,0 +1,81 @@
+/* ending.c -- an orderly end where a library ends the program; see ending.h. */
+#define _XOPEN_SOURCE 700 /* siginfo_t */
+#include "ending.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { FAILED = 1, RUNNING = -1 };
+
+#define LENGTH(array) (sizeof(array) / sizeof(array)[0])
+
+static const int faults[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+static struct sigaction before[LENGTH(faults)];
+
+static pendres_store *const *_Atomic watched;
+static atomic_int result = RUNNING, done;
+
+/* Only what a signal handler may do, here and below. */
+static void say(const char *words)
+{
+  const ssize_t written = write(STDERR_FILENO, words, strlen(words));
+  (void)written; /* there is nobody left to tell */
+}
+
+static void drop_part(void)
+{
+  pendres_store *const *store = atomic_load(&watched);
+  if (store != NULL) pendres_store_drop_part(*store);
+}
+
+static void at_exit(void)
+{
+  const int code = atomic_load(&result);
+  if (atomic_load(&done)) return;
+  if (code == RUNNING)
+    say("resonance: error: a library has ended the program, as HDF5 does when it gets no memory; "
+        "nothing was written\n");
+  drop_part();
+  _exit(code == RUNNING ? FAILED : code);
+}
+
+/* Back to what was there, a debugger's or a sanitizer's say, which then meets the same fault. */
+static void at_fault(int number, siginfo_t *info, void *context)
+{
+  const int code = atomic_load(&result);
+  (void)context;
+  drop_part();
+  if (code != RUNNING) _exit(code);
+  say("resonance: error: the program or one of its libraries has crashed, as some do when they get "
+      "no memory; nothing was written\n");
+  for (size_t i = 0; i < LENGTH(faults); i++)
+    if (faults[i] == number) (void)sigaction(number, &before[i], NULL);
+  if (info->si_code <= 0) (void)raise(number); /* sent, not met: taken when this returns */
+}
+
+int ending_watch(pendres_store *const *store)
+{
+  struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO };
+  int bad = sigemptyset(&action.sa_mask);
+  atomic_store(&watched, store);
+  for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
+  bad |= atexit(at_exit);
+  /* The last one is called first, and should be ours: HDF5 installs its own when first called. */
+  pendres_store_hdf5_version(NULL, NULL, NULL);
+  bad |= atexit(at_exit);
+  return bad ? -1 : 0;
+}
+
+void ending_told(int code)
+{
+  atomic_store(&result, code);
+}
+
+void ending_done(void)
+{
+  atomic_store(&done, 1);
+}

@@ -1,0 +1,27 @@
+/*
+ * ending.h -- an orderly end where a library ends the program in the middle of a run.
+ *
+ * Owns: what happens at exit() and at faults. HDF5 (1.10) calls exit() where it gets no memory for
+ * one of its handles, follows null pointers elsewhere, and may fault while it is closed after such
+ * a failure. GSL and SUNDIALS: see pendres/status.h. An exit() in the middle of a run becomes exit
+ * code 1, with a line that says so. A fault in the middle stays one, since it may as well be an
+ * error of this program, but leaves no part file and says so; a fault when the run is over changes
+ * nothing of its exit code. A stack that overflows ends the program as before.
+ * Like signals.h, state that is not passed around: such functions have no arguments.
+ */
+#ifndef ENDING_H
+#define ENDING_H
+
+#include <pendres/store.h>
+
+/* From now on; *store, when it is not NULL, is being written. Once in a program, on any thread;
+   *store must live until the end. 0, or -1 if the system refuses. */
+int ending_watch(pendres_store *const *store);
+
+/* The exit code is known, and all has been said. */
+void ending_told(int code);
+
+/* *store is gone: exit() is main's own. */
+void ending_done(void);
+
+#endif

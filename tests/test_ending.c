@@ -1,0 +1,148 @@
+/*
+ * test_ending.c -- what is left of a run that a library ends: an exit code, a sentence, no part.
+ */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "check.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "ending.h"
+
+enum { RUNNING = -1 };
+
+static char folder[] = "/tmp/ending-XXXXXX";
+
+/* Run on, as a library that has no memory may. */
+typedef void breaking(void);
+
+static void leave(void)
+{
+  exit(255);
+}
+
+static void fault(void)
+{
+  (void)raise(SIGSEGV);
+}
+
+static void give_up(void)
+{
+  abort();
+}
+
+/* A child that is broken in the middle (code RUNNING), or when its code is known; its wait status,
+   and what it said in text. */
+static int broken(breaking *how, int code, char *text, size_t size)
+{
+  int pipes[2], status = 0;
+  static const struct rlimit no_core = { 0, 0 };
+  assert_int_equal(pipe(pipes), 0);
+  const pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    static pendres_store *store;
+    (void)setrlimit(RLIMIT_CORE, &no_core);
+    (void)signal(SIGSEGV, SIG_DFL); /* not cmocka's */
+    (void)signal(SIGABRT, SIG_DFL);
+    if (dup2(pipes[1], STDERR_FILENO) < 0 || ending_watch(&store) != 0) _exit(42);
+    if (pendres_store_create("run.h5", NULL, &store) != PENDRES_OK) _exit(43);
+    if (access("run.h5.part", F_OK) != 0) _exit(44);
+    if (code != RUNNING) ending_told(code);
+    how();
+    _exit(45);
+  }
+  (void)close(pipes[1]);
+  size_t used = 0;
+  for (ssize_t n = 1; n > 0 && used + 1 < size; used += (size_t)n) {
+    n = read(pipes[0], text + used, size - 1 - used);
+    if (n <= 0) break;
+  }
+  text[used] = '\0';
+  (void)close(pipes[0]);
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_int_not_equal(access("run.h5.part", F_OK), 0);
+  assert_int_not_equal(access("run.h5", F_OK), 0);
+  return status;
+}
+
+static void an_exit_is_a_failure_that_is_told(void **state)
+{
+  char text[400];
+  (void)state;
+  const int status = broken(leave, RUNNING, text, sizeof text);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  assert_non_null(strstr(text, "a library has ended the program"));
+}
+
+static void a_fault_stays_one_and_leaves_nothing(void **state)
+{
+  static breaking *const how[] = { fault, give_up };
+  static const int numbers[] = { SIGSEGV, SIGABRT };
+  char text[400];
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    const int status = broken(how[i], RUNNING, text, sizeof text);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == numbers[i]);
+    assert_non_null(strstr(text, "crashed"));
+  }
+}
+
+/* When the run is over, libraries that fail while they are closed change nothing. */
+static void what_is_told_stays(void **state)
+{
+  static breaking *const how[] = { leave, fault, give_up };
+  char text[400];
+  (void)state;
+  for (int i = 0; i < 3; i++)
+    for (int code = 0; code < 4; code += 3) {
+      const int status = broken(how[i], code, text, sizeof text);
+      assert_true(WIFEXITED(status) && WEXITSTATUS(status) == code);
+      assert_string_equal(text, "");
+    }
+}
+
+/* And main's own exit is left alone. */
+static void a_done_program_exits(void **state)
+{
+  int status = 0;
+  (void)state;
+  const pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    static pendres_store *store;
+    if (ending_watch(&store) != 0) _exit(42);
+    ending_told(3);
+    ending_done();
+    exit(7);
+  }
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+}
+
+static int enter(void **state)
+{
+  (void)state;
+  return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave_folder(void **state)
+{
+  (void)state;
+  return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(an_exit_is_a_failure_that_is_told),
+    cmocka_unit_test(a_fault_stays_one_and_leaves_nothing),
+    cmocka_unit_test(what_is_told_stays),
+    cmocka_unit_test(a_done_program_exits),
+  };
+  return cmocka_run_group_tests(tests, enter, leave_folder);
+}
