@@ -377,7 +377,7 @@ static void print_table(FILE *out, const scene_lines *g)
 static pendres_status write_results(scene_run *run, const scene_lines *g)
 {
   pendres_status status = write_grid(run, g);
-  if (status == PENDRES_OK) status = scene_lines_write_failed(run, g);
+  if (status == PENDRES_OK) status = scene_lines_write_doubtful(run, g);
   if (status == PENDRES_OK) status = write_branches(run, g);
   if (status == PENDRES_OK) status = scene_lines_write_doubts(g);
   if (status == PENDRES_OK) status = scene_curves_write(run, &g->curves);

@@ -133,9 +133,23 @@ const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i)
   return place != SIZE_MAX ? &line->points[place] : &l->nothing;
 }
 
-pendres_status scene_lines_write_failed(scene_run *run, const scene_lines *l)
+static const deck_axis_id axes[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY };
+
+static pendres_status write_uncertain(scene_run *run, const scene_lines *l)
 {
-  static const deck_axis_id axes[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY };
+  const size_t n = l->dampings * l->drives;
+  int64_t *count = malloc(n * sizeof *count);
+  if (count == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) count[i] = (int64_t)scene_lines_point(l, i)->uncertain;
+  const pendres_status status = scene_write_uncertain(run, 2, axes, count);
+  free(count);
+  return status;
+}
+
+pendres_status scene_lines_write_doubtful(scene_run *run, const scene_lines *l)
+{
+  const pendres_status status = write_uncertain(run, l);
+  if (status != PENDRES_OK) return status;
   return scene_failures_write(run, &l->failed, "failed", "point", 2, axes);
 }
 

@@ -39,8 +39,8 @@ void scene_lines_free(scene_lines *l);
 /* Point number i = damping * drives + drive. */
 const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i);
 
-/* Write `failed`, beside the points' dimensions. */
-pendres_status scene_lines_write_failed(scene_run *run, const scene_lines *l);
+/* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
+pendres_status scene_lines_write_doubtful(scene_run *run, const scene_lines *l);
 
 /* Lines of the short table: the cusp, if there is one; what the branches' own bifurcations do not
    explain of them, if there is any. */

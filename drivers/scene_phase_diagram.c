@@ -125,7 +125,7 @@ static pendres_status write_results(scene_run *run, const diagram *g)
   if (status == PENDRES_OK) status = scene_dimension(run, "", DECK_AXIS_DRIVE_FREQUENCY);
   if (status == PENDRES_OK) status = write_flags(run, g, flag);
   if (status == PENDRES_OK) status = write_fields(run, g, value, error);
-  if (status == PENDRES_OK) status = scene_lines_write_failed(run, &g->lines);
+  if (status == PENDRES_OK) status = scene_lines_write_doubtful(run, &g->lines);
   if (status == PENDRES_OK) status = scene_lines_write_doubts(&g->lines);
   if (status == PENDRES_OK) status = scene_curves_write(run, &g->lines.curves);
   if (status == PENDRES_OK) status = scene_curves_write_paper(run, &g->lines.curves);

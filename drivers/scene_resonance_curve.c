@@ -140,14 +140,12 @@ static pendres_status write_kinds(scene_run *run, const curve *c, int8_t *peak)
 
 static pendres_status write_uncertain(scene_run *run, const curve *c)
 {
-  const size_t n = c->d->axis[DECK_AXIS_DAMPING].count;
-  const pendres_store_spec spec = {.name = "uncertain_members", .type = PENDRES_STORE_INT64,
-                                   .dimensions = {"damping"},
-                                   .long_name = "members that may belong to another state"};
+  static const deck_axis_id axis = DECK_AXIS_DAMPING;
+  const size_t n = c->d->axis[axis].count;
   int64_t *count = malloc(n * sizeof *count);
   if (count == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) count[i] = (int64_t)c->points[i].response.uncertain;
-  const pendres_status status = pendres_store_put(run->store, &spec, count, n);
+  const pendres_status status = scene_write_uncertain(run, 1, &axis, count);
   free(count);
   return status;
 }

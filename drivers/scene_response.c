@@ -189,14 +189,12 @@ static pendres_status write_points(scene_run *run, const grid *g, double *value,
 
 static pendres_status write_uncertain(scene_run *run, const grid *g)
 {
+  const deck_axis_id axes[] = {DECK_AXIS_DAMPING, drive_axis(g->d)};
   const size_t n = g->dampings * g->drives;
-  const pendres_store_spec spec = {.name = "uncertain_members", .type = PENDRES_STORE_INT64,
-                                   .dimensions = {"damping", deck_axis_name(drive_axis(g->d))},
-                                   .long_name = "members that may belong to another state"};
   int64_t *count = malloc(n * sizeof *count);
   if (count == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) count[i] = (int64_t)g->points[i].uncertain;
-  const pendres_status status = pendres_store_put(run->store, &spec, count, n);
+  const pendres_status status = scene_write_uncertain(run, 2, axes, count);
   free(count);
   return status;
 }
