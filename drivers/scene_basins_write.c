@@ -293,7 +293,7 @@ static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
                               &random);
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
   if (status != PENDRES_OK) return scene_fail(b->run, status, "%s", pendres_context_message(ctx));
-  b->random_states = RANDOM_STATES;
+  b->random_states = random.states;
   s->uncertainty_exponent = random.uncertainty_exponent;
   s->uncertainty_exponent_error = random.uncertainty_exponent_error;
   s->scales = random.scales;

@@ -6,10 +6,23 @@
 
 #include "attractor_internal.h"
 #include "basin_scatter.h"
+#include "basin_uncertainty.h"
 #include "context_internal.h"
 #include "settle.h"
 
-enum { LEAST_SCALES = 3, LEAST_STATES = 16, SAMPLES_AT_A_TIME = 4096 };
+enum {
+  LEAST_SCALES = 3,
+  LEAST_STATES = 16,
+  FIRST_SAMPLE = 256, /* tell what more of them cost, and whether they are of use */
+  SAMPLES_AT_A_TIME = 4096
+};
+
+/*
+ * Slopes of the pendulum that all states together may take: some ten seconds of one processor, but
+ * the same number on all. Where chaos lasts long before it ends a state takes thousands of periods,
+ * each over and over with ever smaller errors; elsewhere what is asked takes a third of this.
+ */
+static const double most_slopes = 4e9;
 
 /* The bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), as a number in [0, 1). */
 static double uniform(uint64_t seed, uint64_t counter)
@@ -62,40 +75,97 @@ static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
                            &out->uncertainty_exponent_error);
 }
 
-/* Settle the states of a sample, so many at a time. */
-static pendres_status settle_sample(pendres_context *ctx, const pendres_attractors *set,
-                                    const pendres_basin_window *window, uint64_t seed,
-                                    pendres_scatter *counts, pendres_basin_statistics *out)
+/*
+ * Whether an exponent may yet come of more states: at enough distances the share that counts so far
+ * could be one half, by five standard deviations of it.
+ */
+static int hopeful(const pendres_scatter *s, double states, int scales)
 {
-  const size_t n = out->states, each = 1 + 2 * (size_t)out->scales;
-  const size_t room = SAMPLES_AT_A_TIME * each;
-  pendres_status status = PENDRES_OK;
-  double *x = calloc(room, sizeof *x), *v = calloc(room, sizeof *v);
-  pendres_outcome *outcome = malloc(room * sizeof *outcome);
-  if (x == NULL || v == NULL || outcome == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for random states");
-  for (size_t first = 0; first < n && status == PENDRES_OK; first += SAMPLES_AT_A_TIME) {
-    const size_t count = n - first < SAMPLES_AT_A_TIME ? n - first : SAMPLES_AT_A_TIME;
-    for (size_t i = 0; i < count; i++)
-      place(window, seed, (uint64_t)(first + i), out->scales, out->distance, &x[i * each],
-            &v[i * each]);
-    status = pendres_settle_known(ctx, set->catalogues, count * each, x, v,
-                                  10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, outcome);
-    for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
-      out->unresolved += outcome[i * each].attractor < 0;
-      count_sample(counts, out->scales, &outcome[i * each]);
-    }
+  int below = 0;
+  for (int k = 0; k < scales; k++) below += s->total[k] <= 0.5 * states + 2.5 * sqrt(states);
+  return below >= LEAST_SCALES;
+}
+
+typedef struct sample {
+  const pendres_attractors *set;
+  const pendres_basin_window *window;
+  uint64_t seed;
+  double *x, *v; /* a state and its neighbours, one after the other */
+  pendres_outcome *outcome;
+} sample;
+
+/* Settle so many more states of a sample, with their neighbours. */
+static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
+                                  pendres_scatter *counts, pendres_basin_statistics *out)
+{
+  const size_t each = 1 + 2 * (size_t)out->scales;
+  for (size_t i = 0; i < count; i++)
+    place(a->window, a->seed, (uint64_t)(out->states + i), out->scales, out->distance,
+          &a->x[i * each], &a->v[i * each]);
+  const pendres_status status =
+    pendres_settle_known(ctx, a->set->catalogues, count * each, a->x, a->v,
+                         10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, a->outcome);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < count; i++) {
+    out->unresolved += a->outcome[i * each].attractor < 0;
+    count_sample(counts, out->scales, &a->outcome[i * each]);
   }
-  free(x);
-  free(v);
-  free(outcome);
+  out->states += count;
   return status;
 }
 
-static pendres_status basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                        const pendres_basin_window *window, size_t n, int scales,
-                                        const double *distance, uint64_t seed,
-                                        pendres_basin_statistics *out)
+/* States that are settled next: as many as can be paid for, from what the others took. */
+static size_t next_count(size_t left, size_t done, double spent, double most)
+{
+  size_t count = done == 0 ? FIRST_SAMPLE : SAMPLES_AT_A_TIME;
+  if (count > left) count = left;
+  const double affordable = done == 0 ? (double)count : (most - spent) / spent * (double)done;
+  return affordable >= (double)count ? count : affordable >= 1.0 ? (size_t)affordable : 0;
+}
+
+/* Settle the n states of a sample, or the first of them, in the end so many as out->states. */
+static pendres_status settle_sample(pendres_context *ctx, sample *a, size_t n, double most,
+                                    pendres_scatter *counts, pendres_basin_statistics *out)
+{
+  const double before = pendres_context_slopes(ctx);
+  double spent = 0.0;
+  pendres_status status = PENDRES_OK;
+  while (out->states < n && status == PENDRES_OK) {
+    const size_t count = next_count(n - out->states, out->states, spent, most);
+    if (count == 0) break;
+    status = settle_some(ctx, a, count, counts, out);
+    spent = pendres_context_slopes(ctx) - before;
+    if (!hopeful(counts, (double)out->states, out->scales)) break;
+  }
+  return status;
+}
+
+static pendres_status compute_sample(pendres_context *ctx, sample *a, size_t n, double most,
+                                     pendres_basin_statistics *out)
+{
+  const size_t at_a_time = n < SAMPLES_AT_A_TIME ? n : SAMPLES_AT_A_TIME;
+  const size_t room = at_a_time * (1 + 2 * (size_t)out->scales);
+  pendres_scatter counts = {0};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  a->x = calloc(room, sizeof *a->x);
+  a->v = calloc(room, sizeof *a->v);
+  a->outcome = malloc(room * sizeof *a->outcome);
+  if (a->x == NULL || a->v == NULL || a->outcome == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for random states");
+  else
+    status = settle_sample(ctx, a, n, most, &counts, out);
+  if (status == PENDRES_OK) conclude(&counts, out);
+  free(a->x);
+  free(a->v);
+  free(a->outcome);
+  return status;
+}
+
+pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
+                                                const pendres_attractors *set,
+                                                const pendres_basin_window *window, size_t n,
+                                                int scales, const double *distance, uint64_t seed,
+                                                pendres_basin_statistics *out)
 {
   if (set == NULL || window == NULL || distance == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "attractors, window, distance and out");
@@ -111,19 +181,19 @@ static pendres_status basin_uncertainty(pendres_context *ctx, const pendres_attr
   if (bad)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "an uncertainty exponent needs a window and positive distances");
-  pendres_scatter counts = {0};
-  *out = (pendres_basin_statistics){.states = n, .scales = scales,
+  *out = (pendres_basin_statistics){.scales = scales,
                                     .entropy = NAN, .entropy_error = NAN, .boundary_entropy = NAN,
                                     .boundary_entropy_error = NAN, .boundary_boxes = NAN};
   for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
     out->distance[k] = k < scales ? distance[k] : NAN;
-  const pendres_status status = settle_sample(ctx, set, window, seed, &counts, out);
+  sample a = {.set = set, .window = window, .seed = seed};
+  const pendres_status status = compute_sample(ctx, &a, n, most, out);
   if (status != PENDRES_OK) return status;
-  conclude(&counts, out);
   if (isnan(out->uncertainty_exponent))
     return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
                                 "at too few of the distances the boundary is met often enough, "
-                                "and by fewer than half of the states");
+                                "and by fewer than half of %zu states%s", out->states,
+                                out->states < n ? ": more were not worth their time" : "");
   return PENDRES_OK;
 }
 
@@ -132,6 +202,6 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          const double *distance, uint64_t seed,
                                          pendres_basin_statistics *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, basin_uncertainty(ctx, set, window, n, scales, distance, seed,
-                                                     out));
+  return PENDRES_CONTEXT_CALL(ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n,
+                                                                    scales, distance, seed, out));
 }

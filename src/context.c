@@ -115,6 +115,14 @@ void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
     }
 }
 
+double pendres_context_slopes(const pendres_context *ctx)
+{
+  double slopes = ctx->cost.rhs_evaluations - ctx->probed_slopes;
+  for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
+    if (ctx->flows[i] != NULL) slopes += pendres_flow_evaluations(ctx->flows[i]);
+  return slopes;
+}
+
 void pendres_context_cost_reset(pendres_context *ctx)
 {
   pendres_cost now;

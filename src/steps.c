@@ -163,6 +163,7 @@ static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p
     ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_flow_capacity(flow);
+  const double before = pendres_flow_evaluations(flow);
   status = pendres_flow_set_steps(flow, s->steps);
   if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
   for (s->first = 0; s->first < PROBES; s->first += capacity) {
@@ -174,6 +175,7 @@ static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p
   }
   ctx->cost.pendulum_periods += PROBES;
   ctx->probed_periods += PROBES;
+  ctx->probed_slopes += pendres_flow_evaluations(flow) - before;
   return PENDRES_OK;
 }
 

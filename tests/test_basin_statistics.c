@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+#include "basin_uncertainty.h"
+#include "context_internal.h"
+
 /* ---- grids that are shifted by parts of a step ---- */
 
 enum { FINE = 384, APART = 4, SHIFTS = APART * APART, COARSE = FINE / APART };
@@ -112,6 +115,77 @@ static void exponents_of_other_seeds(void **state)
   if (!(claimed > 0.8 * scatter && claimed < 2.5 * scatter))
     print_error("claimed %.4f, scatter %.4f of %.4f\n", claimed, scatter, mean);
   assert_true(claimed > 0.8 * scatter && claimed < 2.5 * scatter);
+  pendres_attractors_free(set);
+}
+
+static const pendres_pendulum wada = {
+  .damping = 0.2, .drive_amplitude = 1.66, .drive_frequency = 1.0};
+static const pendres_basin_window turn = {-1.57, 4.71, -4.0, 4.0};
+
+static pendres_context *context_with_lanes(int lanes)
+{
+  const pendres_options options = {.block_lanes = lanes};
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&options, &ctx));
+  return ctx;
+}
+
+/*
+ * Where work is bounded a sample ends early: with the first states of the whole one, as many
+ * whatever the blocks and whatever the context has chosen steps for before. A thirtieth beyond the
+ * bound is the scatter of what 256 states tell of the others.
+ */
+static void samples_within_bounds(void **state)
+{
+  enum { ASKED = 1 << 20 };
+  static const double distance[] = {1e-5, 1e-4, 1e-3}, most = 1e8;
+  pendres_basin_statistics first, again, whole;
+  pendres_attractors *set = NULL;
+  pendres_context *fresh = context_with_lanes(0), *other = context_with_lanes(96);
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+
+  double before = pendres_context_slopes(fresh);
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1, &first));
+  const double spent = pendres_context_slopes(fresh) - before;
+  if (!(spent > 0.5 * most && spent < most * 31.0 / 30.0))
+    print_error("%zu states took %.3g of %.3g\n", first.states, spent, most);
+  assert_true(spent > 0.5 * most && spent < most * 31.0 / 30.0);
+  assert_true(first.states > 256 && first.states < ASKED);
+
+  check_ok(pendres_basin_uncertainty_within(other, most, set, &turn, ASKED, 3, distance, 1, &again));
+  assert_int_equal(again.states, first.states);
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1, &again));
+  assert_int_equal(again.states, first.states);
+
+  check_ok(pendres_basin_uncertainty(*state, set, &turn, first.states, 3, distance, 1, &whole));
+  assert_memory_equal(whole.uncertain, first.uncertain, 3 * sizeof *whole.uncertain);
+  check_near(whole.uncertainty_exponent, first.uncertainty_exponent, 0.0); /* the same states */
+  pendres_attractors_free(set);
+  pendres_context_free(fresh);
+  pendres_context_free(other);
+}
+
+/*
+ * More than half of the states uncertain at all distances: the first of a million tell, at the
+ * 16 drive periods or so that a state of this pendulum takes, its share of runs again among them.
+ */
+static void samples_that_are_of_no_use(void **state)
+{
+  enum { ASKED = 1000000, LOOKED_AT = 256, EACH = 7 * 16 };
+  static const double distance[] = {0.1, 0.3, 1.0};
+  pendres_attractors *set = NULL;
+  pendres_basin_statistics s;
+  pendres_cost cost;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  pendres_context_cost_reset(*state);
+  assert_int_equal(pendres_basin_uncertainty(*state, set, &turn, ASKED, 3, distance, 1, &s),
+                   PENDRES_NOT_FOUND);
+  pendres_context_cost(*state, &cost);
+  assert_int_equal(s.states, LOOKED_AT);
+  assert_true(s.uncertain[0] > 0.5 && isnan(s.uncertainty_exponent));
+  if (!(cost.pendulum_periods < 2.0 * EACH * LOOKED_AT))
+    print_error("%.4g periods\n", cost.pendulum_periods);
+  assert_true(cost.pendulum_periods < 2.0 * EACH * LOOKED_AT);
   pendres_attractors_free(set);
 }
 
@@ -258,6 +332,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(shifted_grids, setup, teardown),
     cmocka_unit_test_setup_teardown(exponents_of_other_seeds, setup, teardown),
+    cmocka_unit_test_setup_teardown(samples_within_bounds, setup, teardown),
+    cmocka_unit_test_setup_teardown(samples_that_are_of_no_use, setup, teardown),
     cmocka_unit_test(counts_beside_areas),
     cmocka_unit_test_setup_teardown(wells_of_one_attractor, setup, teardown),
     cmocka_unit_test(doubt_counts),

@@ -236,8 +236,10 @@ typedef struct pendres_basin_window {
 /**
  * The uncertainty exponent from n random states of a window, each compared with its neighbours at
  * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
- * below the tolerance mean nothing. The states depend on seed alone. statistics' fields
- * states, unresolved, uncertainty_exponent, distance, uncertain are set, others are NaN or 0.
+ * below the tolerance mean nothing. The states depend on seed alone. Where they take too long to
+ * settle, as in chaos that ends late, or are found to be uncertain by more than half at nearly all
+ * distances, only the first of them are looked at: statistics' field states says how many. Set
+ * are states, unresolved, uncertainty_exponent, distance and uncertain; others are NaN or 0.
  * PENDRES_NOT_FOUND: at too few distances the boundary is met often enough for a count, and by
  * fewer than half of the states: shares near one are no power of the distance.
  */

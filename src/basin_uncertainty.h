@@ -1,0 +1,19 @@
+/*
+ * basin_uncertainty.h -- an uncertainty exponent from random states, as far as work allows.
+ */
+#ifndef PENDRES_BASIN_UNCERTAINTY_H
+#define PENDRES_BASIN_UNCERTAINTY_H
+
+#include <pendres/basin.h>
+
+/*
+ * pendres_basin_uncertainty() with its bound on work: of n states the first that take at most so
+ * many slopes (pendres_context_slopes), but a first part of them in any case.
+ */
+pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
+                                                const pendres_attractors *set,
+                                                const pendres_basin_window *window, size_t n,
+                                                int scales, const double *distance, uint64_t seed,
+                                                pendres_basin_statistics *out);
+
+#endif
