@@ -4,7 +4,7 @@
  *
  * One task a temperature and attractor for the steps, then one a temperature, attractor and chunk
  * of trajectories. A trajectory that has escaped (switching.h) is counted, and left out from then
- * on.
+ * on. A cloud of which a part fails is marked and has no results.
  */
 #include "scene_basins_noise.h"
 
@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_failed.h"
 #include "scene_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -56,6 +57,8 @@ typedef struct work {
   cloud *clouds;                  /* [temperature][attractor] */
   pendres_langevin_cloud *parts;  /* [temperature][attractor][chunk] */
   double *x, *v;                  /* [temperature][attractor][strobe] */
+  scene_failures failed;          /* [temperature][attractor] */
+  scene_failures tasks;           /* [temperature][attractor][chunk] */
 } work;
 
 static double temperature_of(const work *w, size_t cloud_number)
@@ -155,6 +158,11 @@ static void ask_theory(const pendres_langevin_request *request, const pendres_or
   c->narrow = status == PENDRES_OK && !(c->linear.covariance.xx > least_variance);
 }
 
+static int is_broken(const work *w, size_t number)
+{
+  return w->failed.reason[number] != SCENE_FAILURE_NONE;
+}
+
 static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
 {
   enum { TRAJECTORIES = 384, RECORD = 60 };
@@ -166,14 +174,15 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   if (!has_cloud(a)) return PENDRES_OK;
   if (!(temperature_of(w, number) > 0.0)) {
     c->compared = 1;
-    return still_cloud(w, number, ctx);
+    return scene_failures_note(&w->failed, number, still_cloud(w, number, ctx),
+                               pendres_context_message(ctx));
   }
   pendres_langevin_request request = request_of(w, number, &home);
   ask_theory(&request, &a->orbit, c);
   if (c->narrow) {
     const pendres_status status = still_cloud(w, number, ctx);
     if (status == PENDRES_OK && c->compared) linear_cloud(c);
-    return status;
+    return scene_failures_note(&w->failed, number, status, pendres_context_message(ctx));
   }
   request.trajectories = TRAJECTORIES;
   request.record = RECORD;
@@ -181,6 +190,7 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   if (status == PENDRES_OK)
     status =
       scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
+  status = scene_failures_note(&w->failed, number, status, pendres_langevin_message(lv));
   scene_noise_close(w->farm, lv);
   return status;
 }
@@ -189,7 +199,7 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
 static int is_followed(const work *w, size_t number)
 {
   return has_cloud(attractor_of(w, number)) && temperature_of(w, number) > 0.0 &&
-         !w->clouds[number].narrow;
+         !w->clouds[number].narrow && !is_broken(w, number);
 }
 
 /* Strobes of a chunk into their place among those of the cloud, as many as are written. */
@@ -227,9 +237,28 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
     status = pendres_langevin_measure(lv, &request, &w->parts[task], points, points + n);
   if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* all have left: an empty part */
   if (status == PENDRES_OK) keep_strobes(w, number, first, count, points, points + n);
+  status = scene_failures_note(&w->tasks, task, status, pendres_langevin_message(lv));
   free(points);
   scene_noise_close(w->farm, lv);
   return status;
+}
+
+/* Nothing is left of a cloud that is broken, but the reason why. */
+static void empty_broken(work *w, size_t number)
+{
+  cloud *c = &w->clouds[number];
+  const pendres_langevin_estimate none = { NAN, NAN };
+  for (size_t k = number * w->chunks; k < (number + 1) * w->chunks && !is_broken(w, number); k++)
+    if (w->tasks.reason[k] != SCENE_FAILURE_NONE)
+      scene_failures_mark(&w->failed, number, (scene_failure)w->tasks.reason[k],
+                          w->tasks.words[k]);
+  if (!is_broken(w, number)) return;
+  c->compared = c->narrow = 0;
+  c->bias.steps_per_period = 0;
+  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)
+    c->measured.statistics[s] = c->bias.statistics[s] = none;
+  for (size_t k = 0; k < w->strobes; k++)
+    w->x[number * w->strobes + k] = w->v[number * w->strobes + k] = NAN;
 }
 
 /* ---- results ------------------------------------------------------------------------------- */
@@ -309,7 +338,8 @@ static scene_noise_rate escape_rate(const work *w, size_t number)
 {
   const cloud *c = &w->clouds[number];
   const double period = two_pi / attractor_of(w, number)->orbit.pendulum.drive_frequency;
-  if (!has_cloud(attractor_of(w, number))) return (scene_noise_rate){ NAN, NAN, NAN, NAN };
+  if (!has_cloud(attractor_of(w, number)) || is_broken(w, number))
+    return (scene_noise_rate){ NAN, NAN, NAN, NAN };
   if (!is_followed(w, number)) return (scene_noise_rate){ 0.0, 0.0, 0.0, 0.0 };
   return scene_noise_rate_of((double)c->measured.left, c->measured.exposure, period);
 }
@@ -363,12 +393,14 @@ static pendres_status write_statistics(scene_run *run, const work *w, double *a,
 static pendres_status write_escapes(scene_run *run, const work *w, double *a, double *b)
 {
   const size_t n = w->temperatures * w->attractors;
-  for (size_t i = 0; i < n; i++) a[i] = (double)w->clouds[i].measured.left;
+  for (size_t i = 0; i < n; i++)
+    a[i] = is_broken(w, i) ? NAN : (double)w->clouds[i].measured.left;
   pendres_status status =
     put(run, "escapes", "trajectories that left for another attractor or well", a, NULL, n);
   for (size_t i = 0; i < n; i++)
-    a[i] = w->clouds[i].measured.exposure *
-           (two_pi / attractor_of(w, i)->orbit.pendulum.drive_frequency);
+    a[i] = is_broken(w, i) ? NAN
+                           : w->clouds[i].measured.exposure *
+                               (two_pi / attractor_of(w, i)->orbit.pendulum.drive_frequency);
   if (status == PENDRES_OK)
     status = put(run, "escape_exposure", "time that trajectories were watched", a, NULL, n);
   for (size_t i = 0; i < n; i++) {
@@ -420,6 +452,21 @@ done:
   return status;
 }
 
+static pendres_status write_failed(scene_run *run, const work *w)
+{
+  pendres_store_spec spec = { .name = "noise_failed", CLOUD_DIMENSIONS,
+                              .long_name = "why there is no whole result for the noisy cloud" };
+  scene_failure_flags(&spec);
+  for (size_t i = 0; i < w->failed.n; i++) {
+    if (!is_broken(w, i)) continue;
+    run->failed_points++;
+    scene_failure_tell(run, (scene_failure)w->failed.reason[i], w->failed.words[i],
+                       "noisy cloud at temperature %.10g, attractor %zu", temperature_of(w, i),
+                       i % w->attractors);
+  }
+  return pendres_store_put(run->store, &spec, w->failed.reason, w->failed.n);
+}
+
 static pendres_status write_results(scene_run *run, const work *w)
 {
   const size_t n = w->temperatures * w->attractors;
@@ -430,6 +477,7 @@ static pendres_status write_results(scene_run *run, const work *w)
   if (status == PENDRES_OK) status = write_statistics(run, w, a, a + n);
   if (status == PENDRES_OK) status = write_verdicts(run, w);
   if (status == PENDRES_OK) status = write_escapes(run, w, a, a + n);
+  if (status == PENDRES_OK) status = write_failed(run, w);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
   free(a);
   return status;
@@ -457,13 +505,16 @@ static pendres_status compute(scene_run *run, work *w)
   w->parts = calloc(n * w->chunks, sizeof *w->parts);
   w->x = malloc(n * w->strobes * sizeof *w->x);
   w->v = malloc(n * w->strobes * sizeof *w->v);
-  if (w->clouds == NULL || w->parts == NULL || w->x == NULL || w->v == NULL)
+  if (w->clouds == NULL || w->parts == NULL || w->x == NULL || w->v == NULL ||
+      scene_failures_create(n, &w->failed) != PENDRES_OK ||
+      scene_failures_create(n * w->chunks, &w->tasks) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
   for (size_t i = 0; i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
   pendres_status status = farm_run(run->farm, "choices of steps", n, choose, NULL, w);
   if (status == PENDRES_OK)
     status = farm_run(run->farm, "chunks of clouds", n * w->chunks, measure, NULL, w);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
+  for (size_t i = 0; i < n; i++) empty_broken(w, i);
   for (size_t i = 0; i < n; i++)
     if (is_followed(w, i))
       scene_noise_merge(w->chunks, w->parts + i * w->chunks, &w->clouds[i].measured);
@@ -487,6 +538,8 @@ pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractor
   status = compute(run, &w);
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
+  scene_failures_free(&w.failed);
+  scene_failures_free(&w.tasks);
   free(w.clouds);
   free(w.parts);
   free(w.x);

@@ -63,7 +63,8 @@ static void count_members(const pendres_response *r, double *all, double *loops)
 /* Choose steps and make the cloud of trajectories that start on one state. */
 static pendres_status measure_state(const work *w, const pendres_response *r, size_t state,
                                     double temperature, size_t trajectories,
-                                    pendres_langevin_cloud *cloud, pendres_langevin_bias *bias)
+                                    pendres_langevin_cloud *cloud, pendres_langevin_bias *bias,
+                                    char why[SCENE_TOLD])
 {
   enum { TRAJECTORIES = 192, RECORD = 60 };
   const pendres_orbit *o = &r->state[state].orbit;
@@ -79,6 +80,7 @@ static pendres_status measure_state(const work *w, const pendres_response *r, si
   request.trajectories = trajectories;
   request.record = (long)w->d->noise.periods;
   if (status == PENDRES_OK) status = pendres_langevin_measure(lv, &request, cloud, NULL, NULL);
+  if (status != PENDRES_OK) snprintf(why, SCENE_TOLD, "%s", pendres_langevin_message(lv));
   scene_noise_close(w->farm, lv);
   return status;
 }
@@ -153,11 +155,11 @@ static void still_point(const pendres_response *r, point *p)
 }
 
 /* Nothing but the reason why. */
-static pendres_status note_point(work *w, size_t task, pendres_status status)
+static pendres_status note_point(work *w, size_t task, pendres_status status, const char *why)
 {
   const quantity none = { NAN, NAN, NAN, NAN };
   w->points[task] = (point){ .area = none, .power = none, .amplitude = none, .lag = none };
-  return scene_failures_note(&w->failed, task, status, NULL);
+  return scene_failures_note(&w->failed, task, status, why);
 }
 
 static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
@@ -169,6 +171,7 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   point *p = &w->points[task];
   harmonic h = { 0 };
   double all, loops;
+  char why[SCENE_TOLD];
   (void)ctx;
   count_members(r, &all, &loops);
   if (!(temperature > 0.0)) {
@@ -182,8 +185,8 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
     if (!isfinite(r->state[i].orbit.x)) continue;
     const double n = ceil(members / all * (double)w->d->noise.trajectories);
     const pendres_status status =
-      measure_state(w, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias);
-    if (status != PENDRES_OK) return note_point(w, task, status);
+      measure_state(w, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias, why);
+    if (status != PENDRES_OK) return note_point(w, task, status, why);
     add_area(&p->area, members / all, &cloud, &bias);
     if (r->state[i].orbit.winding == 0) add_harmonic(&h, members / loops, &cloud, &bias);
     if (bias.steps_per_period > p->steps) p->steps = bias.steps_per_period;

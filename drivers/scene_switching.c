@@ -4,12 +4,14 @@
  *
  * One task a state for the steps a period, then one a temperature, state and chunk of
  * trajectories. Half of all trajectories start on either state and go wherever noise
- * carries them; each stay counts for the state where it is.
+ * carries them; each stay counts for the state where it is. A temperature at which a chunk fails is
+ * marked and has no results; so are all where the steps of a state cannot be chosen.
  */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_failed.h"
 #include "scene_noise.h"
 
 /* Steps are chosen on the states' small clouds, at one temperature. A bias of the cloud acts as
@@ -33,6 +35,9 @@ typedef struct work {
   pendres_switching_tally *sums;    /* [temperature] */
   pendres_switching_rate *rates;    /* [kind][temperature] */
   pendres_switching_activation fit[KINDS];
+  scene_failures choices; /* [start] of the steps */
+  scene_failures tasks;   /* [temperature][start][chunk] */
+  scene_failures failed;  /* [temperature] */
   char name[STARTS][24], state[STARTS][40];   /* of the states: "sa", "the small-amplitude state" */
   char suffix[KINDS][56], words[KINDS][120];  /* of the kinds of transitions */
 } work;
@@ -114,6 +119,7 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
   if (status == PENDRES_OK)
     status = scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
   if (status == PENDRES_OK) w->steps[task] = 2 * bias.steps_per_period;
+  status = scene_failures_note(&w->choices, task, status, pendres_langevin_message(lv));
   scene_noise_close(w->farm, lv);
   return status;
 }
@@ -143,6 +149,8 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   pendres_langevin *lv = NULL;
   (void)ctx;
   if (chunk >= scene_noise_chunks(all)) return PENDRES_OK;
+  for (int s = 0; s < STARTS; s++)
+    if (w->choices.reason[s] != SCENE_FAILURE_NONE) return PENDRES_OK;
   scene_noise_chunk(all, chunk, &first, &n);
   const pendres_pendulum p = pendulum_at(w, temperature);
   const size_t from = (size_t)w->index[start];
@@ -153,6 +161,7 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
   if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_of(w));
   if (status == PENDRES_OK) status = pendres_switching_count(lv, &request, &w->tallies[task]);
+  status = scene_failures_note(&w->tasks, task, status, pendres_langevin_message(lv));
   scene_noise_close(w->farm, lv);
   return status;
 }
@@ -164,8 +173,8 @@ static pendres_status find_numbered(scene_run *run, work *w)
   const long count = (long)pendres_attractors_count(w->set);
   for (int s = 0; s < STARTS; s++) {
     if (wanted[s] > count)
-      return scene_fail(run, PENDRES_NOT_FOUND, "there is no attractor %ld at these parameters, but "
-                        "%ld", wanted[s], count);
+      return scene_fail(run, PENDRES_NOT_FOUND,
+                        "there is no attractor %ld at these parameters, but %ld", wanted[s], count);
     w->index[s] = (int)wanted[s] - 1;
   }
   return PENDRES_OK;
@@ -193,6 +202,38 @@ static pendres_status find_states(scene_run *run, work *w)
   return PENDRES_OK;
 }
 
+/* The first failure of a list from `first` on, if there is one, is that of a temperature. */
+static void mark_first(work *w, size_t temperature, const scene_failures *of, size_t first,
+                       size_t count)
+{
+  for (size_t i = first; i < first + count; i++) {
+    if (of->reason[i] == SCENE_FAILURE_NONE) continue;
+    scene_failures_mark(&w->failed, temperature, (scene_failure)of->reason[i], of->words[i]);
+    return;
+  }
+}
+
+/* Where one state alone exists there is nothing to switch to, and that is said. */
+static void mark_failed(work *w)
+{
+  const size_t tasks = STARTS * w->chunks;
+  for (size_t i = 0; i < w->temperatures; i++) {
+    if (w->index[SA] < 0 || w->index[LA] < 0)
+      scene_failures_mark(&w->failed, i, SCENE_FAILURE_NOT_FOUND,
+                          w->index[SA] < 0 ? "there is no small-amplitude state"
+                                           : "there is no large-amplitude state");
+    mark_first(w, i, &w->tasks, i * tasks, tasks);
+    mark_first(w, i, &w->choices, 0, STARTS);
+  }
+}
+
+/* Did a part of its work fail? One whose other state does not exist still has rates. */
+static int is_broken(const work *w, size_t temperature)
+{
+  const int no_state = w->index[SA] < 0 || w->index[LA] < 0;
+  return w->failed.reason[temperature] != (no_state ? SCENE_FAILURE_NOT_FOUND : SCENE_FAILURE_NONE);
+}
+
 static pendres_status sum_up(work *w)
 {
   const deck_axis *t = &w->d->axis[DECK_AXIS_TEMPERATURE];
@@ -206,7 +247,7 @@ static pendres_status sum_up(work *w)
     pendres_switching_rate *r = w->rates + (size_t)k * w->temperatures;
     for (size_t i = 0; i < w->temperatures && status == PENDRES_OK; i++) {
       r[i] = (pendres_switching_rate){ NAN, NAN, NAN, NAN, NAN, NAN, NAN };
-      if (from >= 0 && to >= 0)
+      if (from >= 0 && to >= 0 && !is_broken(w, i))
         status = pendres_switching_rate_of(&w->sums[i], (size_t)from, (size_t)to, level, &r[i]);
     }
     if (status == PENDRES_OK)
@@ -363,7 +404,9 @@ static pendres_status write_circumstances(scene_run *run, const work *w, double 
     const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
                                       .long_name = words };
     for (size_t i = 0; i < w->temperatures; i++)
-      value[i] = w->index[s] >= 0 ? w->sums[i].exposure[w->index[s]] * w->sums[i].period : NAN;
+      value[i] = w->index[s] >= 0 && !is_broken(w, i)
+                   ? w->sums[i].exposure[w->index[s]] * w->sums[i].period
+                   : NAN;
     status = pendres_store_put(run->store, &spec, value, w->temperatures);
   }
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, &steps_per_period, 1);
@@ -381,7 +424,10 @@ static pendres_status write_results(scene_run *run, const work *w)
   if (status == PENDRES_OK) status = write_circumstances(run, w, value);
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
   free(value);
-  return status;
+  const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
+  return status != PENDRES_OK
+           ? status
+           : scene_failures_write(run, &w->failed, "failed", "switching", 1, axes);
 }
 
 static void print_table(FILE *out, const work *w)
@@ -411,12 +457,16 @@ static pendres_status compute(scene_run *run, work *w)
   w->tallies = calloc(n * w->chunks, sizeof *w->tallies);
   w->sums = calloc(w->temperatures, sizeof *w->sums);
   w->rates = calloc(KINDS * w->temperatures, sizeof *w->rates);
-  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL)
+  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL ||
+      scene_failures_create(STARTS, &w->choices) != PENDRES_OK ||
+      scene_failures_create(n * w->chunks, &w->tasks) != PENDRES_OK ||
+      scene_failures_create(w->temperatures, &w->failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", n * w->chunks);
   pendres_status status = farm_run(run->farm, "choices of steps", STARTS, choose, NULL, w);
   if (status == PENDRES_OK)
     status = farm_run(run->farm, "chunks", n * w->chunks, count, NULL, w);
   if (status != PENDRES_OK) return scene_farm_failed(run, status);
+  mark_failed(w);
   status = sum_up(w);
   if (status != PENDRES_OK) return scene_fail(run, status, "rates cannot be computed");
   return status;
@@ -434,12 +484,11 @@ static pendres_status run_scene(scene_run *run)
   pendres_status status = find_states(run, &w);
   if (status == PENDRES_OK) status = compute(run, &w);
   if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK) {
-    /* Where one state alone exists there is nothing to switch to: no results, and that is said. */
-    if (w.index[SA] < 0 || w.index[LA] < 0) run->failed_points += w.temperatures;
-    if (run->table != NULL) print_table(run->table, &w);
-  }
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
   pendres_attractors_free(w.set);
+  scene_failures_free(&w.choices);
+  scene_failures_free(&w.tasks);
+  scene_failures_free(&w.failed);
   free(w.tallies);
   free(w.sums);
   free(w.rates);

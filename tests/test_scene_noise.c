@@ -7,6 +7,7 @@
 #include <pendres/pendres.h>
 
 #include "scene_basins_noise.h"
+#include "scene_failed.h"
 #include "scene_noise.h"
 
 /* Clouds alone, as scene_basins.c asks for them. */
@@ -261,6 +262,64 @@ static void response_begins_at_the_deterministic_one(void **state)
   }
 }
 
+/* No deck may ask for such a temperature, but there are others that a scene cannot know of. */
+static pendres_status run_too_hot(scene_run *run)
+{
+  run->deck->axis[DECK_AXIS_TEMPERATURE].value[1] = 1e20;
+  if (run->deck->kind == DECK_BASINS) return run_clouds(run);
+  return scene_find(run->deck->kind)->run(run);
+}
+
+/*
+ * A temperature beyond what can be followed is marked, told and without results, and the others are
+ * what they are without it.
+ */
+static void too_hot_points_are_marked(void **state)
+{
+  static const struct {
+    const char *format, *failed, *value, *told;
+    size_t points; /* a temperature */
+  } cases[] = {
+    { "&scene kind = 'switching' /\n"
+      "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
+      "&sweep temperature = 0.02%s /\n&noise trajectories = 64, periods = 20 /\n",
+      "failed", "exposure_sa", "switching at temperature 1e+20: ", 1 },
+    { "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+      "&sweep damping = 0.24, drive_period = 7, 8, temperature = 0.001%s /\n"
+      "&ensemble members = 10 /\n&noise trajectories = 16, periods = 10 /\n",
+      "noise_failed", "mean_loop_area", "response with noise at temperature 1e+20, damping 0.24, "
+      "drive_period 7: ", 2 },
+    { "&scene kind = 'basins' /\n"
+      "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+      "&sweep x = 0, v = 0, temperature = 0.0001%s /\n&basins strobes = 50, trajectories = 10 /\n",
+      "noise_failed", "escapes", "noisy cloud at temperature 1e+20, attractor 0: ", 2 } };
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const size_t n = cases[i].points;
+    const char *hole = strstr(cases[i].format, "%s");
+    char text[2][500];
+    double failed[4], value[4], alone[2];
+    for (int k = 0; k < 2; k++)
+      snprintf(text[k], sizeof text[k], "%.*s%s%s", (int)(hole - cases[i].format), cases[i].format,
+               k == 0 ? "" : ", 1000", hole + 2);
+    run_deck(text[0], 1, "alone");
+    assert_int_equal(scene_run_marked(run_too_hot, text[1], 1, "hot"), n);
+    assert_non_null(strstr(scene_told, cases[i].told));
+    assert_non_null(strstr(scene_told, "so hot a pendulum"));
+    assert_int_equal(scene_run_marked(run_too_hot, text[1], 2, "again"), n);
+    scene_check_same_bytes("hot", "again");
+    get("hot", cases[i].failed, failed, 2 * n);
+    get("hot", cases[i].value, value, 2 * n);
+    get("alone", cases[i].value, alone, n);
+    assert_memory_equal(value, alone, n * sizeof *value);
+    for (size_t k = 0; k < n; k++) {
+      assert_int_equal((int)failed[k], SCENE_FAILURE_NONE);
+      assert_int_equal((int)failed[n + k], SCENE_FAILURE_REFUSED);
+      assert_true(isfinite(value[k]) && isnan(value[n + k]));
+    }
+  }
+}
+
 /* Temperatures that are none are mistakes of the deck. */
 static void bad_temperatures_are_deck_errors(void **state)
 {
@@ -345,6 +404,7 @@ int main(void)
     cmocka_unit_test(chunks_cover_everything),
     cmocka_unit_test(merging_parts_is_exact),
     cmocka_unit_test(bad_temperatures_are_deck_errors),
+    cmocka_unit_test(too_hot_points_are_marked),
     cmocka_unit_test(switching_counts_both_ways),
     cmocka_unit_test(switching_goes_by_name_or_number),
     cmocka_unit_test(clouds_agree_with_linear_theory),
