@@ -24,6 +24,8 @@ typedef struct section {
 static const section sections[] = {
   {"orbits", accuracy_orbits},
   {"resonance", accuracy_resonance},
+  {"search", accuracy_search},
+  {"ensembles", accuracy_ensembles},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

@@ -71,6 +71,8 @@ void accuracy_complain(accuracy *a, const char *what, const char *how);
 
 void accuracy_orbits(accuracy *a);
 void accuracy_resonance(accuracy *a);
+void accuracy_search(accuracy *a);
+void accuracy_ensembles(accuracy *a);
 
 /* ---- for main ---- */
 
