@@ -11,7 +11,6 @@
 #include <time.h>
 
 #include "peer_gsl.h"
-#include "scene.h"
 
 enum { MOST_REPEATS = 50 };
 
@@ -38,7 +37,7 @@ static pendres_options options_named(const char *name)
     if (name[length] != '\0' && name[length] != '_') continue;
     o.method = (pendres_method)m;
     if (name[length] == '\0') continue;
-    const pendres_table table = scene_table_named(name + length + 1);
+    const pendres_table table = pendres_table_named(name + length + 1);
     if (strcmp(name + length, "_order5") == 0) o.table = PENDRES_TABLE_DP5;
     else if (table < PENDRES_TABLE_COUNT) o.table = table;
   }

@@ -40,28 +40,14 @@ const scene_kind *scene_find(deck_kind kind)
 
 /* ---- options ------------------------------------------------------------------------------- */
 
-static pendres_method method_named(const char *name)
-{
-  int i = 0;
-  while (i < PENDRES_METHOD_COUNT && strcmp(name, pendres_method_name((pendres_method)i)) != 0) i++;
-  return (pendres_method)i;
-}
-
-pendres_table scene_table_named(const char *name)
-{
-  int i = PENDRES_TABLE_DEFAULT + 1;
-  while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
-  return (pendres_table)i;
-}
-
 pendres_status scene_precision(const deck *d, pendres_options *out, const char **why)
 {
   *out = (pendres_options){ .tolerance = d->precision.tolerance,
                             .steps_per_period = (int)d->precision.steps_per_period,
                             .block_lanes = (int)d->precision.block_lanes,
                             .period_budget = (long)d->precision.period_budget };
-  if (d->precision.method[0] != '\0') out->method = method_named(d->precision.method);
-  if (d->precision.table[0] != '\0') out->table = scene_table_named(d->precision.table);
+  if (d->precision.method[0] != '\0') out->method = pendres_method_named(d->precision.method);
+  if (d->precision.table[0] != '\0') out->table = pendres_table_named(d->precision.table);
   *why = pendres_options_check(out);
   return *why == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
 }

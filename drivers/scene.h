@@ -42,9 +42,6 @@ typedef struct scene_kind {
 /* The scene of a kind; NULL if this build has none. */
 const scene_kind *scene_find(deck_kind kind);
 
-/* The table of a name; PENDRES_TABLE_COUNT if there is none. */
-pendres_table scene_table_named(const char *name);
-
 /* The library's options that a deck's &precision asks for; *why is a static sentence if it is
    more than the library can do. */
 pendres_status scene_precision(const deck *d, pendres_options *out, const char **why);

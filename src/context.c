@@ -26,6 +26,22 @@ const char *pendres_table_name(pendres_table table)
   return m != NULL ? m->name : NULL;
 }
 
+pendres_method pendres_method_named(const char *name)
+{
+  int i = 0;
+  if (name == NULL) return PENDRES_METHOD_COUNT;
+  while (i < PENDRES_METHOD_COUNT && strcmp(name, pendres_method_name((pendres_method)i)) != 0) i++;
+  return (pendres_method)i;
+}
+
+pendres_table pendres_table_named(const char *name)
+{
+  int i = PENDRES_TABLE_DEFAULT + 1; /* the default is one of the others */
+  if (name == NULL) return PENDRES_TABLE_COUNT;
+  while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
+  return (pendres_table)i;
+}
+
 int pendres_table_order(pendres_table table)
 {
   if (table == PENDRES_TABLE_DP5) return 5;

@@ -49,6 +49,8 @@ static void nothing(void **state)
     assert_int_equal(pendres_table_order((pendres_table)i), 0);
     assert_non_null(pendres_status_message((pendres_status)i));
   }
+  assert_int_equal(pendres_method_named(NULL), PENDRES_METHOD_COUNT);
+  assert_int_equal(pendres_table_named(NULL), PENDRES_TABLE_COUNT);
   assert_null(pendres_options_check(NULL));
   assert_null(pendres_langevin_options_check(NULL));
   assert_non_null(pendres_version());

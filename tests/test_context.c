@@ -81,13 +81,19 @@ static void names(void **state)
   } tables[] = {{"tp8", 8},    {"tp8", 8},   {"ev8", 8}, {"vern8", 8}, {"dop853", 8},
                 {"tsit5", 5},  {"vern9", 9}, {"sh9", 9}, {"dp5", 5}};
   (void)state;
-  for (int i = 0; i < PENDRES_METHOD_COUNT; i++)
+  for (int i = 0; i < PENDRES_METHOD_COUNT; i++) {
     assert_string_equal(pendres_method_name((pendres_method)i), methods[i]);
+    assert_int_equal(pendres_method_named(methods[i]), i);
+  }
   assert_null(pendres_method_name(PENDRES_METHOD_COUNT));
   for (int i = 0; i < PENDRES_TABLE_COUNT; i++) {
     assert_string_equal(pendres_table_name((pendres_table)i), tables[i].name);
     assert_int_equal(pendres_table_order((pendres_table)i), tables[i].order);
   }
+  for (int i = PENDRES_TABLE_DEFAULT + 1; i < PENDRES_TABLE_COUNT; i++)
+    assert_int_equal(pendres_table_named(tables[i].name), i);
+  assert_int_equal(pendres_method_named("euler"), PENDRES_METHOD_COUNT);
+  assert_int_equal(pendres_table_named("tp"), PENDRES_TABLE_COUNT);
   assert_null(pendres_table_name(PENDRES_TABLE_COUNT));
   assert_int_equal(pendres_table_order(PENDRES_TABLE_COUNT), 0);
 }

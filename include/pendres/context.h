@@ -58,6 +58,9 @@ typedef enum pendres_table {
 /** Names for decks and messages ("block_fixed", "tp8", ...); NULL if out of range. */
 const char *pendres_method_name(pendres_method method);
 const char *pendres_table_name(pendres_table table);
+/** The method, or table, of a name; the enum's COUNT if there is none of it, or name is NULL. */
+pendres_method pendres_method_named(const char *name);
+pendres_table pendres_table_named(const char *name);
 /** Order of the method of a table, 0 if out of range. */
 int pendres_table_order(pendres_table table);
 
