@@ -12,74 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene_failed.h"
-#include "scene_noise.h"
-
-static const double two_pi = 6.28318530717958647693;
-
-/* Of a cloud's widths and their products. */
-static const double bias_wanted = 0.01;
-
-/* Why a cloud is, or is not, compared with linear theory. */
-enum { AGREES, TOO_HOT, NOT_COMPARED, UNCERTAIN, BELOW_ROUNDING, VERDICTS };
-
-static const struct {
-  const char *name, *words;
-} verdicts[VERDICTS] = {
-  [AGREES] = { "agrees", "yes" },
-  [TOO_HOT] = { "too_hot", "no, too hot" },
-  [NOT_COMPARED] = { "not_compared", "not compared" },
-  [UNCERTAIN] = { "uncertain", "uncertain" },
-  [BELOW_ROUNDING] = { "below_rounding", "not followed" },
-};
+#include "scene_basins_clouds.h"
 
 /* What linear theory leaves out is smaller than a covariance by about its variance: below this
    one it is lost in rounding, and trajectories would only be a poorer way to the same. */
 static const double least_variance = 2e-16;
 
-/* A temperature and attractor. */
-typedef struct cloud {
-  pendres_langevin_cloud measured;
-  pendres_langevin_bias bias;
-  pendres_langevin_linear linear;
-  int compared; /* there is linear theory to compare with */
-  int narrow;   /* so narrow that linear theory is exact: nothing is followed */
-} cloud;
-
-typedef struct work {
-  const deck *d;
-  farm *farm;
-  const pendres_attractors *set;
-  size_t temperatures, attractors;
-  size_t strobes;      /* written of each cloud */
-  size_t trajectories, chunks;
-  long record;         /* strobes of each trajectory */
-  cloud *clouds;                  /* [temperature][attractor] */
-  pendres_langevin_cloud *parts;  /* [temperature][attractor][chunk] */
-  double *x, *v;                  /* [temperature][attractor][strobe] */
-  scene_failures failed;          /* [temperature][attractor] */
-  scene_failures tasks;           /* [temperature][attractor][chunk] */
-} work;
-
-static double temperature_of(const work *w, size_t cloud_number)
-{
-  return w->d->axis[DECK_AXIS_TEMPERATURE].value[cloud_number / w->attractors];
-}
-
-static const pendres_attractor *attractor_of(const work *w, size_t cloud_number)
-{
-  return pendres_attractors_get(w->set, cloud_number % w->attractors);
-}
-
-/* Clouds are made around closed orbits that stay in their well; others run away, or have no point
-   to begin with. */
-static int has_cloud(const pendres_attractor *a)
-{
-  return isfinite(a->orbit.x) && isfinite(a->orbit.v) && a->orbit.winding == 0;
-}
-
 /* The request of all trajectories of a cloud. */
-static pendres_langevin_request request_of(const work *w, size_t number,
+static pendres_langevin_request request_of(const cloud_work *w, size_t number,
                                            pendres_switching_home *home)
 {
   const pendres_attractor *a = attractor_of(w, number);
@@ -118,7 +58,7 @@ static void still_statistics(const pendres_orbit *o, size_t q, const double *x, 
 }
 
 /* Without noise, or with less than rounding: the orbit's own points. */
-static pendres_status still_cloud(work *w, size_t number, pendres_context *ctx)
+static pendres_status still_cloud(cloud_work *w, size_t number, pendres_context *ctx)
 {
   const pendres_orbit *o = &attractor_of(w, number)->orbit;
   cloud *c = &w->clouds[number];
@@ -158,15 +98,10 @@ static void ask_theory(const pendres_langevin_request *request, const pendres_or
   c->narrow = status == PENDRES_OK && !(c->linear.covariance.xx > least_variance);
 }
 
-static int is_broken(const work *w, size_t number)
-{
-  return w->failed.reason[number] != SCENE_FAILURE_NONE;
-}
-
 static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
 {
   enum { TRAJECTORIES = 384, RECORD = 60 };
-  work *w = arg;
+  cloud_work *w = arg;
   cloud *c = &w->clouds[number];
   const pendres_attractor *a = attractor_of(w, number);
   pendres_switching_home home;
@@ -189,21 +124,14 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   pendres_status status = scene_noise_open(w->farm, w->d->basins.seed, &lv);
   if (status == PENDRES_OK)
     status =
-      scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
+      scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, CLOUD_BIAS_WANTED, &c->bias);
   status = scene_failures_note(&w->failed, number, status, pendres_langevin_message(lv));
   scene_noise_close(w->farm, lv);
   return status;
 }
 
-/* Is there a cloud whose trajectories are followed? */
-static int is_followed(const work *w, size_t number)
-{
-  return has_cloud(attractor_of(w, number)) && temperature_of(w, number) > 0.0 &&
-         !w->clouds[number].narrow && !is_broken(w, number);
-}
-
 /* Strobes of a chunk into their place among those of the cloud, as many as are written. */
-static void keep_strobes(work *w, size_t number, size_t first, size_t count, const double *x,
+static void keep_strobes(cloud_work *w, size_t number, size_t first, size_t count, const double *x,
                          const double *v)
 {
   const size_t begin = first * (size_t)w->record;
@@ -215,7 +143,7 @@ static void keep_strobes(work *w, size_t number, size_t first, size_t count, con
 
 static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
 {
-  work *w = arg;
+  cloud_work *w = arg;
   const size_t number = task / w->chunks;
   size_t first, count;
   pendres_switching_home home;
@@ -244,7 +172,7 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
 }
 
 /* Nothing is left of a cloud that is broken, but the reason why. */
-static void empty_broken(work *w, size_t number)
+static void empty_broken(cloud_work *w, size_t number)
 {
   cloud *c = &w->clouds[number];
   const pendres_langevin_estimate none = { NAN, NAN };
@@ -261,244 +189,9 @@ static void empty_broken(work *w, size_t number)
     w->x[number * w->strobes + k] = w->v[number * w->strobes + k] = NAN;
 }
 
-/* ---- results ------------------------------------------------------------------------------- */
+/* ---- the scene's part --------------------------------------------------------------------- */
 
-typedef struct value {
-  double result, error;
-} value;
-
-static value statistic(const cloud *c, int which)
-{
-  return (value){ c->measured.statistics[which].value, c->measured.statistics[which].error };
-}
-
-static value bias(const cloud *c, int which)
-{
-  return (value){ c->bias.statistics[which].value, c->bias.statistics[which].error };
-}
-
-static value linear(const cloud *c, int which)
-{
-  const pendres_langevin_covariance *s = &c->linear.covariance;
-  const double of[3] = { s->xx, s->xv, s->vv };
-  if (!c->compared) return (value){ NAN, NAN };
-  return (value){ of[which - PENDRES_LANGEVIN_COV_XX], c->linear.error };
-}
-
-static const struct {
-  const char *name, *long_name;
-  value (*of)(const cloud *c, int which);
-  int which;
-} results[] = {
-  { "strobe_mean_x", "mean position of the cloud", statistic, PENDRES_LANGEVIN_MEAN_X },
-  { "strobe_mean_v", "mean velocity of the cloud", statistic, PENDRES_LANGEVIN_MEAN_V },
-  { "strobe_cov_xx", "variance of position in the cloud", statistic, PENDRES_LANGEVIN_COV_XX },
-  { "strobe_cov_xv", "covariance of position and velocity in the cloud", statistic,
-    PENDRES_LANGEVIN_COV_XV },
-  { "strobe_cov_vv", "variance of velocity in the cloud", statistic, PENDRES_LANGEVIN_COV_VV },
-  { "linear_cov_xx", "variance of position by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_XX },
-  { "linear_cov_xv", "covariance of position and velocity by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_XV },
-  { "linear_cov_vv", "variance of velocity by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_VV },
-  { "bias_mean_x", "bias of strobe_mean_x by finite steps", bias, PENDRES_LANGEVIN_MEAN_X },
-  { "bias_mean_v", "bias of strobe_mean_v by finite steps", bias, PENDRES_LANGEVIN_MEAN_V },
-  { "bias_cov_xx", "bias of strobe_cov_xx by finite steps", bias, PENDRES_LANGEVIN_COV_XX },
-  { "bias_cov_xv", "bias of strobe_cov_xv by finite steps", bias, PENDRES_LANGEVIN_COV_XV },
-  { "bias_cov_vv", "bias of strobe_cov_vv by finite steps", bias, PENDRES_LANGEVIN_COV_VV },
-};
-
-enum { RESULTS = sizeof results / sizeof results[0] };
-
-/*
- * Does the cloud agree with linear theory within three of all errors, bias among them? An error
- * as large as half the width in question agrees with anything: that is no verdict.
- */
-static int8_t verdict(const cloud *c)
-{
-  const pendres_langevin_covariance *width = &c->linear.covariance;
-  const double scale[3] = { width->xx, sqrt(width->xx * width->vv), width->vv };
-  int8_t verdict = AGREES;
-  if (c->narrow) return BELOW_ROUNDING;
-  if (!c->compared || !isfinite(c->measured.statistics[PENDRES_LANGEVIN_COV_XX].value))
-    return NOT_COMPARED;
-  for (int k = PENDRES_LANGEVIN_COV_XX; k <= PENDRES_LANGEVIN_COV_VV; k++) {
-    const value s = statistic(c, k), l = linear(c, k), b = bias(c, k);
-    /* A bias that could not be measured leaves its bound. */
-    const double off = isfinite(b.result) ? hypot(b.result, b.error) : bias_wanted * fabs(l.result);
-    const double error = sqrt(s.error * s.error + l.error * l.error + off * off);
-    if (!(fabs(s.result - l.result) <= 3.0 * error)) return TOO_HOT;
-    if (error > 0.5 * scale[k - PENDRES_LANGEVIN_COV_XX]) verdict = UNCERTAIN;
-  }
-  return verdict;
-}
-
-static scene_noise_rate escape_rate(const work *w, size_t number)
-{
-  const cloud *c = &w->clouds[number];
-  const double period = two_pi / attractor_of(w, number)->orbit.pendulum.drive_frequency;
-  if (!has_cloud(attractor_of(w, number)) || is_broken(w, number))
-    return (scene_noise_rate){ NAN, NAN, NAN, NAN };
-  if (!is_followed(w, number)) return (scene_noise_rate){ 0.0, 0.0, 0.0, 0.0 };
-  return scene_noise_rate_of((double)c->measured.left, c->measured.exposure, period);
-}
-
-#define CLOUD_DIMENSIONS .dimensions = { "temperature", "attractor" }
-
-static pendres_status put(scene_run *run, const char *name, const char *long_name,
-                          const double *values, const double *errors, size_t n)
-{
-  const pendres_store_spec spec = { .name = name, CLOUD_DIMENSIONS, .long_name = long_name };
-  return errors != NULL ? pendres_store_put_result(run->store, &spec, values, errors, n)
-                        : pendres_store_put(run->store, &spec, values, n);
-}
-
-static pendres_status write_strobes(scene_run *run, const work *w)
-{
-  static const char *const names[2] = { "strobe_x", "strobe_v" };
-  static const char *const words[2] = { "position at drive phase 0, around well 0",
-                                        "velocity at drive phase 0" };
-  static const char *const units[2] = { "rad", "1" };
-  pendres_status status = pendres_store_dimension(run->store, "", "strobe", w->strobes, NULL,
-                                                  "number of the strobe point", "1");
-  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {
-      .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
-      .long_name = words[k], .units = units[k],
-      .comment = "trajectory after trajectory; NaN after an escape" };
-    status = pendres_store_put(run->store, &spec, k == 0 ? w->x : w->v,
-                               w->temperatures * w->attractors * w->strobes);
-  }
-  return status;
-}
-
-static pendres_status write_statistics(scene_run *run, const work *w, double *a, double *b)
-{
-  const size_t n = w->temperatures * w->attractors;
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < RESULTS && status == PENDRES_OK; k++) {
-    for (size_t i = 0; i < n; i++) {
-      const value v = has_cloud(attractor_of(w, i))
-                        ? results[k].of(&w->clouds[i], results[k].which)
-                        : (value){ NAN, NAN };
-      a[i] = v.result;
-      b[i] = v.error;
-    }
-    status = put(run, results[k].name, results[k].long_name, a, b, n);
-  }
-  return status;
-}
-
-static pendres_status write_escapes(scene_run *run, const work *w, double *a, double *b)
-{
-  const size_t n = w->temperatures * w->attractors;
-  for (size_t i = 0; i < n; i++)
-    a[i] = is_broken(w, i) ? NAN : (double)w->clouds[i].measured.left;
-  pendres_status status =
-    put(run, "escapes", "trajectories that left for another attractor or well", a, NULL, n);
-  for (size_t i = 0; i < n; i++)
-    a[i] = is_broken(w, i) ? NAN
-                           : w->clouds[i].measured.exposure *
-                               (two_pi / attractor_of(w, i)->orbit.pendulum.drive_frequency);
-  if (status == PENDRES_OK)
-    status = put(run, "escape_exposure", "time that trajectories were watched", a, NULL, n);
-  for (size_t i = 0; i < n; i++) {
-    a[i] = escape_rate(w, i).value;
-    b[i] = escape_rate(w, i).error;
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate", "escapes a unit time", a, b, n);
-  for (size_t i = 0; i < n; i++) {
-    a[i] = escape_rate(w, i).lower;
-    b[i] = escape_rate(w, i).upper;
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate_lower", "lower end of its 95 % confidence interval", a, NULL, n);
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate_upper", "upper end of its 95 % confidence interval", b, NULL, n);
-  return status;
-}
-
-static pendres_status write_verdicts(scene_run *run, const work *w)
-{
-  const char *meanings[VERDICTS];
-  const size_t n = w->temperatures * w->attractors;
-  for (int k = 0; k < VERDICTS; k++) meanings[k] = verdicts[k].name;
-  const pendres_store_spec theory = {
-    .name = "linear_theory", .type = PENDRES_STORE_INT8, CLOUD_DIMENSIONS,
-    .long_name = "whether the cloud's covariance agrees with linear noise theory",
-    .comment = "too_hot: one of the three differs by more than 3 of its standard errors, "
-               "which include the bias by finite steps; uncertain: an error above half the "
-               "width; below_rounding: so narrow that what linear theory leaves out is below "
-               "rounding, so that nothing is followed and the covariance is that of theory",
-    .flag_count = VERDICTS, .flag_meanings = meanings };
-  const pendres_store_spec steps = { .name = "noise_steps_per_period", .type = PENDRES_STORE_INT32,
-                                     CLOUD_DIMENSIONS,
-                                     .long_name = "steps a drive period of the noisy integrator" };
-  int8_t *verdict_of = malloc(n * sizeof *verdict_of);
-  int32_t *steps_of = malloc(n * sizeof *steps_of);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (verdict_of == NULL || steps_of == NULL) goto done;
-  for (size_t i = 0; i < n; i++) {
-    verdict_of[i] = has_cloud(attractor_of(w, i)) ? verdict(&w->clouds[i]) : NOT_COMPARED;
-    steps_of[i] = w->clouds[i].bias.steps_per_period;
-  }
-  status = pendres_store_put(run->store, &theory, verdict_of, n);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, steps_of, n);
-done:
-  free(verdict_of);
-  free(steps_of);
-  return status;
-}
-
-static pendres_status write_failed(scene_run *run, const work *w)
-{
-  pendres_store_spec spec = { .name = "noise_failed", CLOUD_DIMENSIONS,
-                              .long_name = "why there is no whole result for the noisy cloud" };
-  scene_failure_flags(&spec);
-  for (size_t i = 0; i < w->failed.n; i++) {
-    if (!is_broken(w, i)) continue;
-    run->failed_points++;
-    scene_failure_tell(run, (scene_failure)w->failed.reason[i], w->failed.words[i],
-                       "noisy cloud at temperature %.10g, attractor %zu", temperature_of(w, i),
-                       i % w->attractors);
-  }
-  return pendres_store_put(run->store, &spec, w->failed.reason, w->failed.n);
-}
-
-static pendres_status write_results(scene_run *run, const work *w)
-{
-  const size_t n = w->temperatures * w->attractors;
-  double *a = malloc(2 * n * sizeof *a);
-  if (a == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
-  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  if (status == PENDRES_OK) status = write_strobes(run, w);
-  if (status == PENDRES_OK) status = write_statistics(run, w, a, a + n);
-  if (status == PENDRES_OK) status = write_verdicts(run, w);
-  if (status == PENDRES_OK) status = write_escapes(run, w, a, a + n);
-  if (status == PENDRES_OK) status = write_failed(run, w);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-  free(a);
-  return status;
-}
-
-static void print_table(FILE *out, const work *w)
-{
-  fprintf(out, "temperature  attractor   var x        linear       var v        linear       "
-               "agree         escapes  rate\n");
-  for (size_t i = 0; i < w->temperatures * w->attractors; i++) {
-    const cloud *c = &w->clouds[i];
-    if (!has_cloud(attractor_of(w, i))) continue;
-    fprintf(out, "%-12g %zu %-9s %-12.5g %-12.5g %-12.5g %-12.5g %-13s %-8zu %.3g\n",
-            temperature_of(w, i), i % w->attractors, pendres_label_name(attractor_of(w, i)->label),
-            statistic(c, PENDRES_LANGEVIN_COV_XX).result, linear(c, PENDRES_LANGEVIN_COV_XX).result,
-            statistic(c, PENDRES_LANGEVIN_COV_VV).result, linear(c, PENDRES_LANGEVIN_COV_VV).result,
-            verdicts[verdict(c)].words, c->measured.left, escape_rate(w, i).value);
-  }
-}
-
-static pendres_status compute(scene_run *run, work *w)
+static pendres_status compute(scene_run *run, cloud_work *w)
 {
   const size_t n = w->temperatures * w->attractors;
   w->clouds = calloc(n, sizeof *w->clouds);
@@ -524,7 +217,7 @@ static pendres_status compute(scene_run *run, work *w)
 pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractors *set)
 {
   const deck *d = run->deck;
-  work w = { .d = d, .farm = run->farm, .set = set,
+  cloud_work w = { .d = d, .farm = run->farm, .set = set,
              .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count,
              .attractors = pendres_attractors_count(set), .strobes = (size_t)d->basins.strobes,
              .trajectories = (size_t)d->basins.trajectories };
@@ -536,8 +229,8 @@ pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractor
   w.chunks = scene_noise_chunks(w.trajectories);
   w.record = (long)((w.strobes + w.trajectories - 1) / w.trajectories);
   status = compute(run, &w);
-  if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
+  if (status == PENDRES_OK) status = scene_basins_clouds_write(run, &w);
+  if (status == PENDRES_OK && run->table != NULL) scene_basins_clouds_print(run->table, &w);
   scene_failures_free(&w.failed);
   scene_failures_free(&w.tasks);
   free(w.clouds);

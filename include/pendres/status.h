@@ -10,7 +10,8 @@
  * with gsl_set_error_handler_off() some of its functions, and some of SUNDIALS', still follow a
  * null pointer. HDF5 (1.10) calls exit(-1) where it gets no memory for one of its handles, and
  * follows null pointers in other places, when attaching a dimension scale or when closing itself at
- * exit after such a failure, and overflows the stack when it starts without memory; see pendres_store_drop_part().
+ * exit after such a failure, and overflows the stack when it starts without memory; see
+ * pendres_store_drop_part().
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H
