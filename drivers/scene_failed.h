@@ -55,8 +55,8 @@ typedef struct scene_failures {
 pendres_status scene_failures_create(size_t n, scene_failures *out);
 void scene_failures_free(scene_failures *f);
 
-/* Mark a point; the last mark counts. words are copied; NULL: those of the list. Several threads may
-   mark different points at a time. */
+/* Mark a point; the last mark counts. words are copied; NULL: those of the list. Several threads
+   may mark different points at a time. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
 
 /* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as

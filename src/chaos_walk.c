@@ -84,7 +84,8 @@ static void watch(void *arg, int step, double theta, size_t stride, const double
     pendres_walker *a = &b->a[i];
     const double y = state[i], w = state[stride + i];
     a->sum[PENDRES_WALK_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
-    a->sum[PENDRES_WALK_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing * w * w;
+    a->sum[PENDRES_WALK_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
+                                  w * w;
     reach(a, y);
     if (a->last_w * w < 0.0) reach(a, turning_angle(spacing, a->last_y, a->last_w, y, w));
     if (step == b->steps / 2 || step == b->steps) end_half(a, y);

@@ -352,7 +352,7 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
       double worst = 0.0;
       for (int k = 0; k < w->unknowns; k++) {
         const int place = w->unknown[k];
-        /* Where two values of a parameter agree by chance, it is not known better than its point. */
+        /* Where two values of a parameter agree by chance it is not known better than its point. */
         const double e = pendres_continuation_orbit_error(
           p->coarse[place], p->fine[place],
           pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));

@@ -13,8 +13,8 @@ static const double root_two = 1.41421356237309504880;
 
 /*
  * With 1.4 times the steps an order-8 method's error falls to a fifteenth. A quarter of a value's
- * own difference is claimed, for where the order has not set in yet, and as much as an eighth of the
- * difference of the whole orbits could make.
+ * own difference is claimed, for where the order has not set in yet, and as much as an eighth of
+ * the difference of the whole orbits could make.
  */
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
                            const pendres_orbit_doubt *doubt)

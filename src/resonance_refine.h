@@ -24,6 +24,17 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulu
                                      const double *omega, signed char *where,
                                      pendres_scan_point *out);
 
+/* A point's states, with the same members, at a nearby frequency. */
+pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
+                                   double omega, pendres_scan_point *to);
+
+/* A resonance's frequency, area and response are those of a point. */
+void pendres_resonance_take(pendres_resonance *r, const pendres_scan_point *at);
+
+/* Add to its errors what changes along the branch within the error of the frequency; near: a point
+   beside it. */
+void pendres_resonance_add_error(pendres_resonance *r, const pendres_scan_point *near);
+
 /*
  * The zero of the slope between a (rising) and b (falling), with the ensemble on the same states
  * there. PENDRES_NOT_FOUND: there is none, so there is a jump.

@@ -53,7 +53,8 @@ pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe
  */
 void pendres_strobe_wrap(double *y, long *turns);
 
-/* A position's angle y, -pi <= y <= pi, and its whole turns: x = pi/2 + y + 2 pi turns. And back. */
+/* A position's angle y, -pi <= y <= pi, and its whole turns: x = pi/2 + y + 2 pi turns; and
+   back. */
 void pendres_strobe_angle(double x, double *y, long *turns);
 double pendres_strobe_position(double y, long turns);
 

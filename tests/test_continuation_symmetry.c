@@ -169,8 +169,8 @@ static void branches_stay_on_themselves(void **state)
 
 /*
  * A point of a branch has the errors of the orbit at its own frequency: next to a fold that moves
- * with the root of what the frequency is off by, 8 times what the distance across the branch claims.
- * Estimates, so twice the claim is allowed.
+ * with the root of what the frequency is off by, 8 times what the distance across the branch
+ * claims. Estimates, so twice the claim is allowed.
  */
 static void orbits_next_to_a_fold_know_their_errors(void **state)
 {

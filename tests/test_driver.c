@@ -168,7 +168,8 @@ static void test_deck_is_kept(void **state)
   assert_int_equal(link("real.nml", "hard.nml"), 0);
   assert_int_equal(symlink("run.h5", "to_run.h5"), 0);
   for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
-    const char *all[4] = { runs[i].arguments[0], runs[i].arguments[0] ? runs[i].arguments[1] : NULL };
+    const char *all[4] = { runs[i].arguments[0],
+                             runs[i].arguments[0] ? runs[i].arguments[1] : NULL };
     size_t n = all[0] != NULL ? 2 : 0;
     all[n] = runs[i].deck;
     all[n + 1] = NULL;

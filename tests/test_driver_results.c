@@ -216,7 +216,8 @@ static void test_cost_of_noise(void **state)
   (void)state;
   write_text("noise.nml", "&scene kind = 'switching' /\n"
                           "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
-                          "&sweep temperature = 0.02 /\n&noise trajectories = 200, periods = 500 /\n");
+                          "&sweep temperature = 0.02 /\n"
+                          "&noise trajectories = 200, periods = 500 /\n");
   check_code(RUN("-q", "-t", "2", "-o", "noise.h5", "noise.nml"), DONE);
   assert_int_equal(pendres_store_open("noise.h5", &store), PENDRES_OK);
   assert_int_equal(pendres_store_read(store, "provenance", "pendulum_periods",

@@ -93,7 +93,8 @@ static void rows(void **state)
   hard_sheet_clear(&sheet);
 }
 
-/* What rows are judged by does not hold where there is nothing to hold: each is broken on purpose. */
+/* What rows are judged by does not hold where nothing is there to hold: each is broken
+   on purpose. */
 static void judges(void **state)
 {
   static const double useless[] = { NAN, INFINITY, -1e-9, 1.1e-6 };

@@ -134,7 +134,8 @@ static void diagram_holds_the_regimes(void **state)
   /* At damping 0.08 and frequency 0.536 LA has lost its symmetry (at 0.537944): a pair of mirror
      images, one state by its name. */
   static const int want[12] = {
-    PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_LA,
+    PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE,
+    PENDRES_REGIME_LA,
     PENDRES_REGIME_SA,     PENDRES_REGIME_SA,          PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_LA,
     PENDRES_REGIME_SINGLE, PENDRES_REGIME_SINGLE,      PENDRES_REGIME_SINGLE, PENDRES_REGIME_SINGLE};
   for (int i = 0; i < 12; i++) {

@@ -110,7 +110,8 @@ static void lines_keep_the_others(void **state)
     assert_int_equal(codes[0], SCENE_FAILURE_NONE);
     scene_run_deck(good, 1, "good");
     pendres_store *one = scene_open(kinds[i]), *two = scene_open("good");
-    double *a = scene_values(one, "mean_loop_area", &n), *b = scene_values(two, "mean_loop_area", &n);
+    double *a = scene_values(one, "mean_loop_area", &n);
+    double *b = scene_values(two, "mean_loop_area", &n);
     assert_int_equal(n, 2);
     assert_true(isnan(a[0]) && isnan(a[3]) && isnan(a[5]));
     assert_memory_equal(a + 1, b, 2 * sizeof *a);

@@ -165,9 +165,9 @@ static int ascending(const void *a, const void *b)
 
 /*
  * Estimates on parameters that no deck names, against extended precision: none below the true error
- * (where the difference of two runs was claimed as it stood, half of them were), and not so large as
- * to say nothing. Where steps are what is wrong the estimate is twice the error, as the better run
- * is taken to be off by up to half as much; towards 1e-13 rounding is claimed with two standard
+ * (where the difference of two runs was claimed as it stood, half of them were), and not so large
+ * as to say nothing. Where steps are what is wrong the estimate is twice the error, as the better
+ * run is taken to be off by up to half as much; towards 1e-13 rounding is claimed with two standard
  * errors, and errors at random mostly cancel.
  */
 static void test_errors_are_honest(void **state)

@@ -58,9 +58,9 @@ const char *pendres_label_name(pendres_label label);
 typedef struct pendres_attractor {
   pendres_label label;
   pendres_orbit orbit;      /**< for a chaotic attractor pendulum and means over time a drive cycle:
-                                 loop_area, dissipation, mean_power, and amplitude (half peak to peak
-                                 within a cycle, cycles from drive phases 0 and pi on), with errors
-                                 that hold with a confidence of 99.9 %; the rest is NaN */
+                                 loop_area, dissipation, mean_power, and amplitude (half peak to
+                                 peak within a cycle, cycles from drive phases 0 and pi on), with
+                                 errors that hold with a confidence of 99.9 %; the rest is NaN */
   double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */

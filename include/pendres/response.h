@@ -53,7 +53,8 @@ typedef struct pendres_response {
                                               (pendres_outcome.certain); means count them where they
                                               were found, errors allow for any other state */
   size_t unlisted;                       /**< members on attractors beyond those that are listed; in
-                                              the means of pendres_response_compute like all others */
+                                              the means of pendres_response_compute like all
+                                              others */
 } pendres_response;
 
 /**

@@ -110,8 +110,8 @@ typedef struct pendres_store_entry {
 /**
  * The file that a path means as an output. Links are followed, to a file that need not exist yet:
  * the results replace what the link points to, and the link stays. Refused with PENDRES_IO and a
- * sentence in why[size] (may be NULL): a device or a stream, /dev/stdout and the like included, even
- * where it leads to a plain file; a folder; a file that is read-only for this process, or for
+ * sentence in why[size] (may be NULL): a device or a stream, /dev/stdout and the like included,
+ * even where it leads to a plain file; a folder; a file that is read-only for this process, or for
  * everybody even if this process is root's. *target is to be freed by free(); NULL on failure.
  * Opens and makes nothing. Thread safe.
  */
@@ -119,8 +119,8 @@ pendres_status pendres_store_target(const char *path, char **target, char *why, 
 
 /**
  * Start to write a file: TARGET.part beside the TARGET that path means (pendres_store_target);
- * the contents of such a file, if it is no other process's, are lost (a caller that resumes moves it
- * away first). An existing TARGET is not touched.
+ * the contents of such a file, if it is no other process's, are lost (a caller that resumes moves
+ * it away first). An existing TARGET is not touched.
  *
  * options may be NULL. *out receives the store, also when the function fails (unless out of
  * memory: then NULL), so that pendres_store_message() can tell why; pass it to

@@ -68,8 +68,8 @@ static void note(accuracy *a, const item *t, long number)
 {
   const pendres_resonance *f = &t->found;
   char how[HOW];
-  snprintf(how, sizeof how, "item %ld: F0 %.17g, damping %.17g, range %.17g to %.17g, tolerance %.17g",
-           number, t->pendulum.drive_amplitude, t->pendulum.damping, t->lowest, t->highest,
+  snprintf(how, sizeof how, "item %ld: F0 %.17g, damping %.17g, range %.17g to %.17g, tolerance "
+           "%.17g", number, t->pendulum.drive_amplitude, t->pendulum.damping, t->lowest, t->highest,
            t->tolerance);
   if (t->peak) {
     accuracy_note(a, "frequency of a peak", f->frequency, f->frequency_error,
