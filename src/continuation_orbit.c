@@ -37,7 +37,8 @@ static int winding_of(const pendres_continuation_map *map)
 
 /* Read one candidate off the tape. */
 static pendres_status read_candidate(const pendres_newton_candidate *c,
-                                     const pendres_newton_tape *tape, double *work, reading *out)
+                                     const pendres_newton_tape *tape, pendres_orbit_tables *tables,
+                                     double *work, reading *out)
 {
   const size_t n = tape->samples;
   double *y = work, *w = work + n;
@@ -49,7 +50,8 @@ static pendres_status read_candidate(const pendres_newton_candidate *c,
     w[k] = row[1];
   }
   const pendres_orbit_samples samples = {
-    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w};
+    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
+    .tables = tables};
   return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
 }
 
@@ -67,6 +69,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
                                const pendres_continuation_pair *pairs, int fine, reading *out)
 {
   pendres_newton_tape tape = {.bends = !fine};
+  pendres_orbit_tables tables = {0};
   double *work = NULL;
   size_t work_size = 0;
   pendres_status status = PENDRES_OK;
@@ -98,7 +101,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
       work = grown;
     }
     for (size_t i = first; i < last && status == PENDRES_OK; i++)
-      status = read_candidate(&c[i], &tape, work, &out[c[i].index]);
+      status = read_candidate(&c[i], &tape, &tables, work, &out[c[i].index]);
     if (status != PENDRES_OK) {
       status = pendres_context_fail(ctx, status, "the samples of an orbit could not be measured");
       goto done;
@@ -109,6 +112,7 @@ no_memory:
   status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
 done:
   pendres_newton_tape_free(&tape);
+  pendres_orbit_tables_free(&tables);
   free(work);
   free(c);
   free(guess);

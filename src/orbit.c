@@ -30,7 +30,8 @@ typedef struct result {
 
 /* The samples of one candidate in the tape, moved to the corrected point by the linearised flow. */
 static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
-                               pendres_orbit_want want, double *work, result *out)
+                               pendres_orbit_want want, pendres_orbit_tables *tables, double *work,
+                               result *out)
 {
   const size_t n = tape->samples;
   double shift[2] = {0.0, 0.0}, by_omega[2] = {NAN, NAN};
@@ -59,7 +60,8 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
   out->dy = by_omega[0];
   out->dw = by_omega[1];
   const pendres_orbit_samples samples = {
-    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w};
+    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
+    .tables = tables};
   return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
 }
 
@@ -135,6 +137,7 @@ static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton
                                   pendres_orbit_want want, int bends, result *results)
 {
   pendres_newton_tape tape = {.bends = bends};
+  pendres_orbit_tables tables = {0};
   double *work = NULL;
   size_t work_size = 0;
   pendres_status status = PENDRES_OK;
@@ -154,7 +157,8 @@ static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton
     }
     for (size_t i = first; i < last; i++) {
       if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
-      const pendres_status one = evaluate(&c[i], &tape, want, work, &results[c[i].index]);
+      const pendres_status one = evaluate(&c[i], &tape, want, &tables, work,
+                                          &results[c[i].index]);
       if (one == PENDRES_NOT_CONVERGED)
         c[i].state = PENDRES_NEWTON_FAILED;
       else if (one != PENDRES_OK)
@@ -162,6 +166,7 @@ static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton
     }
   }
   pendres_newton_tape_free(&tape);
+  pendres_orbit_tables_free(&tables);
   free(work);
   return status;
 }

@@ -22,7 +22,7 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
     slope[k] = q * s->w[k] - s->winding;
     curvature[k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
   }
-  return pendres_orbit_series_build(n, y, slope, curvature, work + 3 * n, out);
+  return pendres_orbit_series_build(s->tables, n, y, slope, curvature, work + 3 * n, out);
 }
 
 /*
@@ -75,7 +75,8 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
 
   memset(out, 0, sizeof *out);
   pendres_status status = pendres_orbit_samples_series(p, s, work, &series);
-  if (status == PENDRES_OK) status = pendres_orbit_series_extremes(&series, &highest, &lowest);
+  if (status == PENDRES_OK)
+    status = pendres_orbit_series_extremes(s->tables, &series, &highest, &lowest);
   if (status != PENDRES_OK) return status;
   for (size_t m = 1; m < series.modes; m++) {
     const double by_phase = (double)m / q;
@@ -118,8 +119,10 @@ double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONI
     s.re[m] = 0.5 * cosine[m - 1];
     s.im[m] = -0.5 * sine[m - 1];
   }
-  if (pendres_orbit_series_extremes(&s, &highest, &lowest) != PENDRES_OK) return NAN;
-  return 0.5 * (highest - lowest);
+  pendres_orbit_tables tables = {0};
+  const pendres_status status = pendres_orbit_series_extremes(&tables, &s, &highest, &lowest);
+  pendres_orbit_tables_free(&tables);
+  return status == PENDRES_OK ? 0.5 * (highest - lowest) : NAN;
 }
 
 double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude)

@@ -20,6 +20,7 @@ typedef struct pendres_orbit_samples {
   size_t n;
   int period, winding;
   const double *y, *w;
+  pendres_orbit_tables *tables; /* the caller's */
 } pendres_orbit_samples;
 
 typedef struct pendres_orbit_measures {

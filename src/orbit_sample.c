@@ -29,6 +29,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   pendres_newton_candidate c = {.guess = &guess, .y = o->x - half_pi,
                                 .w = o->v / o->pendulum.drive_frequency, .steps = steps};
   pendres_newton_tape tape = {0};
+  pendres_orbit_tables tables = {0};
   size_t last = 0;
   double shift[2], z[2], stretch = 1.0;
   const double unit[2] = {1.0, 1.0};
@@ -48,7 +49,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
     goto done;
   }
   const pendres_orbit_samples samples = {.n = n, .period = o->period, .winding = o->winding,
-                                         .y = memory, .w = memory + n};
+                                         .y = memory, .w = memory + n, .tables = &tables};
   status = pendres_orbit_samples_series(&o->pendulum, &samples, memory + 2 * n, &out->series);
   if (status != PENDRES_OK)
     status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
@@ -56,6 +57,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   out->rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table) *
                   fmax(o->amplitude, fabs(c.w)) * sqrt((double)n) * fmax(1.0, stretch);
 done:
+  pendres_orbit_tables_free(&tables);
   pendres_newton_tape_free(&tape);
   return status;
 }

@@ -5,25 +5,53 @@
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_fft_halfcomplex.h>
-#include <gsl/gsl_fft_real.h>
 
 static const double two_pi = 6.28318530717958647693;
 
-/* Three arrays into their coefficients, in GSL's half-complex order. */
-static pendres_status transform(size_t n, double *values[3])
+void pendres_orbit_tables_free(pendres_orbit_tables *t)
 {
-  gsl_fft_real_wavetable *table = gsl_fft_real_wavetable_alloc(n);
-  gsl_fft_real_workspace *work = gsl_fft_real_workspace_alloc(n);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (table != NULL && work != NULL) {
-    status = PENDRES_OK;
-    for (int i = 0; i < 3; i++)
-      if (gsl_fft_real_transform(values[i], 1, n, table, work) != GSL_SUCCESS)
-        status = PENDRES_INTERNAL;
-  }
-  if (table != NULL) gsl_fft_real_wavetable_free(table);
-  if (work != NULL) gsl_fft_real_workspace_free(work);
+  if (t->forward != NULL) gsl_fft_real_wavetable_free(t->forward);
+  if (t->backward != NULL) gsl_fft_halfcomplex_wavetable_free(t->backward);
+  if (t->work != NULL) gsl_fft_real_workspace_free(t->work);
+  if (t->dense_work != NULL) gsl_fft_real_workspace_free(t->dense_work);
+  *t = (pendres_orbit_tables){0};
+}
+
+/* Tables to transform n samples with: those that are there, if they are for as many. */
+static pendres_status provide_forward(pendres_orbit_tables *t, size_t n)
+{
+  if (t->forward != NULL && t->forward->n == n) return PENDRES_OK;
+  if (t->forward != NULL) gsl_fft_real_wavetable_free(t->forward);
+  if (t->work != NULL) gsl_fft_real_workspace_free(t->work);
+  t->work = NULL;
+  t->forward = gsl_fft_real_wavetable_alloc(n);
+  if (t->forward != NULL) t->work = gsl_fft_real_workspace_alloc(n);
+  if (t->work != NULL) return PENDRES_OK;
+  pendres_orbit_tables_free(t);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+/* The same for the way back, to a number of points. */
+static pendres_status provide_backward(pendres_orbit_tables *t, size_t points)
+{
+  if (t->backward != NULL && t->backward->n == points) return PENDRES_OK;
+  if (t->backward != NULL) gsl_fft_halfcomplex_wavetable_free(t->backward);
+  if (t->dense_work != NULL) gsl_fft_real_workspace_free(t->dense_work);
+  t->dense_work = NULL;
+  t->backward = gsl_fft_halfcomplex_wavetable_alloc(points);
+  if (t->backward != NULL) t->dense_work = gsl_fft_real_workspace_alloc(points);
+  if (t->dense_work != NULL) return PENDRES_OK;
+  pendres_orbit_tables_free(t);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+/* Three arrays into their coefficients, in GSL's half-complex order. */
+static pendres_status transform(pendres_orbit_tables *t, size_t n, double *values[3])
+{
+  pendres_status status = provide_forward(t, n);
+  for (int i = 0; i < 3 && status == PENDRES_OK; i++)
+    if (gsl_fft_real_transform(values[i], 1, n, t->forward, t->work) != GSL_SUCCESS)
+      status = PENDRES_INTERNAL;
   return status;
 }
 
@@ -75,11 +103,12 @@ static void unfold_middle(size_t n, const double *y, const double *slope, pendre
   out->im[k] = -0.5 * coefficient(slope, n, k).re / (double)k;
 }
 
-pendres_status pendres_orbit_series_build(size_t n, double *y, double *slope, double *curvature,
-                                          double *memory, pendres_orbit_series *out)
+pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n, double *y,
+                                          double *slope, double *curvature, double *memory,
+                                          pendres_orbit_series *out)
 {
   double *values[3] = {y, slope, curvature};
-  const pendres_status status = transform(n, values);
+  const pendres_status status = transform(tables, n, values);
   if (status != PENDRES_OK) return status;
   const size_t last = (n - 1) / 2;
   *out = (pendres_orbit_series){
@@ -107,25 +136,20 @@ void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double
 }
 
 /* The series at `points` equally spaced phases; points >= 2 modes - 1. */
-static pendres_status spread(const pendres_orbit_series *s, size_t points, double *out)
+static pendres_status spread(pendres_orbit_tables *t, const pendres_orbit_series *s, size_t points,
+                             double *out)
 {
-  gsl_fft_halfcomplex_wavetable *table = gsl_fft_halfcomplex_wavetable_alloc(points);
-  gsl_fft_real_workspace *work = gsl_fft_real_workspace_alloc(points);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (table != NULL && work != NULL) {
-    memset(out, 0, points * sizeof *out);
-    out[0] = s->re[0];
-    for (size_t m = 1; m < s->modes; m++) {
-      out[2 * m - 1] = s->re[m];
-      if (2 * m < points) out[2 * m] = s->im[m];
-    }
-    status = gsl_fft_halfcomplex_backward(out, 1, points, table, work) == GSL_SUCCESS
-               ? PENDRES_OK
-               : PENDRES_INTERNAL;
+  const pendres_status status = provide_backward(t, points);
+  if (status != PENDRES_OK) return status;
+  memset(out, 0, points * sizeof *out);
+  out[0] = s->re[0];
+  for (size_t m = 1; m < s->modes; m++) {
+    out[2 * m - 1] = s->re[m];
+    if (2 * m < points) out[2 * m] = s->im[m];
   }
-  if (table != NULL) gsl_fft_halfcomplex_wavetable_free(table);
-  if (work != NULL) gsl_fft_real_workspace_free(work);
-  return status;
+  return gsl_fft_halfcomplex_backward(out, 1, points, t->backward, t->dense_work) == GSL_SUCCESS
+           ? PENDRES_OK
+           : PENDRES_INTERNAL;
 }
 
 /* The extreme next to point number k of n, by Newton on the slope. */
@@ -158,22 +182,25 @@ static double largest(const pendres_orbit_series *s, size_t n, const double *y, 
     if (sign * y[k] > sign * y[top]) top = k;
   double best = sign * extreme_near(s, n, top);
   /* Between points another top may rise above that one: by no more than it falls beside them. */
+  double before = sign * y[n - 1], here = sign * y[0];
   for (size_t k = 0; k < n; k++) {
-    const double here = sign * y[k];
-    const double before = sign * y[(k + n - 1) % n], after = sign * y[(k + 1) % n];
-    if (k == top || before > here || after > here) continue;
-    if (here + fmax(here - before, here - after) > best)
+    const double after = sign * (k + 1 < n ? y[k + 1] : y[0]);
+    if (k != top && before <= here && after <= here &&
+        here + fmax(here - before, here - after) > best)
       best = fmax(best, sign * extreme_near(s, n, k));
+    before = here;
+    here = after;
   }
   return best;
 }
 
-pendres_status pendres_orbit_series_extremes(const pendres_orbit_series *s, double *highest,
+pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
+                                             const pendres_orbit_series *s, double *highest,
                                              double *lowest)
 {
   const size_t points = 3 * s->samples;
   double *dense = s->im + s->modes;
-  const pendres_status status = spread(s, points, dense);
+  const pendres_status status = spread(tables, s, points, dense);
   if (status != PENDRES_OK) return status;
   *highest = largest(s, points, dense, 1.0);
   *lowest = -largest(s, points, dense, -1.0);

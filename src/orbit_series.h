@@ -10,7 +10,22 @@
 
 #include <stddef.h>
 
+#include <gsl/gsl_fft_halfcomplex.h>
+#include <gsl/gsl_fft_real.h>
+
 #include <pendres/status.h>
+
+/*
+ * Sines and cosines for the transforms, which cost about as much as a transform itself: kept from
+ * one orbit to the next with as many samples. Starts as {0} and is freed by its owner.
+ */
+typedef struct pendres_orbit_tables {
+  gsl_fft_real_wavetable *forward;
+  gsl_fft_halfcomplex_wavetable *backward;
+  gsl_fft_real_workspace *work, *dense_work;
+} pendres_orbit_tables;
+
+void pendres_orbit_tables_free(pendres_orbit_tables *t);
 
 /* y(phase) = re[0] + sum over m >= 1 of 2 (re[m] cos m phase - im[m] sin m phase), m < modes. */
 typedef struct pendres_orbit_series {
@@ -28,14 +43,16 @@ static inline size_t pendres_orbit_series_memory(size_t n)
  * From n >= 1 equally spaced values, slopes and second derivatives by phase, 0 to 2 pi; all three
  * are overwritten. memory: pendres_orbit_series_memory(n).
  */
-pendres_status pendres_orbit_series_build(size_t n, double *y, double *slope, double *curvature,
-                                          double *memory, pendres_orbit_series *out);
+pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n, double *y,
+                                          double *slope, double *curvature, double *memory,
+                                          pendres_orbit_series *out);
 
 /* Value and first two derivatives at a phase. */
 void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double out[3]);
 
 /* Largest and smallest value. */
-pendres_status pendres_orbit_series_extremes(const pendres_orbit_series *s, double *highest,
+pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
+                                             const pendres_orbit_series *s, double *highest,
                                              double *lowest);
 
 /* What the harmonics that are too high to be told may add to a value: as much as the last ones. */

@@ -52,7 +52,9 @@ pendres_status pendres_response_refine_loop(pendres_context *ctx, size_t n,
       status = pendres_orbit_add_harmonics(ctx, &attractor[i].orbit, (double)members[i] / share,
                                            &all);
   if (status == PENDRES_OK) {
-    status = pendres_orbit_series_extremes(&all, &highest, &lowest);
+    pendres_orbit_tables tables = {0};
+    status = pendres_orbit_series_extremes(&tables, &all, &highest, &lowest);
+    pendres_orbit_tables_free(&tables);
     if (status != PENDRES_OK)
       (void)pendres_context_fail(ctx, status, "an averaged loop could not be transformed");
   }
