@@ -24,6 +24,8 @@ typedef struct drive_memo {
   size_t size, next;
 } drive_memo;
 
+enum { COEFFICIENTS = 4, CARRIED = 6 /* rows */ };
+
 struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
@@ -33,7 +35,7 @@ struct pendres_flow {
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
   double *coefficient[4]; /* stiffness, drive, friction, inverse */
-  double *off[4];         /* errors: yy, yw, ww, added; NULL until they are first carried */
+  double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
   drive_memo memo;
   void *arkode;
   double evaluations, steps_taken;
@@ -208,10 +210,8 @@ void pendres_flow_free(pendres_flow *flow)
   if (flow->state != NULL) N_VDestroy(flow->state);
   pendres_lanes_close(&flow->shape);
   free(flow->rows);
-  for (int i = 0; i < 4; i++) {
-    free(flow->coefficient[i]);
-    free(flow->off[i]);
-  }
+  for (int i = 0; i < COEFFICIENTS; i++) free(flow->coefficient[i]);
+  for (int i = 0; i < CARRIED; i++) free(flow->off[i]);
   free(flow->memo.theta);
   free(flow->memo.cosine);
   free(flow);
@@ -255,10 +255,9 @@ void pendres_flow_resize(pendres_flow *flow, size_t lanes)
   /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
   for (size_t i = lanes; i < stride; i++) {
     for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
-    for (int c = 0; c < 4; c++) {
-      flow->coefficient[c][i] = 0.0;
+    for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][i] = 0.0;
+    for (int c = 0; c < CARRIED; c++)
       if (flow->off[c] != NULL) flow->off[c][i] = 0.0;
-    }
   }
 }
 
@@ -297,10 +296,9 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
   double *data = flow->rows;
   for (size_t r = 0; r < flow->shape.rows; r++)
     data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
-  for (int c = 0; c < 4; c++) {
-    flow->coefficient[c][to] = flow->coefficient[c][from];
+  for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
+  for (int c = 0; c < CARRIED; c++)
     if (flow->off[c] != NULL) flow->off[c][to] = flow->off[c][from];
-  }
 }
 
 pendres_status pendres_flow_carry(pendres_flow *flow, int on)
@@ -309,11 +307,12 @@ pendres_status pendres_flow_carry(pendres_flow *flow, int on)
   if (!on) return PENDRES_OK;
   if (flow->shape.rows != PENDRES_ROWS_STATE || flow->tolerance != 0.0)
     return PENDRES_INVALID_ARGUMENT;
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < CARRIED; i++) {
     if (flow->off[i] == NULL) flow->off[i] = pendres_lanes_allocate(flow->shape.capacity);
     if (flow->off[i] == NULL) return PENDRES_OUT_OF_MEMORY;
   }
-  flow->shape.off = (pendres_carried){flow->off[0], flow->off[1], flow->off[2], flow->off[3]};
+  flow->shape.off = (pendres_carried){flow->off[0], flow->off[1], flow->off[2],
+                                      flow->off[3], flow->off[4], flow->off[5]};
   return PENDRES_OK;
 }
 
@@ -324,6 +323,10 @@ void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_
   flow->off[1][lane] = error->yw;
   flow->off[2][lane] = error->ww;
   flow->off[3][lane] = added;
+  /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
+  const double step = two_pi / flow->steps, drag = 0.5 * step * flow->coefficient[2][lane];
+  flow->off[4][lane] = (1.0 - drag) / (1.0 + drag);
+  flow->off[5][lane] = step * flow->coefficient[0][lane] / (1.0 + drag);
 }
 
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)

@@ -62,7 +62,8 @@ typedef struct pendres_flow_error {
 /*
  * From now on carry the errors of the lanes along, or no longer; blocks of states with fixed steps
  * only. Each step adds the lane's `added` to the variance of y, and to that of v = omega w; what is
- * there grows and shrinks as the equation linearised along the trajectory has it.
+ * there grows and shrinks as the equation linearised along the trajectory has it. A lane's error is
+ * set after its pendulum and the steps of the period.
  */
 pendres_status pendres_flow_carry(pendres_flow *flow, int on);
 void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,

@@ -165,25 +165,22 @@ static void rhs_sensitivity(size_t stride, const pendres_coefficients *k, double
 
 /*
  * Errors over the step from half a step before a state to half a step after it: half a step's
- * drift, what spring and drag at the state make of it (the drag's by the mean of both ends, so that
- * it contracts however large it is), and the other half.
+ * drift, what spring and drag at the state make of it, and the other half.
  */
 static void carry(const pendres_strip *s, const pendres_operation *o)
 {
   const double *restrict y = o->from + s->at, *restrict added = s->off.added;
-  const double *restrict stiffness = s->k.stiffness, *restrict friction = s->k.friction;
+  const double *restrict keep = s->off.keep, *restrict kick = s->off.kick;
+  const double *restrict stiffness = s->k.stiffness;
   double *restrict yy = s->off.yy, *restrict yw = s->off.yw, *restrict ww = s->off.ww;
-  const double step = o->carry, half = 0.5 * step;
+  const double half = 0.5 * o->carry;
 #pragma omp simd
   for (size_t i = 0; i < s->lanes; i++) {
-    double sine, cosine;
-    pendres_kernels_sincos(y[i], &sine, &cosine);
-    const double drag = half * friction[i], scale = 1.0 / (1.0 + drag);
-    const double keep = (1.0 - drag) * scale, kick = step * stiffness[i] * cosine * scale;
+    const double pull = kick[i] * pendres_kernels_cos_roughly(y[i]), left = keep[i];
     double b = FMA(half, ww[i], yw[i]);
     double a = FMA(half, yw[i] + b, yy[i]);
-    const double mixed = FMA(keep, b, -(kick * a));
-    const double c = FMA(keep, FMA(keep, ww[i], -(kick * b)), -(kick * mixed));
+    const double mixed = FMA(left, b, -(pull * a));
+    const double c = FMA(left, FMA(left, ww[i], -(pull * b)), -(pull * mixed));
     b = FMA(half, c, mixed);
     a = FMA(half, mixed + b, a);
     yy[i] = a + added[i];

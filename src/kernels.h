@@ -70,12 +70,15 @@ typedef struct pendres_operation {
 
 /*
  * What each lane is off by, as variances: of y, of y and w, of w; and the variance that a step adds
- * to y, to w by 1/omega^2 as much. Carried along with steps of second order, which cost a
- * twentieth of the state's own: a growth within a few per cent is all that is asked of them.
+ * to y, to w by 1/omega^2 as much. Carried along with steps of second order, which cost little
+ * beside the state's own: a growth within a few per cent is all that is asked of them. What a step
+ * makes of w's error is the same all the way, and not computed again and again: a share that the
+ * drag keeps, and what the spring, times cos y, adds of y's.
  */
 typedef struct pendres_carried {
   double *yy, *yw, *ww;
   const double *added;
+  const double *keep, *kick;
 } pendres_carried;
 
 /* A few lanes side by side: where in each vector they are, and their coefficients. */

@@ -57,8 +57,8 @@ void pendres_lanes_tape_run(pendres_lanes_shape *s)
       .at = s->rows * lane,
       .k = {k->stiffness + lane, k->drive + lane, k->friction + lane, k->inverse + lane}};
     if (off->yy != NULL)
-      strip.off =
-        (pendres_carried){off->yy + lane, off->yw + lane, off->ww + lane, off->added + lane};
+      strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,
+                                    off->added + lane, off->keep + lane, off->kick + lane};
     s->kernels->run(s->rows, &strip, t->operation, t->operations);
   }
   t->operations = 0;
