@@ -14,16 +14,19 @@ enum {
   BATCH = 32          /* frequencies evaluated side by side */
 };
 
-/* What one search may cost, and what is taken for a pendulum's period and for a step of Newton's
-   method: about seconds of one processor, but the same number on all. */
-static const double most_work = 6.0;
-static const double work_of_period = 2e-7, work_of_newton = 4e-4;
+/* What one search may cost, and what is taken for a slope of a pendulum's equation and for a step of
+   Newton's method: about seconds of one processor, but the same number on all. Periods would not
+   do: labels that are in doubt are settled again in ten times as many steps. */
+static const double most_work = 9.0;
+static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
+/* What a period takes at least, for a guess. */
+static const double work_of_period = 2e-7;
 
 pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulum *p,
                                      const pendres_ensemble *ensemble, pendres_search *out)
 {
   *out = (pendres_search){.ctx = ctx, .pendulum = *p, .ensemble = ensemble};
-  out->periods = ctx->cost.pendulum_periods - ctx->probed_periods;
+  out->slopes = pendres_context_slopes(ctx);
   out->newton = ctx->cost.newton_steps;
   out->points = malloc(PENDRES_SEARCH_POINTS * sizeof *out->points);
   if (out->points == NULL)
@@ -55,12 +58,11 @@ static int by_frequency(const void *a, const void *b)
 
 void pendres_search_account(pendres_search *s, double omega)
 {
-  const double periods = s->ctx->cost.pendulum_periods - s->ctx->probed_periods;
-  const double newton = s->ctx->cost.newton_steps;
-  /* Slow drives take more steps a period. */
-  s->work += fmax(1.0, 1.0 / omega) * (work_of_period * (periods - s->periods) +
-                                       work_of_newton * (newton - s->newton));
-  s->periods = periods;
+  const double slopes = pendres_context_slopes(s->ctx), newton = s->ctx->cost.newton_steps;
+  /* Slow drives take more steps a period, each of Newton's steps some periods. */
+  s->work += work_of_slope * (slopes - s->slopes) +
+             fmax(1.0, 1.0 / omega) * work_of_newton * (newton - s->newton);
+  s->slopes = slopes;
   s->newton = newton;
   if (s->work > most_work) s->exhausted = 1;
 }

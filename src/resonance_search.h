@@ -18,7 +18,7 @@ typedef struct pendres_search {
   size_t count;
   pendres_scan_point *points; /* ascending in omega */
   double work;                /* spent so far, about seconds of a processor */
-  double periods, newton;     /* the context's cost when work was last added up */
+  double slopes, newton;      /* the context's cost when work was last added up */
   int exhausted;              /* the budget of work is spent */
   int crowded;                /* no room for further frequencies */
 } pendres_search;
