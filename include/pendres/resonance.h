@@ -55,8 +55,8 @@ typedef struct pendres_resonance {
  * PENDRES_NOT_CONVERGED: not even a coarse scan could be computed within the budget of work.
  *
  * The budget, ten to thirty seconds of a processor, is counted in slopes of the equation of motion
- * and steps of Newton's method, so that results do not depend on the machine. With F0 = 0.2 it ends
- * the coarse scan where damping is 0.002 or less.
+ * and steps of Newton's method, so that results do not depend on the machine. With F0 = 0.2 a
+ * damping of 0.001 is refused within it.
  */
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out);
