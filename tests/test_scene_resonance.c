@@ -55,10 +55,41 @@ static void a_signal_at_the_turning_point(void **state)
   }
 }
 
+/* Two dampings whose area rises throughout the range and two with a peak: marked, whatever the
+   threads, and the terminal says which end. */
+static void points_without_a_peak(void **state)
+{
+  static const char text[] =
+    "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+    "&sweep damping = 0.37, 0.38, 1.2, 1.5, drive_frequency_range = 0.94, 0.98 /\n"
+    "&ensemble members = 8 /\n";
+  (void)state;
+  assert_int_equal(scene_run_marked(NULL, text, 1, "one"), 2);
+  assert_non_null(strstr(scene_told, "end of the range"));
+  assert_int_equal(scene_run_marked(NULL, text, 3, "three"), 2);
+  scene_check_same_bytes("one", "three");
+  pendres_store *store = scene_open("one");
+  size_t n;
+  double *failed = scene_values(store, "failed", &n), *peak = scene_values(store, "peak", &n);
+  double *area = scene_values(store, "mean_loop_area", &n);
+  assert_int_equal(n, 4);
+  for (size_t i = 0; i < n; i++) {
+    const int none = i >= 2;
+    assert_int_equal((int)failed[i], none ? SCENE_FAILURE_NOT_FOUND : SCENE_FAILURE_NONE);
+    assert_int_equal((int)peak[i], none ? 3 : PENDRES_PEAK_SMOOTH);
+    assert_true(none == (isnan(area[i]) != 0));
+  }
+  free(failed);
+  free(peak);
+  free(area);
+  pendres_store_free(store);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_signal_at_the_turning_point),
+    cmocka_unit_test(points_without_a_peak),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }
