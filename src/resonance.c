@@ -20,6 +20,9 @@ enum { SECTIONS = 4 /* a gap is cut into */ };
  */
 static const double narrow = 2e-5, narrowest = 1e-7;
 
+/* What one search may cost. */
+static const double most_work = 9.0;
+
 /* A search with its gaps. */
 typedef struct work {
   pendres_search s;
@@ -318,10 +321,10 @@ static pendres_status search(work *w, double lowest, double highest, pendres_res
   return status;
 }
 
-static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendres_pendulum *p,
-                                              double lowest, double highest,
-                                              const pendres_ensemble *ensemble,
-                                              pendres_resonance *out)
+pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
+                                             double lowest, double highest,
+                                             const pendres_ensemble *ensemble, double most_work,
+                                             pendres_resonance *out)
 {
   if (p == NULL || ensemble == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, ensemble and out");
@@ -342,7 +345,7 @@ static pendres_status resonance_find_ensemble(pendres_context *ctx, const pendre
   /* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
   if (p->drive_amplitude == 0.0 && p->damping > 0.0) return no_area(ctx, p);
   work w = {.gap = malloc(PENDRES_SEARCH_POINTS * sizeof *w.gap)};
-  pendres_status status = pendres_search_create(ctx, p, ensemble, &w.s);
+  pendres_status status = pendres_search_create(ctx, p, ensemble, most_work, &w.s);
   if (status == PENDRES_OK && w.gap == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
   if (status == PENDRES_OK) status = search(&w, lowest, highest, out);
@@ -357,7 +360,8 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, resonance_find_ensemble(ctx, p, lowest, highest, ensemble, out));
+  return PENDRES_CONTEXT_CALL(
+    ctx, pendres_resonance_find_within(ctx, p, lowest, highest, ensemble, most_work, out));
 }
 
 static pendres_status resonance_find(pendres_context *ctx, const pendres_pendulum *p, double lowest,

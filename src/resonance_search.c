@@ -14,18 +14,19 @@ enum {
   BATCH = 32          /* frequencies evaluated side by side */
 };
 
-/* What one search may cost, and what is taken for a slope of a pendulum's equation and for a step of
+/* What is taken for a slope of a pendulum's equation and for a step of
    Newton's method: about seconds of one processor, but the same number on all. Periods would not
    do: labels that are in doubt are settled again in ten times as many steps. */
-static const double most_work = 9.0;
 static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
 /* What a period takes at least, for a guess. */
 static const double work_of_period = 2e-7;
 
 pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, pendres_search *out)
+                                     const pendres_ensemble *ensemble, double most_work,
+                                     pendres_search *out)
 {
-  *out = (pendres_search){.ctx = ctx, .pendulum = *p, .ensemble = ensemble};
+  *out = (pendres_search){.ctx = ctx, .pendulum = *p, .ensemble = ensemble,
+                          .most_work = most_work};
   out->slopes = pendres_context_slopes(ctx);
   out->newton = ctx->cost.newton_steps;
   out->points = malloc(PENDRES_SEARCH_POINTS * sizeof *out->points);
@@ -64,7 +65,7 @@ void pendres_search_account(pendres_search *s, double omega)
              fmax(1.0, 1.0 / omega) * work_of_newton * (newton - s->newton);
   s->slopes = slopes;
   s->newton = newton;
-  if (s->work > most_work) s->exhausted = 1;
+  if (s->work > s->most_work) s->exhausted = 1;
 }
 
 int pendres_search_over(const pendres_search *s)
@@ -74,7 +75,7 @@ int pendres_search_over(const pendres_search *s)
 
 int pendres_search_ended(const pendres_search *s)
 {
-  return s->work > 1.5 * most_work;
+  return s->work > 1.5 * s->most_work;
 }
 
 static pendres_status add_batch(pendres_search *s, size_t n, const double *omega)
@@ -116,7 +117,7 @@ pendres_status pendres_search_add(pendres_search *s, size_t n, const double *ome
   size_t done = 0;
   double cost = n > 0 ? expected_work(s, omega[0]) : 0.0;
   while (done < n && status == PENDRES_OK && !pendres_search_over(s)) {
-    const double affordable = (most_work - s->work) / cost, before = s->work;
+    const double affordable = (s->most_work - s->work) / cost, before = s->work;
     size_t batch = n - done < BATCH ? n - done : BATCH;
     if (affordable < (double)batch) batch = affordable < 1.0 ? 1 : (size_t)affordable;
     if (s->count + batch > PENDRES_SEARCH_POINTS) {

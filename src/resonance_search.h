@@ -9,6 +9,13 @@
 
 #include "resonance_refine.h"
 
+/* pendres_resonance_find_ensemble with a budget of work of the caller's: about seconds of one
+   processor. */
+pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
+                                             double lowest, double highest,
+                                             const pendres_ensemble *ensemble, double most_work,
+                                             pendres_resonance *out);
+
 enum { PENDRES_SEARCH_POINTS = 1500 /* most frequencies of one search */ };
 
 typedef struct pendres_search {
@@ -17,6 +24,7 @@ typedef struct pendres_search {
   const pendres_ensemble *ensemble;
   size_t count;
   pendres_scan_point *points; /* ascending in omega */
+  double most_work;           /* the budget: no more is begun when it is spent */
   double work;                /* spent so far, about seconds of a processor */
   double slopes, newton;      /* the context's cost when work was last added up */
   int exhausted;              /* the budget of work is spent */
@@ -25,7 +33,8 @@ typedef struct pendres_search {
 
 /* Free it in any case. */
 pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, pendres_search *out);
+                                     const pendres_ensemble *ensemble, double most_work,
+                                     pendres_search *out);
 void pendres_search_free(pendres_search *s);
 
 double pendres_scan_frequency(const pendres_scan_point *p);

@@ -17,6 +17,14 @@
 
 enum { FREQUENCIES = 100 };
 
+/* Where members change their states at so many frequencies that no search comes to an end. */
+static const pendres_pendulum torn = {.damping = 0.0842595163296967,
+                                      .drive_amplitude = 0.5039977926854897};
+/* Few changes, and a resonance at one of them. */
+static const pendres_pendulum calm = {.damping = 0.03064417518711893,
+                                      .drive_amplitude = 0.06818148069736377};
+static const double calm_range[2] = {0.6988006040454059, 0.7737013165576684};
+
 static pendres_context *context(void)
 {
   pendres_context *ctx = NULL;
@@ -91,18 +99,87 @@ static void no_drive(void **state)
  */
 static void work_that_is_counted(void **state)
 {
-  const pendres_ensemble few = {.members = 12, .x_first = -1.57, .x_last = 4.71};
+  const pendres_ensemble twelve = {.members = 12, .x_first = -1.57, .x_last = 4.71};
   const pendres_pendulum p = {.damping = 2e-3, .drive_amplitude = 0.2};
   const double omega = 0.8;
   pendres_context *ctx = context();
   pendres_search s;
   (void)state;
-  check_ok(pendres_search_create(ctx, &p, &few, &s));
+  check_ok(pendres_search_create(ctx, &p, &twelve, 9.0, &s));
   check_ok(pendres_search_add(&s, 1, &omega));
   const double slopes = pendres_context_slopes(ctx);
   assert_true(slopes > 1e6 && s.work >= 2e-9 * slopes);
   pendres_search_free(&s);
   pendres_context_free(ctx);
+}
+
+static pendres_ensemble few(size_t members)
+{
+  pendres_ensemble e = pendres_ensemble_default();
+  e.members = members;
+  return e;
+}
+
+/*
+ * A search that its budget ends is not complete and says so; it has no digits, and claims a spread
+ * that holds what is found elsewhere in the range. That there is no peak is not said.
+ */
+static void a_budget_that_ends(void **state)
+{
+  const pendres_ensemble e = few(5);
+  pendres_context *ctx = context();
+  pendres_resonance r;
+  (void)state;
+  check_ok(pendres_resonance_find_within(ctx, &torn, 0.6, 0.8, &e, 0.7, &r));
+  assert_true(r.peak == PENDRES_PEAK_RAGGED && !r.complete);
+  assert_true(r.frequency_error > 1e-4 && r.response.mean_loop_area_error >= r.loop_area_error);
+  pendres_pendulum p = torn;
+  pendres_response there;
+  p.drive_frequency = 0.6967;
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &there));
+  assert_true(there.mean_loop_area - there.mean_loop_area_error <= r.loop_area + r.loop_area_error);
+  pendres_context_free(ctx);
+}
+
+/* Not even a coarse scan: no result, in words that are not those of a range without a peak. */
+static void no_budget_at_all(void **state)
+{
+  const pendres_ensemble e = few(2);
+  pendres_context *ctx = context();
+  pendres_resonance r;
+  (void)state;
+  assert_int_equal(pendres_resonance_find_within(ctx, &torn, 0.6, 0.8, &e, 1e-4, &r),
+                   PENDRES_NOT_CONVERGED);
+  assert_non_null(strstr(pendres_context_message(ctx), "budget"));
+  assert_null(strstr(pendres_context_message(ctx), "end of the range"));
+  assert_true(isnan(r.loop_area) && isnan(r.frequency) && !r.complete);
+  pendres_context_free(ctx);
+}
+
+/* Every bit of a search, one that its budget ends too, is the same in a context with a past. */
+static void whatever_came_before(void **state)
+{
+  const pendres_ensemble e = few(8);
+  (void)state;
+  for (int cut = 0; cut < 2; cut++) {
+    pendres_resonance r[2];
+    for (int i = 0; i < 2; i++) {
+      pendres_context *ctx = context();
+      const double work = cut ? 0.1 : 6.0;
+      if (i > 0)
+        assert_int_equal(pendres_resonance_find_within(ctx, &torn, 0.6, 0.8, &e, 1e-4, &r[1]),
+                         PENDRES_NOT_CONVERGED);
+      check_ok(pendres_resonance_find_within(ctx, &calm, calm_range[0], calm_range[1], &e, work,
+                                             &r[i]));
+      assert_int_equal(r[i].complete, !cut);
+      pendres_context_free(ctx);
+    }
+    assert_true(r[0].peak == r[1].peak && r[0].frequency == r[1].frequency);
+    assert_true(r[0].frequency_error == r[1].frequency_error);
+    assert_true(r[0].loop_area == r[1].loop_area && r[0].loop_area_error == r[1].loop_area_error);
+    assert_true(r[0].response.phase_lag == r[1].response.phase_lag);
+    assert_true(r[0].response.phase_lag_error == r[1].response.phase_lag_error);
+  }
 }
 
 int main(void)
@@ -111,6 +188,9 @@ int main(void)
     cmocka_unit_test(single_members),
     cmocka_unit_test(no_drive),
     cmocka_unit_test(work_that_is_counted),
+    cmocka_unit_test(a_budget_that_ends),
+    cmocka_unit_test(no_budget_at_all),
+    cmocka_unit_test(whatever_came_before),
   };
   return cmocka_run_group_tests_name("resonance_search", tests, NULL, NULL);
 }
