@@ -6,7 +6,7 @@
 
 #include "context_internal.h"
 #include "steps.h"
-#include "strobe_run.h"
+#include "trap_ring.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
@@ -17,11 +17,11 @@ enum {
   BASE_PASSES = 8,
   FEW_POINTS = 16,  /* of a ring that comes home, by effort */
   MANY_POINTS = 48,
-  MOST_POINTS = MANY_POINTS,
   RINGS = 3,        /* at most tried at once */
   FEW_LOOKS = 12,   /* strobes of the q-th iterate before a ring is given up, by effort */
-  MANY_LOOKS = 24,
-  MOST_LOOKS = MANY_LOOKS
+  MANY_LOOKS = PENDRES_TRAP_LOOKS,
+  FEW_MORE = 16,    /* points that a ring may get where it bends, by effort */
+  MANY_MORE = 96
 };
 
 /* The ring that is tried first; how much of the contraction non-linearity may take up. */
@@ -37,9 +37,6 @@ static const double few_ratio = 1.3, many_ratio = 1.04;
 static const double slow_multiplier = 0.8;
 /* A point has come home this far inside an ellipse that is shown already. */
 static const double home_share = 0.9;
-/* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
-   to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
-static const double widest_gap = 1.0;
 
 /*
  * Close to a fold one direction is slow, and the metric below would make the ellipse short just
@@ -102,77 +99,7 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
   return 1;
 }
 
-/* ---- rings ---- */
-
-typedef struct ring {
-  const pendres_trap *trap;
-  double radius;
-  double home;     /* points are home within this radius; 0: one look and no more */
-  double margin;   /* that errors must be small against: what a base ring contracts by; radius */
-  int points, looks;
-  int failed;      /* a point has left: the others need not go on */
-  size_t first;    /* its first point */
-} ring;
-
-/* A lane of a ring and where it has been. */
-typedef struct point {
-  ring *of;
-  int looks, home; /* looks taken; whether it came home */
-  double y[MOST_LOOKS + 1], w[MOST_LOOKS + 1];
-} point;
-
-/* A point of the ellipse of the given radius, by the Cholesky factor of its metric. */
-static void ring_point(const ring *r, int k, double *y, double *w)
-{
-  const pendres_trap *t = r->trap;
-  const double angle = two_pi * k / r->points;
-  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
-  const double l22 = sqrt(t->metric[2] - l21 * l21);
-  const double dw = r->radius * sin(angle) / l22;
-  *w = t->w + dw;
-  *y = t->y + (r->radius * cos(angle) - l21 * dw) / l11;
-}
-
-static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
-{
-  point *p = (point *)arg + index;
-  ring *r = p->of;
-  if (lane->period % r->trap->period != 0) return 0;
-  p->looks++;
-  p->y[p->looks] = lane->y;
-  p->w[p->looks] = lane->w;
-  if (r->home == 0.0) return p->looks >= r->looks;
-  const double norm2 = pendres_trap_norm2(r->trap, lane->y, lane->w);
-  if (norm2 <= r->home * r->home) {
-    p->home = 1;
-    return 1;
-  }
-  if (p->looks >= r->looks || !(norm2 < 16.0 * r->radius * r->radius)) r->failed = 1;
-  return r->failed;
-}
-
-static double gap2(const pendres_trap *t, const point *a, const point *b, int k)
-{
-  pendres_trap around = *t;
-  around.y = a->y[k];
-  around.w = a->w[k];
-  return pendres_trap_norm2(&around, b->y[k], b->w[k]);
-}
-
-/* Whether all points came home, side by side. */
-static int ring_holds(const ring *r, const point *points)
-{
-  const double gap = widest_gap * widest_gap * r->radius * r->radius;
-  if (r->failed) return 0;
-  for (int i = 0; i < r->points; i++) {
-    const point *a = &points[i], *b = &points[(i + 1) % r->points];
-    if (!a->home) return 0;
-    const int both = a->looks < b->looks ? a->looks : b->looks;
-    for (int k = 1; k <= both; k++)
-      if (!(gap2(r->trap, a, b, k) < gap)) return 0;
-  }
-  return 1;
-}
+/* ---- the linear map ---- */
 
 /*
  * The largest length in the metric that the linear map, `looks` times, leaves of a unit length: the
@@ -200,32 +127,58 @@ static double linear_share(const pendres_trap *t, const pendres_orbit *o, int lo
   return sqrt(half + sqrt(fmax(0.0, half * half - det * det)));
 }
 
+/* What the linear map makes of a difference from the centre, `looks` times. */
+static void linear_image(const pendres_orbit *o, int looks, double d[2])
+{
+  const double omega = o->pendulum.drive_frequency;
+  for (int k = 0; k < looks; k++) {
+    const double y = o->monodromy[0][0] * d[0] + o->monodromy[0][1] * omega * d[1];
+    d[1] = o->monodromy[1][0] / omega * d[0] + o->monodromy[1][1] * d[1];
+    d[0] = y;
+  }
+}
+
+/* By how much the image of point i, counted round the ring, differs from the linear map's. */
+static void point_departure(const pendres_trap_ring *r, const pendres_trap_point *points, int i,
+                            const pendres_orbit *o, double d[2])
+{
+  const pendres_trap *t = r->trap;
+  const pendres_trap_point *p = &points[(i + r->points) % r->points];
+  double at[2] = {p->y[0] - t->y, p->w[0] - t->w};
+  linear_image(o, r->looks, at);
+  const double y = p->y[r->looks] - t->y - at[0];
+  d[0] = y - two_pi * rint(y / two_pi);
+  d[1] = p->w[r->looks] - t->w - at[1];
+}
+
 /*
  * How much of what the linear contraction leaves between the ring and its image the departure
  * from the linear map takes up. Below one the image lies inside the ring; as the departure falls
- * with the square of the radius, all smaller ellipses then shrink, too. (The departure's angle
- * enters by its double, so that BASE_POINTS find all of it but a tenth; the contraction's slow
- * direction they would miss.)
+ * with the square of the radius, all smaller ellipses then shrink, too. The departure between two
+ * points is bounded as that of arcs is (trap_ring.h), and may take up all, at the points
+ * base_departure. Its tangents are those of its neighbours: it changes with the double and
+ * threefold angle, which 12 points follow.
  */
-static double ring_departure(const ring *r, const point *points, const pendres_orbit *o)
+static double ring_departure(const pendres_trap_ring *r, const pendres_trap_point *points,
+                             const pendres_orbit *o)
 {
-  const double omega = o->pendulum.drive_frequency;
-  const pendres_trap *t = r->trap;
-  double worst = 0.0;
+  pendres_trap origin = *r->trap;
+  origin.y = origin.w = 0.0;
+  double worst = 0.0, d[4][2];
   for (int i = 0; i < r->points; i++) {
-    double dy = points[i].y[0] - t->y, dw = points[i].w[0] - t->w;
-    for (int k = 0; k < r->looks; k++) {
-      const double y = o->monodromy[0][0] * dy + o->monodromy[0][1] * omega * dw;
-      dw = o->monodromy[1][0] / omega * dy + o->monodromy[1][1] * dw;
-      dy = y;
+    double chord[2], first[2], last[2];
+    for (int k = 0; k < 4; k++) point_departure(r, points, i - 1 + k, o, d[k]);
+    for (int j = 0; j < 2; j++) {
+      chord[j] = d[2][j] - d[1][j];
+      first[j] = 0.5 * (d[2][j] - d[0][j]);
+      last[j] = 0.5 * (d[3][j] - d[1][j]);
     }
-    pendres_trap predicted = *t;
-    predicted.y = t->y + dy;
-    predicted.w = t->w + dw;
-    const double departure = sqrt(
-      pendres_trap_norm2(&predicted, points[i].y[r->looks], points[i].w[r->looks]));
-    if (isnan(departure)) return INFINITY;
-    worst = fmax(worst, departure);
+    const double at = sqrt(fmax(pendres_trap_norm2(&origin, d[1][0], d[1][1]),
+                                pendres_trap_norm2(&origin, d[2][0], d[2][1])));
+    const double between = pendres_trap_departure(r->trap, chord, first, last);
+    /* NaN at any of the points makes `between` one. */
+    if (isnan(between)) return INFINITY;
+    worst = fmax(worst, fmax(at, base_departure * (at + between)));
   }
   return r->margin > 0.0 ? worst / r->margin : INFINITY;
 }
@@ -249,7 +202,7 @@ typedef struct search {
   double base;           /* radius of the next base ring */
   double proven, failed; /* largest radius shown, smallest that could not be */
   int rings;             /* of this pass */
-  ring ring[RINGS];
+  pendres_trap_ring ring[RINGS];
 } search;
 
 /* Iterates until the linear map contracts well in the trap's metric. */
@@ -272,12 +225,14 @@ static int patience(const pendres_orbit *o, pendres_trap_effort effort)
 static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
                       int looks)
 {
-  s->ring[s->rings++] = (ring){.trap = t,
-                               .radius = radius,
-                               .home = home,
-                               .margin = home == 0.0 ? radius * (1.0 - s->base_share) : radius,
-                               .points = points,
-                               .looks = looks};
+  s->ring[s->rings++] = (pendres_trap_ring){
+    .trap = t,
+    .radius = radius,
+    .home = home,
+    .room = home > 0.0 ? s->proven : 0.0,
+    .margin = home == 0.0 ? radius * (1.0 - s->base_share) : radius,
+    .points = points,
+    .looks = looks};
 }
 
 static void plan(search *s, const pendres_trap *t)
@@ -297,7 +252,7 @@ static void plan(search *s, const pendres_trap *t)
 }
 
 /* A base ring: on to a better radius, or to the climb. */
-static void judge_base(search *s, const point *points, const pendres_orbit *o)
+static void judge_base(search *s, const pendres_trap_point *points, const pendres_orbit *o)
 {
   const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
   s->pass++;
@@ -316,7 +271,7 @@ static void judge_base(search *s, const point *points, const pendres_orbit *o)
 }
 
 /* What this pass's rings have shown; sets the next stage. */
-static void judge(search *s, const point *points, const pendres_orbit *o,
+static void judge(search *s, const pendres_trap_point *points, const pendres_orbit *o,
                   pendres_trap_effort effort)
 {
   const int many = effort == PENDRES_TRAP_MANY;
@@ -325,7 +280,7 @@ static void judge(search *s, const point *points, const pendres_orbit *o,
     return;
   }
   for (int k = 0; k < s->rings; k++) {
-    if (!ring_holds(&s->ring[k], points + s->ring[k].first)) {
+    if (!pendres_trap_ring_holds(&s->ring[k], points + s->ring[k].first)) {
       s->failed = s->ring[k].radius;
       break;
     }
@@ -348,32 +303,28 @@ static double ring_tolerance(double margin)
   return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
 }
 
-/* Integrate the rings of all searches at once. */
+/* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
-                                const pendres_orbit *orbits, point *points,
-                                pendres_strobe_lane *lanes)
+                                const pendres_orbit *orbits, pendres_trap_effort effort,
+                                pendres_trap_point *points, pendres_strobe_lane *lanes)
 {
+  const int many = effort == PENDRES_TRAP_MANY;
   size_t count = 0;
-  for (size_t i = 0; i < n; i++) {
-    const pendres_pendulum *p = &orbits[s[i].orbit].pendulum;
-    for (int k = 0; k < s[i].rings; k++) {
-      ring *r = &s[i].ring[k];
-      int steps = 0;
-      const pendres_status status =
-        pendres_steps_choose(ctx, p, 0.0, ring_tolerance(r->margin), &steps);
-      if (status != PENDRES_OK) return status;
-      r->first = count;
-      for (int j = 0; j < r->points; j++, count++) {
-        point *q = &points[count];
-        q->of = r;
-        q->looks = q->home = 0;
-        ring_point(r, j, &q->y[0], &q->w[0]);
-        lanes[count] = (pendres_strobe_lane){
-          .pendulum = p, .y = q->y[0], .w = q->w[0], .steps = steps};
-      }
+  pendres_trap_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
+  pendres_status status = PENDRES_OK;
+  if (rings == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
+      pendres_trap_ring *r = rings[count++] = &s[i].ring[k];
+      r->pendulum = &orbits[s[i].orbit].pendulum;
+      status = pendres_steps_choose(ctx, r->pendulum, 0.0, ring_tolerance(r->margin), &r->steps);
     }
-  }
-  return pendres_strobe_run(ctx, count, lanes, look, points);
+  if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, lanes);
+  if (status == PENDRES_OK)
+    status = pendres_trap_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
+  free(rings);
+  return status;
 }
 
 pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
@@ -381,7 +332,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
 {
   pendres_status status = PENDRES_OK;
   search *s = malloc((n + 1) * sizeof *s);
-  point *points = NULL;
+  pendres_trap_point *points = NULL;
   pendres_strobe_lane *lanes = NULL;
   size_t left = 0;
   if (s == NULL) goto no_memory;
@@ -408,7 +359,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
 
   while (left > 0 && status == PENDRES_OK) {
     for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit]);
-    status = run_rings(ctx, left, s, orbits, points, lanes);
+    status = run_rings(ctx, left, s, orbits, effort, points, lanes);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
       judge(&s[i], points, &orbits[s[i].orbit], effort);

@@ -7,11 +7,18 @@
  * A pendulum has settled when it is inside an attractor's trapping ellipse: every state in
  * there goes to that attractor. The stroboscopic map is a homeomorphism of the plane, so
  * when the ellipse's edge lies in the basin, all of its inside does (Jordan curve theorem);
- * rings of pendulums on the edge are integrated to show that. That is a check and no proof: 16 to
- * 48 points of a ring are looked at (12 of the smallest, where the linear map rules), and what lies
- * between two of them is taken to do as they do, since they stay side by side all the way home,
- * less than a radius apart. A tongue of another basin that enters and leaves the ring between two
- * neighbours would go unseen; a twentieth of the radius is left for margin.
+ * rings of pendulums on the edge are integrated to show that. That is a check and no proof. 16 to
+ * 48 points of a ring come home to a smaller ellipse that is known already, side by side all the
+ * way, less than a radius apart. Between two of them the image of the edge may depart from the
+ * chord by a quarter of the sum of what its tangents at both ends (difference quotients) differ by
+ * from the chord; that must fit into the known ellipse, too, or points are put in the middle until
+ * it does, or the ring is given up. Were the image the cubic through both ends with these tangents,
+ * this would be a bound, about twice what such a cubic departs by. Of the smallest ring, where the
+ * linear map rules, 12 points show the departure from the linear map, and what it does between them
+ * is bounded likewise, with tangents from neighbours. Not proved: a tongue of another basin that
+ * enters and leaves the ring between two points, so narrow that the tangents there do not show it,
+ * goes unseen, and so do errors of the integration beyond the twentieth of the radius that is left
+ * for margin.
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
  * The error of the integration is carried along with each pendulum. Only if it is small against the
