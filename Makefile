@@ -17,12 +17,12 @@
 # WERROR=1 (warnings are errors), SANITIZE=address,undefined (in a build directory of its own).
 #
 # Conventions:
-# - src/*.c make the library. src/kernels*.c are compiled once for each instruction set, with
+# - src/*/*.c make the library. src/*/kernels*.c are compiled once for each instruction set, with
 #   PENDRES_KERNELS set to its name; the program chooses when it runs. Nothing else is compiled
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
 #   has `#pragma GCC visibility push(default)` after its includes and `pop` at its end.
-# - drivers/*.c except main.c make libdriver.a; drivers see the public headers alone.
+# - drivers/*.c and drivers/*/*.c except main.c make libdriver.a; drivers see the public headers alone.
 # - tests/test_NAME.c are programs of their own, tests/NAME_check.sh scripts; both count.
 #   They run at the top of the tree, with RESONANCE naming the program to try.
 
@@ -132,9 +132,9 @@ LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
 # ---- Sources and products --------------------------------------------------------------------
 
-KERNEL_SOURCES := $(wildcard src/kernels*.c)
-LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*.c))
-DRIVER_SOURCES := $(filter-out drivers/main.c,$(wildcard drivers/*.c))
+KERNEL_SOURCES := $(wildcard src/*/kernels*.c)
+LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c))
+DRIVER_SOURCES := $(filter-out drivers/main.c,$(wildcard drivers/*.c drivers/*/*.c))
 HEADERS := $(wildcard include/pendres/*.h)
 OBJ := $(BUILD)/obj
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(OBJ)/%.o) \

@@ -25,11 +25,11 @@
 #include <pendres/reference.h>
 #include <pendres/strobe.h>
 
-#include "compat.h"
+#include "engine/compat.h"
 #include "figures.h"
-#include "flow.h"
-#include "kernels.h"
-#include "tables.h"
+#include "engine/flow.h"
+#include "engine/kernels.h"
+#include "engine/tables.h"
 
 enum { MEMBERS = 200, PERIODS = 100, SINGLES = 20, BARE_STAGES = PENDRES_TABLES_MOST_STAGES };
 

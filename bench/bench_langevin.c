@@ -15,7 +15,7 @@
 #include <pendres/langevin.h>
 
 #include "figures.h"
-#include "kernels_langevin.h"
+#include "noise/kernels_langevin.h"
 
 /* Many short runs: the best then is one that nobody else disturbed. */
 enum { LANES = 192, PERIODS = 40, REPEATS = 400 };

@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "figures.h"
-#include "kernels.h"
-#include "scene.h"
+#include "engine/kernels.h"
+#include "scenes/scene.h"
 
 enum { LANES = 512, PERIODS = 4, REPEATS = 60 };
 

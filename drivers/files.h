@@ -7,8 +7,8 @@
 #ifndef FILES_H
 #define FILES_H
 
-#include "deck.h"
-#include "progress.h"
+#include "deck/deck.h"
+#include "terminal/progress.h"
 
 /* Are the two names one file, there already or to be made? */
 int files_same(const char *one, const char *other);

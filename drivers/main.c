@@ -15,9 +15,9 @@
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
-#include "safe_text.h"
-#include "scene.h"
-#include "signals.h"
+#include "terminal/safe_text.h"
+#include "scenes/scene.h"
+#include "terminal/signals.h"
 
 enum { DONE = 0, FAILED = 1, BAD_USAGE = 2, SOME_POINTS_FAILED = 3, STOPPED = 75 };
 

@@ -9,7 +9,7 @@
 
 #include <pendres/pendres.h>
 
-#include "farm.h"
+#include "farm/farm.h"
 
 enum { MOST_THREADS = FARM_MOST_THREADS };
 

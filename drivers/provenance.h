@@ -9,8 +9,8 @@
 
 #include <pendres/store.h>
 
-#include "deck.h"
-#include "farm.h"
+#include "deck/deck.h"
+#include "farm/farm.h"
 
 /* When a run began. */
 typedef struct provenance {

@@ -18,7 +18,7 @@
 
 #include <pendres/store.h>
 
-#include "scene.h"
+#include "scenes/scene.h"
 
 typedef pendres_status scene_runner(scene_run *run);
 

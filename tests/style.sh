@@ -1,6 +1,6 @@
 #!/bin/sh
 # style.sh -- lines over 100 columns, tabs, blanks at line ends, files over 500 lines. `make style`.
-files=$(ls src/*.[ch] include/pendres/*.h drivers/*.[ch] tests/*.[ch] tests/accuracy/*.[ch] bench/*.[ch] 2>/dev/null)
+files=$(ls src/*/*.[ch] include/pendres/*.h drivers/*.[ch] drivers/*/*.[ch] tests/*.[ch] tests/accuracy/*.[ch] bench/*.[ch] 2>/dev/null)
 export LC_ALL=C.UTF-8
 {
   grep -nHE '^.{101,}' $files | sed 's/:[^:]*$/: over 100 columns/' | cut -d: -f1,2,4-

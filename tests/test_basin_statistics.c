@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-#include "basin_uncertainty.h"
-#include "context_internal.h"
+#include "questions/basin_uncertainty.h"
+#include "engine/context_internal.h"
 
 /* ---- grids that are shifted by parts of a step ---- */
 

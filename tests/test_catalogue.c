@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "catalogue.h"
+#include "orbits/catalogue.h"
 
 enum { ALL = 6 };
 

@@ -11,9 +11,9 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "context_internal.h"
-#include "steps.h"
-#include "strobe_run.h"
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+#include "engine/strobe_run.h"
 
 static const double pi = 3.14159265358979323846;
 static const long double half_pi = 1.57079632679489661923132169163975144L;

@@ -9,8 +9,8 @@
 
 #include <pendres/pendres.h>
 
-#include "chaos.h"
-#include "recurrence.h"
+#include "orbits/chaos.h"
+#include "orbits/recurrence.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,4 +1,4 @@
-/* test_compat.c -- SUNDIALS 6.4 to 7.x behind one face; see src/compat.h. */
+/* test_compat.c -- SUNDIALS 6.4 to 7.x behind one face; see src/engine/compat.h. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* dup2, fileno */
 #endif
@@ -9,7 +9,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "check.h"
-#include "compat.h"
+#include "engine/compat.h"
 
 static int refuse; /* the right-hand side fails on purpose */
 

@@ -12,7 +12,7 @@
 #include <pendres/reference.h>
 
 #include "check.h"
-#include "continuation_branch.h"
+#include "continuation/continuation_branch.h"
 
 static const double half_pi = 1.57079632679489661923;
 

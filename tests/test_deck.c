@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck.h"
+#include "deck/deck.h"
 
 /* ---- what tests share ---------------------------------------------------------------------- */
 

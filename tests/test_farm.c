@@ -12,7 +12,7 @@
 #include <malloc.h>
 #endif
 
-#include "farm.h"
+#include "farm/farm.h"
 
 enum { TASKS = 200 };
 

@@ -8,8 +8,8 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "context_internal.h"
-#include "tables.h"
+#include "engine/context_internal.h"
+#include "engine/tables.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
 

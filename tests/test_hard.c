@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "hard_cases.h"
+#include "validation/hard_cases.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 static const double scale = 0.01;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels.h"
-#include "lanes.h"
+#include "engine/kernels.h"
+#include "engine/lanes.h"
 
 enum { MOST_LANES = 96, VECTORS = 6, ROWS = PENDRES_ROWS_SENSITIVITY, SIZE = ROWS * MOST_LANES };
 

@@ -7,7 +7,7 @@
 #include <pendres/resonance.h>
 
 #include "check.h"
-#include "label.h"
+#include "orbits/label.h"
 
 enum { LINE = 6 };
 

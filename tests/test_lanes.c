@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "compat.h"
-#include "kernels_sine.h"
-#include "lanes.h"
+#include "engine/compat.h"
+#include "engine/kernels_sine.h"
+#include "engine/lanes.h"
 
 enum { MOST = 208, ROWS = PENDRES_ROWS_STATE };
 

@@ -9,8 +9,8 @@
 #include <Random123/philox.h>
 #include <gsl/gsl_cdf.h>
 
-#include "kernels_langevin.h"
-#include "kernels_sine.h"
+#include "noise/kernels_langevin.h"
+#include "engine/kernels_sine.h"
 
 #define PI 3.14159265358979323846
 

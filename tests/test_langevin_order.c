@@ -8,7 +8,7 @@
 
 #include <gsl/gsl_integration.h>
 
-#include "langevin_block.h"
+#include "noise/langevin_block.h"
 
 /* Classical Runge-Kutta, many steps: an independent answer at temperature zero. */
 static void reference(const pendres_pendulum *p, int periods, double *x, double *v)

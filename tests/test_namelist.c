@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "namelist.h"
+#include "deck/namelist.h"
 
 /* ---- what tests share ---------------------------------------------------------------------- */
 

@@ -13,7 +13,7 @@
 #include <pendres/reference.h>
 
 #include "golden.h"
-#include "reference_taylor.h"
+#include "reference/reference_taylor.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 

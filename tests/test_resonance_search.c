@@ -12,8 +12,8 @@
 
 #include <pendres/pendres.h>
 
-#include "context_internal.h"
-#include "resonance_search.h"
+#include "engine/context_internal.h"
+#include "questions/resonance_search.h"
 
 enum { FREQUENCIES = 100 };
 

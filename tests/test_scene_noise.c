@@ -6,9 +6,9 @@
 
 #include <pendres/pendres.h>
 
-#include "scene_basins_noise.h"
-#include "scene_failed.h"
-#include "scene_noise.h"
+#include "scenes/scene_basins_noise.h"
+#include "scenes/scene_failed.h"
+#include "scenes/scene_noise.h"
 
 /* Clouds alone, as scene_basins.c asks for them. */
 static pendres_status run_clouds(scene_run *run)

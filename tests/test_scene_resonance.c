@@ -4,7 +4,7 @@
  */
 #include "scene_fixture.h"
 
-#include "scene_failed.h"
+#include "scenes/scene_failed.h"
 
 /* Asked for the `limit`-th time, the farm is told to stop. */
 typedef struct stopper {

@@ -7,7 +7,7 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "contest.h"
+#include "validation/contest.h"
 
 enum { METHODS = 4, TOLERANCES = 3, ALL = METHODS * TOLERANCES, MEMBERS = 200, PERIODS = 100 };
 enum { FIXED, ADAPTIVE, SINGLE, GSL };

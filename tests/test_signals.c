@@ -13,7 +13,7 @@
 
 #include <pendres/pendres.h>
 
-#include "signals.h"
+#include "terminal/signals.h"
 
 static void pause_for(double seconds)
 {

@@ -12,7 +12,7 @@
 #include <pendres/reference.h>
 #include <pendres/strobe.h>
 
-#include "steps.h"
+#include "engine/steps.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -15,8 +15,8 @@
 
 #include <string.h>
 
-#include "flow_table.h"
-#include "tables.h"
+#include "engine/flow_table.h"
+#include "engine/tables.h"
 
 enum { MOST_ORDER = 10, MOST_TREES = 1300, STAGES = PENDRES_TABLES_MOST_STAGES };
 

@@ -11,9 +11,9 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "catalogue.h"
+#include "orbits/catalogue.h"
 #include "golden.h"
-#include "trap_ring.h"
+#include "orbits/trap_ring.h"
 
 static const double pi = 3.14159265358979323846;
 

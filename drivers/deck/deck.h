@@ -1,0 +1,182 @@
+/*
+ * deck.h -- what a run computes: a deck, checked and complete, as one plain struct.
+ *
+ * Owns: the meaning of groups and keys. namelist.h turns text into a tree; the table in
+ * deck_table.c says which scene takes which key, of what type, in what range and with what
+ * default; deck_check.c holds what concerns several keys at once.
+ *
+ * Units are those of the dimensionless equation x'' + g x' - cos x = F0 cos wt + noise: see
+ * <pendres/pendulum.h>. Thread safe: no state outside the arguments.
+ */
+#ifndef DECK_H
+#define DECK_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <pendres/status.h>
+
+#include "deck/namelist.h"
+
+/* Kinds of scenes with their names in decks; deck_kind_name() and the table follow this list. */
+#define DECK_KIND_LIST(ITEM)                                                                      \
+  ITEM(FREE_OSCILLATION, "free_oscillation")                                                      \
+  ITEM(RESONANCE_CURVE, "resonance_curve")                                                        \
+  ITEM(RESPONSE, "response")                                                                      \
+  ITEM(ORBIT, "orbit")                                                                            \
+  ITEM(BASINS, "basins")                                                                          \
+  ITEM(PHASE_DIAGRAM, "phase_diagram")                                                            \
+  ITEM(BRANCHES, "branches")                                                                      \
+  ITEM(WORK_PRECISION, "work_precision")                                                          \
+  ITEM(HARD_CASES, "hard_cases")                                                                  \
+  ITEM(SWITCHING, "switching")
+
+typedef enum deck_kind {
+#define DECK_KIND_CODE(code, name) DECK_##code,
+  DECK_KIND_LIST(DECK_KIND_CODE)
+#undef DECK_KIND_CODE
+  DECK_KIND_COUNT
+} deck_kind;
+
+/* Axes of &sweep; the name of each in decks is deck_axis_name(). */
+#define DECK_AXIS_LIST(ITEM)                                                                      \
+  ITEM(AMPLITUDE, "amplitude")                                                                    \
+  ITEM(DAMPING, "damping")                                                                        \
+  ITEM(DRIVE_AMPLITUDE, "drive_amplitude")                                                        \
+  ITEM(DRIVE_FREQUENCY, "drive_frequency")                                                        \
+  ITEM(DRIVE_PERIOD, "drive_period")                                                              \
+  ITEM(X, "x")                                                                                    \
+  ITEM(V, "v")                                                                                    \
+  ITEM(TEMPERATURE, "temperature")                                                                \
+  ITEM(TOLERANCE, "tolerance")
+
+typedef enum deck_axis_id {
+#define DECK_AXIS_CODE(code, name) DECK_AXIS_##code,
+  DECK_AXIS_LIST(DECK_AXIS_CODE)
+#undef DECK_AXIS_CODE
+  DECK_AXIS_COUNT
+} deck_axis_id;
+
+enum { DECK_TITLE = 256, DECK_PATH = 1024, DECK_NAME = 64, DECK_MAX_COUNT = 1000000 };
+
+/** Values along one axis. A scene without the axis has count 0. */
+typedef struct deck_axis {
+  double *value; /* count values, ascending, without repetitions */
+  size_t count;
+  /* What they were made of: the values listed and the range, for deck_dump. */
+  double *listed;
+  size_t listed_count;
+  double range_first, range_last;
+  size_t range_count; /* 0: no range was given */
+} deck_axis;
+
+/** A list of names, each in its own buffer of DECK_NAME bytes. */
+typedef struct deck_names {
+  char (*name)[DECK_NAME];
+  size_t count;
+} deck_names;
+
+/**
+ * A deck. A quantity that is an axis of the scene is in axis[] alone, also where the deck gives
+ * one value of it in &pendulum; its field in `pendulum` is then NaN. Fields that the scene does
+ * not use hold their defaults (NaN where there is none). The temperature is always an axis;
+ * without one there is no noise.
+ */
+typedef struct deck {
+  char *name;         /* the file it came from */
+  char *text;         /* verbatim */
+  size_t text_length;
+
+  deck_kind kind;
+  char title[DECK_TITLE];
+  char output[DECK_PATH];
+
+  struct {
+    double drive_amplitude;
+    double damping;
+    double drive_frequency; /* both are set, whichever was given */
+    double drive_period;
+    int by_period;          /* nonzero: drive_period was given */
+  } pendulum;
+
+  deck_axis axis[DECK_AXIS_COUNT];
+  double search[2];         /* bounds of drive frequency in the search of a resonance */
+
+  struct {                  /* members at x_first + (x_last - x_first) k / members, k = 1.. */
+    int64_t members;
+    double x_first, x_last;
+    double v;
+  } ensemble;
+
+  struct {                  /* zero: chosen by the library */
+    double tolerance;       /* of the results */
+    char method[DECK_NAME];
+    char table[DECK_NAME];
+    int64_t steps_per_period;
+    int64_t block_lanes;
+    int64_t period_budget;
+  } precision;
+
+  struct {
+    char start[DECK_NAME];  /* "sa", "la", the number of an attractor from "1" on, in the order of
+                               amplitude; or "" for the start at x, v */
+    double x, v;
+    int64_t periods;        /* drive periods recorded */
+    int64_t samples;        /* per period */
+    int transient;          /* nonzero: record from the start instead of after settling */
+  } orbit;
+
+  struct {
+    int refine;
+    int boundary;
+    int statistics;
+    int64_t strobes;        /* noisy strobes recorded for each attractor */
+    int64_t seed;
+    int64_t trajectories;
+  } basins;
+
+  struct {
+    int64_t from, to;       /* numbers of attractors, from 1 on; both 0: SA and LA */
+  } switching;
+
+  struct {
+    int64_t seed;
+    int64_t trajectories;
+    int64_t periods;
+  } noise;
+
+  deck_names methods;       /* work_precision */
+  char unit[DECK_NAME];
+  deck_names cases;         /* hard_cases; none: all */
+} deck;
+
+/**
+ * Read and check a deck. On success *out is complete and the caller frees it with deck_free; after
+ * any error *out is all zero and errors holds every mistake in the order of the text.
+ * Returns PENDRES_OK, PENDRES_INVALID_ARGUMENT (a bad deck), PENDRES_IO (no deck there) or
+ * PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status deck_read(const char *path, deck *out, namelist_errors *errors);
+
+/** The same from memory; `name` stands in messages and gives the output its default name. */
+pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
+                                namelist_errors *errors);
+
+/** Free what a deck holds and make it all zero; an all-zero deck is allowed. */
+void deck_free(deck *d);
+
+/**
+ * Write the resolved deck, every key in use with its value, as a namelist that Fortran reads and
+ * that deck_read turns into the same deck. PENDRES_IO if the stream reports an error.
+ */
+pendres_status deck_dump(const deck *d, FILE *stream);
+
+/** Does the deck ask for noise: a temperature above 0? */
+int deck_has_noise(const deck *d);
+
+/** Names in decks; NULL if out of range. */
+const char *deck_kind_name(deck_kind kind);
+const char *deck_axis_name(deck_axis_id axis);
+
+#endif

@@ -1,0 +1,258 @@
+/*
+ * deck_check.c -- what concerns several keys of a deck at once: keys that are missing or exclude
+ * each other, the axes as the union of lists and ranges, the size of it all.
+ */
+#include "deck/deck_table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/sweep.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+static void complain(deck_builder *b, const deck_given *at, const char *name, const char *message)
+{
+  namelist_error_at(b->nl, at->line, at->column, (int)strlen(name), b->errors, "%s", message);
+}
+
+/* The state of a key in this scene; never NULL, so that callers need not ask. */
+static const deck_given *given(const deck_builder *b, const char *group, const char *name)
+{
+  static const deck_given absent = { 0 };
+  int range = 0;
+  const size_t row = deck_table_find(group, name, b->scene, &range);
+  return row < deck_table_size ? &b->given[row] : &absent;
+}
+
+/* Present in the deck with its own name, be the value good or bad. */
+static int is_there(const deck_given *g)
+{
+  return g->line > 0 && (g->given || g->broken);
+}
+
+static int in_scene(const deck_builder *b, const char *group, const char *name)
+{
+  int range = 0;
+  return deck_table_find(group, name, b->scene, &range) < deck_table_size;
+}
+
+/* ---- missing keys -------------------------------------------------------------------------- */
+
+/* Given, or tried in vain, in &sweep or, for an axis, in &pendulum. */
+static int was_tried(const deck_builder *b, size_t row)
+{
+  const deck_key *key = &deck_table[row];
+  if (b->given[row].given || b->given[row].broken) return 1;
+  for (size_t i = 0; key->type == DECK_SWEEP && i < deck_table_size; i++)
+    if (deck_table[i].type == DECK_SWEEP_VALUE && deck_table[i].axis == key->axis &&
+        (b->given[i].given || b->given[i].broken))
+      return 1;
+  return 0;
+}
+
+/* One message for a group that is absent altogether: it names all keys that are missed. */
+static void report_missing_group(deck_builder *b, size_t row)
+{
+  const char *group = deck_table[row].group;
+  char list[300] = "";
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if (strcmp(key->group, group) != 0 || (key->needed & b->scene) == 0 || was_tried(b, i))
+      continue;
+    if (i < row) return; /* said before */
+    snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'", list[0] == '\0' ? "" : ", ",
+             key->name);
+  }
+  namelist_error_at(b->nl, b->kind_line, b->kind_column, 1, b->errors,
+                    "scene '%s' needs a group &%s with %s", deck_kind_name(b->d->kind), group,
+                    list);
+}
+
+static void check_missing(deck_builder *b)
+{
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    const namelist_group *group = b->given[i].group;
+    if ((key->needed & b->scene) == 0 || was_tried(b, i)) continue;
+    if (group == NULL) {
+      report_missing_group(b, i);
+    } else if (!group->broken) {
+      const int has_range = key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
+      const char *or_range = has_range ? "_range" : "";
+      namelist_error_at(b->nl, group->line, group->column, (int)strlen(group->name) + 1, b->errors,
+                        *or_range ? "scene '%s' needs '%s' or '%s%s' in &%s"
+                                  : "scene '%s' needs '%s'%.0s%s in &%s",
+                        deck_kind_name(b->d->kind), key->name, key->name, or_range, key->group);
+    }
+  }
+}
+
+/* ---- keys that exclude or need each other -------------------------------------------------- */
+
+/* Exactly one of drive frequency and drive period, both in the same group. */
+static void check_drive(deck_builder *b, const char *group)
+{
+  const deck_given *w = given(b, group, "drive_frequency"), *t = given(b, group, "drive_period");
+  const deck_given *w2 = given(b, "pendulum", "drive_frequency");
+  const deck_given *t2 = given(b, "pendulum", "drive_period");
+  const deck_given *frequency = w->given || w->broken ? w : w2;
+  const deck_given *period = t->given || t->broken ? t : t2;
+  const namelist_group *place = w->group;
+  const int have_frequency = frequency->given || frequency->broken;
+  const int have_period = period->given || period->broken;
+  if (is_there(frequency) && is_there(period)) {
+    const deck_given *later = frequency->line > period->line ||
+                              (frequency->line == period->line &&
+                               frequency->column > period->column)
+                                  ? frequency : period;
+    complain(b, later, later == period ? "drive_period" : "drive_frequency",
+             "give either 'drive_frequency' or 'drive_period', not both");
+  } else if (!have_frequency && !have_period && (place == NULL || !place->broken)) {
+    namelist_error_at(b->nl, place != NULL ? place->line : b->kind_line,
+                      place != NULL ? place->column : b->kind_column,
+                      place != NULL ? (int)strlen(place->name) + 1 : 1, b->errors,
+                      "scene '%s' needs 'drive_frequency' or 'drive_period' in &%s",
+                      deck_kind_name(b->d->kind), group);
+  }
+}
+
+static void resolve_drive(deck_builder *b)
+{
+  deck *d = b->d;
+  if (in_scene(b, "sweep", "drive_period")) {
+    check_drive(b, "sweep");
+    return;
+  }
+  if (!in_scene(b, "pendulum", "drive_period")) return;
+  check_drive(b, "pendulum");
+  d->pendulum.by_period = given(b, "pendulum", "drive_period")->given;
+  if (d->pendulum.by_period) d->pendulum.drive_frequency = two_pi / d->pendulum.drive_period;
+  else d->pendulum.drive_period = two_pi / d->pendulum.drive_frequency;
+}
+
+/* An axis comes from &sweep, or has the one value in &pendulum. */
+static void check_axis_sources(deck_builder *b)
+{
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if (key->type != DECK_SWEEP_VALUE || (key->scenes & b->scene) == 0) continue;
+    const deck_given *sweep = given(b, "sweep", key->name);
+    if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
+    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+                      b->errors, "'%s' is given in &sweep too (line %d)", key->name, sweep->line);
+  }
+}
+
+/* Keys that count only together with others. */
+static void check_idle_keys(deck_builder *b)
+{
+  static const char *const why[] = {
+    [DECK_WITH_NOISE] = "it concerns noise, and there is no 'temperature' above 0",
+    [DECK_WITHOUT_START] = "'start' names an attractor",
+  };
+  const deck_given *start = given(b, "orbit", "start");
+  const deck_given *x = given(b, "orbit", "x");
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD)
+      continue;
+    if (key->when == DECK_WITH_NOISE && given(b, "sweep", "temperature")->broken) continue;
+    if (key->when == DECK_WITHOUT_START && start->broken) continue;
+    if (deck_key_applies(key, b->d)) continue;
+    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+                      b->errors, "'%s' is not used: %s", key->name, why[key->when]);
+  }
+  if (in_scene(b, "orbit", "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
+      !x->given && !x->broken &&
+      (x->group == NULL || !x->group->broken)) {
+    const int line = x->group != NULL ? x->group->line : b->kind_line;
+    const int column = x->group != NULL ? x->group->column : b->kind_column;
+    namelist_error_at(b->nl, line, column, 1, b->errors,
+                      "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in &orbit");
+  }
+}
+
+/* ---- axes ---------------------------------------------------------------------------------- */
+
+static int expand_axis(deck_axis *axis)
+{
+  const pendres_range range = { axis->range_first, axis->range_last, axis->range_count };
+  axis->value = malloc((axis->listed_count + axis->range_count) * sizeof *axis->value);
+  if (axis->value == NULL) return 0;
+  /* Keys were checked one by one: nothing is left that could be refused here. */
+  return pendres_sweep_values(axis->listed_count, axis->listed, NULL, axis->listed,
+                              &axis->listed_count) == PENDRES_OK &&
+         pendres_sweep_values(axis->listed_count, axis->listed, &range, axis->value,
+                              &axis->count) == PENDRES_OK;
+}
+
+static void expand_axes(deck_builder *b)
+{
+  for (int i = 0; i < DECK_AXIS_COUNT; i++) {
+    deck_axis *axis = &b->d->axis[i];
+    if (axis->listed_count + axis->range_count == 0) continue;
+    if (!expand_axis(axis)) b->out_of_memory = 1;
+  }
+}
+
+/* ---- sizes and the rest -------------------------------------------------------------------- */
+
+static void check_size(deck_builder *b)
+{
+  const deck *d = b->d;
+  const int with_members = in_scene(b, "ensemble", "members");
+  double points = with_members ? (double)d->ensemble.members : 1.0;
+  for (int i = 0; i < DECK_AXIS_COUNT; i++)
+    if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
+  if (points > 0x1p32 && !d->basins.refine)
+    namelist_error_at(b->nl, b->kind_line, b->kind_column, 1, b->errors,
+                      "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
+                      with_members ? " and members" : "", points,
+                      b->scene == 1u << DECK_BASINS ? " without refine = .true." : "");
+  if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
+    complain(b, given(b, "orbit", "periods"), "periods",
+             "'periods' times 'samples' must not exceed 1e8");
+  if ((d->switching.from == 0) != (d->switching.to == 0))
+    complain(b, given(b, "switching", d->switching.from != 0 ? "from" : "to"),
+             d->switching.from != 0 ? "from" : "to", "'from' and 'to' belong together");
+  else if (d->switching.from != 0 && d->switching.from == d->switching.to)
+    complain(b, given(b, "switching", "to"), "to", "'from' and 'to' are the same attractor");
+  if (d->basins.boundary && (d->axis[DECK_AXIS_X].count == 1 || d->axis[DECK_AXIS_V].count == 1))
+    complain(b, given(b, "basins", "boundary"), "boundary",
+             "'boundary' is looked for in a window: give x and v at least two values");
+}
+
+static void check_output(deck_builder *b)
+{
+  const char *output = b->d->output;
+  const deck_given *at = given(b, "scene", "output");
+  if (!at->given) return;
+  if (output[0] == '\0') complain(b, at, "output", "'output' must not be empty");
+  else if (output[strlen(output) - 1] == '/')
+    complain(b, at, "output", "'output' must be a file, not a folder");
+  else if (strcmp(output, b->nl->name) == 0)
+    complain(b, at, "output", "'output' would overwrite the deck");
+}
+
+void deck_check(deck_builder *b)
+{
+  deck *d = b->d;
+  if (b->scene == 0) return;
+  check_missing(b);
+  check_axis_sources(b);
+  resolve_drive(b);
+  expand_axes(b);
+  check_idle_keys(b);
+  check_size(b);
+  check_output(b);
+  if (!(d->ensemble.x_first < d->ensemble.x_last)) {
+    const deck_given *last = given(b, "ensemble", "x_last");
+    complain(b, last->given ? last : given(b, "ensemble", "x_first"), "x_last",
+             "'x_first' must be below 'x_last'");
+  }
+  if (d->precision.block_lanes % 8 != 0)
+    complain(b, given(b, "precision", "block_lanes"), "block_lanes",
+             "'block_lanes' must be a multiple of 8");
+}

@@ -1,0 +1,101 @@
+/*
+ * deck_table.h -- the form of the table of keys, and what the parts of the deck reader share.
+ * Internal to deck*.c.
+ */
+#ifndef DECK_TABLE_H
+#define DECK_TABLE_H
+
+#include "deck/deck.h"
+
+typedef enum deck_type {
+  DECK_REAL,
+  DECK_INTEGER,
+  DECK_LOGICAL,
+  DECK_STRING,
+  DECK_CHOICE,     /* a string out of a list */
+  DECK_CHOICES,    /* several of them */
+  DECK_BOUNDS,     /* two ascending numbers */
+  DECK_SWEEP,      /* an axis: NAME = values, NAME_range = first, last, count */
+  DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
+} deck_type;
+
+/* When a key counts although its scene knows it. */
+typedef enum deck_when {
+  DECK_ALWAYS = 0,
+  DECK_WITH_NOISE,     /* only with a temperature above 0 */
+  DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
+  DECK_BY_FREQUENCY,   /* unless the drive is given by its period */
+  DECK_BY_PERIOD       /* the reverse */
+} deck_when;
+
+typedef struct deck_key {
+  const char *group;
+  const char *name;
+  deck_type type;
+  size_t offset, size;         /* of the field in struct deck; size of a string's buffer */
+  deck_axis_id axis;           /* of DECK_SWEEP and DECK_SWEEP_VALUE */
+  unsigned scenes;             /* that use it: bits 1u << deck_kind */
+  unsigned needed;             /* that cannot do without */
+  double low, high;            /* numbers must lie between these */
+  int open;                    /* nonzero: low and high themselves are excluded */
+  const char *why;             /* for messages: where the range comes from; may be NULL */
+  double number;               /* default of a number or logical */
+  double number2;              /* second default of DECK_BOUNDS */
+  const char *text;            /* default of a string; NULL: "" */
+  const char *const *choices;  /* NULL-terminated */
+  deck_when when;
+} deck_key;
+
+enum { DECK_MAX_KEYS = 96 };
+
+extern const deck_key deck_table[];
+extern const size_t deck_table_size;
+
+/*
+ * The row of a key in a scene (a set of bits; 0: in any), or deck_table_size. NAME_range finds the
+ * axis NAME and sets *range.
+ */
+size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range);
+
+/* Where and how a key was given. */
+typedef struct deck_given {
+  int given;  /* with a value */
+  int broken; /* in vain: errors were reported */
+  int line, column;
+  const namelist_group *group; /* the group of the key, if the deck has it */
+} deck_given;
+
+/* A deck in the making. */
+typedef struct deck_builder {
+  const namelist *nl;
+  namelist_errors *errors;
+  deck *d;
+  unsigned scene;            /* the bit of its kind; 0 if that is unknown */
+  int kind_line, kind_column; /* for what concerns the whole deck */
+  deck_given given[DECK_MAX_KEYS];
+  int out_of_memory;
+} deck_builder;
+
+/* deck_key.c: take the values of one key over into the deck; range: it came as NAME_range. */
+void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, int range);
+/* Set the defaults of all keys. */
+void deck_key_defaults(deck *d);
+/* Does the key count in this deck? */
+int deck_key_applies(const deck_key *key, const deck *d);
+
+/* deck_check.c: everything that concerns several keys; expands the axes. */
+void deck_check(deck_builder *b);
+
+/* deck_suggest.c: the candidate nearest to a misspelt word, or NULL if none is near. */
+typedef struct deck_suggestion {
+  const char *word;
+  const char *best;
+  size_t distance;
+} deck_suggestion;
+void deck_suggest(deck_suggestion *s, const char *candidate);
+/* " (did you mean 'BEST'?)" or "", into a buffer. */
+const char *deck_suggestion_text(const deck_suggestion *s, char *buffer, size_t size);
+/* Names from the literature for what decks call otherwise (gamma, tau); NULL if it is none. */
+const char *deck_synonym(const char *word);
+
+#endif

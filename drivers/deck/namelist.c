@@ -1,0 +1,530 @@
+/*
+ * namelist.c -- text to tree: groups, assignments, values. See namelist.h.
+ *
+ * A recursive-descent reader without look-behind. What may follow a value is decided by looking
+ * ahead: `name =`, also with a subscript, starts the next assignment; everything else that is not
+ * a separator is one more value. After an error the reader goes on where the next name, group
+ * or line plausibly starts, and marks what it skipped as broken, so that nobody complains about
+ * the absence of what merely could not be read.
+ */
+#include "deck/namelist_lex.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void complain(reader *r, int line, int column, int width, const char *message)
+{
+  namelist_error_at(r->nl, line, column, width, r->errors, "%s", message);
+  if (r->group != NULL) r->group->broken = 1;
+}
+
+/* Exceeding a bound ends the reading. */
+static void overflow(reader *r, const char *message)
+{
+  complain(r, r->line, r->column, 1, message);
+  r->overfull = 1;
+}
+
+static int stopped(const reader *r)
+{
+  return r->out_of_memory || r->overfull;
+}
+
+/* ---- growing arrays ------------------------------------------------------------------------ */
+
+static int grow(reader *r, void **array, size_t count, size_t *capacity, size_t size)
+{
+  const size_t wanted = *capacity == 0 ? 16 : 2 * *capacity;
+  void *grown = NULL;
+  if (count < *capacity) return 1;
+  grown = realloc(*array, wanted * size);
+  if (grown == NULL) {
+    r->out_of_memory = 1;
+    return 0;
+  }
+  *array = grown;
+  *capacity = wanted;
+  return 1;
+}
+
+static void add_value(reader *r, namelist_assignment *a, namelist_value v)
+{
+  namelist *nl = r->nl;
+  void *array = nl->value;
+  r->total += v.repeat;
+  if (r->total > NAMELIST_MAX_VALUES) {
+    overflow(r, "more than a million values in one deck");
+    return;
+  }
+  if (!grow(r, &array, nl->values, &r->value_capacity, sizeof *nl->value)) return;
+  nl->value = array;
+  nl->value[nl->values++] = v;
+  a->count++;
+}
+
+static namelist_assignment *add_assignment(reader *r, const namelist_assignment *a)
+{
+  namelist *nl = r->nl;
+  void *array = nl->assignment;
+  if (nl->assignments >= NAMELIST_MAX_ASSIGNMENTS) {
+    overflow(r, "more than a thousand names in one deck");
+    return NULL;
+  }
+  if (!grow(r, &array, nl->assignments, &r->assignment_capacity, sizeof *nl->assignment))
+    return NULL;
+  nl->assignment = array;
+  nl->assignment[nl->assignments] = *a;
+  r->group->count++;
+  return &nl->assignment[nl->assignments++];
+}
+
+static int add_group(reader *r, const namelist_group *g)
+{
+  namelist *nl = r->nl;
+  void *array = nl->group;
+  if (nl->groups >= NAMELIST_MAX_GROUPS) {
+    overflow(r, "more than a hundred groups in one deck");
+    return 0;
+  }
+  if (!grow(r, &array, nl->groups, &r->group_capacity, sizeof *nl->group)) return 0;
+  nl->group = array;
+  nl->group[nl->groups] = *g;
+  r->group = &nl->group[nl->groups++];
+  return 1;
+}
+
+/* ---- names --------------------------------------------------------------------------------- */
+
+/* Read a name in lower case into name[NAMELIST_NAME]; the caller knows that one starts here. */
+static void read_name(reader *r, char *name)
+{
+  const int line = r->line, column = r->column;
+  const size_t end = lex_name_end(r, r->at);
+  const size_t length = end - r->at;
+  if (length >= NAMELIST_NAME) complain(r, line, column, 10, "a name has at most 63 characters");
+  for (size_t i = 0; i < length && i < NAMELIST_NAME - 1; i++)
+    name[i] = (char)lex_lower(lex_at(r, r->at + i));
+  name[length < NAMELIST_NAME ? length : NAMELIST_NAME - 1] = '\0';
+  lex_advance_to(r, end);
+}
+
+/* One integer of a subscript; 0 if there is none or it is out of bounds (missing stays as is). */
+static int read_bound(reader *r, long *out)
+{
+  long n = 0;
+  const size_t begin = r->at;
+  while (lex_is_digit(lex_peek(r))) {
+    n = 10 * n + (lex_peek(r) - '0');
+    if (n > NAMELIST_MAX_VALUES) return 0;
+    lex_advance(r);
+  }
+  if (r->at > begin) {
+    if (n < 1) return 0;
+    *out = n;
+  }
+  while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
+  return 1;
+}
+
+/* `(i)`, `(i:j)`, `(i:j:k)`, each part of a triplet optional. */
+static int read_subscript(reader *r, namelist_assignment *a)
+{
+  const int line = r->line, column = r->column;
+  int parts = 1;
+  size_t begin = 0;
+  a->subscripted = 1;
+  lex_advance(r);
+  while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
+  begin = r->at;
+  if (!read_bound(r, &a->first)) goto bad;
+  if (lex_peek(r) != ':' && r->at == begin) goto bad;
+  if (lex_peek(r) == ':') {
+    for (parts = 2; parts <= 3 && lex_peek(r) == ':'; parts++) {
+      lex_advance(r);
+      while (lex_peek(r) == ' ' || lex_peek(r) == '\t') lex_advance(r);
+      if (!read_bound(r, parts == 2 ? &a->last : &a->step)) goto bad;
+    }
+    if (a->last != 0 && a->last < a->first) goto bad;
+  } else {
+    a->last = a->first;
+  }
+  if (lex_peek(r) != ')') goto bad;
+  lex_advance(r);
+  return 1;
+bad:
+  complain(r, line, column, 1,
+           "bad subscript: (i), (i:j) or (i:j:k) with whole numbers from 1 to 1000000 is wanted");
+  while (lex_peek(r) != ')' && lex_peek(r) != '=' && lex_peek(r) != '\n' && lex_peek(r) != LEX_END)
+    lex_advance(r);
+  if (lex_peek(r) == ')') lex_advance(r);
+  return 0;
+}
+
+/* ---- values -------------------------------------------------------------------------------- */
+
+/*
+ * The rest of a line that makes no sense is skipped, but not the slash at its end, which most
+ * likely closes the group.
+ */
+static void skip_bad_line(reader *r)
+{
+  const size_t end = lex_line_end(r, r->at);
+  size_t last = end;
+  while (last > r->at && lex_is_blank(lex_at(r, last - 1))) last--;
+  if (last > r->at && lex_at(r, last - 1) == '/') lex_advance_to(r, last - 1);
+  else lex_advance_to(r, end);
+}
+
+static void read_string(reader *r, namelist_assignment *a, namelist_value v)
+{
+  const size_t close = lex_string_close(r, r->at);
+  if (close == 0) {
+    complain(r, r->line, r->column, 1, "this string is not closed (missing quote)");
+    a->broken = 1;
+    skip_bad_line(r);
+    return;
+  }
+  v.form = NAMELIST_STRING;
+  v.begin = r->at;
+  v.length = close + 1 - r->at;
+  lex_advance_to(r, close + 1);
+  if (!lex_is_value_end(lex_peek(r))) {
+    complain(r, r->line, r->column, 1,
+             "a separator is missing after the string (a quote inside a string is written twice)");
+    a->broken = 1;
+    skip_bad_line(r);
+    return;
+  }
+  add_value(r, a, v);
+}
+
+/* `r*` in front of a value: 1 if read or absent, 0 after an error. */
+static int read_repeat(reader *r, namelist_assignment *a, namelist_value *v)
+{
+  size_t at = r->at;
+  long n = 0;
+  while (lex_is_digit(lex_at(r, at))) {
+    if (n <= NAMELIST_MAX_VALUES) n = 10 * n + (lex_at(r, at) - '0');
+    at++;
+  }
+  if (at == r->at || lex_at(r, at) != '*') return 1;
+  if (n < 1 || n > NAMELIST_MAX_VALUES) {
+    complain(r, r->line, r->column, (int)(at - r->at),
+             "a repeat count must lie between 1 and 1000000");
+    a->broken = 1;
+    lex_advance_to(r, lex_bare_end(r, r->at));
+    return 0;
+  }
+  v->repeat = (int)n;
+  lex_advance_to(r, at + 1);
+  return 1;
+}
+
+static void read_bare(reader *r, namelist_assignment *a, namelist_value v)
+{
+  const size_t end = lex_bare_end(r, r->at);
+  const char *problem = NULL;
+  const int first = lex_peek(r);
+  if (first == '#') problem = "'#' starts no comment in a namelist; '!' does";
+  else if (first == '*') problem = "no blank may stand before the '*' of a repeat count";
+  else if (lex_is_quote(lex_at(r, end))) problem = "a separator is missing before the string";
+  else if (first >= 0x80)
+    problem = "unexpected character (typographic quotes, dashes and blanks do not work)";
+  if (problem != NULL) {
+    complain(r, r->line, r->column, 1, problem);
+    a->broken = 1;
+    if (first == '#') lex_skip_line(r);
+    else skip_bad_line(r);
+    return;
+  }
+  v.form = NAMELIST_BARE;
+  v.begin = r->at;
+  v.length = end - r->at;
+  lex_advance_to(r, end);
+  add_value(r, a, v);
+}
+
+static void read_value(reader *r, namelist_assignment *a)
+{
+  namelist_value v = { NAMELIST_NULL, 1, r->line, r->column, r->at, 0 };
+  if (!read_repeat(r, a, &v)) return;
+  if (v.repeat > 1 || r->at > v.begin) {
+    v.begin = r->at;
+    if (lex_is_value_end(lex_peek(r))) {
+      add_value(r, a, v); /* r*: nulls */
+      return;
+    }
+  }
+  if (lex_is_quote(lex_peek(r))) read_string(r, a, v);
+  else read_bare(r, a, v);
+}
+
+/* Everything between the equals sign and the next name or the end of the group. */
+static void read_values(reader *r, namelist_assignment *a)
+{
+  int after_comma = 1; /* a comma now stands for a null value before it */
+  while (!stopped(r)) {
+    lex_skip_blanks(r);
+    const int c = lex_peek(r);
+    if (c == LEX_END || c == '/' || c == '&' || c == '$' || lex_assignment_starts(r, r->at)) return;
+    if (c == ',') {
+      const namelist_value null = { NAMELIST_NULL, 1, r->line, r->column, r->at, 0 };
+      if (after_comma) add_value(r, a, null);
+      after_comma = 1;
+      lex_advance(r);
+    } else if (c == ';' || c == '=') {
+      complain(r, r->line, r->column, 1,
+               c == ';' ? "';' separates nothing here; use a comma or a blank"
+                        : "unexpected '='");
+      a->broken = 1;
+      lex_advance(r);
+      after_comma = 1;
+    } else {
+      read_value(r, a);
+      after_comma = 0;
+    }
+  }
+}
+
+/* ---- assignments and groups ---------------------------------------------------------------- */
+
+static void skip_part(reader *r)
+{
+  while (lex_is_name(lex_peek(r)) || lex_peek(r) == '%') lex_advance(r);
+}
+
+/* `name`, optional subscript, `=`; lex_assignment_starts() has said yes. */
+static void read_assignment(reader *r)
+{
+  namelist_assignment a = { .line = r->line, .column = r->column, .first = 1, .step = 1 };
+  namelist_assignment *kept = NULL;
+
+  read_name(r, a.name);
+  if (lex_peek(r) == '%') {
+    complain(r, r->line, r->column, 1, "components of derived types do not occur in decks");
+    a.broken = 1;
+    skip_part(r);
+  }
+  if (lex_is_blank(lex_peek(r)) && lex_at(r, lex_blanks_end(r, r->at)) == '(') {
+    lex_skip_blanks(r);
+    complain(r, r->line, r->column, 1, "no blank may stand between a name and its subscript");
+    a.broken = 1;
+  }
+  if (lex_peek(r) == '(' && !read_subscript(r, &a)) a.broken = 1;
+  lex_skip_blanks(r);
+  if (lex_peek(r) == '=') lex_advance(r);
+  a.begin = r->nl->values;
+  for (size_t i = 0; !a.subscripted && i < r->group->count; i++) {
+    const namelist_assignment *other = &r->nl->assignment[r->group->begin + i];
+    if (other->subscripted || strcmp(other->name, a.name) != 0) continue;
+    namelist_error_at(r->nl, a.line, a.column, (int)strlen(a.name), r->errors,
+                      "'%s' is given twice (first on line %d)", a.name, other->line);
+    a.broken = 1;
+    break;
+  }
+  kept = add_assignment(r, &a);
+  if (kept != NULL) read_values(r, kept);
+}
+
+/* No assignment starts where one should: report it and go to where the next thing starts. */
+static void skip_non_assignment(reader *r)
+{
+  const size_t end = lex_name_end(r, r->at);
+  if (end > r->at) {
+    namelist_error_at(r->nl, r->line, r->column, (int)(end - r->at), r->errors,
+                      "expected '=' after '%.*s'", end - r->at > 40 ? 40 : (int)(end - r->at),
+                      r->nl->text + r->at);
+    r->group->broken = 1;
+  } else {
+    complain(r, r->line, r->column, 1,
+             lex_peek(r) == '#' ? "'#' starts no comment in a namelist; '!' does"
+                                : "expected a name");
+  }
+  if (lex_peek(r) == '#') lex_skip_line(r);
+  else lex_advance(r);
+  while (lex_peek(r) != LEX_END) {
+    const int c = lex_peek(r);
+    if (c == '!') lex_skip_line(r);
+    if (c == '/' || c == '&' || c == '$') return;
+    const int before = lex_at(r, r->at - 1);
+    if (!lex_is_name(before) && before != '%' && lex_assignment_starts(r, r->at)) return;
+    if (lex_is_quote(c)) {
+      const size_t close = lex_string_close(r, r->at);
+      if (close != 0) lex_advance_to(r, close);
+    }
+    lex_advance(r);
+  }
+}
+
+static void report_open_group(reader *r)
+{
+  const namelist_group *g = r->group;
+  namelist_error_at(r->nl, g->line, g->column, (int)strlen(g->name) + 1, r->errors,
+                    "&%s is not closed: its '/' is missing", g->name);
+  r->group->broken = 1;
+}
+
+/* The inside of a group up to its end. */
+static void read_group_body(reader *r)
+{
+  while (!stopped(r)) {
+    lex_skip_blanks(r);
+    const int c = lex_peek(r);
+    if (c == LEX_END) {
+      report_open_group(r);
+      return;
+    }
+    if (c == '/') {
+      lex_advance(r);
+      return;
+    }
+    if (c == '&' || c == '$') {
+      if (lex_is_end_word(r, r->at + 1)) {
+        lex_advance_to(r, r->at + 4);
+        return;
+      }
+      if (lex_is_letter(lex_at(r, r->at + 1))) {
+        report_open_group(r);
+        return;
+      }
+      complain(r, r->line, r->column, 1, "unexpected character");
+      lex_advance(r);
+    } else if (lex_assignment_starts(r, r->at)) {
+      read_assignment(r);
+    } else {
+      skip_non_assignment(r);
+    }
+  }
+}
+
+static void read_group(reader *r)
+{
+  namelist_group g = { .line = r->line, .column = r->column, .begin = r->nl->assignments };
+  lex_advance(r);
+  read_name(r, g.name);
+  for (size_t i = 0; i < r->nl->groups; i++) {
+    if (strcmp(r->nl->group[i].name, g.name) != 0) continue;
+    namelist_error_at(r->nl, g.line, g.column, (int)strlen(g.name) + 1, r->errors,
+                      "&%s is given twice (first on line %d)", g.name, r->nl->group[i].line);
+    g.repeated = 1;
+    break;
+  }
+  if (!add_group(r, &g)) return;
+  const int c = lex_peek(r);
+  if (!lex_is_blank(c) && c != '/' && c != '!' && c != LEX_END)
+    complain(r, r->line, r->column, 1, "a blank must follow the name of a group");
+  if (!lex_is_blank(c) && c != '/' && c != '!' && c != LEX_END) lex_advance(r);
+  read_group_body(r);
+  r->group = NULL;
+}
+
+/* Anything but comments between groups is a mistake; one message up to the next group. */
+static void skip_outside_text(reader *r, const char *message)
+{
+  const int line = r->line;
+  complain(r, line, r->column, 1, message);
+  /* Most likely a slash inside a value ended the group too early. */
+  if (r->nl->groups > 0 && r->at > 0) r->nl->group[r->nl->groups - 1].broken = 1;
+  lex_advance(r);
+  while (lex_peek(r) != LEX_END) {
+    const int c = lex_peek(r);
+    if ((c == '&' || c == '$') && lex_is_letter(lex_at(r, r->at + 1)) &&
+        !lex_is_end_word(r, r->at + 1))
+      return;
+    if (c == '!') lex_skip_line(r);
+    else lex_advance(r);
+  }
+}
+
+static void read_all(reader *r)
+{
+  for (;;) {
+    lex_skip_blanks(r);
+    const int c = lex_peek(r);
+    const int sigil = c == '&' || c == '$';
+    if (stopped(r) || c == LEX_END) return;
+    if (sigil && lex_is_end_word(r, r->at + 1))
+      skip_outside_text(r, "this ends a group, but none is open");
+    else if (sigil && lex_is_letter(lex_at(r, r->at + 1)))
+      read_group(r);
+    else if (sigil)
+      skip_outside_text(r, "the name of the group must follow at once, without a blank");
+    else
+      skip_outside_text(r, "text outside of any group (groups are '&name ... /', "
+                           "comments start with '!')");
+  }
+}
+
+/* ---- the whole text ------------------------------------------------------------------------ */
+
+static int index_lines(namelist *nl)
+{
+  size_t lines = 1, n = 0;
+  for (size_t i = 0; i < nl->length; i++) lines += nl->text[i] == '\n';
+  nl->line = malloc(lines * sizeof *nl->line);
+  if (nl->line == NULL) return 0;
+  nl->line[n++] = 0;
+  for (size_t i = 0; i < nl->length; i++)
+    if (nl->text[i] == '\n') nl->line[n++] = i + 1;
+  nl->lines = (int)lines;
+  return 1;
+}
+
+/* Copy the text and index it; nl must be all zero. */
+static pendres_status take_text(namelist *nl, const char *name, const char *text, size_t length)
+{
+  nl->name = malloc(strlen(name) + 1);
+  nl->text = malloc(length + 1);
+  if (nl->name == NULL || nl->text == NULL) return PENDRES_OUT_OF_MEMORY;
+  strcpy(nl->name, name);
+  if (length > 0) memcpy(nl->text, text, length);
+  nl->text[length] = '\0';
+  nl->length = length;
+  return index_lines(nl) ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
+}
+
+pendres_status namelist_parse(const char *name, const char *text, size_t length, namelist *out,
+                              namelist_errors *errors)
+{
+  const size_t errors_before = errors->count + errors->dropped;
+  reader r = { .nl = out, .errors = errors, .line = 1, .column = 1 };
+
+  *out = (namelist){ 0 };
+  if (take_text(out, name, text, length <= NAMELIST_MAX_BYTES ? length : 0) != PENDRES_OK)
+    goto no_memory;
+  if (length > NAMELIST_MAX_BYTES) {
+    namelist_error_at(out, 0, 0, 0, errors, "the deck is larger than 1 MiB");
+    return PENDRES_INVALID_ARGUMENT;
+  }
+  if (length >= 2 &&
+      (memcmp(out->text, "\xFF\xFE", 2) == 0 || memcmp(out->text, "\xFE\xFF", 2) == 0)) {
+    namelist_error_at(out, 0, 0, 0, errors, "the deck is UTF-16; save it as UTF-8");
+    return PENDRES_INVALID_ARGUMENT;
+  }
+  if (length >= 3 && memcmp(out->text, "\xEF\xBB\xBF", 3) == 0) out->line[0] = r.at = 3; /* BOM */
+  if (lex_check_bytes(&r)) read_all(&r);
+  if (r.out_of_memory || errors->out_of_memory) goto no_memory;
+  return errors->count + errors->dropped > errors_before ? PENDRES_INVALID_ARGUMENT : PENDRES_OK;
+no_memory:
+  errors->out_of_memory = 1;
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+const namelist_group *namelist_group_find(const namelist *nl, const char *name)
+{
+  for (size_t i = 0; i < nl->groups; i++)
+    if (strcmp(nl->group[i].name, name) == 0) return &nl->group[i];
+  return NULL;
+}
+
+void namelist_free(namelist *nl)
+{
+  if (nl == NULL) return;
+  free(nl->name);
+  free(nl->text);
+  free(nl->line);
+  free(nl->group);
+  free(nl->assignment);
+  free(nl->value);
+  *nl = (namelist){ 0 };
+}

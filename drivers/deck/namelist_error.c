@@ -1,0 +1,144 @@
+/*
+ * namelist_error.c -- the list of errors of a deck and how one error looks:
+ *
+ *   f02.nml:3:11: error: 'dampng' is not a key of &pendulum (did you mean 'damping'?)
+ *     dampng = 0.24
+ *     ^~~~~~
+ */
+#ifndef _POSIX_C_SOURCE
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
+#endif
+#include "deck/namelist.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "terminal/safe_text.h"
+
+/* What is shown of a long source line, and how much of it stands before the caret. */
+enum { WINDOW = 100, BEFORE = 60, MESSAGE = 600 };
+
+/* The source line and the caret below it. Tabs stay tabs in both, so that they line up. */
+static void write_source(FILE *out, const namelist *nl, int line, int column, int width)
+{
+  const char *text = nl->text + nl->line[line - 1];
+  size_t left = 0;
+  const int first = column > WINDOW ? column - BEFORE : 1;
+  int at = 1, shown = 0;
+  char pad[WINDOW + 1];
+  int pads = 0;
+
+  while (text[left] != '\0' && text[left] != '\n') left++;
+  while (left > 0 && (text[left - 1] == '\r' || text[left - 1] == ' ')) left--;
+  fprintf(out, "\n  %s", first > 1 ? "..." : "");
+  while (left > 0 && shown < WINDOW) {
+    int safe;
+    const size_t size = safe_text_character(text, left, &safe);
+    if (at >= first) {
+      const int tab = *text == '\t';
+      if (safe || tab) fwrite(text, 1, size, out);
+      else fputc('?', out);
+      if (at < column) pad[pads++] = tab ? '\t' : ' ';
+      shown++;
+    }
+    text += size;
+    left -= size;
+    at++;
+  }
+  if (left > 0) fputs("...", out);
+  while (at < column && pads < WINDOW) {
+    pad[pads++] = ' ';
+    at++;
+  }
+  pad[pads] = '\0';
+  fprintf(out, "\n  %s%s^", first > 1 ? "   " : "", pad);
+  for (int i = 1; i < width && i + pads < WINDOW; i++) fputc('~', out);
+}
+
+static char *format_error(const namelist *nl, int line, int column, int width, const char *message)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  const char *name = nl->name != NULL ? nl->name : "deck";
+  if (out == NULL) return NULL;
+  /* The deck's own words are in the message, and the name may be anything. */
+  safe_text_write(out, name);
+  if (line < 1) fputs(": error: ", out);
+  else fprintf(out, ":%d:%d: error: ", line, column);
+  safe_text_write(out, message);
+  if (line >= 1 && line <= nl->lines) write_source(out, nl, line, column, width);
+  if (fclose(out) != 0) {
+    free(text);
+    text = NULL;
+  }
+  return text;
+}
+
+static int make_room(namelist_errors *errors)
+{
+  namelist_error *item = NULL;
+  const size_t capacity = errors->capacity == 0 ? 8 : 2 * errors->capacity;
+  if (errors->count < errors->capacity) return 1;
+  item = realloc(errors->item, capacity * sizeof *item);
+  if (item == NULL) return 0;
+  errors->item = item;
+  errors->capacity = capacity;
+  return 1;
+}
+
+void namelist_error_at(const namelist *nl, int line, int column, int width, namelist_errors *errors,
+                       const char *format, ...)
+{
+  char message[MESSAGE];
+  char *text = NULL;
+  va_list arguments;
+
+  if (errors->count >= NAMELIST_MAX_ERRORS) {
+    errors->dropped++;
+    return;
+  }
+  va_start(arguments, format);
+  const int written = vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  if (written < 0) snprintf(message, sizeof message, "(a message that cannot be shown)");
+  text = format_error(nl, line, column, width, message);
+  if (text == NULL || !make_room(errors)) {
+    free(text);
+    errors->out_of_memory = 1;
+    return;
+  }
+  errors->item[errors->count++] = (namelist_error){ line, column, text };
+}
+
+void namelist_errors_sort(namelist_errors *errors)
+{
+  /* Insertion keeps the order of errors at one position; the list is short. */
+  for (size_t i = 1; i < errors->count; i++) {
+    const namelist_error e = errors->item[i];
+    size_t j = i;
+    while (j > 0 && (errors->item[j - 1].line > e.line ||
+                     (errors->item[j - 1].line == e.line &&
+                      errors->item[j - 1].column > e.column))) {
+      errors->item[j] = errors->item[j - 1];
+      j--;
+    }
+    errors->item[j] = e;
+  }
+}
+
+void namelist_errors_print(const namelist_errors *errors, FILE *stream)
+{
+  for (size_t i = 0; i < errors->count; i++) fprintf(stream, "%s\n", errors->item[i].text);
+  if (errors->dropped > 0) fprintf(stream, "... and %zu more errors\n", errors->dropped);
+  if (errors->out_of_memory) fprintf(stream, "error: out of memory while reading the deck\n");
+}
+
+void namelist_errors_free(namelist_errors *errors)
+{
+  if (errors == NULL) return;
+  for (size_t i = 0; i < errors->count; i++) free(errors->item[i].text);
+  free(errors->item);
+  *errors = (namelist_errors){ 0 };
+}

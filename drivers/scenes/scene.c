@@ -1,0 +1,216 @@
+/* scene.c -- the list of scenes, and what several of them need; see scene.h. */
+#include "scenes/scene.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One line here and one in the list for each scene_NAME.c. */
+extern const scene_kind scene_free_oscillation;
+extern const scene_kind scene_resonance_curve;
+extern const scene_kind scene_response;
+extern const scene_kind scene_orbit;
+extern const scene_kind scene_basins;
+extern const scene_kind scene_work_precision;
+extern const scene_kind scene_phase_diagram;
+extern const scene_kind scene_branches;
+extern const scene_kind scene_switching;
+extern const scene_kind scene_hard_cases;
+
+static const scene_kind *const scenes[] = {
+  &scene_free_oscillation,
+  &scene_resonance_curve,
+  &scene_response,
+  &scene_orbit,
+  &scene_basins,
+  &scene_work_precision,
+  &scene_phase_diagram,
+  &scene_branches,
+  &scene_switching,
+  &scene_hard_cases,
+};
+
+const scene_kind *scene_find(deck_kind kind)
+{
+  for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+    if (scenes[i]->kind == kind) return scenes[i];
+  return NULL;
+}
+
+/* ---- options ------------------------------------------------------------------------------- */
+
+pendres_status scene_precision(const deck *d, pendres_options *out, const char **why)
+{
+  *out = (pendres_options){ .tolerance = d->precision.tolerance,
+                            .steps_per_period = (int)d->precision.steps_per_period,
+                            .block_lanes = (int)d->precision.block_lanes,
+                            .period_budget = (long)d->precision.period_budget };
+  if (d->precision.method[0] != '\0') out->method = pendres_method_named(d->precision.method);
+  if (d->precision.table[0] != '\0') out->table = pendres_table_named(d->precision.table);
+  *why = pendres_options_check(out);
+  return *why == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
+}
+
+/* ---- failures ------------------------------------------------------------------------------ */
+
+pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
+{
+  va_list args;
+  if (run->message[0] != '\0') return status;
+  va_start(args, format);
+  (void)vsnprintf(run->message, sizeof run->message, format, args);
+  va_end(args);
+  return status;
+}
+
+pendres_status scene_store_failed(scene_run *run, pendres_status status)
+{
+  return scene_fail(run, status, "%s", pendres_store_message(run->store));
+}
+
+pendres_status scene_farm_failed(scene_run *run, pendres_status status)
+{
+  return scene_fail(run, status, "%s", farm_message(run->farm));
+}
+
+/* ---- axes, fixed parameters and ensembles -------------------------------------------------- */
+
+static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
+  [DECK_AXIS_AMPLITUDE] = { "amplitude of the angle", "rad" },
+  [DECK_AXIS_DAMPING] = { "friction coefficient gamma", "1" },
+  [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
+  [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
+  [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
+  [DECK_AXIS_X] = { "initial position", "rad" },
+  [DECK_AXIS_V] = { "initial velocity", "1" },
+  [DECK_AXIS_TEMPERATURE] = { "temperature in units of the depth of the potential", "1" },
+  [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
+};
+
+pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
+{
+  const deck_axis *a = &run->deck->axis[axis];
+  const pendres_status status =
+    pendres_store_dimension(run->store, group, deck_axis_name(axis), a->count, a->value,
+                            about[axis].words, about[axis].units);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+pendres_status scene_write_identity(scene_run *run)
+{
+  const deck *d = run->deck;
+  const struct { deck_axis_id axis; double value; } fixed[] = {
+    { DECK_AXIS_DRIVE_AMPLITUDE, d->pendulum.drive_amplitude },
+    { DECK_AXIS_DAMPING, d->pendulum.damping },
+    { DECK_AXIS_DRIVE_FREQUENCY, d->pendulum.drive_frequency },
+    { DECK_AXIS_DRIVE_PERIOD, d->pendulum.drive_period },
+  };
+  char coordinates[4 * DECK_NAME] = "";
+  const char *slash = strrchr(d->name, '/');
+  pendres_status status =
+    pendres_store_attribute_text(run->store, "", NULL, "scene", deck_kind_name(d->kind));
+  if (status == PENDRES_OK)
+    status = pendres_store_attribute_text(run->store, "", NULL, "deck",
+                                          slash != NULL ? slash + 1 : d->name);
+  for (size_t i = 0; i < sizeof fixed / sizeof *fixed && status == PENDRES_OK; i++) {
+    const deck_axis_id axis = fixed[i].axis;
+    if (isnan(fixed[i].value) || d->axis[axis].count > 0) continue;
+    const pendres_store_spec spec = { .name = deck_axis_name(axis),
+                                      .long_name = about[axis].words,
+                                      .units = about[axis].units };
+    status = pendres_store_put(run->store, &spec, &fixed[i].value, 1);
+    if (coordinates[0] != '\0') strcat(coordinates, " ");
+    strcat(coordinates, spec.name);
+  }
+  if (status == PENDRES_OK && coordinates[0] != '\0')
+    status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+pendres_ensemble scene_ensemble(const deck *d)
+{
+  return (pendres_ensemble){ .members = (size_t)d->ensemble.members,
+                             .x_first = d->ensemble.x_first,
+                             .x_last = d->ensemble.x_last,
+                             .v = d->ensemble.v };
+}
+
+pendres_sweep scene_sweep(const deck *d)
+{
+  static const struct { deck_axis_id id; pendres_quantity quantity; } axes[] = {
+    { DECK_AXIS_DAMPING, PENDRES_QUANTITY_DAMPING },
+    { DECK_AXIS_DRIVE_FREQUENCY, PENDRES_QUANTITY_DRIVE_FREQUENCY },
+    { DECK_AXIS_DRIVE_PERIOD, PENDRES_QUANTITY_DRIVE_PERIOD },
+  };
+  pendres_sweep s = { .pendulum = { .damping = d->pendulum.damping,
+                                    .drive_amplitude = d->pendulum.drive_amplitude,
+                                    .drive_frequency = d->pendulum.drive_frequency } };
+  for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
+    const deck_axis *a = &d->axis[axes[i].id];
+    if (a->count > 0)
+      s.axis[s.axes++] = (pendres_axis){ axes[i].quantity, a->count, a->value };
+  }
+  return s;
+}
+
+pendres_status scene_write_uncertain(scene_run *run, int axes, const deck_axis_id *axis,
+                                     const int64_t *count)
+{
+  pendres_store_spec spec = { .name = "uncertain_members", .type = PENDRES_STORE_INT64,
+                              .long_name = "members that may belong to another state" };
+  size_t n = 1;
+  for (int i = 0; i < axes; i++) {
+    spec.dimensions[i] = deck_axis_name(axis[i]);
+    n *= run->deck->axis[axis[i]].count;
+  }
+  return pendres_store_put(run->store, &spec, count, n);
+}
+
+/* ---- the group `paper` --------------------------------------------------------------------- */
+
+enum { PAPER_PRINTED, PAPER_COMPUTED, PAPER_DIFFERENCE, PAPER_COUNT };
+
+static double paper_value(const scene_printed *v, int which)
+{
+  return which == PAPER_PRINTED    ? v->printed
+         : which == PAPER_COMPUTED ? v->computed
+                                   : v->computed - v->printed;
+}
+
+static pendres_status put_paper(pendres_store *store, size_t n, const scene_printed *values,
+                                int which, double *number, double *error)
+{
+  static const char *const names[PAPER_COUNT] = { "printed", "computed", "difference" };
+  static const char *const words[PAPER_COUNT] = { "value printed in the paper", "value of this run",
+                                                  "computed less printed" };
+  const pendres_store_spec spec = { .group = "paper", .name = names[which],
+                                    .dimensions = { "quantity" }, .long_name = words[which] };
+  for (size_t i = 0; i < n; i++) {
+    number[i] = paper_value(&values[i], which);
+    error[i] = values[i].error;
+  }
+  return which == PAPER_PRINTED ? pendres_store_put(store, &spec, number, n)
+                                : pendres_store_put_result(store, &spec, number, error, n);
+}
+
+pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  const char **name = malloc(n * sizeof *name);
+  double *number = malloc(2 * n * sizeof *number);
+  if (name == NULL || number == NULL) {
+    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu printed values", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) name[i] = values[i].name;
+  status = pendres_store_dimension_text(run->store, "paper", "quantity", n, name, "quantity");
+  for (int which = 0; which < PAPER_COUNT && status == PENDRES_OK; which++)
+    status = put_paper(run->store, n, values, which, number, number + n);
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+done:
+  free(name);
+  free(number);
+  return status;
+}

@@ -1,0 +1,87 @@
+/*
+ * scene.h -- a scene: a list of pendulums and a question about them.
+ *
+ * Owns: the face that every scene shows to the driver. One file a kind: scene_NAME.c, which
+ * defines `const scene_kind scene_NAME` and is listed in scene.c. A scene takes a checked deck,
+ * hands tasks to the farm, and defines and writes its results; it never reads text, prints
+ * progress or handles signals.
+ */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include <stdio.h>
+
+#include <pendres/pendres.h>
+#include <pendres/store.h>
+
+#include "deck/deck.h"
+#include "farm/farm.h"
+
+enum { SCENE_MOST_TOLD = 10, SCENE_TOLD = 400 };
+
+typedef struct scene_run {
+  const deck *deck;
+  farm *farm;
+  pendres_store *store;
+  FILE *table;          /* where the short table of results goes; NULL: nowhere */
+  size_t failed_points; /* points without a result (marked in the file): exit code 3 */
+  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines on the first of them, see scene_failed.h */
+  size_t told_count;
+  char message[512];    /* why run() failed */
+} scene_run;
+
+typedef struct scene_kind {
+  deck_kind kind;
+  const char *references; /* root attribute of the file: what the scene reproduces, and methods */
+  /* What would be computed, in a few lines (--dry-run). */
+  void (*plan)(const deck *d, FILE *out);
+  /* Compute and write everything but the provenance. */
+  pendres_status (*run)(scene_run *run);
+} scene_kind;
+
+/* The scene of a kind; NULL if this build has none. */
+const scene_kind *scene_find(deck_kind kind);
+
+/* The library's options that a deck's &precision asks for; *why is a static sentence if it is
+   more than the library can do. */
+pendres_status scene_precision(const deck *d, pendres_options *out, const char **why);
+
+/* Record why a scene failed, unless an earlier failure is on record; returns the status. Not for
+   tasks on threads: what they report comes from their context. */
+pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The same with the store's own words. */
+pendres_status scene_store_failed(scene_run *run, pendres_status status);
+
+/* The same with the farm's words, after a farm_run that failed. */
+pendres_status scene_farm_failed(scene_run *run, pendres_status status);
+
+/* An axis of the deck as a dimension of a group, with its usual name, words and units. */
+pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
+
+/*
+ * Which run this is: attributes `scene` and `deck` of the file, and the pendulum's parameters that
+ * the deck holds fixed as scalar coordinates, so that files of several runs can be put together.
+ */
+pendres_status scene_write_identity(scene_run *run);
+
+/* The deck's ensemble. */
+pendres_ensemble scene_ensemble(const deck *d);
+
+/* The deck's dampings by its drive frequencies or periods, as far as it has them as axes. */
+pendres_sweep scene_sweep(const deck *d);
+
+/* `uncertain_members` beside the means of an ensemble; count[] over one or two axes. */
+pendres_status scene_write_uncertain(scene_run *run, int axes, const deck_axis_id *axis,
+                                     const int64_t *count);
+
+/* The group `paper`: printed values beside computed ones. */
+typedef struct scene_printed {
+  const char *name;      /* of the quantity, e.g. "resonance_period_gamma_0.24" */
+  double printed;        /* by the paper */
+  double computed, error;
+} scene_printed;
+pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values);
+
+#endif

@@ -1,0 +1,361 @@
+/*
+ * scene_basins.c -- basins of attraction over a grid of initial states; the paper's Fig. 7.
+ *
+ * One task a handful of rows, each state integrated; or, with refine, one task a slice of the
+ * states that a plan (basin.h) asks for. Rows are written as they come: memory stays bounded.
+ * What stays unresolved is searched for attractors that the scouts have missed; if there are any,
+ * all rows are done again with them, so that results do not depend on who found what.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/scene_basins.h"
+#include "scenes/scene_basins_noise.h"
+
+enum {
+  STATES_A_TASK = 65536, /* whole rows of about so many states */
+  SLICE = 16384,          /* states a task of a refinement */
+  SMALL = 2048,           /* so few are not worth a task */
+  BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
+  LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
+  SAMPLED = 256,
+  LOST_A_TASK = 64,       /* unresolved states that a task remembers */
+  MOST_EXTENSIONS = 4
+};
+
+/* ---- the plan ---- */
+
+static void plan(const deck *d, FILE *out)
+{
+  const deck_axis *x = &d->axis[DECK_AXIS_X], *v = &d->axis[DECK_AXIS_V];
+  fprintf(out,
+          "basins of %zu x %zu = %.4g initial states, x %g to %g, v %g to %g,\n"
+          "damping %g, drive amplitude %g, drive frequency %.6g%s\n",
+          x->count, v->count, (double)x->count * (double)v->count, x->value[0],
+          x->value[x->count - 1], v->value[0], v->value[v->count - 1], d->pendulum.damping,
+          d->pendulum.drive_amplitude, d->pendulum.drive_frequency,
+          d->basins.refine ? "; refined where neighbours differ" : "");
+}
+
+/* ---- whole grids ---- */
+
+typedef struct part {
+  pendres_basin_state *state; /* of its rows; NULL when written */
+  size_t lost, lost_index[LOST_A_TASK]; /* unresolved: how many, and some of them */
+} part;
+
+typedef struct sweep {
+  basins *b;
+  size_t rows; /* a task */
+  part *parts;
+} sweep;
+
+static size_t rows_of(const sweep *s, size_t task)
+{
+  const size_t left = s->b->grid.nx - task * s->rows;
+  return left < s->rows ? left : s->rows;
+}
+
+/* What has been deferred gets its time now. */
+static pendres_status finish_rows(pendres_context *ctx, const basins *b, size_t offset, size_t n,
+                                  size_t deferred, pendres_basin_state *state)
+{
+  size_t *index = malloc(deferred * sizeof *index), k = 0;
+  pendres_basin_state *rest = malloc(deferred * sizeof *rest);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (index == NULL || rest == NULL) goto done;
+  for (size_t i = 0; i < n; i++)
+    if (state[i].how == PENDRES_BASIN_DEFERRED) index[k++] = offset + i;
+  status = pendres_basin_states(ctx, b->set, &b->grid, k, index, rest);
+  for (size_t i = 0; i < k && status == PENDRES_OK; i++) state[index[i] - offset] = rest[i];
+done:
+  free(index);
+  free(rest);
+  return status;
+}
+
+static pendres_status compute_rows(void *arg, size_t task, pendres_context *ctx)
+{
+  const sweep *s = arg;
+  const basins *b = s->b;
+  part *p = &s->parts[task];
+  const size_t first = task * s->rows, rows = rows_of(s, task), n = rows * b->grid.nv;
+  size_t deferred = 0;
+  p->lost = 0;
+  p->state = malloc(n * sizeof *p->state);
+  if (p->state == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status =
+    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, p->state, &deferred);
+  if (status == PENDRES_OK && deferred > 0)
+    status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, p->state);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (p->state[i].attractor >= 0) continue;
+    if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = first * b->grid.nv + i;
+    p->lost++;
+  }
+  return status;
+}
+
+static pendres_status collect_rows(void *arg, size_t task)
+{
+  const sweep *s = arg;
+  part *p = &s->parts[task];
+  const size_t rows = rows_of(s, task);
+  pendres_status status = basins_write_rows(s->b, task * s->rows, rows, p->state);
+  if (status == PENDRES_OK) status = pendres_basin_sums_add(s->b->sums, rows, p->state);
+  s->b->unresolved += p->lost;
+  free(p->state);
+  p->state = NULL;
+  return status;
+}
+
+/* New sums for a new pass over the grid. */
+static pendres_status restart(basins *b)
+{
+  pendres_basin_sums_free(b->sums);
+  b->sums = NULL;
+  b->unresolved = 0;
+  const pendres_status status =
+    pendres_basin_sums_create(&b->grid, pendres_attractors_count(b->set), &b->sums);
+  return status == PENDRES_OK ? status : scene_fail(b->run, status, "out of memory for statistics");
+}
+
+/* Attractors that are known by unresolved states alone. */
+static pendres_status extend(basins *b, size_t n, const size_t *index, size_t *grown)
+{
+  *grown = 0;
+  if (n == 0) return PENDRES_OK;
+  pendres_context *ctx = farm_context(b->run->farm);
+  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  const pendres_status status = pendres_basin_extend(ctx, b->set, &b->grid, n, index, grown);
+  return status == PENDRES_OK ? status
+                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+}
+
+static pendres_status sweep_once(basins *b, size_t *grown, int last)
+{
+  sweep s = {.b = b, .rows = 1 + STATES_A_TASK / b->grid.nv};
+  const size_t tasks = (b->grid.nx + s.rows - 1) / s.rows;
+  size_t *index = NULL, n = 0;
+  pendres_status status = restart(b);
+  *grown = 0;
+  if (status != PENDRES_OK) return status;
+  s.parts = calloc(tasks, sizeof *s.parts);
+  index = malloc(tasks * LOST_A_TASK * sizeof *index);
+  if (s.parts == NULL || index == NULL) {
+    status = scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", tasks);
+    goto done;
+  }
+  status = farm_run(b->run->farm, "groups of rows", tasks, compute_rows, collect_rows, &s);
+  if (status != PENDRES_OK) {
+    (void)scene_farm_failed(b->run, status);
+    goto done;
+  }
+  for (size_t t = 0; t < tasks; t++)
+    for (size_t k = 0; k < s.parts[t].lost && k < LOST_A_TASK; k++)
+      index[n++] = s.parts[t].lost_index[k];
+  if (!last) status = extend(b, n, index, grown);
+done:
+  for (size_t t = 0; s.parts != NULL && t < tasks; t++) free(s.parts[t].state);
+  free(s.parts);
+  free(index);
+  return status;
+}
+
+/* ---- refinement ---- */
+
+typedef struct slices {
+  const basins *b;
+  size_t n;
+  const size_t *index;
+  pendres_basin_state *state;
+} slices;
+
+static pendres_status compute_slice(void *arg, size_t task, pendres_context *ctx)
+{
+  const slices *s = arg;
+  const size_t first = task * SLICE, n = s->n - first < SLICE ? s->n - first : SLICE;
+  return pendres_basin_states(ctx, s->b->set, &s->b->grid, n, s->index + first, s->state + first);
+}
+
+/* Integrate states by number, on all threads if they are many. */
+static pendres_status integrate(basins *b, size_t n, const size_t *index,
+                                pendres_basin_state **state)
+{
+  pendres_status status = PENDRES_OK;
+  *state = malloc((n + 1) * sizeof **state);
+  if (*state == NULL)
+    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
+  slices s = {.b = b, .n = n, .index = index, .state = *state};
+  if (n > SMALL) {
+    status = farm_run(b->run->farm, "slices", (n + SLICE - 1) / SLICE, compute_slice, NULL, &s);
+    return status == PENDRES_OK ? status : scene_farm_failed(b->run, status);
+  }
+  pendres_context *ctx = farm_context(b->run->farm);
+  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  status = pendres_basin_states(ctx, b->set, &b->grid, n, index, *state);
+  return status == PENDRES_OK ? status
+                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+}
+
+static pendres_status follow_plan(basins *b, pendres_basin_plan *p)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t n = 1; n > 0 && status == PENDRES_OK;) {
+    const size_t *index = NULL;
+    pendres_basin_state *state = NULL;
+    status = pendres_basin_plan_next(p, &n, &index);
+    if (status != PENDRES_OK || n == 0) break;
+    status = integrate(b, n, index, &state);
+    if (status == PENDRES_OK) status = pendres_basin_plan_accept(p, state);
+    free(state);
+  }
+  return status;
+}
+
+/* A sample of what was filled in; what turns out wrong is put right with its surroundings. */
+static pendres_status verify_once(basins *b, pendres_basin_plan *p, size_t sample, uint64_t seed,
+                                  size_t *drawn, size_t *missed)
+{
+  const size_t *index = NULL;
+  pendres_basin_state *state = NULL;
+  *drawn = *missed = 0;
+  pendres_status status = pendres_basin_plan_sample(p, sample, seed, drawn, &index);
+  if (status == PENDRES_OK) status = integrate(b, *drawn, index, &state);
+  if (status == PENDRES_OK) status = pendres_basin_plan_verify(p, state, missed);
+  free(state);
+  b->verified += *drawn;
+  b->missed += *missed;
+  return status == PENDRES_OK ? follow_plan(b, p) : status;
+}
+
+/* Samples until one is clean: each that is not makes the plan's lattice finer, so that there is an
+   end. */
+static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
+{
+  const size_t all = b->grid.nx * b->grid.nv / SAMPLED;
+  const double sample = (double)(all > LEAST_SAMPLE ? all : LEAST_SAMPLE);
+  const size_t n = (size_t)ceil(sample * (double)rows / (double)b->grid.nx);
+  size_t drawn = 0, missed = 1;
+  pendres_status status = PENDRES_OK;
+  for (uint64_t seed = 1; missed > 0 && status == PENDRES_OK; seed++)
+    status = verify_once(b, p, n, seed, &drawn, &missed);
+  b->clean += drawn;
+  b->filled += pendres_basin_plan_filled(p);
+  return status;
+}
+
+/* Rows first .. first + rows - 1 by a plan; index[0 .. *lost) are some that are unresolved. */
+static pendres_status refine_band(basins *b, size_t first, size_t rows, size_t *lost, size_t *index)
+{
+  pendres_basin_plan *p = NULL;
+  const size_t n = rows * b->grid.nv;
+  pendres_basin_state *state = NULL;
+  pendres_status status = pendres_basin_plan_create(&b->grid, first, rows, 0, &p);
+  if (status == PENDRES_OK) status = follow_plan(b, p);
+  if (status == PENDRES_OK) status = verify_plan(b, p, rows);
+  if (status != PENDRES_OK) goto done;
+  b->integrated += pendres_basin_plan_integrated(p);
+  state = malloc(n * sizeof *state);
+  status = state != NULL ? pendres_basin_plan_states(p, state) : PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) status = basins_write_rows(b, first, rows, state);
+  if (status == PENDRES_OK) status = pendres_basin_sums_add(b->sums, rows, state);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (state[i].attractor >= 0) continue;
+    b->unresolved++;
+    if (*lost < LOST_A_TASK) index[(*lost)++] = first * b->grid.nv + i;
+  }
+done:
+  if (status != PENDRES_OK)
+    (void)scene_fail(b->run, status, "refinement: %s", pendres_status_message(status));
+  pendres_basin_plan_free(p);
+  free(state);
+  return status;
+}
+
+static pendres_status refine_once(basins *b, size_t *grown, int last)
+{
+  const size_t band = 1 + (BAND_STATES - 1) / b->grid.nv;
+  size_t index[LOST_A_TASK], lost = 0;
+  pendres_status status = restart(b);
+  *grown = 0;
+  b->integrated = b->verified = b->missed = b->filled = b->clean = 0;
+  for (size_t i = 0; i < b->grid.nx && status == PENDRES_OK; i += band)
+    status = refine_band(b, i, b->grid.nx - i < band ? b->grid.nx - i : band, &lost, index);
+  if (status == PENDRES_OK)
+    status = pendres_basin_sums_suspect(b->sums, pendres_basin_plan_suspected(b->filled, b->clean));
+  if (status == PENDRES_OK && !last) status = extend(b, lost, index, grown);
+  return status;
+}
+
+/* ---- the scene ---- */
+
+/* The line v = 0. */
+static pendres_status compute_cut(basins *b)
+{
+  static const double rest = 0.0;
+  basins line = *b;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  size_t *index = malloc(b->grid.nx * sizeof *index);
+  line.grid.nv = 1;
+  line.grid.v = &rest;
+  if (index == NULL) {
+    (void)scene_fail(b->run, status, "out of memory for the line v = 0");
+  } else {
+    for (size_t i = 0; i < b->grid.nx; i++) index[i] = i;
+    status = integrate(&line, b->grid.nx, index, &b->cut);
+  }
+  free(index);
+  return status;
+}
+
+static pendres_status find_attractors(basins *b)
+{
+  pendres_context *ctx = farm_context(b->run->farm);
+  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  const pendres_status status = pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set);
+  return status == PENDRES_OK ? status
+                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  basins b = {.run = run, .d = d,
+              .pendulum = {.damping = d->pendulum.damping,
+                           .drive_amplitude = d->pendulum.drive_amplitude,
+                           .drive_frequency = d->pendulum.drive_frequency},
+              .grid = {.nx = d->axis[DECK_AXIS_X].count, .nv = d->axis[DECK_AXIS_V].count,
+                       .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value}};
+  size_t grown = 1;
+  pendres_status status = find_attractors(&b);
+  if (status == PENDRES_OK) status = basins_define(&b);
+  for (int pass = 0; grown > 0 && status == PENDRES_OK; pass++) {
+    const int last = pass == MOST_EXTENSIONS;
+    status = d->basins.refine ? refine_once(&b, &grown, last) : sweep_once(&b, &grown, last);
+  }
+  if (status == PENDRES_OK) status = compute_cut(&b);
+  if (status == PENDRES_OK) status = basins_write_results(&b);
+  if (status == PENDRES_OK) status = scene_basins_write_clouds(run, b.set);
+  run->failed_points += b.unresolved;
+  if (b.unresolved > 0)
+    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%zu of %zu states", b.unresolved,
+                       b.grid.nx * b.grid.nv);
+  pendres_attractors_free(b.set);
+  pendres_basin_sums_free(b.sums);
+  free(b.cut);
+  return status;
+}
+
+const scene_kind scene_basins = {
+  .kind = DECK_BASINS,
+  .references =
+    "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+    "pendulum, Fig. 7. Basin entropy: Daza et al., Scientific Reports 6 (2016) 31416. "
+    "Uncertainty exponent: McDonald, Grebogi, Ott, Yorke, Physica D 17 (1985) 125. With "
+    "temperature: S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. "
+    "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, "
+    "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
+    "chapter VIII.6.",
+  .plan = plan,
+  .run = run_scene};

@@ -1,0 +1,61 @@
+/*
+ * scene_basins.h -- what the parts of scene `basins` share: computing in scene_basins.c, writing in
+ * scene_basins_write.c, wells in scene_basins_wells.c, the boundary as a curve in
+ * scene_basins_boundary.c.
+ */
+#ifndef SCENE_BASINS_H
+#define SCENE_BASINS_H
+
+#include <pendres/basin.h>
+
+#include "scenes/scene_failed.h"
+
+/* Variables of every state. */
+enum {
+  BASINS_LABEL,
+  BASINS_ATTRACTOR,
+  BASINS_WELL,
+  BASINS_PERIODS,
+  BASINS_FAILED,
+  BASINS_VARIABLES
+};
+
+typedef struct basins {
+  scene_run *run;
+  const deck *d;
+  pendres_pendulum pendulum;
+  pendres_basin_grid grid;
+  pendres_attractors *set;
+  pendres_basin_sums *sums;
+  int variable[BASINS_VARIABLES];
+  size_t unresolved, uncertain;
+  size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
+  const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
+  /* refinement alone: */
+  size_t integrated, verified, missed;
+  size_t filled, clean; /* filled states in the end, and those of clean samples among them */
+  /* the line v = 0: */
+  pendres_basin_state *cut;
+} basins;
+
+/* Define the variables of all states, in the group of the grid. */
+pendres_status basins_define(basins *b);
+
+/* Write whole rows; type errors and the like are the store's. */
+pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
+                                 const pendres_basin_state *state);
+
+/* Everything that is not a state of the grid. */
+pendres_status basins_write_results(basins *b);
+
+/* Write how many of the states go to each of the attractors, and to each of their wells. */
+pendres_status basins_write_wells(basins *b, size_t attractors);
+
+/* Say so where attractors have more than one well. */
+void basins_print_wells(const basins *b, FILE *out);
+
+/* Find and write the stable manifold of the orbit between the first attractor and its neighbour,
+   if any; b->curve says what was found. */
+pendres_status basins_write_boundary(basins *b);
+
+#endif

@@ -1,0 +1,145 @@
+/* scene_failed.c -- points without a whole result; see scene_failed.h. */
+#include "scenes/scene_failed.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+  const char *meaning, *words;
+} reasons[] = {
+#define REASON(code, meaning, words) { meaning, words },
+  SCENE_FAILURE_LIST(REASON)
+#undef REASON
+};
+
+scene_failure scene_failure_of(pendres_status status)
+{
+  switch (status) {
+  case PENDRES_UNRESOLVED: return SCENE_FAILURE_UNRESOLVED;
+  case PENDRES_INTEGRATION_FAILED: return SCENE_FAILURE_INTEGRATION;
+  case PENDRES_TOLERANCE_UNREACHABLE: return SCENE_FAILURE_TOLERANCE;
+  case PENDRES_NOT_CONVERGED: return SCENE_FAILURE_NOT_CONVERGED;
+  case PENDRES_NOT_FOUND: return SCENE_FAILURE_NOT_FOUND;
+  case PENDRES_INVALID_ARGUMENT: return SCENE_FAILURE_REFUSED;
+  default: return SCENE_FAILURE_NONE;
+  }
+}
+
+int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size)
+{
+  /* Some minute's; e-folding times until 1e-8 of a start is left; least periods of a verdict. */
+  const double most = 2e7, times = 18.0, periods = 20.0, two_pi = 6.28318530717958647693;
+  const double half = 0.5 * p->damping;
+  const double rate = half < 1.0 ? half : 1.0 / (half + sqrt(half * half - 1.0));
+  const double a_unit_time = fmax(p->damping / 4.0, 1.0 / 1.5);
+  const double steps =
+    runs * a_unit_time * (times / rate + periods * two_pi / p->drive_frequency);
+  /* Weak damping is another matter: there attractors draw pendulums in by more than friction. */
+  if (p->damping < 2.0 || steps <= most) return 0;
+  snprintf(words, size, "damping %g asks for some %.1e steps of the integrator, more than %.0e",
+           p->damping, steps, most);
+  return 1;
+}
+
+pendres_status scene_failures_create(size_t n, scene_failures *out)
+{
+  *out = (scene_failures){ .n = n, .reason = calloc(n + 1, 1),
+                           .words = calloc(n + 1, sizeof *out->words) };
+  if (out->reason != NULL && out->words != NULL) return PENDRES_OK;
+  scene_failures_free(out);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+void scene_failures_free(scene_failures *f)
+{
+  for (size_t i = 0; f->words != NULL && i < f->n; i++) free(f->words[i]);
+  free(f->words);
+  free(f->reason);
+  *f = (scene_failures){ 0 };
+}
+
+void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words)
+{
+  char *copy = NULL;
+  if (words != NULL && words[0] != '\0') copy = malloc(strlen(words) + 1);
+  if (copy != NULL) strcpy(copy, words); /* else the list's own words do */
+  free(f->words[point]);
+  f->words[point] = copy;
+  f->reason[point] = (int8_t)reason;
+}
+
+pendres_status scene_failures_note(scene_failures *f, size_t point, pendres_status status,
+                                   const char *words)
+{
+  const scene_failure reason = scene_failure_of(status);
+  if (reason == SCENE_FAILURE_NONE) return status;
+  scene_failures_mark(f, point, reason, words);
+  return PENDRES_OK;
+}
+
+/* ---- the terminal -------------------------------------------------------------------------- */
+
+void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
+                        const char *format, ...)
+{
+  if (run->told_count == SCENE_MOST_TOLD) return;
+  char *line = run->told[run->told_count++];
+  va_list args;
+  va_start(args, format);
+  (void)vsnprintf(line, SCENE_TOLD, format, args);
+  va_end(args);
+  const size_t used = strlen(line);
+  snprintf(line + used, SCENE_TOLD - used, ": %s", words != NULL ? words : reasons[reason].words);
+}
+
+/* "damping 0.12, drive_period 8" */
+static void name_point(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
+                       size_t size)
+{
+  size_t block = 1, used = 0;
+  text[0] = '\0';
+  for (int i = 1; i < axes; i++) block *= d->axis[axis[i]].count;
+  for (int i = 0; i < axes; i++) {
+    const deck_axis *a = &d->axis[axis[i]];
+    const int n = snprintf(text + used, size - used, "%s%s %.10g", i > 0 ? ", " : "",
+                           deck_axis_name(axis[i]), a->value[point / block % a->count]);
+    if (n < 0 || (size_t)n >= size - used) return;
+    used += (size_t)n;
+    if (i + 1 < axes) block /= d->axis[axis[i + 1]].count;
+  }
+}
+
+/* ---- the file ------------------------------------------------------------------------------ */
+
+void scene_failure_flags(pendres_store_spec *spec)
+{
+  static const char *const meanings[] = {
+#define MEANING(code, meaning, words) meaning,
+    SCENE_FAILURE_LIST(MEANING)
+#undef MEANING
+  };
+  spec->type = PENDRES_STORE_INT8;
+  spec->flag_count = SCENE_FAILURE_COUNT;
+  spec->flag_meanings = meanings;
+}
+
+pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
+                                    const char *what, int axes, const deck_axis_id *axis)
+{
+  char words[80], where[200];
+  pendres_store_spec spec = { .name = name, .long_name = words };
+  snprintf(words, sizeof words, "why there is no whole result for the %s", what);
+  scene_failure_flags(&spec);
+  for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
+  const pendres_status status = pendres_store_put(run->store, &spec, f->reason, f->n);
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  for (size_t i = 0; i < f->n; i++) {
+    if (f->reason[i] == SCENE_FAILURE_NONE) continue;
+    run->failed_points++;
+    name_point(run->deck, i, axes, axis, where, sizeof where);
+    scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
+  }
+  return PENDRES_OK;
+}

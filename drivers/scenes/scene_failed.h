@@ -1,0 +1,81 @@
+/*
+ * scene_failed.h -- points without a whole result: why, and how the file and the terminal say so.
+ *
+ * Owns: the reasons, in one list for all scenes; which failures are a point's own, so that it is
+ * marked and the run goes on, and which are the run's; the variable `failed`. A point's results are
+ * NaN where they do not exist, and the mark says why: no error estimate stands for it.
+ */
+#ifndef SCENE_FAILED_H
+#define SCENE_FAILED_H
+
+#include "scenes/scene.h"
+
+/* Codes of `failed` in files, with their flag_meanings and what the terminal says. New reasons are
+   added at the end: codes stay. */
+#define SCENE_FAILURE_LIST(X)                                                                    \
+  X(NONE, "none", "nothing failed")                                                              \
+  X(UNRESOLVED, "unresolved", "some pendulums did not settle within their budget")               \
+  X(INTEGRATION, "integration_failed", "the integrator failed")                                  \
+  X(TOLERANCE, "tolerance_unreachable", "the tolerance cannot be reached")                       \
+  X(NOT_CONVERGED, "not_converged", "an iteration did not converge within its budget")           \
+  X(NOT_FOUND, "not_found", "nothing with the properties asked for exists")                      \
+  X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
+  X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
+  X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
+  X(BUDGET, "budget", "the search ended at its budget of work: there may be more")
+
+typedef enum scene_failure {
+#define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,
+  SCENE_FAILURE_LIST(SCENE_FAILURE_CODE)
+#undef SCENE_FAILURE_CODE
+  SCENE_FAILURE_COUNT
+} scene_failure;
+
+/* The reason for a status that a point's own parameters cause; SCENE_FAILURE_NONE for success and
+   for what ends the run: no memory, a signal, a file, a bug. */
+scene_failure scene_failure_of(pendres_status status);
+
+/*
+ * Would pendulums of these parameters, settled `runs` times one after another, take more steps than
+ * a run is worth waiting for? Strong damping asks for short steps (their length times the damping
+ * stays below 4) and for a long time: the rate at which an overdamped pendulum settles is one over
+ * the damping, so that steps go with its square. By the parameters alone, so that the same points
+ * are refused in all runs. words[size] then says how many steps.
+ */
+int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
+
+/* The reasons of n points; all SCENE_FAILURE_NONE at first. */
+typedef struct scene_failures {
+  size_t n;
+  int8_t *reason; /* [n] */
+  char **words;   /* [n] the library's own; NULL: those of the list */
+} scene_failures;
+
+/* Free it in any case. */
+pendres_status scene_failures_create(size_t n, scene_failures *out);
+void scene_failures_free(scene_failures *f);
+
+/* Mark a point; the last mark counts. words are copied; NULL: those of the list. Several threads
+   may mark different points at a time. */
+void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
+
+/* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
+   it is. words: the message of the context that failed. */
+pendres_status scene_failures_note(scene_failures *f, size_t point, pendres_status status,
+                                   const char *words);
+
+/*
+ * Write the variable `name` over `axes` axes of the deck, slowest first, whose dimensions exist;
+ * what: the points, in the singular. The failed ones are counted in run->failed_points, and the
+ * first of them told with their coordinates.
+ */
+pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
+                                    const char *what, int axes, const deck_axis_id *axis);
+
+/* For scenes that write their marks themselves, as int8: the flags of a variable ... */
+void scene_failure_flags(pendres_store_spec *spec);
+/* ... and a line for the terminal, unless there are many already. */
+void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
+                        const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+#endif

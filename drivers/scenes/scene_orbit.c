@@ -1,0 +1,386 @@
+/*
+ * scene_orbit.c -- one pendulum's orbit: position, velocity and drive over some drive periods, and
+ * all that is measured on the closed orbit. Figs. 5 and 6 of the paper.
+ *
+ * The orbit is a named attractor of the parameter set (start = 'sa', 'la', or
+ * '1', '2', ... by amplitude), or what a start at
+ * x, v settles on, in the well where it settles. With transient = .true. the trajectory is
+ * recorded from the start itself, and the measures are still those of the orbit it goes to.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/scene_failed.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double eps = 2.220446049250313e-16;
+
+enum {
+  MULTIPLIERS = 2,
+  WANDERING = 100 /* periods before a chaotic orbit is recorded */
+};
+
+typedef struct work {
+  const deck *d;
+  pendres_pendulum pendulum;
+  int transient;
+  size_t points;                 /* periods * samples */
+  double *x, *v, *x_error, *v_error; /* points + 1 each */
+  pendres_label label;
+  long well, settling_periods;   /* -1: no start to settle from */
+  int closed;                    /* nonzero: there is a closed orbit */
+  pendres_orbit orbit;
+  double lyapunov, lyapunov_error;
+  double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
+  char message[256];             /* why there is no such attractor; "" */
+} work;
+
+/* ---- what the pendulum settles on ---------------------------------------------------------- */
+
+static void keep_orbit(work *w, const pendres_attractor *a)
+{
+  w->label = a->label;
+  w->closed = a->label != PENDRES_LABEL_CHAOTIC;
+  w->orbit = a->orbit;
+  w->lyapunov = a->lyapunov;
+  w->lyapunov_error = a->lyapunov_error;
+  w->drift = a->drift;
+  w->drift_error = a->drift_error;
+  w->watched_periods = a->watched_periods;
+  w->escape_rate_bound = a->escape_rate_bound;
+}
+
+/* "sa, la": what there is instead. */
+static void list_labels(const pendres_attractors *set, char *text, size_t size)
+{
+  text[0] = '\0';
+  for (size_t i = 0; i < pendres_attractors_count(set); i++)
+    snprintf(text + strlen(text), size - strlen(text), "%s%s", i > 0 ? ", " : "",
+             pendres_label_name(pendres_attractors_get(set, i)->label));
+}
+
+static pendres_status find_named(work *w, pendres_context *ctx)
+{
+  pendres_attractors *set = NULL;
+  pendres_status status = pendres_attractors_find(ctx, &w->pendulum, 0, NULL, NULL, &set);
+  if (status != PENDRES_OK) return status;
+  status = PENDRES_NOT_FOUND;
+  const long number = strtol(w->d->orbit.start, NULL, 10); /* 0: a name */
+  for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, i);
+    if (number > 0 ? (long)i + 1 != number
+                   : strcmp(pendres_label_name(a->label), w->d->orbit.start) != 0)
+      continue;
+    keep_orbit(w, a);
+    status = PENDRES_OK;
+  }
+  if (status != PENDRES_OK) {
+    char list[100];
+    list_labels(set, list, sizeof list);
+    snprintf(w->message, sizeof w->message,
+             "there is no attractor '%s' at these parameters; found: %s", w->d->orbit.start,
+             list[0] != '\0' ? list : "none");
+  }
+  pendres_attractors_free(set);
+  return status;
+}
+
+static pendres_status find_from_start(work *w, pendres_context *ctx)
+{
+  pendres_attractors *set = NULL;
+  pendres_outcome outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
+  w->label = PENDRES_LABEL_UNRESOLVED;
+  if (w->pendulum.damping == 0.0) return PENDRES_OK; /* nothing attracts without friction */
+  const pendres_status status = pendres_settle(ctx, 1, &w->pendulum, &w->d->orbit.x,
+                                               &w->d->orbit.v, &outcome, &set);
+  if (status == PENDRES_OK && outcome.attractor >= 0) {
+    const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
+    if (a != NULL) keep_orbit(w, a);
+    w->well = outcome.well;
+    w->settling_periods = outcome.settling_periods;
+  }
+  pendres_attractors_free(set);
+  return status;
+}
+
+/* ---- the trajectory ------------------------------------------------------------------------ */
+
+/*
+ * Samples of the closed orbit over the deck's periods. Their errors: samples with 1.4 times the
+ * steps differ by the error of integration, and the orbit's own point carries its error around.
+ */
+static pendres_status sample_orbit(work *w, pendres_context *ctx)
+{
+  const size_t count = (size_t)w->d->orbit.samples, n = count * (size_t)w->orbit.period;
+  const double point = 2.0 * (w->orbit.x_error + w->orbit.v_error);
+  pendres_orbit finer = w->orbit;
+  double *memory = malloc(4 * n * sizeof *memory);
+  if (memory == NULL) return PENDRES_OUT_OF_MEMORY;
+  double *x = memory, *v = x + n, *x2 = v + n, *v2 = x2 + n;
+  finer.steps = (7 * finer.steps + 4) / 5;
+
+  pendres_status status = pendres_orbit_sample(ctx, &w->orbit, (int)count, x, v);
+  if (status == PENDRES_OK) status = pendres_orbit_sample(ctx, &finer, (int)count, x2, v2);
+  for (size_t k = 0; k < w->points && status == PENDRES_OK; k++) {
+    const size_t i = k % n;
+    const double turns = (double)w->well + (double)w->orbit.winding * (double)(k / n);
+    w->x[k] = x2[i] + two_pi * turns;
+    w->v[k] = v2[i];
+    w->x_error[k] = fabs(x[i] - x2[i]) + point + eps * fabs(w->x[k]);
+    w->v_error[k] = fabs(v[i] - v2[i]) + point;
+  }
+  free(memory);
+  return status;
+}
+
+static pendres_status sample_trajectory(work *w, pendres_context *ctx)
+{
+  double x = w->d->orbit.x, v = w->d->orbit.v, error = 0.0;
+  const long periods = (long)w->d->orbit.periods;
+  pendres_status status = PENDRES_OK;
+  if (!w->transient) /* on the chaotic attractor */
+    status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, WANDERING, &error);
+  if (status == PENDRES_OK)
+    status = pendres_strobe_record(ctx, &w->pendulum, x, v, periods, (int)w->d->orbit.samples,
+                                   w->x, w->v, w->x_error, w->v_error);
+  return status;
+}
+
+static void no_samples(work *w)
+{
+  for (size_t k = 0; k < w->points; k++)
+    w->x[k] = w->v[k] = w->x_error[k] = w->v_error[k] = NAN;
+}
+
+static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+{
+  work *w = arg;
+  (void)task;
+  const int named = w->d->orbit.start[0] != '\0';
+  pendres_status status = named ? find_named(w, ctx) : find_from_start(w, ctx);
+  if (status != PENDRES_OK) return status;
+  if (w->transient || w->label == PENDRES_LABEL_CHAOTIC) return sample_trajectory(w, ctx);
+  if (w->closed) return sample_orbit(w, ctx);
+  no_samples(w);
+  return PENDRES_OK;
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+static pendres_status put(scene_run *run, const char *name, const char *dimension,
+                          const char *long_name, const char *units, const double *value,
+                          const double *error, size_t n)
+{
+  const pendres_store_spec spec = { .name = name, .dimensions = { dimension },
+                                    .long_name = long_name, .units = units };
+  const pendres_status status = pendres_store_put_result(run->store, &spec, value, error, n);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+static pendres_status put_samples(scene_run *run, const work *w)
+{
+  const size_t n = w->points;
+  const double samples = (double)w->d->orbit.samples, f0 = w->pendulum.drive_amplitude;
+  double *value = malloc(2 * n * sizeof *value);
+  if (value == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  double *error = value + n;
+
+  pendres_status status =
+    pendres_store_dimension(run->store, NULL, "sample", n, NULL, "number of the sample", "1");
+  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+  for (size_t k = 0; k < n; k++) {
+    value[k] = two_pi * (double)k / samples;
+    error[k] = eps * value[k];
+  }
+  if (status == PENDRES_OK)
+    status = put(run, "drive_phase", "sample", "phase of the drive, omega t", "rad", value, error,
+                 n);
+  if (status == PENDRES_OK)
+    status = put(run, "x", "sample", "position", "rad", w->x, w->x_error, n);
+  if (status == PENDRES_OK) status = put(run, "v", "sample", "velocity", "1", w->v, w->v_error, n);
+  for (size_t k = 0; k < n; k++) {
+    const size_t within = k % (size_t)w->d->orbit.samples; /* no need for large arguments */
+    value[k] = f0 * cos(two_pi * (double)within / samples);
+    error[k] = 8.0 * eps * fabs(f0);
+  }
+  if (status == PENDRES_OK)
+    status = put(run, "drive", "sample", "drive, F0 cos(omega t)", "1", value, error, n);
+  free(value);
+  return status;
+}
+
+static pendres_status put_scalars(scene_run *run, const work *w)
+{
+  const pendres_orbit *o = &w->orbit;
+  const double waited = w->settling_periods >= 0 ? (double)w->settling_periods : NAN;
+  const struct {
+    const char *name, *long_name, *units;
+    double value, error;
+    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, or whatever there is */
+  } scalars[] = {
+    { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
+      o->loop_area_error, CHAOTIC },
+    { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
+      o->dissipation_error, CHAOTIC },
+    { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error,
+      CHAOTIC },
+    { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
+      o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, CLOSED },
+    { "phase_lag", "lag of the first harmonic behind the drive", "rad", o->phase_lag,
+      o->phase_lag_error, CLOSED },
+    { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error,
+      CHAOTIC },
+    { "period", "drive periods until the orbit closes", "1", o->period, 0.0, CLOSED },
+    { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, CLOSED },
+    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)w->well : NAN, 0.0,
+      CLOSED },
+    { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
+      ALWAYS },
+    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", w->lyapunov,
+      w->lyapunov_error, ALWAYS },
+    { "drift", "mean whole turns a drive period, of chaos", "1", w->drift, w->drift_error, CHAOTIC },
+    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers", "1",
+      w->watched_periods, 0.0, CHAOTIC },
+    { "escape_rate_bound", "largest rate of ending, a drive period, that is not excluded at 95 %",
+      "1", w->escape_rate_bound, 0.0, CHAOTIC },
+  };
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
+    const int there = w->closed || scalars[i].of == ALWAYS ||
+                      (scalars[i].of == CHAOTIC && w->label == PENDRES_LABEL_CHAOTIC);
+    const double value = there ? scalars[i].value : NAN;
+    const double error = isnan(value) ? NAN : scalars[i].error;
+    status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value,
+                 &error, 1);
+  }
+  return status;
+}
+
+static pendres_status put_label(scene_run *run, const work *w)
+{
+  const char *meanings[PENDRES_LABEL_COUNT];
+  const int8_t label = (int8_t)w->label;
+  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
+    meanings[i] = pendres_label_name((pendres_label)i);
+  const pendres_store_spec spec = { .name = "label", .type = PENDRES_STORE_INT8,
+                                    .long_name = "kind of attractor",
+                                    .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings };
+  const int lost = w->label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const int8_t failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
+  pendres_store_spec mark = { .name = "failed", .long_name = "why there is no orbit" };
+  scene_failure_flags(&mark);
+  pendres_status status = pendres_store_put(run->store, &spec, &label, 1);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, &failed, 1);
+  if (lost) scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "orbit");
+  run->failed_points = (size_t)lost;
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+static pendres_status put_multipliers(scene_run *run, const work *w)
+{
+  const double nan[MULTIPLIERS] = { NAN, NAN };
+  const double error[MULTIPLIERS] = { w->orbit.multiplier_error, w->orbit.multiplier_error };
+  pendres_status status = pendres_store_dimension(run->store, NULL, "multiplier", MULTIPLIERS, NULL,
+                                                  "number of the Floquet multiplier", "1");
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  status = put(run, "multiplier_re", "multiplier", "Floquet multiplier, real part", "1",
+               w->closed ? w->orbit.multiplier_re : nan, w->closed ? error : nan, MULTIPLIERS);
+  if (status == PENDRES_OK)
+    status = put(run, "multiplier_im", "multiplier", "Floquet multiplier, imaginary part", "1",
+                 w->closed ? w->orbit.multiplier_im : nan, w->closed ? error : nan, MULTIPLIERS);
+  return status;
+}
+
+static void tabulate(FILE *out, const work *w)
+{
+  const pendres_orbit *o = &w->orbit;
+  if (out == NULL) return;
+  fprintf(out, "%-26s %s\n", "label", pendres_label_name(w->label));
+  if (w->settling_periods >= 0)
+    fprintf(out, "%-26s %ld\n", "settling periods", w->settling_periods);
+  if (isfinite(w->lyapunov))
+    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", w->closed ? 12 : 6, w->lyapunov,
+            w->lyapunov_error);
+  if (w->label == PENDRES_LABEL_CHAOTIC)
+    fprintf(out, "%-26s %.4g drive periods; ends at less than %.1g a period, if at all\n"
+                 "%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n",
+            "watched for", w->watched_periods, w->escape_rate_bound, "drift", w->drift,
+            w->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
+            "mean amplitude", o->amplitude, o->amplitude_error);
+  if (!w->closed) return;
+  fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
+  if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", w->well);
+  const struct { const char *name; double value, error; } rows[] = {
+    { "amplitude", o->amplitude, o->amplitude_error },
+    { "first harmonic amplitude", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error },
+    { "phase lag", o->phase_lag, o->phase_lag_error },
+    { "loop area", o->loop_area, o->loop_area_error },
+    { "dissipation", o->dissipation, o->dissipation_error },
+    { "mean power", o->mean_power, o->mean_power_error },
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+    fprintf(out, "%-26s %.12f +- %.0e\n", rows[i].name, rows[i].value, rows[i].error);
+  for (int i = 0; i < MULTIPLIERS; i++)
+    fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i],
+            o->multiplier_im[i]);
+}
+
+static pendres_status write_all(scene_run *run, const work *w)
+{
+  pendres_status status = put_label(run, w);
+  if (status == PENDRES_OK) status = put_scalars(run, w);
+  if (status == PENDRES_OK) status = put_multipliers(run, w);
+  if (status == PENDRES_OK) status = put_samples(run, w);
+  return status;
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples),
+             .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
+             .drift = NAN, .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN,
+             /* On a named attractor there is no transient. */
+             .transient = d->orbit.transient && d->orbit.start[0] == '\0',
+             .pendulum = { .damping = d->pendulum.damping,
+                           .drive_amplitude = d->pendulum.drive_amplitude,
+                           .drive_frequency = d->pendulum.drive_frequency } };
+  const size_t n = w.points + 1;
+  double *memory = malloc(4 * n * sizeof *memory);
+  if (memory == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", w.points);
+  w.x = memory;
+  w.v = w.x + n;
+  w.x_error = w.v + n;
+  w.v_error = w.x_error + n;
+
+  pendres_status status = farm_run(run->farm, "orbits", 1, compute, NULL, &w);
+  if (status != PENDRES_OK && w.message[0] != '\0') (void)scene_fail(run, status, "%s", w.message);
+  else if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
+  if (status == PENDRES_OK) status = write_all(run, &w);
+  if (status == PENDRES_OK) tabulate(run->table, &w);
+  free(memory);
+  return status;
+}
+
+static void plan(const deck *d, FILE *out)
+{
+  fprintf(out, "orbit at damping %g, drive amplitude %g, drive period %g\n", d->pendulum.damping,
+          d->pendulum.drive_amplitude, d->pendulum.drive_period);
+  if (d->orbit.start[0] != '\0') fprintf(out, "of the attractor '%s'", d->orbit.start);
+  else
+    fprintf(out, "%s x = %g, v = %g", d->orbit.transient ? "recorded from" : "that is reached from",
+            d->orbit.x, d->orbit.v);
+  fprintf(out, ", %lld samples over %lld periods\n",
+          (long long)(d->orbit.periods * d->orbit.samples), (long long)d->orbit.periods);
+}
+
+const scene_kind scene_orbit = {
+  .kind = DECK_ORBIT,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Figs. 5 and 6",
+  .plan = plan,
+  .run = run_scene,
+};

@@ -1,0 +1,137 @@
+/* progress.c -- bar, lines and log; see progress.h. */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime, isatty */
+#include "terminal/progress.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "terminal/safe_text.h"
+
+enum { BAR = 30, LINE_STEP = 10 };
+
+/* Redrawing more often would only make a terminal flicker. */
+static const double redraw_after = 0.1;
+/* What is done sooner needs no lines. */
+static const double first_line_after = 1.0;
+
+static double now(void)
+{
+  struct timespec t = { 0 };
+  (void)clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void log_line(progress *p, const char *text)
+{
+  char stamp[32] = "";
+  struct tm utc;
+  const time_t t = time(NULL);
+  if (p->log == NULL) return;
+  if (gmtime_r(&t, &utc) != NULL) (void)strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  fprintf(p->log, "%s %s\n", stamp, text);
+  fflush(p->log);
+}
+
+void progress_init(progress *p, FILE *stream, int quiet)
+{
+  const char *terminal = getenv("TERM");
+  *p = (progress){ .stream = stream, .quiet = quiet };
+  p->terminal = isatty(fileno(stream)) && (terminal == NULL || strcmp(terminal, "dumb") != 0);
+}
+
+static void clear(progress *p)
+{
+  if (p->width > 0) fprintf(p->stream, "\r%*s\r", p->width, "");
+  p->width = 0;
+}
+
+static void draw(progress *p, size_t done, double elapsed)
+{
+  char bar[BAR + 1], left[32] = "";
+  const double part = (double)done / (double)p->total;
+  const int filled = (int)(BAR * part);
+  memset(bar, '.', BAR);
+  memset(bar, '#', (size_t)filled);
+  bar[BAR] = '\0';
+  if (done > 0 && elapsed > 1.0) {
+    const double seconds = elapsed * (1.0 - part) / part;
+    snprintf(left, sizeof left, ", %.0f s left", seconds);
+  }
+  clear(p);
+  p->width = fprintf(p->stream, "%3.0f %% [%s] %zu of %zu %.20s%s", 100.0 * part, bar, done,
+                     p->total, p->what, left);
+  fflush(p->stream);
+}
+
+void progress_start(progress *p, const char *what, size_t total)
+{
+  if (p == NULL) return;
+  snprintf(p->what, sizeof p->what, "%s", what);
+  p->total = total;
+  p->percent = 0;
+  p->start = now();
+  p->drawn = -1.0;
+}
+
+void progress_step(progress *p, size_t done)
+{
+  char text[160];
+  if (p == NULL || p->total == 0) return;
+  const int percent = (int)(100.0 * (double)done / (double)p->total);
+  const double elapsed = now() - p->start;
+  if (p->terminal && !p->quiet && elapsed - p->drawn >= redraw_after) {
+    draw(p, done, elapsed);
+    p->drawn = elapsed;
+  }
+  if (percent / LINE_STEP == p->percent / LINE_STEP) return;
+  p->percent = percent;
+  if (elapsed < first_line_after) return;
+  snprintf(text, sizeof text, "%d %% of %zu %s after %.1f s", percent, p->total, p->what, elapsed);
+  log_line(p, text);
+  if (!p->terminal && !p->quiet) {
+    fprintf(p->stream, "resonance: %s\n", text);
+    fflush(p->stream);
+  }
+}
+
+void progress_end(progress *p)
+{
+  if (p == NULL) return;
+  clear(p);
+  fflush(p->stream);
+  p->total = 0;
+}
+
+static void say(progress *p, int silent, const char *kind, const char *format, va_list args)
+{
+  char text[2048];
+  const int n = snprintf(text, sizeof text, "%s", kind);
+  (void)vsnprintf(text + n, sizeof text - (size_t)n, format, args);
+  safe_text_clean(text);
+  log_line(p, text);
+  if (silent) return;
+  clear(p);
+  fprintf(p->stream, "resonance: %s\n", text);
+  fflush(p->stream);
+}
+
+void progress_note(progress *p, const char *format, ...)
+{
+  va_list args;
+  if (p == NULL) return;
+  va_start(args, format);
+  say(p, p->quiet, "", format, args);
+  va_end(args);
+}
+
+void progress_error(progress *p, const char *format, ...)
+{
+  va_list args;
+  if (p == NULL) return;
+  va_start(args, format);
+  say(p, 0, "error: ", format, args);
+  va_end(args);
+}

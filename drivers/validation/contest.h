@@ -1,0 +1,42 @@
+/*
+ * contest.h -- one method at one tolerance on a work unit: how far off it is, how fast, and how far
+ * off it believes to be.
+ *
+ * Owns: the names of methods in decks, and how a method is timed. Errors are measured against the
+ * unit's references. Members that amplify an error of their start more than CONTEST_WILD-fold are
+ * left out of the largest error, as no method could help them; the estimate beside the error is
+ * judged for all members, as it is to say so itself.
+ *
+ * Methods with one problem a pendulum are hundreds of times slower than blocks and get
+ * CONTEST_FEW pendulums, spread over the unit: a pendulum's cost does not depend on the others, and
+ * the largest error of fewer is smaller, if anything.
+ */
+#ifndef CONTEST_H
+#define CONTEST_H
+
+#include "validation/work_unit.h"
+
+enum { CONTEST_FEW = 20, CONTEST_WILD = 1000 };
+
+typedef struct contest {
+  double error[WORK_UNIT_MARKS]; /* largest, of x and v */
+  double estimate;               /* largest, at the last mark; NaN where a method gives none */
+  double honesty, padding;       /* least and median of estimate / error over all members */
+  double steps, rhs;             /* a pendulum and period */
+  double seconds, spread;        /* processor time of the best run; of the next best over it */
+  double throughput;             /* pendulum-periods a second */
+  size_t pendulums;              /* that were run */
+  char failure[256];             /* why there are no figures (all of them NaN); "" */
+} contest;
+
+/* Processor time of this thread, s: others on the machine take turns with it, but do not count. */
+double contest_clock(void);
+
+/*
+ * Run it on the calling thread. A method that refuses or gives up is a finding, not a failure:
+ * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED (asked by stop(stop_arg)) and nothing else.
+ */
+pendres_status contest_run(const work_unit *unit, const char *name, double tolerance,
+                           int block_lanes, int (*stop)(void *arg), void *stop_arg, contest *c);
+
+#endif

@@ -1,0 +1,173 @@
+/*
+ * continuation_backbone.c -- where the response lags a quarter of a turn; see continuation.h.
+ *
+ * At a lag of pi/2 the drive puts in pi F0 R_1 a cycle, R_1 the first harmonic, and friction takes
+ * out pi gamma omega sum n^2 R_n^2. Where the two are equal for a free oscillation, the search
+ * starts: off by the square of the damping only, and a fold is hardly further away.
+ */
+#include <pendres/continuation.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+static const double half_pi = 1.57079632679489661923;
+
+enum { MOST_ITERATIONS = 30 };
+
+/* A pendulum on its way: a secant for the lag over the frequency. */
+typedef struct search {
+  size_t index;
+  double omega, before;          /* frequencies of this and the last trial */
+  double off, off_before;        /* lag - pi/2 there */
+  pendres_orbit_guess guess;
+} search;
+
+/*
+ * Drive over damping that a free oscillation of amplitude a asks for: omega sum n^2 R_n^2 / R_1
+ * with its harmonics R_n = 8 q^(n/2) / (n (1 + q^n)), n odd, q the nome of k = sin(a / 2).
+ */
+static double balance(double a)
+{
+  const double pi = 2.0 * half_pi, omega = pendres_free_frequency(a);
+  const double q = exp(-pi * omega / pendres_free_frequency(pi - a));
+  const double first = 8.0 * sqrt(q) / (1.0 + q);
+  double sum = 0.0;
+  for (int n = 1; n < 40; n += 2) {
+    const double part = 8.0 * pow(q, 0.5 * n) / (1.0 + pow(q, n)); /* n R_n */
+    sum += part * part;
+  }
+  return omega * sum / first;
+}
+
+/* Amplitude below pi at which the drive meets friction, or NaN. */
+static double start_amplitude(const pendres_pendulum *p)
+{
+  /* What is asked for grows up to a >= 2 and falls towards the top: the lower root is meant. */
+  double low = 0.0, high = 0.0, best = 0.0;
+  for (double a = 0.05; a < 3.14; a += 0.05) {
+    const double asked = balance(a);
+    if (asked > best) {
+      best = asked;
+      high = a;
+    }
+  }
+  const double wanted = p->drive_amplitude / p->damping;
+  if (!(wanted < best)) return NAN;
+  for (int i = 0; i < 60; i++) {
+    const double middle = 0.5 * (low + high);
+    if (balance(middle) < wanted)
+      low = middle;
+    else
+      high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+static void finish_one(const search *s, const pendres_orbit *o, pendres_status refined,
+                       double tolerance, pendres_orbit *out, double *error,
+                       pendres_status *outcome)
+{
+  /* How fast the lag grows with the frequency turns its error into one of the frequency. */
+  const double slope = (s->off - s->off_before) / (s->omega - s->before);
+  *out = *o;
+  const double e = fabs(s->off / slope) + fabs(o->phase_lag_error / slope);
+  if (error != NULL) *error = e;
+  *outcome = refined == PENDRES_OK && e <= tolerance ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+}
+
+/* Take over a trial's orbit. Returns 1 when the search is over. */
+static int improve(search *s, const pendres_orbit *o, pendres_status refined, double tolerance,
+                   int trial, pendres_orbit *out, double *error, pendres_status *outcome)
+{
+  if (refined == PENDRES_NOT_CONVERGED || trial + 1 == MOST_ITERATIONS) return 1;
+  const double omega = o->pendulum.drive_frequency;
+  s->off_before = s->off;
+  s->off = o->phase_lag - half_pi;
+  if (trial > 0 && fabs(s->off) <= 0.1 * tolerance + 2.0 * o->phase_lag_error) {
+    finish_one(s, o, refined, tolerance, out, error, outcome);
+    return 1;
+  }
+  /* The first step goes a little way; the lag grows with the frequency. */
+  double next = trial == 0 ? omega - copysign(fmin(1e-3, 0.1 * fabs(s->off) + 1e-7), s->off)
+                           : omega - s->off * (omega - s->before) / (s->off - s->off_before);
+  if (!(fabs(next - omega) < 0.1)) next = omega - copysign(0.1, s->off);
+  if (!(next > 0.0)) return 1;
+  s->before = omega;
+  s->omega = next;
+  s->guess.pendulum.drive_frequency = next;
+  s->guess.x = o->x;
+  s->guess.v = o->v;
+  return 0;
+}
+
+static size_t begin(size_t n, const pendres_pendulum *pendulums, search *s, double *error,
+                    pendres_status *outcome)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    pendres_pendulum p = pendulums[i];
+    const double a = start_amplitude(&p);
+    outcome[i] = PENDRES_NOT_FOUND;
+    if (error != NULL) error[i] = NAN;
+    if (isnan(a)) continue;
+    p.drive_frequency = pendres_free_frequency(a);
+    /* y goes as sin(theta): through its well with the speed of its energy. */
+    s[count++] = (search){
+      .index = i,
+      .omega = p.drive_frequency,
+      .guess = {.pendulum = p, .x = half_pi, .v = 2.0 * sin(0.5 * a), .period = 1}};
+  }
+  return count;
+}
+
+static pendres_status backbone_find(pendres_context *ctx, size_t n,
+                                    const pendres_pendulum *pendulums, pendres_orbit *out,
+                                    double *frequency_error, pendres_status *outcome)
+{
+  if (n > 0 && (pendulums == NULL || out == NULL || outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, out and outcome");
+  for (size_t i = 0; i < n; i++)
+    if (!(pendulums[i].temperature >= 0.0 && pendulums[i].damping < 1e15 &&
+          pendulums[i].drive_amplitude < 1e15 && pendulums[i].damping > 0.0 &&
+          pendulums[i].drive_amplitude > 0.0 &&
+          isfinite(pendulums[i].damping) && isfinite(pendulums[i].drive_amplitude)))
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "pendulum %zu: a backbone needs damping and drive", i);
+  pendres_status status = PENDRES_OK;
+  search *s = calloc(n + 1, sizeof *s);
+  pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
+  pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
+  pendres_status *refined = malloc((n + 1) * sizeof *refined);
+  if (s == NULL || guess == NULL || orbit == NULL || refined == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+    goto done;
+  }
+  size_t left = begin(n, pendulums, s, frequency_error, outcome);
+  for (int trial = 0; left > 0 && trial < MOST_ITERATIONS && status == PENDRES_OK; trial++) {
+    size_t again = 0;
+    for (size_t i = 0; i < left; i++) guess[i] = s[i].guess;
+    status = pendres_orbit_refine(ctx, left, guess, PENDRES_ORBIT_PLAIN, orbit, refined);
+    for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+      const size_t k = s[i].index;
+      if (!improve(&s[i], &orbit[i], refined[i], ctx->options.tolerance, trial, &out[k],
+                   frequency_error != NULL ? &frequency_error[k] : NULL, &outcome[k]))
+        s[again++] = s[i];
+    }
+    left = again;
+  }
+done:
+  free(s);
+  free(guess);
+  free(orbit);
+  free(refined);
+  return status;
+}
+
+pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, pendres_orbit *out,
+                                     double *frequency_error, pendres_status *outcome)
+{
+  return PENDRES_CONTEXT_CALL(ctx, backbone_find(ctx, n, pendulums, out, frequency_error, outcome));
+}

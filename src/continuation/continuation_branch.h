@@ -1,0 +1,36 @@
+/*
+ * continuation_branch.h -- what the parts of continuation share of a branch.
+ *
+ * Owns: the layout of pendres_branch.
+ */
+#ifndef PENDRES_CONTINUATION_BRANCH_H
+#define PENDRES_CONTINUATION_BRANCH_H
+
+#include <pendres/continuation.h>
+
+#include "continuation/continuation_trail.h"
+
+struct pendres_branch {
+  pendres_parameter parameter;
+  pendres_continuation_map map;
+  size_t count, bifurcations;
+  pendres_branch_point *point;
+  pendres_bifurcation *bifurcation;
+  pendres_branch_end end[2];
+};
+
+/* How orbits like this one are followed, and the place of this one. */
+pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
+                                 double spacing, double u[PENDRES_U_COUNT]);
+
+/* NULL, or what is wrong with options and starts: a static sentence. */
+const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,
+                                   const pendres_orbit *starts);
+
+/* The parameter of point i. */
+double pendres_branch_value(const pendres_branch *branch, size_t i);
+
+/* Set the doubt of all points: whether the points and the bifurcations agree. */
+void pendres_branch_check(pendres_branch *branch);
+
+#endif

@@ -1,0 +1,336 @@
+/* continuation_collect.c -- the branches and curves that many orbits lie on; see continuation.h. */
+#include <pendres/continuation.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "continuation/continuation_branch.h"
+
+/*
+ * Measures of orbits that lie on one branch differ from those interpolated along a chord by less
+ * than this; those of different branches at one parameter by more, unless they meet right there.
+ */
+static const double alike = 5e-3;
+
+struct pendres_branches {
+  size_t count, capacity, skipped;
+  pendres_branch **branch;
+};
+
+struct pendres_curves {
+  size_t count, capacity;
+  pendres_curve **curve;
+};
+
+void pendres_branches_free(pendres_branches *b)
+{
+  if (b == NULL) return;
+  for (size_t i = 0; i < b->count; i++) pendres_branch_free(b->branch[i]);
+  free(b->branch);
+  free(b);
+}
+
+size_t pendres_branches_count(const pendres_branches *b)
+{
+  return b != NULL ? b->count : 0;
+}
+
+const pendres_branch *pendres_branches_get(const pendres_branches *b, size_t i)
+{
+  return b != NULL && i < b->count ? b->branch[i] : NULL;
+}
+
+size_t pendres_branches_skipped(const pendres_branches *b)
+{
+  return b != NULL ? b->skipped : 0;
+}
+
+void pendres_curves_free(pendres_curves *c)
+{
+  if (c == NULL) return;
+  for (size_t i = 0; i < c->count; i++) pendres_curve_free(c->curve[i]);
+  free(c->curve);
+  free(c);
+}
+
+size_t pendres_curves_count(const pendres_curves *c)
+{
+  return c != NULL ? c->count : 0;
+}
+
+const pendres_curve *pendres_curves_get(const pendres_curves *c, size_t i)
+{
+  return c != NULL && i < c->count ? c->curve[i] : NULL;
+}
+
+/* ---- branches ---- */
+
+static double value_of(const pendres_orbit *o, pendres_parameter parameter)
+{
+  switch (parameter) {
+  case PENDRES_DAMPING: return o->pendulum.damping;
+  case PENDRES_DRIVE_AMPLITUDE: return o->pendulum.drive_amplitude;
+  default: return o->pendulum.drive_frequency;
+  }
+}
+
+static double mixed(double a, double b, double part)
+{
+  return a + part * (b - a);
+}
+
+/* Whether an orbit has the measures of a chord's point with its parameter. */
+static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double part,
+                      const pendres_orbit *o)
+{
+  if (a->symmetric != o->symmetric && b->symmetric != o->symmetric) return 0;
+  if (fabs(mixed(a->amplitude, b->amplitude, part) - o->amplitude) > alike) return 0;
+  if (fabs(mixed(a->loop_area, b->loop_area, part) - o->loop_area) > alike) return 0;
+  return !(fabs(mixed(a->phase_lag, b->phase_lag, part) - o->phase_lag) > alike);
+}
+
+static int lies_on(const pendres_branch *b, const pendres_orbit *o)
+{
+  const double value = value_of(o, b->parameter);
+  const pendres_orbit *first = &b->point[0].orbit;
+  if (first->period != o->period || abs(first->winding) != abs(o->winding)) return 0;
+  for (size_t i = 0; i + 1 < b->count; i++) {
+    const double from = pendres_branch_value(b, i) - value;
+    const double to = pendres_branch_value(b, i + 1) - value;
+    if (from * to > 0.0) continue;
+    const double part = from != to ? from / (from - to) : 0.0;
+    if (fits_chord(&b->point[i].orbit, &b->point[i + 1].orbit, part, o)) return 1;
+  }
+  return 0;
+}
+
+/* Close to a fold the chords miss their branch: the orbits there are compared themselves. */
+static pendres_status really_lies_on(pendres_context *ctx, const pendres_branch *b,
+                                     const pendres_orbit *o, int *on)
+{
+  enum { MOST = 16 };
+  pendres_orbit *there = malloc(MOST * sizeof *there);
+  size_t found = 0;
+  *on = 0;
+  if (there == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  const pendres_status status =
+    pendres_branch_cross(ctx, b, value_of(o, b->parameter), MOST, there, &found);
+  for (size_t i = 0; i < found && i < MOST && status == PENDRES_OK; i++) {
+    const double e = 1e-5 + 10.0 * (o->x_error + there[i].x_error);
+    if (there[i].period == o->period && fabs(there[i].amplitude - o->amplitude) < e &&
+        fabs(there[i].loop_area - o->loop_area) < e)
+      *on = 1;
+  }
+  free(there);
+  return status;
+}
+
+static pendres_status known(pendres_context *ctx, const pendres_branches *set,
+                            const pendres_orbit *o, int *yes)
+{
+  pendres_status status = PENDRES_OK;
+  *yes = 0;
+  for (size_t i = 0; i < set->count && !*yes; i++) *yes = lies_on(set->branch[i], o);
+  for (size_t i = 0; i < set->count && !*yes && status == PENDRES_OK; i++)
+    status = really_lies_on(ctx, set->branch[i], o, yes);
+  return status;
+}
+
+static pendres_status add_branch(pendres_context *ctx, pendres_branches *set,
+                                 const pendres_orbit *o, const pendres_branch_options *options)
+{
+  pendres_branch *b = NULL;
+  pendres_status status = pendres_branch_follow(ctx, 1, o, options, &b);
+  if (status == PENDRES_NOT_CONVERGED) {
+    set->skipped++;
+    return PENDRES_OK;
+  }
+  if (status != PENDRES_OK) return status;
+  if (set->count == set->capacity) {
+    const size_t capacity = 2 * set->capacity + 4;
+    pendres_branch **grown = realloc(set->branch, capacity * sizeof *grown);
+    if (grown == NULL) {
+      pendres_branch_free(b);
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches");
+    }
+    set->branch = grown;
+    set->capacity = capacity;
+  }
+  set->branch[set->count++] = b;
+  return PENDRES_OK;
+}
+
+static pendres_status branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                    const pendres_branch_options *options, pendres_branches **out)
+{
+  if (options == NULL || out == NULL || (n > 0 && orbits == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "orbits, options and out");
+  *out = NULL;
+  const char *why = pendres_branch_refuses(options, n, orbits);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branches: %s", why);
+  pendres_status status = PENDRES_OK;
+  pendres_branches *set = calloc(1, sizeof *set);
+  if (set == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches");
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    int yes = 0;
+    const double value = value_of(&orbits[i], options->parameter);
+    if (value < options->low || value > options->high) continue;
+    status = known(ctx, set, &orbits[i], &yes);
+    if (status == PENDRES_OK && !yes) status = add_branch(ctx, set, &orbits[i], options);
+  }
+  if (status == PENDRES_OK) {
+    *out = set;
+    set = NULL;
+  }
+  pendres_branches_free(set);
+  return status;
+}
+
+pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                     const pendres_branch_options *options, pendres_branches **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branches_find(ctx, n, orbits, options, out));
+}
+
+/* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
+   opposite curvature: where two branches part or where they meet in a cusp. */
+static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcation *b)
+{
+  const double e = 1e-6 + 10.0 * (a->value_error + b->value_error);
+  const double apart = 1e-5 + 10.0 * (a->orbit.amplitude_error + b->orbit.amplitude_error);
+  return a->kind == b->kind && a->orbit.period == b->orbit.period &&
+         abs(a->orbit.winding) == abs(b->orbit.winding) && !(a->curvature * b->curvature < 0.0) &&
+         fabs(a->value - b->value) < e && fabs(a->orbit.amplitude - b->orbit.amplitude) < apart;
+}
+
+static int met_already(const pendres_branches *set, const pendres_bifurcation *b)
+{
+  for (size_t i = 0; i < set->count; i++)
+    for (size_t k = 0; k < set->branch[i]->bifurcations; k++)
+      if (same_bifurcation(&set->branch[i]->bifurcation[k], b)) return 1;
+  return 0;
+}
+
+static pendres_status branches_extend(pendres_context *ctx, size_t n,
+                                      const pendres_bifurcation *bifurcations,
+                                      const pendres_branch_options *options,
+                                      pendres_branches *branches)
+{
+  if (options == NULL || branches == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and branches");
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_bifurcation *b = &bifurcations[i];
+    if (b->value < options->low || b->value > options->high || met_already(branches, b)) continue;
+    status = add_branch(ctx, branches, &b->orbit, options);
+  }
+  return status;
+}
+
+pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
+                                       const pendres_bifurcation *bifurcations,
+                                       const pendres_branch_options *options,
+                                       pendres_branches *branches)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branches_extend(ctx, n, bifurcations, options, branches));
+}
+
+/* ---- curves ---- */
+
+static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
+{
+  const double value = value_of(&b->orbit, second);
+  const pendres_curve_point *p = pendres_curve_get(c, 0);
+  if (pendres_curve_kind(c) != b->kind || p->orbit.period != b->orbit.period ||
+      abs(p->orbit.winding) != abs(b->orbit.winding))
+    return 0;
+  for (size_t i = 0; i + 1 < pendres_curve_count(c); i++) {
+    const pendres_curve_point *q = pendres_curve_get(c, i + 1);
+    p = pendres_curve_get(c, i);
+    const double from = p->value[1] - value, to = q->value[1] - value;
+    const double part = from * to <= 0.0 && from != to ? from / (from - to) : 0.0;
+    /* At a cusp or a turning point the value may lie just beyond the points. */
+    if (from * to > 0.0 && fmin(fabs(from), fabs(to)) > 1e-4) continue;
+    if (fabs(mixed(p->value[0], q->value[0], part) - b->value) < alike &&
+        fabs(mixed(p->orbit.amplitude, q->orbit.amplitude, part) - b->orbit.amplitude) <
+          alike + fabs(p->orbit.amplitude - q->orbit.amplitude))
+      return 1;
+  }
+  return 0;
+}
+
+static pendres_status add_curve(pendres_context *ctx, pendres_curves *set,
+                                const pendres_bifurcation *b, const pendres_curve_options *options)
+{
+  pendres_curve *c = NULL;
+  const pendres_status status = pendres_curve_follow(ctx, 1, b, options, &c);
+  if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+  /* Of a bifurcation among wild orbits nothing but itself can be followed. */
+  if (pendres_curve_count(c) < 3) {
+    pendres_curve_free(c);
+    return PENDRES_OK;
+  }
+  if (set->count == set->capacity) {
+    const size_t capacity = 2 * set->capacity + 4;
+    pendres_curve **grown = realloc(set->curve, capacity * sizeof *grown);
+    if (grown == NULL) {
+      pendres_curve_free(c);
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
+    }
+    set->curve = grown;
+    set->capacity = capacity;
+  }
+  set->curve[set->count++] = c;
+  return PENDRES_OK;
+}
+
+static pendres_status curves_extend(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *bifurcations,
+                                    const pendres_curve_options *options, pendres_curves *curves)
+{
+  if (options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and curves");
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    int yes = 0;
+    for (size_t k = 0; k < curves->count && !yes; k++)
+      yes = on_curve(curves->curve[k], &bifurcations[i], options->second);
+    if (!yes) status = add_curve(ctx, curves, &bifurcations[i], options);
+  }
+  return status;
+}
+
+pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
+                                     const pendres_bifurcation *bifurcations,
+                                     const pendres_curve_options *options, pendres_curves *curves)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curves_extend(ctx, n, bifurcations, options, curves));
+}
+
+static pendres_status curves_find(pendres_context *ctx, size_t n,
+                                  const pendres_bifurcation *bifurcations,
+                                  const pendres_curve_options *options, pendres_curves **out)
+{
+  if (options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and out");
+  *out = NULL;
+  pendres_curves *set = calloc(1, sizeof *set);
+  if (set == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
+  const pendres_status status = pendres_curves_extend(ctx, n, bifurcations, options, set);
+  if (status == PENDRES_OK)
+    *out = set;
+  else
+    pendres_curves_free(set);
+  return status;
+}
+
+pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
+                                   const pendres_bifurcation *bifurcations,
+                                   const pendres_curve_options *options, pendres_curves **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curves_find(ctx, n, bifurcations, options, out));
+}

@@ -1,0 +1,153 @@
+/*
+ * continuation_cross.c -- where branches take a value, and where they cross; see continuation.h.
+ */
+#include "continuation/continuation_branch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+
+/* ---- one value of the parameter ---- */
+
+double pendres_branch_value(const pendres_branch *b, size_t i)
+{
+  const pendres_pendulum *p = &b->point[i].orbit.pendulum;
+  switch (b->parameter) {
+  case PENDRES_DAMPING: return p->damping;
+  case PENDRES_DRIVE_AMPLITUDE: return p->drive_amplitude;
+  default: return p->drive_frequency;
+  }
+}
+
+static void set_value(pendres_parameter parameter, double value, pendres_pendulum *p)
+{
+  switch (parameter) {
+  case PENDRES_DAMPING: p->damping = value; break;
+  case PENDRES_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
+  default: p->drive_frequency = value;
+  }
+}
+
+/* The Poincaré point on the chord; the well of x may differ by whole turns from end to end. */
+static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, double part,
+                                   double value)
+{
+  const double two_pi = 6.28318530717958647693;
+  const pendres_orbit *p = &b->point[i].orbit, *q = &b->point[k].orbit;
+  double dx = q->x - p->x;
+  dx -= two_pi * rint(dx / two_pi);
+  pendres_orbit_guess g = {.pendulum = p->pendulum,
+                           .x = p->x + part * dx,
+                           .v = p->v + part * (q->v - p->v),
+                           .period = p->period,
+                           .winding = p->winding};
+  set_value(b->parameter, value, &g.pendulum);
+  return g;
+}
+
+static pendres_status branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                   size_t room, pendres_orbit *out, size_t *found)
+{
+  if (b == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "branch, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
+  *found = 0;
+  const int closed = b->end[0] == PENDRES_END_CLOSED;
+  const size_t chords = b->count > 1 ? (closed ? b->count : b->count - 1) : 0;
+  pendres_orbit_guess *guess = calloc(chords + 1, sizeof *guess);
+  pendres_orbit *orbit = malloc((chords + 1) * sizeof *orbit);
+  pendres_status *outcome = malloc((chords + 1) * sizeof *outcome);
+  pendres_status status = PENDRES_OK;
+  size_t n = 0;
+  if (guess == NULL || orbit == NULL || outcome == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+    goto done;
+  }
+  for (size_t i = 0; i < chords; i++) {
+    const size_t k = (i + 1) % b->count;
+    const double from = pendres_branch_value(b, i) - value, to = pendres_branch_value(b, k) - value;
+    /* A value that a point has exactly belongs to the chord that begins there. */
+    if (from == 0.0 || from * to < 0.0)
+      guess[n++] = between(b, i, k, from == 0.0 ? 0.0 : from / (from - to), value);
+    else if (to == 0.0 && k == b->count - 1 && !closed)
+      guess[n++] = between(b, i, k, 1.0, value);
+  }
+  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (outcome[i] == PENDRES_NOT_CONVERGED) continue;
+    if (*found < room) out[*found] = orbit[i];
+    ++*found;
+  }
+done:
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
+                                    size_t room, pendres_orbit *out, size_t *found)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branch_cross(ctx, b, value, room, out, found));
+}
+
+/* ---- branches that cross ---- */
+
+static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                    pendres_orbit *out)
+{
+  if (at == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "bifurcation and out");
+  if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "no branch crosses at a bifurcation of this kind");
+  const char *why = pendres_orbit_refuses(&at->orbit);
+  if ((unsigned)at->parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
+  double u[PENDRES_U_COUNT];
+  pendres_continuation_image image;
+  int steps = 0;
+  const pendres_walk one = pendres_branch_kind(&at->orbit, at->parameter, 0.05, u);
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])u, &image);
+  if (status != PENDRES_OK) return status;
+  /* The null vector of N + I: the way in which the doubled map's orbits leave. */
+  const double a = image.n[0][0] + 1.0, b = image.n[0][1], c = image.n[1][0],
+               d = image.n[1][1] + 1.0;
+  const int upper = hypot(a, b) > hypot(c, d);
+  const double length = upper ? hypot(a, b) : hypot(c, d);
+  const double v[2] = {(upper ? -b : -d) / length, (upper ? a : c) / length};
+
+  pendres_trail twice = {.kind = one, .count = 1};
+  twice.kind.map = one.map.mirror
+                     ? (pendres_continuation_map){.period = one.map.period}
+                     : (pendres_continuation_map){.period = 2 * one.map.period,
+                                                  .winding = 2 * one.map.winding};
+  for (double away = 0.02; away < 0.5; away *= 2.0) {
+    pendres_walk_point point = {.tangent = {v[0], v[1], 0.0, 0.0}};
+    pendres_continuation_pair pair;
+    double error[1][2];
+    memcpy(point.u, u, sizeof point.u);
+    point.u[PENDRES_U_Y] += away * v[0];
+    point.u[PENDRES_U_W] += away * v[1];
+    twice.point = &point;
+    status = pendres_trail_polish(ctx, &twice, &pair, error);
+    if (status != PENDRES_OK) return status;
+    /* Not the branch that it came from, which the plane does not meet except far away. */
+    if (error[0][0] > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - point.u[PENDRES_U_Y]) > away) continue;
+    return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
+
+pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
+                                     pendres_orbit *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, branch_switch(ctx, at, out));
+}

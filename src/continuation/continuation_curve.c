@@ -1,0 +1,435 @@
+/* continuation_curve.c -- folds and flips in two parameters, and cusps; see continuation.h. */
+#include <pendres/continuation.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+#include "continuation/continuation_locate.h"
+#include "continuation/continuation_stencil.h"
+#include "continuation/continuation_trail.h"
+
+static const double wildest = 300.0; /* default */
+
+enum { MOST_CUSPS = 64, MOST_ADVANCES = 200 };
+
+struct pendres_curve {
+  pendres_special kind;
+  pendres_continuation_map map;
+  pendres_continuation_condition condition;
+  pendres_parameter parameter[2];
+  size_t count, cusps;
+  pendres_curve_point *point;
+  double (*u)[PENDRES_U_COUNT]; /* of each point */
+  pendres_cusp *cusp;
+  pendres_branch_end end[2];
+};
+
+void pendres_curve_free(pendres_curve *c)
+{
+  if (c == NULL) return;
+  free(c->point);
+  free(c->u);
+  free(c->cusp);
+  free(c);
+}
+
+pendres_special pendres_curve_kind(const pendres_curve *c)
+{
+  return c != NULL ? c->kind : PENDRES_REGULAR;
+}
+
+size_t pendres_curve_count(const pendres_curve *c)
+{
+  return c != NULL ? c->count : 0;
+}
+
+const pendres_curve_point *pendres_curve_get(const pendres_curve *c, size_t i)
+{
+  return c != NULL && i < c->count ? &c->point[i] : NULL;
+}
+
+size_t pendres_curve_cusps(const pendres_curve *c)
+{
+  return c != NULL ? c->cusps : 0;
+}
+
+const pendres_cusp *pendres_curve_cusp(const pendres_curve *c, size_t i)
+{
+  return c != NULL && i < c->cusps ? &c->cusp[i] : NULL;
+}
+
+pendres_branch_end pendres_curve_end_of(const pendres_curve *c, int which)
+{
+  return c != NULL ? c->end[which != 0] : PENDRES_END_STUCK;
+}
+
+static int place_of(pendres_parameter parameter)
+{
+  return PENDRES_U_OMEGA + (int)parameter;
+}
+
+/* The curve through a bifurcation, and the place of that on it. */
+static pendres_walk kind_of(const pendres_bifurcation *b, pendres_parameter second, double spacing,
+                            double u[PENDRES_U_COUNT])
+{
+  pendres_walk w = {.map = pendres_continuation_map_of(&b->orbit, u),
+                    .condition =
+                      b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP,
+                    .unknowns = 4,
+                    .unknown = {PENDRES_U_Y, PENDRES_U_W, place_of(b->parameter), place_of(second)},
+                    .tolerance = 1e-7,
+                    .longest = spacing};
+  return w;
+}
+
+/* ---- cusps ---- */
+
+static double test_cusp(const pendres_walk_point *p)
+{
+  return p->bending;
+}
+
+static pendres_status finish_cusp(pendres_context *ctx, const int *unknown,
+                                  const pendres_located *l, pendres_cusp *out)
+{
+  for (int i = 0; i < 2; i++) {
+    out->parameter[i] = (pendres_parameter)(unknown[2 + i] - PENDRES_U_OMEGA);
+    out->value[i] = l->pair.fine[unknown[2 + i]];
+    out->value_error[i] = l->error[2 + i];
+  }
+  return pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
+}
+
+/* A cusp and where on the trail it lies. */
+typedef struct met {
+  pendres_trail_zero at;
+  pendres_located located;
+} met;
+
+static pendres_status locate_cusps(pendres_context *ctx, const pendres_trail *t, met *list,
+                                   size_t *count)
+{
+  pendres_trail_zero zeros[MOST_CUSPS];
+  *count = 0;
+  if (t->kind.condition != PENDRES_CONDITION_FOLD) return PENDRES_OK;
+  const size_t n = pendres_trail_zeros(t, test_cusp, MOST_CUSPS, zeros);
+  for (size_t i = 0; i < n; i++) {
+    double u[PENDRES_U_COUNT];
+    met *m = &list[*count];
+    const double chord = pendres_trail_between(t, &zeros[i], u);
+    m->at = zeros[i];
+    const pendres_status status = pendres_continuation_locate(
+      ctx, &t->kind.map, PENDRES_CONDITION_CUSP, t->kind.unknown, u, 2.0 * chord, &m->located);
+    if (status == PENDRES_NOT_CONVERGED) continue;
+    if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+    ++*count;
+  }
+  return PENDRES_OK;
+}
+
+/* ---- points ---- */
+
+/*
+ * Second derivative of the first parameter by arclength in (x, v), see pendres_bifurcation, from
+ * what the walk knows: with A = N - I and its null vectors l and v,
+ * d det A (v) = trace A / (l . v) * l . D2F(v, v).
+ */
+static double curvature_of(const pendres_walk *kind, const pendres_walk_point *p)
+{
+  if (kind->condition != PENDRES_CONDITION_FOLD) return NAN;
+  const double (*j)[PENDRES_U_COUNT] = (const double (*)[PENDRES_U_COUNT])p->image.j;
+  const double *v = p->null, omega = p->u[PENDRES_U_OMEGA];
+  const int left = hypot(j[0][0], j[1][0]) > hypot(j[0][1], j[1][1]);
+  const double l[2] = {left ? -j[1][0] : -j[1][1], left ? j[0][0] : j[0][1]};
+  const double second = p->bending * (l[0] * v[0] + l[1] * v[1]) / (j[0][0] + j[1][1]);
+  const int place = kind->unknown[2];
+  return -second / (l[0] * j[0][place] + l[1] * j[1][place]) /
+         (v[0] * v[0] + omega * omega * v[1] * v[1]);
+}
+
+static void merge(const pendres_trail *t, const pendres_continuation_pair *pairs,
+                  const pendres_orbit *orbits, const double (*error)[2], const met *list,
+                  pendres_curve *c)
+{
+  const int *unknown = t->kind.unknown;
+  size_t k = 0;
+  for (size_t i = 0; i < t->count; i++) {
+    memcpy(c->u[c->count], pairs[i].fine, sizeof c->u[0]);
+    c->point[c->count++] =
+      (pendres_curve_point){.cusp = -1,
+                            .arclength = t->point[i].arclength,
+                            .value = {pairs[i].fine[unknown[2]], pairs[i].fine[unknown[3]]},
+                            .value_error = {error[i][0], error[i][1]},
+                            .curvature = curvature_of(&t->kind, &t->point[i]),
+                            .orbit = orbits[i]};
+    for (; k < c->cusps && list[k].at.i == i; k++) {
+      const pendres_cusp *s = &c->cusp[k];
+      double u[PENDRES_U_COUNT];
+      const double chord = pendres_trail_between(t, &list[k].at, u);
+      memcpy(c->u[c->count], list[k].located.pair.fine, sizeof c->u[0]);
+      c->point[c->count++] =
+        (pendres_curve_point){.cusp = (int)k,
+                              .arclength = t->point[i].arclength + list[k].at.part * chord,
+                              .value = {s->value[0], s->value[1]},
+                              .value_error = {s->value_error[0], s->value_error[1]},
+                              .orbit = s->orbit};
+    }
+  }
+}
+
+static pendres_status build(pendres_context *ctx, const pendres_trail *t, pendres_curve **out)
+{
+  size_t cusps = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  const pendres_continuation_map map = t->kind.map;
+  pendres_curve *c = calloc(1, sizeof *c);
+  met *list = malloc(MOST_CUSPS * sizeof *list);
+  pendres_continuation_pair *pairs = malloc((t->count + 1) * sizeof *pairs);
+  pendres_orbit *orbits = malloc((t->count + 1) * sizeof *orbits);
+  double(*error)[2] = malloc((t->count + 1) * sizeof *error);
+  if (c == NULL || list == NULL || pairs == NULL || orbits == NULL || error == NULL) goto no_memory;
+  c->map = map;
+  c->condition = t->kind.condition;
+  c->kind = c->condition == PENDRES_CONDITION_FOLD ? PENDRES_FOLD
+            : map.mirror                           ? PENDRES_SYMMETRY_BREAKING
+                                                   : PENDRES_PERIOD_DOUBLING;
+  for (int i = 0; i < 2; i++) {
+    c->parameter[i] = (pendres_parameter)(t->kind.unknown[2 + i] - PENDRES_U_OMEGA);
+    c->end[i] = t->end[i];
+  }
+  status = locate_cusps(ctx, t, list, &cusps);
+  if (status == PENDRES_OK) status = pendres_trail_polish(ctx, t, pairs, error);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_orbit_measure(ctx, t->count, pairs, orbits);
+  if (status != PENDRES_OK) goto done;
+  c->cusp = malloc((cusps + 1) * sizeof *c->cusp);
+  c->point = malloc((t->count + cusps + 1) * sizeof *c->point);
+  c->u = malloc((t->count + cusps + 1) * sizeof *c->u);
+  if (c->cusp == NULL || c->point == NULL || c->u == NULL) goto no_memory;
+  for (; c->cusps < cusps && status == PENDRES_OK; c->cusps++)
+    status = finish_cusp(ctx, t->kind.unknown, &list[c->cusps].located, &c->cusp[c->cusps]);
+  if (status != PENDRES_OK) goto done;
+  merge(t, pairs, orbits, (const double (*)[2])error, list, c);
+  *out = c;
+  c = NULL;
+  goto done;
+no_memory:
+  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
+done:
+  pendres_curve_free(c);
+  free(list);
+  free(pairs);
+  free(orbits);
+  free(error);
+  return status;
+}
+
+/* ---- following ---- */
+
+static const char *check(size_t n, const pendres_bifurcation *starts,
+                         const pendres_curve_options *o)
+{
+  if ((unsigned)o->second >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  for (int i = 0; i < 2; i++)
+    if (!(o->low[i] < o->high[i] && isfinite(o->low[i]) && isfinite(o->high[i])))
+      return "a parameter's range is empty";
+  if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
+  for (size_t i = 0; i < n; i++) {
+    if (starts[i].kind == PENDRES_REGULAR ||
+        (unsigned)starts[i].kind > PENDRES_SYMMETRY_BREAKING)
+      return "a start is no bifurcation";
+    if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+    const char *why = pendres_orbit_refuses(&starts[i].orbit);
+    if (why != NULL) return why;
+    if (starts[i].parameter == o->second) return "the second parameter is the first once more";
+  }
+  return NULL;
+}
+
+static pendres_status curve_follow(pendres_context *ctx, size_t n,
+                                   const pendres_bifurcation *starts,
+                                   const pendres_curve_options *options, pendres_curve **out)
+{
+  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
+  for (size_t i = 0; i < n; i++) out[i] = NULL;
+  if (n == 0) return PENDRES_OK;
+  const pendres_curve_options *o = options;
+  const char *why = check(n, starts, o);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "curve: %s", why);
+
+  size_t which = 0;
+  const pendres_trail_bounds bounds = {.low = {o->low[0], o->low[1]},
+                                       .high = {o->high[0], o->high[1]},
+                                       .wildest = o->wildest > 0.0 ? o->wildest : wildest,
+                                       .most_points = o->most_points > 0 ? o->most_points : 2000};
+  pendres_status status = PENDRES_OK;
+  pendres_trail_start *begin = calloc(n, sizeof *begin);
+  pendres_trail *trails = calloc(n, sizeof *trails);
+  if (begin == NULL || trails == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu curves", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++)
+    begin[i].kind =
+      kind_of(&starts[i], o->second, o->spacing > 0.0 ? o->spacing : 0.05, begin[i].u);
+  status = pendres_trail_follow(ctx, n, begin, &bounds, trails, &which);
+  if (status == PENDRES_NOT_CONVERGED)
+    (void)pendres_context_fail(ctx, status, "start %zu of the curves is no bifurcation", which);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = build(ctx, &trails[i], &out[i]);
+done:
+  for (size_t i = 0; i < n && trails != NULL; i++) pendres_trail_free(&trails[i]);
+  free(begin);
+  free(trails);
+  for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
+    pendres_curve_free(out[i]);
+    out[i] = NULL;
+  }
+  return status;
+}
+
+pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
+                                    const pendres_bifurcation *starts,
+                                    const pendres_curve_options *options, pendres_curve **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curve_follow(ctx, n, starts, options, out));
+}
+
+/* ---- one value of the second parameter ---- */
+
+static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                  size_t room, pendres_bifurcation *out, size_t *found)
+{
+  if (c == NULL || found == NULL || (room > 0 && out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "curve, out and found");
+  if (!isfinite(value))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the value must be finite");
+  *found = 0;
+  const int closed = c->end[0] == PENDRES_END_CLOSED;
+  const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
+  const int unknown[] = {PENDRES_U_Y, PENDRES_U_W, place_of(c->parameter[0])};
+  const int second = place_of(c->parameter[1]);
+  double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
+  for (size_t i = 0; i < chords; i++) {
+    pendres_continuation_stencil s;
+    double t[PENDRES_STENCIL_ROOTS];
+    pendres_continuation_stencil_init(&s, c->count, (const double (*)[PENDRES_U_COUNT])c->u, closed,
+                                      i);
+    const size_t roots =
+      pendres_continuation_stencil_roots(&s, second, value, !closed && i + 1 == chords, t);
+    for (size_t r = 0; r < roots; r++) {
+      pendres_located located;
+      pendres_continuation_stencil_at(&s, t[r], guess);
+      /* What stays as it is along the curve does so to the last bit. */
+      for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
+        if (k != unknown[2]) guess[k] = k == second ? value : c->u[i][k];
+      pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown,
+                                                          guess, 2.0 * s.length + 1e-3, &located);
+      if (status == PENDRES_NOT_CONVERGED) continue;
+      if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+      /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
+      const int again = *found > 0 &&
+                        pendres_walk_distance(located.pair.fine, last) <
+                          0.1 * pendres_walk_distance(guess, last_guess);
+      memcpy(last_guess, guess, sizeof last_guess);
+      memcpy(last, located.pair.fine, sizeof last);
+      if (again) continue;
+      if (*found < room) {
+        status = pendres_continuation_locate_finish(ctx, c->condition, c->parameter[0], &located,
+                                                    &out[*found]);
+        if (status != PENDRES_OK) return status;
+      }
+      ++*found;
+    }
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
+                                   size_t room, pendres_bifurcation *out, size_t *found)
+{
+  return PENDRES_CONTEXT_CALL(ctx, curve_cross(ctx, c, value, room, out, found));
+}
+
+/* ---- the cusp next to a fold ---- */
+
+/* Walk until the quadratic term changes its sign. */
+static pendres_status walk_to_cusp(pendres_context *ctx, pendres_walk *w, pendres_located *out)
+{
+  pendres_walk_point last = w->here;
+  for (int i = 0; i < MOST_ADVANCES; i++) {
+    pendres_status status = pendres_walk_advance(ctx, 1, w);
+    if (status != PENDRES_OK) return status;
+    if (w->stuck || w->here.growth > wildest) return PENDRES_NOT_FOUND;
+    for (int k = 0; k < w->found; k++) {
+      const pendres_walk_point *p = &w->ahead[k];
+      if (last.bending * p->bending <= 0.0) {
+        const double part = last.bending / (last.bending - p->bending);
+        double u[PENDRES_U_COUNT];
+        for (int m = 0; m < PENDRES_U_COUNT; m++)
+          u[m] = last.u[m] + part * (p->u[m] - last.u[m]);
+        status = pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_CUSP, w->unknown, u,
+                                             2.0 * (p->arclength - last.arclength), out);
+        if (status != PENDRES_NOT_CONVERGED) return status;
+      }
+      last = *p;
+    }
+  }
+  return PENDRES_NOT_FOUND;
+}
+
+static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
+                                pendres_parameter second, pendres_cusp *out)
+{
+  if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
+  if (near->kind != PENDRES_FOLD)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
+  const char *no_orbit = pendres_orbit_refuses(&near->orbit);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", no_orbit);
+  if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter ||
+      (unsigned)near->parameter >= PENDRES_PARAMETER_COUNT)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "cusp: the second parameter must be another one than the fold's");
+  double u[PENDRES_U_COUNT], approach[2];
+  pendres_walk walk[2], ahead[2];
+  pendres_located located;
+  pendres_status status = PENDRES_OK;
+  for (int i = 0; i < 2; i++) {
+    walk[i] = kind_of(near, second, 0.05, u);
+    status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
+    if (status == PENDRES_NOT_CONVERGED)
+      return pendres_context_fail(ctx, status, "no fold to start from at drive frequency %g",
+                                  near->orbit.pendulum.drive_frequency);
+    if (status != PENDRES_OK) return status;
+    ahead[i] = walk[i];
+  }
+  status = pendres_walk_advance(ctx, 2, ahead);
+  if (status != PENDRES_OK) return status;
+  for (int i = 0; i < 2; i++)
+    approach[i] = ahead[i].found > 0
+                    ? fabs(walk[i].here.bending) - fabs(ahead[i].ahead[0].bending)
+                    : -INFINITY;
+  const int first = approach[0] >= approach[1] ? 0 : 1;
+  status = walk_to_cusp(ctx, &walk[first], &located);
+  if (status == PENDRES_NOT_FOUND) status = walk_to_cusp(ctx, &walk[1 - first], &located);
+  if (status == PENDRES_NOT_FOUND)
+    return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
+                                near->value);
+  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  const pendres_status measured = finish_cusp(ctx, walk[0].unknown, &located, out);
+  if (measured != PENDRES_OK) return measured;
+  if (status == PENDRES_TOLERANCE_UNREACHABLE)
+    return pendres_context_fail(ctx, status, "the cusp is known to %.1e and %.1e only",
+                                out->value_error[0], out->value_error[1]);
+  return status;
+}
+
+pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
+                                 pendres_parameter second, pendres_cusp *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, cusp_find(ctx, near, second, out));
+}

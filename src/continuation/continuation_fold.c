@@ -1,0 +1,109 @@
+/* continuation_fold.c -- the fold at the end of an orbit's branch; see continuation.h. */
+#include <pendres/continuation.h>
+
+#include <math.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+#include "continuation/continuation_locate.h"
+#include "continuation/continuation_walk.h"
+
+enum { MOST_ADVANCES = 200 };
+static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
+static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
+
+static const int by_frequency[] = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA};
+
+/* Locate the fold between two points of opposite determinants. */
+static pendres_status between(pendres_context *ctx, const pendres_walk *w,
+                              const pendres_walk_point *a, const pendres_walk_point *b,
+                              pendres_located *out)
+{
+  const double ga = pendres_continuation_map_fold(&a->image);
+  const double gb = pendres_continuation_map_fold(&b->image);
+  const double part = ga / (ga - gb);
+  double u[PENDRES_U_COUNT];
+  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
+  return pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_FOLD, by_frequency, u,
+                                     2.0 * (b->arclength - a->arclength), out);
+}
+
+/* Walk until the determinant changes its sign. */
+static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendres_located *out)
+{
+  const double start = w->here.u[PENDRES_U_OMEGA];
+  pendres_walk_point last = w->here;
+  for (int i = 0; i < MOST_ADVANCES; i++) {
+    pendres_status status = pendres_walk_advance(ctx, 1, w);
+    if (status != PENDRES_OK) return status;
+    if (w->stuck) return PENDRES_NOT_FOUND;
+    for (int k = 0; k < w->found; k++) {
+      const pendres_walk_point *p = &w->ahead[k];
+      const double before = pendres_continuation_map_fold(&last.image);
+      if (before != 0.0 && before * pendres_continuation_map_fold(&p->image) <= 0.0) {
+        status = between(ctx, w, &last, p, out);
+        if (status != PENDRES_NOT_CONVERGED) return status;
+      }
+      last = *p;
+    }
+    const double omega = w->here.u[PENDRES_U_OMEGA];
+    if (omega > widest_range * start || omega * widest_range < start) break;
+    if (w->here.growth > wildest) break;
+  }
+  return PENDRES_NOT_FOUND;
+}
+
+static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
+{
+  if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
+  const char *no_orbit = pendres_orbit_refuses(near);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", no_orbit);
+  double u[PENDRES_U_COUNT], approach[2];
+  pendres_located located;
+  pendres_walk walk[2], ahead[2];
+  pendres_status status = PENDRES_OK;
+  for (int i = 0; i < 2; i++) {
+    walk[i] = (pendres_walk){.map = pendres_continuation_map_of(near, u),
+                             .condition = PENDRES_CONDITION_NONE,
+                             .unknowns = 3,
+                             .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA},
+                             .tolerance = 1e-7,
+                             .longest = 0.1};
+    status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
+    if (status == PENDRES_NOT_CONVERGED)
+      return pendres_context_fail(ctx, status, "no orbit to start from at drive frequency %g",
+                                  near->pendulum.drive_frequency);
+    if (status != PENDRES_OK) return status;
+    ahead[i] = walk[i];
+  }
+  /* Which way does the leading multiplier go to +1? */
+  status = pendres_walk_advance(ctx, 2, ahead);
+  if (status != PENDRES_OK) return status;
+  for (int i = 0; i < 2; i++) {
+    const double here = fabs(pendres_continuation_map_fold(&walk[i].here.image));
+    approach[i] = ahead[i].found > 0
+                    ? here - fabs(pendres_continuation_map_fold(&ahead[i].ahead[0].image))
+                    : -INFINITY;
+  }
+  const int first = approach[0] >= approach[1] ? 0 : 1;
+  status = walk_to_fold(ctx, &walk[first], &located);
+  if (status == PENDRES_NOT_FOUND) status = walk_to_fold(ctx, &walk[1 - first], &located);
+  if (status == PENDRES_NOT_FOUND)
+    return pendres_context_fail(ctx, status,
+                                "the branch through drive frequency %g has no fold near",
+                                near->pendulum.drive_frequency);
+  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  const pendres_status measured = pendres_continuation_locate_finish(
+    ctx, PENDRES_CONDITION_FOLD, PENDRES_DRIVE_FREQUENCY, &located, out);
+  if (measured != PENDRES_OK) return measured;
+  if (status == PENDRES_TOLERANCE_UNREACHABLE)
+    return pendres_context_fail(ctx, status, "the fold at %.12g is known to %.1e only", out->value,
+                                out->value_error);
+  return status;
+}
+
+pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, out));
+}

@@ -1,0 +1,167 @@
+/* continuation_locate.c -- folds, flips and cusps with their errors; see continuation_locate.h. */
+#include "continuation/continuation_locate.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "continuation/continuation_walk.h"
+#include "engine/steps.h"
+
+/* Rounding of a step, three times its usual size: errors claim to be bounds. */
+static const double epsilon = 4e-16;
+
+static const int counts[] = {2, 3, 3, 4}; /* unknowns of the conditions */
+
+/*
+ * How rounding of the map moves the unknowns: the sums of the rows of the inverse Jacobian. The
+ * derivatives of the map are a few times less exact than the map.
+ */
+static int rounding_of(const pendres_continuation_equations *e, const int *unknown, int steps,
+                       int period, double rounding[PENDRES_EQUATIONS_MOST])
+{
+  const int n = e->equations;
+  const double unit = epsilon * fmax(1.0, hypot(e->j[0][0], e->j[1][1])) * sqrt(steps * period);
+  for (int i = 0; i < n; i++) rounding[i] = 0.0;
+  for (int column = 0; column < n; column++) {
+    double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
+    for (int r = 0; r < n; r++)
+      for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
+    /* The third derivative of a cusp comes from differences over a hundredth. */
+    b[column] = column < 2 ? unit : column == 2 ? 4.0 * unit : 400.0 * unit;
+    if (!pendres_continuation_map_linear(n, a, b)) return 0;
+    for (int i = 0; i < n; i++) rounding[i] = hypot(rounding[i], b[i]);
+  }
+  return 1;
+}
+
+/*
+ * Second derivative of the parameter by arclength in the (x, v) plane at a fold: with N v = v,
+ * l N = l and F(z, p) = G - z, p'' = -l . D2F(v, v) / l . dF/dp. D2F by central differences
+ * of the derivative N over h.
+ */
+static pendres_status curvature_of(pendres_context *ctx, const pendres_continuation_map *map,
+                                   int steps, int parameter, const double u[PENDRES_U_COUNT],
+                                   double h, double *out)
+{
+  pendres_continuation_image image[3];
+  double points[3][PENDRES_U_COUNT];
+  pendres_status status = pendres_continuation_map_images(
+    ctx, map, steps, 1, (const double (*)[PENDRES_U_COUNT])u, image);
+  if (status != PENDRES_OK) return status;
+  const double a = image[0].j[0][0], b = image[0].j[0][1], c = image[0].j[1][0],
+               d = image[0].j[1][1];
+  const int upper = hypot(a, b) > hypot(c, d), left = hypot(a, c) > hypot(b, d);
+  const double v[2] = {upper ? -b : -d, upper ? a : c};
+  const double l[2] = {left ? -c : -d, left ? a : b};
+  const double omega = u[PENDRES_U_OMEGA], length = hypot(v[0], omega * v[1]);
+  for (int i = 0; i < 3; i++) {
+    memcpy(points[i], u, sizeof points[i]);
+    points[i][PENDRES_U_Y] += (i - 1) * h * v[0] / length;
+    points[i][PENDRES_U_W] += (i - 1) * h * v[1] / length;
+  }
+  status = pendres_continuation_map_images(ctx, map, steps, 3,
+                                           (const double (*)[PENDRES_U_COUNT])points, image);
+  if (status != PENDRES_OK) return status;
+  double top = 0.0, bottom = 0.0;
+  for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < 2; k++)
+      top += l[i] * (image[2].n[i][k] - image[0].n[i][k]) / (2.0 * h) * v[k] / length;
+    bottom += l[i] * image[1].j[i][parameter];
+  }
+  *out = -top / bottom;
+  return PENDRES_OK;
+}
+
+static pendres_status solve_twice(pendres_context *ctx, const pendres_continuation_map *map,
+                                  pendres_continuation_condition condition, const int *unknown,
+                                  const double u[PENDRES_U_COUNT], double reach, int steps,
+                                  pendres_located *out)
+{
+  pendres_continuation_equations at;
+  pendres_continuation_pair *pair = &out->pair;
+  const int n = counts[condition];
+  double rounding[PENDRES_EQUATIONS_MOST];
+
+  pair->map = *map;
+  pair->coarse_steps = steps;
+  pair->fine_steps = pendres_steps_rung((int)ceil(1.4 * steps));
+  pair->fine_steps += pair->fine_steps % 2;
+  memcpy(pair->coarse, u, sizeof pair->coarse);
+  pendres_status status = pendres_continuation_map_solve(
+    ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
+  if (status == PENDRES_OK && !(pendres_walk_distance(u, pair->coarse) <= reach))
+    status = PENDRES_NOT_CONVERGED;
+  if (status != PENDRES_OK) return status;
+  memcpy(pair->fine, pair->coarse, sizeof pair->fine);
+  status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,
+                                          pair->fine, &at);
+  if (status != PENDRES_OK) return status;
+  if (!rounding_of(&at, unknown, pair->fine_steps, map->period, rounding))
+    return PENDRES_NOT_CONVERGED;
+  /* Where two values of a parameter agree by chance, it is not known better than its point. */
+  const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
+                             pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
+  for (int i = 0; i < n; i++)
+    out->error[i] = pendres_continuation_orbit_error(
+      pair->coarse[unknown[i]], pair->fine[unknown[i]], rounding[i] + 0.005 * point);
+  pair->rounding = hypot(rounding[0], rounding[1]);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_continuation_locate(pendres_context *ctx,
+                                           const pendres_continuation_map *map,
+                                           pendres_continuation_condition condition,
+                                           const int *unknown, const double u[PENDRES_U_COUNT],
+                                           double reach, pendres_located *out)
+{
+  enum { MOST_TRIES = 5 };
+  const double tolerance = ctx->options.tolerance;
+  int steps = 0;
+  pendres_status status = pendres_continuation_map_steps(ctx, u, 10.0 * tolerance, &steps);
+  double from[PENDRES_U_COUNT];
+  memcpy(from, u, sizeof from);
+  for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
+    double worst = 0.0;
+    status = solve_twice(ctx, map, condition, unknown, from, reach, steps, out);
+    if (status != PENDRES_OK) return status;
+    for (int i = 2; i < counts[condition]; i++) worst = fmax(worst, out->error[i]);
+    if (worst <= tolerance) return PENDRES_OK;
+    if (ctx->options.steps_per_period > 0) break;
+    memcpy(from, out->pair.fine, sizeof from);
+    steps = out->pair.fine_steps;
+  }
+  return status == PENDRES_OK ? PENDRES_TOLERANCE_UNREACHABLE : status;
+}
+
+pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
+                                                  pendres_continuation_condition condition,
+                                                  pendres_parameter parameter,
+                                                  const pendres_located *l,
+                                                  pendres_bifurcation *out)
+{
+  const int place = PENDRES_U_OMEGA + (int)parameter;
+  const pendres_continuation_pair *p = &l->pair;
+  *out = (pendres_bifurcation){.parameter = parameter,
+                               .value = p->fine[place],
+                               .value_error = l->error[2],
+                               .curvature = NAN,
+                               .curvature_error = NAN};
+  out->kind = condition == PENDRES_CONDITION_FOLD ? PENDRES_FOLD
+              : p->map.mirror                     ? PENDRES_SYMMETRY_BREAKING
+                                                  : PENDRES_PERIOD_DOUBLING;
+  pendres_status status = pendres_continuation_orbit_measure(ctx, 1, p, &out->orbit);
+  if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;
+  /* Truncation h^2 and rounding 1e-15/h meet here; twice the width tells how large they are. */
+  const double h = 1e-4;
+  double wide = 0.0, coarse = 0.0;
+  status = curvature_of(ctx, &p->map, p->fine_steps, place, p->fine, h, &out->curvature);
+  if (status == PENDRES_OK)
+    status = curvature_of(ctx, &p->map, p->fine_steps, place, p->fine, 2.0 * h, &wide);
+  if (status == PENDRES_OK)
+    status = curvature_of(ctx, &p->map, p->coarse_steps, place, p->coarse, h, &coarse);
+  out->curvature_error = fabs(wide - out->curvature) +
+                         pendres_continuation_orbit_error(coarse, out->curvature,
+                                                          1e-10 * fabs(out->curvature));
+  return status;
+}

@@ -1,0 +1,40 @@
+/*
+ * continuation_locate.h -- folds, flips and cusps to the tolerance, with their errors.
+ *
+ * Owns: solving their equations at two numbers of steps, and what follows from the difference.
+ */
+#ifndef PENDRES_CONTINUATION_LOCATE_H
+#define PENDRES_CONTINUATION_LOCATE_H
+
+#include <pendres/continuation.h>
+
+#include "continuation/continuation_orbit.h"
+
+/* A solution with the errors of its unknowns, in their order. */
+typedef struct pendres_located {
+  pendres_continuation_pair pair;
+  double error[PENDRES_EQUATIONS_MOST];
+  double curvature[2]; /* of a fold, at coarse and fine steps */
+  double curvature_rounding;
+} pendres_located;
+
+/*
+ * Solve the equations of a condition near u, the last unknown(s) being parameters, until the
+ * parameters' errors are below the tolerance of the context. PENDRES_NOT_CONVERGED (without a
+ * message) if there is nothing within `reach` of u (in the scale of arclength);
+ * PENDRES_TOLERANCE_UNREACHABLE with *out complete.
+ */
+pendres_status pendres_continuation_locate(pendres_context *ctx,
+                                           const pendres_continuation_map *map,
+                                           pendres_continuation_condition condition,
+                                           const int *unknown, const double u[PENDRES_U_COUNT],
+                                           double reach, pendres_located *out);
+
+/* Make a public bifurcation of a located fold or flip in one parameter. */
+pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
+                                                  pendres_continuation_condition condition,
+                                                  pendres_parameter parameter,
+                                                  const pendres_located *located,
+                                                  pendres_bifurcation *out);
+
+#endif

@@ -1,0 +1,27 @@
+/*
+ * continuation_orbit.h -- measures of orbits that Newton's method at fixed parameters cannot reach.
+ *
+ * Owns: turning fixed points found by continuation, at and near folds included, into pendres_orbit.
+ */
+#ifndef PENDRES_CONTINUATION_ORBIT_H
+#define PENDRES_CONTINUATION_ORBIT_H
+
+#include "continuation/continuation_map.h"
+
+/* A fixed point as two computations of different steps a period found it. */
+typedef struct pendres_continuation_pair {
+  pendres_continuation_map map;
+  double coarse[PENDRES_U_COUNT], fine[PENDRES_U_COUNT];
+  int coarse_steps, fine_steps;
+  double rounding; /* of y and w */
+} pendres_continuation_pair;
+
+/* Measure n orbits; nothing is moved. */
+pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n,
+                                                  const pendres_continuation_pair *pairs,
+                                                  pendres_orbit *out);
+
+/* Error of the finer of two computations, with the rounding. */
+double pendres_continuation_orbit_error(double coarse, double fine, double rounding);
+
+#endif

@@ -1,0 +1,380 @@
+/* continuation_trail.c -- whole curves within bounds; see continuation_trail.h. */
+#include "continuation/continuation_trail.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+
+/* ---- one way of a start ---- */
+
+/* The walks under way: two for each start, and what they have found. */
+typedef struct way {
+  size_t count, capacity;
+  pendres_walk_point *point; /* without the start */
+  pendres_branch_end end;
+  int going;
+} way;
+
+static int add(way *w, const pendres_walk_point *point)
+{
+  if (w->count == w->capacity) {
+    const size_t capacity = 2 * w->capacity + 64;
+    pendres_walk_point *grown = realloc(w->point, capacity * sizeof *grown);
+    if (grown == NULL) return -1;
+    w->point = grown;
+    w->capacity = capacity;
+  }
+  w->point[w->count++] = *point;
+  return 0;
+}
+
+/* The parameter among the unknowns that is out of its bounds, -1 if none; its bound. */
+static int out_of_bounds(const pendres_walk *w, const pendres_trail_bounds *b,
+                         const double u[PENDRES_U_COUNT], double *bound)
+{
+  for (int k = 2; k < w->unknowns; k++) {
+    const double value = u[w->unknown[k]];
+    if (value < b->low[k - 2] || value > b->high[k - 2]) {
+      *bound = value < b->low[k - 2] ? b->low[k - 2] : b->high[k - 2];
+      return k;
+    }
+  }
+  return -1;
+}
+
+/* The point of the curve on a bound, between the last point inside and the first outside. */
+static pendres_status land(pendres_context *ctx, const pendres_walk *w,
+                           const pendres_walk_point *inside, const pendres_walk_point *outside,
+                           int k, double bound, pendres_walk_point *point, int *landed)
+{
+  const int place = w->unknown[k];
+  const double way_out = outside->u[place] - inside->u[place];
+  const double part = (bound - inside->u[place]) / way_out;
+  double u[1][PENDRES_U_COUNT], rounding = NAN;
+  int steps = 0;
+  *landed = 0;
+  if (!(part > 0.0 && part < 1.0)) return PENDRES_OK;
+  *point = *inside;
+  for (int i = 0; i < PENDRES_U_COUNT; i++)
+    u[0][i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
+  u[0][place] = bound;
+  memset(point->tangent, 0, sizeof point->tangent);
+  point->tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
+  pendres_status status = pendres_continuation_map_steps(ctx, u[0], w->tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
+  const double chord = pendres_walk_distance(inside->u, outside->u);
+  if (status != PENDRES_OK || isnan(rounding) ||
+      pendres_walk_distance(inside->u, u[0]) > chord ||
+      fabs(u[0][place] - bound) > 1e-12)
+    return status;
+  memcpy(point->u, u[0], sizeof point->u);
+  point->u[place] = bound;
+  point->held = k + 1;
+  point->arclength = inside->arclength + pendres_walk_distance(inside->u, u[0]);
+  point->bending = inside->bending + part * (outside->bending - inside->bending);
+  /* What belongs to the place and not to the plane is taken from the way there. */
+  for (int i = 0; i < w->unknowns; i++)
+    point->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
+  status = pendres_continuation_map_images(ctx, &w->map, steps, 1,
+                                           (const double (*)[PENDRES_U_COUNT])u, &point->image);
+  *landed = status == PENDRES_OK;
+  return status;
+}
+
+/* Whether the chord from a to b passes the start in the start's own direction. */
+static int passes(const pendres_walk *w, const pendres_walk_point *start,
+                  const pendres_walk_point *a, const pendres_walk_point *b, double direction)
+{
+  double before = 0.0, behind = 0.0, along = 0.0;
+  for (int k = 0; k < w->unknowns; k++) {
+    const int i = w->unknown[k];
+    const double t = direction * start->tangent[k];
+    before += t * (a->u[i] - start->u[i]) / pendres_walk_scale[i];
+    behind += t * (b->u[i] - start->u[i]) / pendres_walk_scale[i];
+    along += t * b->tangent[k];
+  }
+  const double chord = pendres_walk_distance(a->u, b->u);
+  return before < 0.0 && behind >= 0.0 && along > 0.9 &&
+         pendres_walk_distance(a->u, start->u) <= chord &&
+         pendres_walk_distance(b->u, start->u) <= chord;
+}
+
+/* Take over what a walk has found ahead of it. */
+static pendres_status take(pendres_context *ctx, const pendres_walk *w,
+                           const pendres_trail_bounds *b, const pendres_walk_point *start, way *to)
+{
+  pendres_status status = PENDRES_OK;
+  if (w->stuck) {
+    to->going = 0;
+    to->end = PENDRES_END_STUCK;
+  }
+  for (int i = 0; i < w->found && to->going; i++) {
+    const pendres_walk_point *p = &w->ahead[i];
+    const pendres_walk_point *last = to->count > 0 ? &to->point[to->count - 1] : start;
+    pendres_walk_point landing;
+    double bound = 0.0;
+    int landed = 0;
+    const int k = out_of_bounds(w, b, p->u, &bound);
+    if (k >= 0) {
+      to->going = 0;
+      to->end = PENDRES_END_RANGE;
+      status = land(ctx, w, last, p, k, bound, &landing, &landed);
+      if (status != PENDRES_OK) return status;
+      if (landed && add(to, &landing) != 0) goto no_memory;
+      break;
+    }
+    if (p->arclength > 4.0 * pendres_walk_distance(last->u, p->u) &&
+        passes(w, start, last, p, 1.0)) {
+      to->going = 0;
+      to->end = PENDRES_END_CLOSED;
+      break;
+    }
+    if (add(to, p) != 0) goto no_memory;
+    if (p->growth > b->wildest) {
+      to->going = 0;
+      to->end = PENDRES_END_WILD;
+    } else if (to->count >= b->most_points) {
+      to->going = 0;
+      to->end = PENDRES_END_POINTS;
+    }
+  }
+  return status;
+no_memory:
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+}
+
+/* ---- both ways ---- */
+
+void pendres_trail_free(pendres_trail *trail)
+{
+  free(trail->point);
+  *trail = (pendres_trail){0};
+}
+
+/* One curve of the way back, the start, and the way forth. */
+static pendres_status join(pendres_context *ctx, const pendres_walk *kind,
+                           const pendres_walk_point *start, way ways[2], pendres_trail *t)
+{
+  *t = (pendres_trail){.kind = *kind, .closed = ways[0].end == PENDRES_END_CLOSED};
+  if (t->closed) ways[1].count = 0; /* it is the same curve the other way round */
+  t->count = ways[0].count + ways[1].count + 1;
+  t->point = malloc(t->count * sizeof *t->point);
+  if (t->point == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  t->capacity = t->count;
+  /* The end with the lower first parameter comes first. */
+  const int place = kind->unknown[2];
+  double end[2];
+  for (int i = 0; i < 2; i++)
+    end[i] = ways[i].count > 0 ? ways[i].point[ways[i].count - 1].u[place] : start->u[place];
+  const int back = !t->closed && end[0] < end[1] ? 0 : 1, forth = 1 - back;
+  size_t n = 0;
+  for (size_t i = ways[back].count; i-- > 0;) {
+    t->point[n] = ways[back].point[i];
+    t->point[n].arclength = -t->point[n].arclength;
+    for (int k = 0; k < kind->unknowns; k++) t->point[n].tangent[k] = -t->point[n].tangent[k];
+    n++;
+  }
+  t->point[n] = *start;
+  if (forth == 1)
+    for (int k = 0; k < kind->unknowns; k++) t->point[n].tangent[k] = -t->point[n].tangent[k];
+  n++;
+  for (size_t i = 0; i < ways[forth].count; i++) t->point[n++] = ways[forth].point[i];
+  const double shift = t->point[0].arclength;
+  for (size_t i = 0; i < t->count; i++) t->point[i].arclength -= shift;
+  t->end[0] = ways[back].end;
+  t->end[1] = ways[forth].end;
+  if (t->closed) t->end[0] = t->end[1] = PENDRES_END_CLOSED;
+  return PENDRES_OK;
+}
+
+/* Advance the walks that still go until none does. */
+static pendres_status run(pendres_context *ctx, size_t n, pendres_walk *walks,
+                          const pendres_walk_point *starts, const pendres_trail_bounds *bounds,
+                          way *ways)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  size_t *index = malloc((n + 1) * sizeof *index);
+  pendres_walk *some = malloc((n + 1) * sizeof *some);
+  if (index == NULL || some == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
+    goto done;
+  }
+  status = PENDRES_OK;
+  for (;;) {
+    size_t count = 0;
+    for (size_t i = 0; i < n; i++)
+      if (ways[i].going) {
+        index[count] = i;
+        some[count++] = walks[i];
+      }
+    if (count == 0) break;
+    status = pendres_walk_advance(ctx, count, some);
+    for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
+      const size_t k = index[i];
+      walks[k] = some[i];
+      status = take(ctx, &walks[k], bounds, &starts[k], &ways[k]);
+      /* The other way of a closed curve is the same curve. */
+      if (ways[k].end == PENDRES_END_CLOSED && !ways[k].going && k % 2 == 0) ways[k + 1].going = 0;
+    }
+    if (status != PENDRES_OK) break;
+  }
+done:
+  free(index);
+  free(some);
+  return status;
+}
+
+pendres_status pendres_trail_follow(pendres_context *ctx, size_t n,
+                                    const pendres_trail_start *starts,
+                                    const pendres_trail_bounds *bounds, pendres_trail *trails,
+                                    size_t *which)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_walk *walks = calloc(2 * n + 1, sizeof *walks);
+  pendres_walk_point *begin = calloc(2 * n + 1, sizeof *begin);
+  way *ways = calloc(2 * n + 1, sizeof *ways);
+  memset(trails, 0, n * sizeof *trails);
+  if (walks == NULL || begin == NULL || ways == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
+    goto done;
+  }
+  status = PENDRES_OK;
+  for (size_t i = 0; i < 2 * n && status == PENDRES_OK; i++) {
+    walks[i] = starts[i / 2].kind;
+    if (which != NULL) *which = i / 2;
+    status = pendres_walk_begin(ctx, &walks[i], starts[i / 2].u, i % 2 == 0 ? 1.0 : -1.0);
+    begin[i] = walks[i].here;
+    ways[i].going = 1;
+  }
+  if (status == PENDRES_OK) status = run(ctx, 2 * n, walks, begin, bounds, ways);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    begin[2 * i + 1].arclength = 0.0;
+    status = join(ctx, &walks[2 * i], &begin[2 * i], &ways[2 * i], &trails[i]);
+  }
+done:
+  for (size_t i = 0; i < 2 * n && ways != NULL; i++) free(ways[i].point);
+  free(walks);
+  free(begin);
+  free(ways);
+  if (status != PENDRES_OK)
+    for (size_t i = 0; i < n; i++) pendres_trail_free(&trails[i]);
+  return status;
+}
+
+/* ---- to the tolerance ---- */
+
+/*
+ * The two computations of a point of a branch differ in the parameter as well. What an orbit at one
+ * value of it is known to is their distance there: the coarser is moved along the branch. Next to a
+ * fold that would lead around it: there a parameter that is off by so much moves the orbit by the
+ * root of it.
+ */
+static void to_one_parameter(const pendres_walk *w, const pendres_walk_point *at,
+                             pendres_continuation_pair *pair)
+{
+  const int place = w->unknown[2];
+  const double along = at->tangent[2];
+  const double off = (pair->fine[place] - pair->coarse[place]) / pendres_walk_scale[place];
+  if (!(fabs(off) < 0.05 * along * along)) {
+    pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
+    return;
+  }
+  for (int k = 0; k < w->unknowns; k++)
+    pair->coarse[w->unknown[k]] +=
+      pendres_walk_scale[w->unknown[k]] * at->tangent[k] * off / along;
+  pair->coarse[place] = pair->fine[place];
+  pair->rounding /= fmax(fabs(along), 1e-3);
+}
+
+pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t,
+                                    pendres_continuation_pair *pairs, double (*error)[2])
+{
+  enum { MOST_TRIES = 4, CHUNK = 1024 };
+  const double tolerance = ctx->options.tolerance;
+  const pendres_walk *w = &t->kind;
+  pendres_walk_point *point = malloc((t->count + 1) * sizeof *point);
+  double(*u)[PENDRES_U_COUNT] = malloc((t->count + 1) * sizeof *u);
+  double *rounding = malloc((t->count + 1) * sizeof *rounding);
+  int *steps = malloc((t->count + 1) * sizeof *steps);
+  size_t *index = malloc((t->count + 1) * sizeof *index), left = t->count;
+  pendres_status status = PENDRES_OK;
+  if (point == NULL || u == NULL || rounding == NULL || steps == NULL || index == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+    goto done;
+  }
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
+    index[i] = i;
+    pairs[i] = (pendres_continuation_pair){.map = w->map};
+    memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
+    status = pendres_continuation_map_steps(ctx, t->point[i].u, 10.0 * tolerance,
+                                            &pairs[i].coarse_steps);
+  }
+  for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
+    for (int fine = 0; fine < 2 && status == PENDRES_OK; fine++) {
+      for (size_t i = 0; i < left; i++) {
+        pendres_continuation_pair *p = &pairs[index[i]];
+        point[i] = t->point[index[i]];
+        if (point[i].held > 0) {
+          memset(point[i].tangent, 0, sizeof point[i].tangent);
+          point[i].tangent[point[i].held - 1] = 1.0;
+        }
+        if (fine) {
+          p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
+          p->fine_steps += p->fine_steps % 2;
+        }
+        steps[i] = fine ? p->fine_steps : p->coarse_steps;
+        memcpy(u[i], p->coarse, sizeof u[i]);
+      }
+      for (size_t first = 0; first < left && status == PENDRES_OK; first += CHUNK)
+        status = pendres_walk_correct(ctx, w, left - first < CHUNK ? left - first : CHUNK,
+                                      point + first, steps + first, u + first, rounding + first);
+      for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+        pendres_continuation_pair *p = &pairs[index[i]];
+        /* What cannot be corrected stays where the walk left it, with an error that says so. */
+        memcpy(fine ? p->fine : p->coarse, u[i], sizeof u[i]);
+        p->rounding = isnan(rounding[i]) ? w->tolerance : rounding[i];
+      }
+    }
+    size_t again = 0;
+    for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+      pendres_continuation_pair *p = &pairs[index[i]];
+      const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
+                                 p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
+      /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
+      const double turning = t->count > 1 && t->point[index[i]].held == 0
+                               ? fmax(fabs(t->point[index[i]].tangent[2]), 1e-3)
+                               : 1.0;
+      double worst = 0.0;
+      for (int k = 0; k < w->unknowns; k++) {
+        const int place = w->unknown[k];
+        /* Where two values of a parameter agree by chance it is not known better than its point. */
+        const double e = pendres_continuation_orbit_error(
+          p->coarse[place], p->fine[place],
+          pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
+        if (k >= 2) error[index[i]][k - 2] = e;
+        worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
+      }
+      if (worst > tolerance && attempt + 1 < MOST_TRIES && ctx->options.steps_per_period == 0) {
+        p->coarse_steps = p->fine_steps;
+        memcpy(p->coarse, p->fine, sizeof p->coarse);
+        index[again++] = index[i];
+      }
+    }
+    left = again;
+  }
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++)
+    if (w->unknowns == 3 && t->count > 1 && t->point[i].held == 0)
+      to_one_parameter(w, &t->point[i], &pairs[i]);
+done:
+  free(point);
+  free(u);
+  free(rounding);
+  free(steps);
+  free(index);
+  return status;
+}

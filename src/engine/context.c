@@ -1,0 +1,216 @@
+/* context.c -- options, workspace and last message; see context.h. */
+#include "engine/context_internal.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/compat.h"
+#include "engine/steps.h"
+#include "engine/tables.h"
+
+enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
+
+const char *pendres_method_name(pendres_method method)
+{
+  static const char *const names[PENDRES_METHOD_COUNT] = {
+    "block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf", "naive"};
+  return (unsigned)method < PENDRES_METHOD_COUNT ? names[method] : NULL;
+}
+
+const char *pendres_table_name(pendres_table table)
+{
+  if (table == PENDRES_TABLE_DP5) return "dp5";
+  const pendres_tables_method *m = pendres_tables_get(table);
+  return m != NULL ? m->name : NULL;
+}
+
+pendres_method pendres_method_named(const char *name)
+{
+  int i = 0;
+  if (name == NULL) return PENDRES_METHOD_COUNT;
+  while (i < PENDRES_METHOD_COUNT && strcmp(name, pendres_method_name((pendres_method)i)) != 0) i++;
+  return (pendres_method)i;
+}
+
+pendres_table pendres_table_named(const char *name)
+{
+  int i = PENDRES_TABLE_DEFAULT + 1; /* the default is one of the others */
+  if (name == NULL) return PENDRES_TABLE_COUNT;
+  while (i < PENDRES_TABLE_COUNT && strcmp(name, pendres_table_name((pendres_table)i)) != 0) i++;
+  return (pendres_table)i;
+}
+
+int pendres_table_order(pendres_table table)
+{
+  if (table == PENDRES_TABLE_DP5) return 5;
+  const pendres_tables_method *m = pendres_tables_get(table);
+  return m != NULL ? m->order : 0;
+}
+
+/* NULL when all is well, else what is wrong. */
+static const char *resolve(pendres_options *o)
+{
+  if (o->tolerance == 0.0) o->tolerance = 1e-8;
+  if (!(o->tolerance <= 1e-2)) return "the tolerance must be at most 1e-2";
+  if (!(o->tolerance >= 1e-13))
+    return "a tolerance below 1e-13 is beyond double precision; ask for 1e-13 or more";
+  if ((unsigned)o->method >= PENDRES_METHOD_COUNT) return "unknown method";
+  if ((unsigned)o->table >= PENDRES_TABLE_COUNT) return "unknown table";
+  if (o->table == PENDRES_TABLE_DEFAULT) o->table = PENDRES_TABLE_TP8;
+  if (o->steps_per_period < 0 || o->steps_per_period > MOST_STEPS)
+    return "the steps a period must be 1 to 1000000";
+  if (o->block_lanes == 0) o->block_lanes = DEFAULT_LANES;
+  if (o->block_lanes < 8 || o->block_lanes > MOST_LANES || o->block_lanes % 8 != 0)
+    return "a block must have a multiple of 8 lanes, 8 to 4096";
+  if (o->period_budget < 0) return "the budget of periods must be positive";
+  return NULL;
+}
+
+pendres_status pendres_context_create(const pendres_options *options, pendres_context **out)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (out == NULL) return PENDRES_INVALID_ARGUMENT;
+  *out = NULL;
+  pendres_context *ctx = calloc(1, sizeof *ctx);
+  if (ctx == NULL) return status;
+  pendres_guard_init(&ctx->guard);
+  if (options != NULL) ctx->options = *options;
+  if (resolve(&ctx->options) != NULL) {
+    status = PENDRES_INVALID_ARGUMENT;
+    goto fail;
+  }
+  if (pendres_compat_context_create(&ctx->sun) != 0) goto fail;
+  status = pendres_steps_create(&ctx->steps);
+  if (status != PENDRES_OK) goto fail;
+  *out = ctx;
+  return PENDRES_OK;
+fail:
+  pendres_context_free(ctx);
+  return status;
+}
+
+const char *pendres_options_check(const pendres_options *options)
+{
+  pendres_options copy = {0};
+  if (options != NULL) copy = *options;
+  return resolve(&copy);
+}
+
+void pendres_context_free(pendres_context *ctx)
+{
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
+  for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_flow_free(ctx->flows[i]);
+  pendres_steps_free(ctx->steps);
+  if (ctx->sun != NULL) SUNContext_Free(&ctx->sun);
+  free(ctx);
+}
+
+const char *pendres_context_message(const pendres_context *ctx)
+{
+  return ctx != NULL ? pendres_guard_message(&ctx->guard)
+                     : "no context could be created: see pendres_options_check";
+}
+
+const pendres_options *pendres_context_options(const pendres_context *ctx)
+{
+  return ctx != NULL ? &ctx->options : NULL;
+}
+
+void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost)
+{
+  if (cost == NULL) return;
+  *cost = (pendres_cost){ NAN, NAN, NAN, NAN, NAN };
+  if (ctx == NULL || pendres_guard_used_elsewhere(&ctx->guard)) return;
+  *cost = ctx->cost;
+  for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
+    if (ctx->flows[i] != NULL) {
+      cost->rhs_evaluations += pendres_flow_evaluations(ctx->flows[i]);
+      cost->steps += pendres_flow_steps(ctx->flows[i]);
+    }
+}
+
+double pendres_context_slopes(const pendres_context *ctx)
+{
+  double slopes = ctx->cost.rhs_evaluations - ctx->probed_slopes;
+  for (int i = 0; i < PENDRES_FLOW_KINDS; i++)
+    if (ctx->flows[i] != NULL) slopes += pendres_flow_evaluations(ctx->flows[i]);
+  return slopes;
+}
+
+void pendres_context_cost_reset(pendres_context *ctx)
+{
+  pendres_cost now;
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
+  ctx->cost.rhs_evaluations = 0.0;
+  ctx->cost.steps = 0.0;
+  pendres_context_cost(ctx, &now);
+  ctx->cost = (pendres_cost){.rhs_evaluations = -now.rhs_evaluations, .steps = -now.steps};
+}
+
+void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg), void *arg)
+{
+  if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
+  ctx->stop = stop;
+  ctx->stop_arg = arg;
+}
+
+pendres_status pendres_context_poll(pendres_context *ctx)
+{
+  if (ctx->stop == NULL) return PENDRES_OK;
+  pendres_guard_ask(&ctx->guard, 1);
+  const int stopped = ctx->stop(ctx->stop_arg) != 0;
+  pendres_guard_ask(&ctx->guard, 0);
+  if (!stopped) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted on request");
+}
+
+int pendres_context_stops(void *ctx)
+{
+  return pendres_context_poll(ctx) != PENDRES_OK;
+}
+
+pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
+                                    const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  (void)pendres_guard_fail(&ctx->guard, status, format, args);
+  va_end(args);
+  return status;
+}
+
+pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
+                                           pendres_status status)
+{
+  if (status == PENDRES_INTERRUPTED)
+    return pendres_context_fail(ctx, status, "interrupted on request");
+  if (status == PENDRES_OUT_OF_MEMORY)
+    return pendres_context_fail(ctx, status, "out of memory for the steps of a period");
+  return pendres_context_fail(ctx, status, "ARKODE gave up within a drive period (code %d)",
+                              pendres_flow_failure(flow));
+}
+
+pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pendres_flow **out)
+{
+  static const size_t rows[PENDRES_FLOW_KINDS] = {
+    PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL, PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_STATE};
+
+  if (ctx->flows[kind] == NULL) {
+    const pendres_flow_options options = {.rows = rows[kind],
+                                          .lanes = (size_t)ctx->options.block_lanes,
+                                          .table = ctx->options.table,
+                                          .stop = pendres_context_stops,
+                                          .stop_arg = ctx,
+                                          .tolerance = kind == PENDRES_FLOW_ADAPTIVE
+                                                         ? ctx->options.tolerance
+                                                         : 0.0};
+    const pendres_status status = pendres_flow_create(&options, ctx->sun, &ctx->flows[kind]);
+    if (status != PENDRES_OK)
+      return pendres_context_fail(ctx, status, "no block of pendulums could be set up: %s",
+                                  pendres_status_message(status));
+  }
+  *out = ctx->flows[kind];
+  return PENDRES_OK;
+}

@@ -1,0 +1,73 @@
+/*
+ * context_internal.h -- what the modules of the library share through a context.
+ *
+ * Owns: nothing; pendres_context is laid out here so that each module can keep
+ * its workspace in it.
+ */
+#ifndef PENDRES_CONTEXT_INTERNAL_H
+#define PENDRES_CONTEXT_INTERNAL_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include "engine/flow.h"
+#include "base/guard.h"
+
+/* The blocks of a context. */
+typedef enum pendres_rows {
+  PENDRES_FLOW_STATE,
+  PENDRES_FLOW_VARIATIONAL,
+  PENDRES_FLOW_SENSITIVITY,
+  PENDRES_FLOW_ADAPTIVE, /* the state, by adaptive steps */
+  PENDRES_FLOW_KINDS
+} pendres_rows;
+
+struct pendres_steps_memo; /* steps.c */
+
+struct pendres_context {
+  pendres_guard guard;
+  pendres_options options; /* defaults resolved */
+  SUNContext sun;
+  pendres_flow *flows[PENDRES_FLOW_KINDS];
+  struct pendres_steps_memo *steps;
+  pendres_cost cost;
+  double probed_periods; /* those of the cost that went into choosing steps: once a lattice cell,
+                            so that they depend on what the context did before */
+  double probed_slopes;  /* the same of evaluations of the slope */
+  int (*stop)(void *arg);
+  void *stop_arg;
+};
+
+/* The body of a public function that computes with a context; see guard.h. */
+#define PENDRES_CONTEXT_CALL(ctx, call) \
+  PENDRES_GUARD_CALL((ctx) != NULL ? &(ctx)->guard : NULL, call)
+
+/* Refuse arguments that are NULL; `names` is the sentence's beginning. */
+#define PENDRES_CONTEXT_NULL(ctx, names) \
+  pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s must not be NULL", names)
+
+/*
+ * Evaluations of the slope so far, one a lane, without those that went into choosing steps: a
+ * measure of work that is the same whatever the context did before, and whatever its blocks. About
+ * 2.5e-9 seconds each, of all that a lane costs.
+ */
+double pendres_context_slopes(const pendres_context *ctx);
+
+/* Record why something failed, and return the status. */
+pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
+                                    const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+
+/* The context's block of a kind, made at its first use. */
+pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pendres_flow **out);
+
+/* PENDRES_INTERRUPTED when the caller asked to stop. */
+pendres_status pendres_context_poll(pendres_context *ctx);
+/* The same as a function to hand on; ctx is a context. */
+int pendres_context_stops(void *ctx);
+
+/* Record a failure of the integrator. */
+pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_flow *flow,
+                                           pendres_status status);
+
+#endif

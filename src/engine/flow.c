@@ -1,0 +1,408 @@
+/* flow.c -- a block of pendulums on one ARKODE problem; see flow.h. */
+#include "engine/flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <arkode/arkode_butcher_erk.h>
+#include <arkode/arkode_erkstep.h>
+
+#include "engine/compat.h"
+#include "engine/flow_table.h"
+#include "engine/lanes.h"
+#include "engine/tables.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
+static const double steps_between = 300000.0;
+
+/* cos(theta) at the right-hand sides of one period, in their order: the same every period. */
+typedef struct drive_memo {
+  double *theta, *cosine;
+  size_t size, next;
+} drive_memo;
+
+enum { COEFFICIENTS = 4, CARRIED = 6 /* rows */ };
+
+struct pendres_flow {
+  pendres_lanes_shape shape;
+  double tolerance;
+  int steps, stages;
+  double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
+  double end, half;         /* ARKODE's clock after a period and half of one */
+  N_Vector state;
+  double *rows;           /* the state for everybody else, row after row */
+  double *coefficient[4]; /* stiffness, drive, friction, inverse */
+  double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
+  drive_memo memo;
+  void *arkode;
+  double evaluations, steps_taken;
+  int (*stop)(void *arg); /* asked now and then within a period; NULL: nobody is */
+  void *stop_arg;
+  double next_asked;      /* once so many steps have been taken */
+  int stopped;
+  size_t lanes; /* in use */
+  int failure;
+};
+
+/*
+ * ARKODE adds its clock up step by step, always rounding the same way: after 3e5 steps it is off by
+ * 1e-10. What is meant is the end of a whole number of steps and a stage's node.
+ */
+static double phase_meant(const pendres_flow *flow, double theta)
+{
+  if (flow->steps == 0) return theta; /* adaptive */
+  const double steps = theta * flow->steps / two_pi;
+  double meant = rint(steps);
+  for (int i = 0; i < flow->stages; i++) {
+    const double here = rint(steps - flow->node[i]) + flow->node[i];
+    if (fabs(here - steps) < fabs(meant - steps)) meant = here;
+  }
+  return fabs(meant - steps) < 1e-3 ? two_pi * meant / flow->steps : theta;
+}
+
+static double drive_cosine(pendres_flow *flow, double theta)
+{
+  drive_memo *m = &flow->memo;
+  if (m->next >= m->size) return cos(theta); /* adaptive steps, or an unforeseen call */
+  const size_t i = m->next++;
+  if (m->theta[i] != theta) {
+    m->theta[i] = theta;
+    m->cosine[i] = cos(phase_meant(flow, theta));
+  }
+  return m->cosine[i];
+}
+
+static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
+{
+  pendres_flow *flow = arg;
+  pendres_lanes_slope(y, slope, drive_cosine(flow, theta));
+  flow->evaluations += (double)flow->lanes;
+  return 0;
+}
+
+/*
+ * ERKStep before SUNDIALS 6.7 takes every table whose last node is 1 as
+ * first-same-as-last and reuses a wrong stage. A step-postprocess function makes
+ * it evaluate the slope anew.
+ */
+static int after_step(sunrealtype theta, N_Vector y, void *arg)
+{
+  pendres_flow *flow = arg;
+  (void)theta;
+  if (flow->shape.off.yy != NULL) pendres_lanes_carry(y, two_pi / flow->steps);
+  flow->steps_taken += (double)flow->lanes;
+  if (flow->steps_taken < flow->next_asked) return 0;
+  flow->next_asked = flow->steps_taken + steps_between;
+  flow->stopped = flow->stop != NULL && flow->stop(flow->stop_arg) != 0;
+  return flow->stopped ? -1 : 0;
+}
+
+/* With fixed steps nobody reads the weights: leave them at one. */
+static int unit_weights(N_Vector y, N_Vector weights, void *arg)
+{
+  (void)y;
+  (void)weights;
+  (void)arg;
+  return 0;
+}
+
+static int memo_resize(drive_memo *m, int stages, int steps)
+{
+  const size_t wanted = (size_t)(stages + 1) * (size_t)(steps + 2);
+  m->next = 0;
+  if (wanted > m->size) {
+    double *theta = realloc(m->theta, wanted * sizeof *theta);
+    if (theta == NULL) return -1;
+    m->theta = theta;
+    double *cosine = realloc(m->cosine, wanted * sizeof *cosine);
+    if (cosine == NULL) return -1;
+    m->cosine = cosine;
+    for (size_t i = m->size; i < wanted; i++) {
+      m->theta[i] = 0.0;
+      m->cosine[i] = 1.0;
+    }
+    m->size = wanted;
+  }
+  return 0;
+}
+
+static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNContext sun)
+{
+  ARKodeButcherTable butcher = NULL;
+  pendres_status status = PENDRES_OK;
+
+  flow->arkode = ERKStepCreate(right_hand_side, 0.0, flow->state, sun);
+  if (flow->arkode == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (pendres_compat_silence(sun, flow->arkode, NULL) != 0) return PENDRES_INTEGRATION_FAILED;
+  butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
+  if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (flow->stages > PENDRES_TABLES_MOST_STAGES) {
+    ARKodeButcherTable_Free(butcher);
+    return PENDRES_INTERNAL;
+  }
+  for (int i = 0; i < flow->stages; i++) flow->node[i] = butcher->c[i];
+
+  int bad = ERKStepSetTable(flow->arkode, butcher) != 0 ||
+            ERKStepSetUserData(flow->arkode, flow) != 0 ||
+            ERKStepSetPostprocessStepFn(flow->arkode, after_step) != 0 ||
+            ERKStepSetMaxNumSteps(flow->arkode, 100000000L) != 0 ||
+            ERKStepSetMaxHnilWarns(flow->arkode, -1) != 0 ||
+            ERKStepSetInterpolantType(flow->arkode, ARK_INTERP_LAGRANGE) != 0 ||
+            ERKStepSetInterpolantDegree(flow->arkode, flow->tolerance == 0.0 ? 0 : 1) != 0;
+  if (!bad && flow->tolerance == 0.0)
+    bad = ERKStepWFtolerances(flow->arkode, unit_weights) != 0;
+  else if (!bad)
+    bad = ERKStepSStolerances(flow->arkode, flow->tolerance, flow->tolerance) != 0 ||
+          pendres_flow_set_controller(flow->arkode) != 0;
+  if (bad) status = PENDRES_INTEGRATION_FAILED;
+  ARKodeButcherTable_Free(butcher);
+  return status;
+}
+
+pendres_status pendres_flow_create(const pendres_flow_options *options, SUNContext sun,
+                                   pendres_flow **out)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_flow *flow = calloc(1, sizeof *flow);
+  *out = NULL;
+  if (flow == NULL) return status;
+
+  if (options->rows != PENDRES_ROWS_STATE && options->rows != PENDRES_ROWS_VARIATIONAL &&
+      options->rows != PENDRES_ROWS_SENSITIVITY) {
+    status = PENDRES_INVALID_ARGUMENT;
+    goto fail;
+  }
+  if (pendres_lanes_open(&flow->shape, options->rows, options->lanes,
+                         pendres_kernels_select()) != 0)
+    goto fail;
+  flow->shape.norm_unused = options->tolerance == 0.0;
+  flow->lanes = options->lanes;
+  flow->stop = options->stop;
+  flow->stop_arg = options->stop_arg;
+  flow->next_asked = steps_between;
+  flow->tolerance = options->tolerance;
+  for (int i = 0; i < 4; i++) {
+    flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
+    if (flow->coefficient[i] == NULL) goto fail;
+  }
+  flow->shape.coefficients =
+    (pendres_coefficients){.stiffness = flow->coefficient[0], .drive = flow->coefficient[1],
+                           .friction = flow->coefficient[2], .inverse = flow->coefficient[3]};
+  flow->state = pendres_lanes_create(&flow->shape, sun);
+  flow->rows = pendres_lanes_allocate(flow->shape.rows * flow->shape.capacity);
+  if (flow->state == NULL || flow->rows == NULL) goto fail;
+  status = arkode_setup(flow, options->table, sun);
+  if (status != PENDRES_OK) goto fail;
+  *out = flow;
+  return PENDRES_OK;
+fail:
+  pendres_flow_free(flow);
+  return status;
+}
+
+void pendres_flow_free(pendres_flow *flow)
+{
+  if (flow == NULL) return;
+  if (flow->arkode != NULL) ERKStepFree(&flow->arkode);
+  if (flow->state != NULL) N_VDestroy(flow->state);
+  pendres_lanes_close(&flow->shape);
+  free(flow->rows);
+  for (int i = 0; i < COEFFICIENTS; i++) free(flow->coefficient[i]);
+  for (int i = 0; i < CARRIED; i++) free(flow->off[i]);
+  free(flow->memo.theta);
+  free(flow->memo.cosine);
+  free(flow);
+}
+
+pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
+{
+  if (steps < 1 || flow->tolerance != 0.0) return PENDRES_INVALID_ARGUMENT;
+  if (steps == flow->steps) return PENDRES_OK;
+  if (memo_resize(&flow->memo, flow->stages, steps) != 0) return PENDRES_OUT_OF_MEMORY;
+  const double h = two_pi / steps;
+  flow->failure = ERKStepSetFixedStep(flow->arkode, h);
+  if (flow->failure != 0) return PENDRES_INTEGRATION_FAILED;
+  flow->steps = steps;
+  /* A stop at 2 pi itself would cut the last step, or add one, by what the clock is off. */
+  flow->end = 0.0;
+  for (int i = 0; i < steps; i++) {
+    if (2 * i == steps) flow->half = flow->end;
+    flow->end += h;
+  }
+  return PENDRES_OK;
+}
+
+void pendres_flow_resize(pendres_flow *flow, size_t lanes)
+{
+  const size_t old = flow->shape.stride;
+  double *data = flow->rows;
+  pendres_lanes_resize(&flow->shape, lanes);
+  const size_t stride = flow->shape.stride;
+
+  /* Rows move towards lower addresses when shrinking, to higher ones when growing. */
+  if (stride < old)
+    for (size_t r = 1; r < flow->shape.rows; r++)
+      memmove(data + r * stride, data + r * old, stride * sizeof *data);
+  else if (stride > old)
+    for (size_t r = flow->shape.rows; r-- > 0;) {
+      memmove(data + r * stride, data + r * old, old * sizeof *data);
+      memset(data + r * stride + old, 0, (stride - old) * sizeof *data);
+    }
+  flow->lanes = lanes;
+  /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
+  for (size_t i = lanes; i < stride; i++) {
+    for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
+    for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][i] = 0.0;
+    for (int c = 0; c < CARRIED; c++)
+      if (flow->off[c] != NULL) flow->off[c][i] = 0.0;
+  }
+}
+
+size_t pendres_flow_stride(const pendres_flow *flow)
+{
+  return flow->shape.stride;
+}
+
+size_t pendres_flow_capacity(const pendres_flow *flow)
+{
+  return flow->shape.capacity;
+}
+
+void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
+                           double w)
+{
+  const size_t stride = flow->shape.stride;
+  const double omega = p->drive_frequency;
+  double *data = flow->rows;
+
+  flow->coefficient[0][lane] = 1.0 / (omega * omega);
+  flow->coefficient[1][lane] = p->drive_amplitude / (omega * omega);
+  flow->coefficient[2][lane] = p->damping / omega;
+  flow->coefficient[3][lane] = 1.0 / omega;
+  for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + lane] = 0.0;
+  data[lane] = y;
+  data[stride + lane] = w;
+  if (flow->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
+    data[2 * stride + lane] = 1.0;
+    data[5 * stride + lane] = 1.0;
+  }
+}
+
+void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
+{
+  double *data = flow->rows;
+  for (size_t r = 0; r < flow->shape.rows; r++)
+    data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
+  for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
+  for (int c = 0; c < CARRIED; c++)
+    if (flow->off[c] != NULL) flow->off[c][to] = flow->off[c][from];
+}
+
+pendres_status pendres_flow_carry(pendres_flow *flow, int on)
+{
+  flow->shape.off = (pendres_carried){0};
+  if (!on) return PENDRES_OK;
+  if (flow->shape.rows != PENDRES_ROWS_STATE || flow->tolerance != 0.0)
+    return PENDRES_INVALID_ARGUMENT;
+  for (int i = 0; i < CARRIED; i++) {
+    if (flow->off[i] == NULL) flow->off[i] = pendres_lanes_allocate(flow->shape.capacity);
+    if (flow->off[i] == NULL) return PENDRES_OUT_OF_MEMORY;
+  }
+  flow->shape.off = (pendres_carried){flow->off[0], flow->off[1], flow->off[2],
+                                      flow->off[3], flow->off[4], flow->off[5]};
+  return PENDRES_OK;
+}
+
+void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
+                            double added)
+{
+  flow->off[0][lane] = error->yy;
+  flow->off[1][lane] = error->yw;
+  flow->off[2][lane] = error->ww;
+  flow->off[3][lane] = added;
+  /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
+  const double step = two_pi / flow->steps, drag = 0.5 * step * flow->coefficient[2][lane];
+  flow->off[4][lane] = (1.0 - drag) / (1.0 + drag);
+  flow->off[5][lane] = step * flow->coefficient[0][lane] / (1.0 + drag);
+}
+
+pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
+{
+  return (pendres_flow_error){flow->off[0][lane], flow->off[1][lane], flow->off[2][lane]};
+}
+
+double *pendres_flow_state(pendres_flow *flow)
+{
+  return flow->rows;
+}
+
+/* Put the clock back to phase 0, with the block's present state. */
+static pendres_status start_period(pendres_flow *flow, double end)
+{
+  flow->memo.next = 0;
+  flow->stopped = 0;
+  pendres_lanes_write(flow->state, flow->rows);
+  flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
+  if (flow->failure == 0) flow->failure = ERKStepSetStopTime(flow->arkode, end);
+  return flow->failure == 0 ? PENDRES_OK : PENDRES_INTEGRATION_FAILED;
+}
+
+static pendres_status failed(const pendres_flow *flow)
+{
+  return flow->stopped ? PENDRES_INTERRUPTED : PENDRES_INTEGRATION_FAILED;
+}
+
+static pendres_status advance_to(pendres_flow *flow, double end)
+{
+  sunrealtype reached = 0.0;
+  const pendres_status status = start_period(flow, end);
+  if (status != PENDRES_OK) return status;
+  flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
+  pendres_lanes_read(flow->state, flow->rows);
+  return flow->failure < 0 ? failed(flow) : PENDRES_OK;
+}
+
+pendres_status pendres_flow_period(pendres_flow *flow)
+{
+  return advance_to(flow, flow->steps > 0 ? flow->end : two_pi);
+}
+
+pendres_status pendres_flow_half_period(pendres_flow *flow)
+{
+  if (flow->steps < 1 || flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
+  return advance_to(flow, flow->half);
+}
+
+pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
+                                           void *arg)
+{
+  sunrealtype reached = 0.0;
+  if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
+  const pendres_status status = start_period(flow, flow->end);
+  if (status != PENDRES_OK) return status;
+  for (int step = 1; step <= flow->steps; step++) {
+    flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
+    if (flow->failure < 0) return failed(flow);
+    pendres_lanes_read(flow->state, flow->rows);
+    sample(arg, step, reached, flow->shape.stride, flow->rows);
+  }
+  return PENDRES_OK;
+}
+
+double pendres_flow_evaluations(const pendres_flow *flow)
+{
+  return flow->evaluations;
+}
+
+double pendres_flow_steps(const pendres_flow *flow)
+{
+  return flow->steps_taken;
+}
+
+int pendres_flow_failure(const pendres_flow *flow)
+{
+  return flow->failure;
+}

@@ -1,0 +1,105 @@
+/*
+ * flow.h -- advancing a block of pendulums over drive phase with ARKODE.
+ *
+ * Owns: the ARKODE memory of a block, its steps, and the clock. flow*.c are the
+ * only files that include SUNDIALS' integrators.
+ *
+ * One call advances every lane from drive phase 0 to 2 pi. With fixed steps
+ * the integrator is reset at each period's start: the stroboscopic map is then
+ * exactly autonomous, so that results do not depend on block size, lane order
+ * or how many periods went before (design notes, docs/architecture.md).
+ *
+ * Internal units: y = x - pi/2, w = dy/dtheta = v/omega (see kernels.h).
+ */
+#ifndef PENDRES_FLOW_H
+#define PENDRES_FLOW_H
+
+#include <stddef.h>
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include <sundials/sundials_context.h>
+
+#include "engine/kernels.h"
+
+typedef struct pendres_flow pendres_flow;
+
+typedef struct pendres_flow_options {
+  size_t rows;      /* one of PENDRES_ROWS_... */
+  size_t lanes;     /* capacity */
+  pendres_table table;
+  double tolerance; /* 0: fixed steps; else adaptive, this relative and absolute tolerance */
+  int (*stop)(void *arg); /* NULL, or: asked within long periods; nonzero ends the period */
+  void *stop_arg;
+} pendres_flow_options;
+
+/* sun is kept, not owned, and must outlive the flow. */
+pendres_status pendres_flow_create(const pendres_flow_options *options, SUNContext sun,
+                                   pendres_flow **out);
+void pendres_flow_free(pendres_flow *flow);
+
+/* Steps a period from the next period on (fixed steps only). */
+pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
+
+/*
+ * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept. The
+ * stride (distance between rows) becomes lanes rounded up to a multiple of 8.
+ */
+void pendres_flow_resize(pendres_flow *flow, size_t lanes);
+size_t pendres_flow_stride(const pendres_flow *flow);
+size_t pendres_flow_capacity(const pendres_flow *flow);
+
+/* Put a pendulum into a lane; variational rows start as the identity, sensitivities as 0. */
+void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
+                           double w);
+
+/* What a lane is off by: variance of y, of y and w, of w. */
+typedef struct pendres_flow_error {
+  double yy, yw, ww;
+} pendres_flow_error;
+
+/*
+ * From now on carry the errors of the lanes along, or no longer; blocks of states with fixed steps
+ * only. Each step adds the lane's `added` to the variance of y, and to that of v = omega w; what is
+ * there grows and shrinks as the equation linearised along the trajectory has it. A lane's error is
+ * set after its pendulum and the steps of the period.
+ */
+pendres_status pendres_flow_carry(pendres_flow *flow, int on);
+void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
+                            double added);
+pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane);
+
+/* Copy a lane with all its coefficients. */
+void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
+
+/* Rows of the block, valid until the next call that advances or resizes. */
+double *pendres_flow_state(pendres_flow *flow);
+
+/* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() said so. */
+pendres_status pendres_flow_period(pendres_flow *flow);
+
+/*
+ * Advance all lanes from drive phase 0 to pi: fixed steps, an even number a period. Orbits that are
+ * their own mirror image close after half a period and a reflection.
+ */
+pendres_status pendres_flow_half_period(pendres_flow *flow);
+
+/*
+ * Like pendres_flow_period, and call sample(arg, step, theta, stride, state) after each step
+ * 1..n; fixed steps only, so the samples are equally spaced and the last one is the period's end.
+ */
+typedef void pendres_flow_sample(void *arg, int step, double theta, size_t stride,
+                                 const double *state);
+pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
+                                           void *arg);
+
+/* Right-hand sides evaluated so far, counting each lane in use. */
+double pendres_flow_evaluations(const pendres_flow *flow);
+/* Steps taken so far, likewise; those that an adaptive block rejected do not count. */
+double pendres_flow_steps(const pendres_flow *flow);
+
+/* ARKODE's words on the last failure, its return code. */
+int pendres_flow_failure(const pendres_flow *flow);
+
+#endif

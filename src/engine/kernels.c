@@ -1,0 +1,290 @@
+/*
+ * kernels.c -- the inner loops over lanes; see kernels.h.
+ *
+ * Compiled once per instruction set with PENDRES_KERNELS set to its name. What costs most, a
+ * stage of the state alone, is written out in vectors (kernels_vector.h): sum and slope of up
+ * to eight of them stay in registers. The rest are plain loops that the compiler vectorises.
+ * No operation depends on the width of a vector.
+ */
+#include "engine/kernels.h"
+
+#include <string.h>
+
+#include "engine/kernels_vector.h"
+
+#ifndef PENDRES_KERNELS
+#define PENDRES_KERNELS base
+#endif
+#define JOIN_(a, b) a##_##b
+#define JOIN(a, b) JOIN_(a, b)
+
+#define FMA(a, b, c) __builtin_fma((a), (b), (c))
+
+typedef pendres_vector vec;
+enum { LANES = PENDRES_VECTOR_LANES, GROUP = PENDRES_VECTOR_GROUP };
+/* Vectors of 8 lanes, what every strip is a multiple of. */
+enum { REST = 8 / LANES };
+
+PENDRES_VECTOR_INLINE void copy_vectors(int count, const double *from, double *to)
+{
+  PENDRES_VECTOR_EACH pendres_vector_store(to + v * LANES, pendres_vector_load(from + v * LANES));
+}
+
+/* Sums of `count` vectors from `at` on, all in registers at once. */
+PENDRES_VECTOR_INLINE void sum_vectors(int count, const pendres_sum *q, size_t at)
+{
+  vec sum[2 * GROUP];
+  const double *p = pendres_vector_address(q->term[0].x, at);
+  vec f = pendres_vector_set(q->term[0].c);
+  PENDRES_VECTOR_EACH sum[v] = f * pendres_vector_load(p + v * LANES);
+  for (int j = 1; j < q->terms; j++) {
+    p = pendres_vector_address(q->term[j].x, at);
+    f = pendres_vector_set(q->term[j].c);
+    PENDRES_VECTOR_EACH sum[v] = pendres_vector_fma(f, pendres_vector_load(p + v * LANES), sum[v]);
+  }
+  PENDRES_VECTOR_EACH pendres_vector_store(q->z + at + v * LANES, sum[v]);
+}
+
+static void sum(const pendres_sum *q, size_t at, size_t n)
+{
+  const size_t end = at + n;
+  for (; at + 8 * LANES <= end; at += 8 * LANES) sum_vectors(8, q, at);
+  for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
+}
+
+/*
+ * The slope of w of `count` vectors, y given and used up. w is read again: in registers it would
+ * push out what the sine needs.
+ */
+PENDRES_VECTOR_INLINE void accelerate(int count, const pendres_coefficients *k, size_t lane,
+                                      double cos_theta, vec *y, const double *w, double *slope)
+{
+  const double *stiffness = k->stiffness + lane, *drive = k->drive + lane;
+  const double *friction = k->friction + lane;
+  const vec f = pendres_vector_set(cos_theta);
+  pendres_vector_sines(count, y);
+  PENDRES_VECTOR_EACH
+  {
+    const size_t i = v * LANES;
+    const vec drag = pendres_vector_load(friction + i) * pendres_vector_load(w + i);
+    const vec force = pendres_vector_fma(pendres_vector_load(drive + i), f, -drag);
+    y[v] = pendres_vector_fma(-pendres_vector_load(stiffness + i), y[v], force);
+  }
+  PENDRES_VECTOR_EACH pendres_vector_store(slope + v * LANES, y[v]);
+}
+
+/* A stage of `count` vectors of a strip from `lane` on: the sum, and the slope at it. */
+PENDRES_VECTOR_INLINE void stage_vectors(int count, const pendres_strip *s, size_t lane,
+                                         const pendres_operation *o, int keep)
+{
+  vec y[GROUP], w[GROUP];
+  const pendres_sum *q = o->sum;
+  const size_t at_y = s->at + lane, at_w = at_y + s->lanes;
+  const double *py = pendres_vector_address(q->term[0].x, at_y);
+  const double *pw = pendres_vector_address(q->term[0].x, at_w);
+  vec f = pendres_vector_set(q->term[0].c);
+
+  PENDRES_VECTOR_EACH y[v] = f * pendres_vector_load(py + v * LANES);
+  PENDRES_VECTOR_EACH w[v] = f * pendres_vector_load(pw + v * LANES);
+  for (int j = 1; j < q->terms; j++) {
+    py = pendres_vector_address(q->term[j].x, at_y);
+    pw = pendres_vector_address(q->term[j].x, at_w);
+    f = pendres_vector_set(q->term[j].c);
+    PENDRES_VECTOR_EACH y[v] = pendres_vector_fma(f, pendres_vector_load(py + v * LANES), y[v]);
+    PENDRES_VECTOR_EACH w[v] = pendres_vector_fma(f, pendres_vector_load(pw + v * LANES), w[v]);
+  }
+  if (keep) {
+    PENDRES_VECTOR_EACH pendres_vector_store(q->z + at_y + v * LANES, y[v]);
+    PENDRES_VECTOR_EACH pendres_vector_store(q->z + at_w + v * LANES, w[v]);
+  }
+  PENDRES_VECTOR_EACH pendres_vector_store(o->slope + at_y + v * LANES, w[v]);
+  accelerate(count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+}
+
+PENDRES_VECTOR_INLINE void slope_vectors(int count, const pendres_strip *s, size_t lane,
+                                         const pendres_operation *o)
+{
+  vec y[GROUP];
+  const size_t at_y = s->at + lane, at_w = at_y + s->lanes;
+
+  PENDRES_VECTOR_EACH y[v] = pendres_vector_load(o->from + at_y + v * LANES);
+  copy_vectors(count, o->from + at_w, o->slope + at_y);
+  accelerate(count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+}
+
+/* stride: lanes, the distance between two rows. */
+static void rhs_variational(size_t stride, const pendres_coefficients *k, double cos_theta,
+                            const double *restrict s, double *restrict d)
+{
+  const double *restrict stiffness = k->stiffness, *restrict drive = k->drive,
+               *restrict friction = k->friction;
+#pragma omp simd
+  for (size_t i = 0; i < stride; i++) {
+    const double y = s[i], w = s[stride + i];
+    double sine, cosine;
+    pendres_kernels_sincos(y, &sine, &cosine);
+    const double force = FMA(drive[i], cos_theta, -(friction[i] * w));
+    const double spring = -stiffness[i] * cosine, drag = -friction[i];
+    d[i] = w;
+    d[stride + i] = FMA(-stiffness[i], sine, force);
+    d[2 * stride + i] = s[3 * stride + i];
+    d[3 * stride + i] = FMA(spring, s[2 * stride + i], drag * s[3 * stride + i]);
+    d[4 * stride + i] = s[5 * stride + i];
+    d[5 * stride + i] = FMA(spring, s[4 * stride + i], drag * s[5 * stride + i]);
+  }
+}
+
+static void rhs_sensitivity(size_t stride, const pendres_coefficients *k, double cos_theta,
+                            const double *restrict s, double *restrict d)
+{
+  const double *restrict stiffness = k->stiffness, *restrict drive = k->drive,
+               *restrict friction = k->friction, *restrict inverse = k->inverse;
+
+  rhs_variational(stride, k, cos_theta, s, d);
+#pragma omp simd
+  for (size_t i = 0; i < stride; i++) {
+    const double w = s[stride + i];
+    double sine, cosine;
+    pendres_kernels_sincos(s[i], &sine, &cosine);
+    const double spring = -stiffness[i] * cosine, drag = -friction[i];
+    /* d/domega of the slope at fixed state: (2 (stiffness sin y - drive cos) + friction w)/omega */
+    const double by_frequency =
+      inverse[i] * FMA(2.0, FMA(stiffness[i], sine, -(drive[i] * cos_theta)), friction[i] * w);
+    const double by_damping = -inverse[i] * w;
+    const double by_amplitude = stiffness[i] * cos_theta;
+    d[6 * stride + i] = s[7 * stride + i];
+    d[7 * stride + i] =
+      FMA(spring, s[6 * stride + i], FMA(drag, s[7 * stride + i], by_frequency));
+    d[8 * stride + i] = s[9 * stride + i];
+    d[9 * stride + i] = FMA(spring, s[8 * stride + i], FMA(drag, s[9 * stride + i], by_damping));
+    d[10 * stride + i] = s[11 * stride + i];
+    d[11 * stride + i] =
+      FMA(spring, s[10 * stride + i], FMA(drag, s[11 * stride + i], by_amplitude));
+  }
+}
+
+/*
+ * Errors over the step from half a step before a state to half a step after it: half a step's
+ * drift, what spring and drag at the state make of it, and the other half.
+ */
+static void carry(const pendres_strip *s, const pendres_operation *o)
+{
+  const double *restrict y = o->from + s->at, *restrict added = s->off.added;
+  const double *restrict keep = s->off.keep, *restrict kick = s->off.kick;
+  const double *restrict stiffness = s->k.stiffness;
+  double *restrict yy = s->off.yy, *restrict yw = s->off.yw, *restrict ww = s->off.ww;
+  const double half = 0.5 * o->carry;
+#pragma omp simd
+  for (size_t i = 0; i < s->lanes; i++) {
+    const double pull = kick[i] * pendres_kernels_cos_roughly(y[i]), left = keep[i];
+    double b = FMA(half, ww[i], yw[i]);
+    double a = FMA(half, yw[i] + b, yy[i]);
+    const double mixed = FMA(left, b, -(pull * a));
+    const double c = FMA(left, FMA(left, ww[i], -(pull * b)), -(pull * mixed));
+    b = FMA(half, c, mixed);
+    a = FMA(half, mixed + b, a);
+    yy[i] = a + added[i];
+    yw[i] = b;
+    ww[i] = FMA(stiffness[i], added[i], c);
+  }
+}
+
+/* What is neither sum nor slope, of n elements from `at` on. */
+static void set(const pendres_operation *o, size_t at, size_t n)
+{
+  if (o->to == NULL) return;
+  if (o->from == NULL) {
+    memset(o->to + at, 0, n * sizeof(double));
+    return;
+  }
+  const size_t end = at + n;
+  for (; at + 8 * LANES <= end; at += 8 * LANES) copy_vectors(8, o->from + at, o->to + at);
+  for (; at < end; at += LANES) copy_vectors(1, o->from + at, o->to + at);
+}
+
+/*
+ * All operations on a strip of a state, `count` vectors at once; a strip of just so many is one
+ * group. Comparisons and not a switch: its indirect jump costs a tenth of the time where
+ * processors may not speculate over one.
+ */
+PENDRES_VECTOR_INLINE void run_state(int count, const pendres_strip *s, const pendres_operation *o,
+                                     size_t n)
+{
+  const size_t step = (size_t)count * LANES, size = PENDRES_ROWS_STATE * s->lanes;
+  for (const pendres_operation *end = o + n; o < end; o++) {
+    size_t lane = 0;
+    if (o->sum != NULL && o->slope != NULL) {
+      if (o->keep) {
+        for (; lane + step <= s->lanes; lane += step) stage_vectors(count, s, lane, o, 1);
+        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(REST, s, lane, o, 1);
+      } else {
+        for (; lane + step <= s->lanes; lane += step) stage_vectors(count, s, lane, o, 0);
+        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(REST, s, lane, o, 0);
+      }
+    } else if (o->sum != NULL) {
+      sum(o->sum, s->at, size);
+    } else if (o->slope != NULL) {
+      for (; lane + step <= s->lanes; lane += step) slope_vectors(count, s, lane, o);
+      for (; lane < s->lanes; lane += REST * LANES) slope_vectors(REST, s, lane, o);
+    } else if (o->carry != 0.0) {
+      carry(s, o);
+    } else {
+      set(o, s->at, size);
+    }
+  }
+}
+
+#define RUN_STATE(COUNT)                                                                   \
+  static void run_state_##COUNT(const pendres_strip *s, const pendres_operation *o, size_t n) \
+  {                                                                                        \
+    run_state(COUNT, s, o, n);                                                             \
+  }
+#if defined(__AVX512F__)
+RUN_STATE(1)
+RUN_STATE(2)
+RUN_STATE(3)
+RUN_STATE(4)
+RUN_STATE(5)
+RUN_STATE(6)
+RUN_STATE(7)
+RUN_STATE(8)
+RUN_STATE(9)
+RUN_STATE(10)
+#else
+RUN_STATE(4)
+#endif
+
+/* The same for the other equations. */
+static void run_rows(size_t rows, const pendres_strip *s, const pendres_operation *o, size_t n)
+{
+  const size_t size = rows * s->lanes;
+  for (const pendres_operation *end = o + n; o < end; o++) {
+    const double *from = o->sum != NULL ? o->sum->z : o->from;
+    if (o->sum != NULL) sum(o->sum, s->at, size);
+    if (o->slope != NULL && rows == PENDRES_ROWS_VARIATIONAL)
+      rhs_variational(s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
+    else if (o->slope != NULL)
+      rhs_sensitivity(s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
+    else if (o->sum == NULL)
+      set(o, s->at, size);
+  }
+}
+
+static void run(size_t rows, const pendres_strip *s, const pendres_operation *o, size_t n)
+{
+#if defined(__AVX512F__)
+  static void (*const states[GROUP])(const pendres_strip *, const pendres_operation *, size_t) = {
+    run_state_1, run_state_2, run_state_3, run_state_4, run_state_5,
+    run_state_6, run_state_7, run_state_8, run_state_9, run_state_10};
+  const size_t vectors = s->lanes / LANES;
+  if (rows == PENDRES_ROWS_STATE) states[(vectors < GROUP ? vectors : GROUP) - 1](s, o, n);
+#else
+  if (rows == PENDRES_ROWS_STATE) run_state_4(s, o, n);
+#endif
+  if (rows != PENDRES_ROWS_STATE) run_rows(rows, s, o, n);
+}
+
+#define TEXT_(a) #a
+#define TEXT(a) TEXT_(a)
+
+const pendres_kernels JOIN(pendres_kernels, PENDRES_KERNELS) = {TEXT(PENDRES_KERNELS), run};

@@ -1,0 +1,319 @@
+/* steps.c -- how many fixed steps a drive period needs; see steps.h. */
+#include "engine/steps.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+
+enum {
+  PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
+  FEWEST_STEPS = 8,
+  MOST_STEPS = 1000000,
+  FIRST_SIZE = 64,      /* of the memo, doubled as it fills */
+  POINTS = 65           /* of a period at which probes are compared */
+};
+
+/* Growth of an error of the start beyond which a probe is not followed. */
+static const double wild = 100.0;
+
+/* A cell of the lattice: indices of damping, frequency, drive, speed and tolerance. */
+typedef struct cell {
+  int damping, frequency, drive, speed, tolerance;
+} cell;
+
+typedef struct entry {
+  cell key;
+  int steps;
+} entry;
+
+struct pendres_steps_memo {
+  entry *entries;
+  size_t used, size;
+};
+
+pendres_status pendres_steps_create(pendres_steps_memo **out)
+{
+  *out = calloc(1, sizeof **out);
+  return *out != NULL ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
+}
+
+void pendres_steps_free(pendres_steps_memo *memo)
+{
+  if (memo == NULL) return;
+  free(memo->entries);
+  free(memo);
+}
+
+int pendres_steps_rung(int n)
+{
+  int rung = FEWEST_STEPS;
+  while (rung < n) {
+    /* Multiples of 2 up to 24, then eight rungs an octave. */
+    int octave = 1;
+    while (octave * 16 <= rung) octave *= 2;
+    rung += rung < 24 ? 2 : octave;
+  }
+  return rung;
+}
+
+/* Index of a logarithmic lattice of the given ratio; everything below `least` shares one cell. */
+static int lattice(double value, double least, double ratio)
+{
+  if (!(value > least)) return 0;
+  return 1 + (int)floor(log(value / least) / log(ratio));
+}
+
+static double lattice_upper(int index, double least, double ratio)
+{
+  return least * pow(ratio, index);
+}
+
+static const double damping_least = 0.05, damping_ratio = 1.25;
+static const double frequency_least = 1e-4, frequency_ratio = 1.06;
+static const double drive_least = 0.25, drive_ratio = 1.25;
+static const double speed_least = 2.0, speed_ratio = 1.5;
+
+static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
+{
+  return (cell){.damping = lattice(p->damping, damping_least, damping_ratio),
+                .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
+                .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
+                .speed = lattice(speed, speed_least, speed_ratio),
+                .tolerance = lattice(tolerance, 1e-18, 1.25)};
+}
+
+/* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
+static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
+{
+  *p = (pendres_pendulum){
+    .damping = lattice_upper(c->damping, damping_least, damping_ratio),
+    .drive_frequency =
+      c->frequency > 0 ? lattice_upper(c->frequency - 1, frequency_least, frequency_ratio) : 0.0,
+    .drive_amplitude = lattice_upper(c->drive, drive_least, drive_ratio)};
+  /* Up to the least damping the cell has none. */
+  if (c->damping == 0) p->damping = 0.0;
+  *speed = lattice_upper(c->speed, speed_least, speed_ratio);
+  *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
+}
+
+static void load_probe(pendres_flow *flow, size_t lane, int i, const pendres_pendulum *p,
+                       double speed)
+{
+  /* Half start at rest over the well, half at the largest speed either way. */
+  const int half = PROBES / 2, k = i % half;
+  const double y = -2.75 + 5.5 * k / (half - 1);
+  const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
+  pendres_flow_set_lane(flow, lane, p, y, v / p->drive_frequency);
+}
+
+/*
+ * What is seen of the probes: their states at `dense` equally spaced points, and at the period's
+ * end. The growth of an error of the start, the largest entry of the derivative of (y, v), is
+ * looked at by the finer run alone.
+ */
+typedef struct sight {
+  int steps, stride, dense, points;
+  int growing;
+  size_t first, lanes; /* probes in the block */
+  double omega;
+  double y[POINTS][PROBES], v[POINTS][PROBES], growth[POINTS][PROBES];
+} sight;
+
+static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
+{
+  sight s = {.steps = steps, .stride = stride, .growing = growing, .omega = p->drive_frequency};
+  s.dense = steps / stride < POINTS - 1 ? steps / stride : POINTS - 1;
+  s.points = s.dense + (s.dense * stride < steps);
+  return s;
+}
+
+/* Steps in half a unit of time, in which errors grow by no more than e^(1/2). */
+static int stride_of(const pendres_pendulum *p, int steps)
+{
+  const double period = 6.28318530717958647693 / p->drive_frequency;
+  return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
+}
+
+static void look(void *arg, int step, double theta, size_t stride, const double *state)
+{
+  sight *s = arg;
+  int k = s->points - 1;
+  (void)theta;
+  if (step % s->stride == 0 && step / s->stride <= s->dense) k = step / s->stride - 1;
+  else if (step < s->steps) return;
+  for (size_t i = 0; i < s->lanes; i++) {
+    double *growth = &s->growth[k][s->first + i];
+    s->y[k][s->first + i] = state[i];
+    s->v[k][s->first + i] = s->omega * state[stride + i];
+    if (!s->growing) continue;
+    *growth = fmax(fabs(state[2 * stride + i]), fabs(state[5 * stride + i]));
+    *growth = fmax(*growth, s->omega * fabs(state[3 * stride + i]));
+    *growth = fmax(*growth, fabs(state[4 * stride + i]) / s->omega);
+  }
+}
+
+/* All probes over one period, looked at on the way. */
+static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                                 sight *s)
+{
+  pendres_flow *flow = NULL;
+  pendres_status status = pendres_context_flow(
+    ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
+  if (status != PENDRES_OK) return status;
+  const size_t capacity = pendres_flow_capacity(flow);
+  const double before = pendres_flow_evaluations(flow);
+  status = pendres_flow_set_steps(flow, s->steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  for (s->first = 0; s->first < PROBES; s->first += capacity) {
+    s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
+    pendres_flow_resize(flow, s->lanes);
+    for (size_t i = 0; i < s->lanes; i++) load_probe(flow, i, (int)(s->first + i), p, speed);
+    status = pendres_flow_period_sampled(flow, look, s);
+    if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  }
+  ctx->cost.pendulum_periods += PROBES;
+  ctx->probed_periods += PROBES;
+  ctx->probed_slopes += pendres_flow_evaluations(flow) - before;
+  return PENDRES_OK;
+}
+
+/*
+ * Error of probe i over the period: the largest difference up to the point at which errors have
+ * grown `wild`, as if what follows added as much a unit of time. No steps help against what a wild
+ * pendulum makes of its errors, so that is not asked of them.
+ */
+static double probe_error(const sight *coarse, const sight *fine, size_t i)
+{
+  double largest = 0.0;
+  int k = 0;
+  for (; k < coarse->points; k++) {
+    if (k > 0 && !(fine->growth[k][i] <= wild)) break;
+    const double dy = fabs(coarse->y[k][i] - fine->y[k][i]);
+    const double dv = fabs(coarse->v[k][i] - fine->v[k][i]);
+    if (!(dy + dv < INFINITY)) return INFINITY;
+    largest = fmax(largest, fmax(dy, dv));
+  }
+  return k == coarse->points ? largest : largest * coarse->steps / ((double)k * coarse->stride);
+}
+
+static double largest_error(const sight *coarse, const sight *fine)
+{
+  double largest = 0.0;
+  for (size_t i = 0; i < PROBES; i++) largest = fmax(largest, probe_error(coarse, fine, i));
+  return largest;
+}
+
+/* Least steps that resolve the drive's period, the pendulum's own and explicit stability. */
+static double least_steps(const pendres_pendulum *p, double speed)
+{
+  const double two_pi = 6.28318530717958647693;
+  const double period = two_pi / p->drive_frequency;
+  /* The real stability interval of the order-8 tables is about 4 to 5. */
+  return fmax(period * p->damping / 4.0, period * fmax(1.0, speed / 4.0) / 1.5);
+}
+
+/* A drive that swings a pendulum so far in a period leaves it less than two steps a turn. */
+static int shaken(const pendres_pendulum *p)
+{
+  const double speed = fabs(p->drive_amplitude) / fmax(p->drive_frequency, p->damping);
+  return speed / p->drive_frequency > 0.5 * MOST_STEPS;
+}
+
+/* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
+static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
+{
+  pendres_pendulum p;
+  double speed, tolerance;
+  const int order = pendres_table_order(ctx->options.table);
+
+  worst_of(c, &p, &speed, &tolerance);
+  if (p.drive_frequency == 0.0 || shaken(&p)) return PENDRES_TOLERANCE_UNREACHABLE;
+  double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
+  while (wanted <= MOST_STEPS) {
+    const int n = pendres_steps_rung((int)ceil(wanted));
+    const int stride = stride_of(&p, n);
+    sight coarse = sight_of(&p, n, stride, 0), fine = sight_of(&p, 2 * n, 2 * stride, 1);
+    pendres_status status = run_probes(ctx, &p, speed, &coarse);
+    if (status == PENDRES_OK) status = run_probes(ctx, &p, speed, &fine);
+    if (status != PENDRES_OK) return status;
+    const double error = largest_error(&coarse, &fine);
+    /* Where the error no longer falls it is rounding alone: more steps would not help. */
+    const int rounding = error < 1e-9 && error > 0.5 * last_error;
+    if (error <= tolerance || rounding) {
+      *steps = n;
+      return PENDRES_OK;
+    }
+    last_error = error;
+    /* Not yet in the asymptotic regime: climb; there: go where the order says, one rung short. */
+    const double growth =
+      error < 1e-2 ? pow(error / tolerance, 1.0 / order) * 0.95 : 1.5;
+    wanted = n * fmax(1.01, fmin(growth, 4.0));
+  }
+  return PENDRES_TOLERANCE_UNREACHABLE;
+}
+
+static int same_cell(const cell *a, const cell *b)
+{
+  return a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
+         a->speed == b->speed && a->tolerance == b->tolerance;
+}
+
+static pendres_status remember(pendres_context *ctx, const cell *key, int steps)
+{
+  pendres_steps_memo *m = ctx->steps;
+  if (m->used == m->size) {
+    const size_t size = m->size > 0 ? 2 * m->size : FIRST_SIZE;
+    entry *entries = realloc(m->entries, size * sizeof *entries);
+    if (entries == NULL)
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for the step memo");
+    m->entries = entries;
+    m->size = size;
+  }
+  m->entries[m->used++] = (entry){.key = *key, .steps = steps};
+  return PENDRES_OK;
+}
+
+/* Why a pendulum needs too many steps: the friction's stability, a fast start, or the drive. */
+static pendres_status too_many(pendres_context *ctx, const cell *c, const pendres_pendulum *p,
+                               double speed)
+{
+  pendres_pendulum worst;
+  double fastest, tolerance;
+  worst_of(c, &worst, &fastest, &tolerance);
+  const char *why = "the drive frequency at this tolerance";
+  if (worst.drive_frequency > 0.0 && shaken(&worst)) why = "the drive amplitude";
+  else if (fmax(p->damping, 0.25 * speed) > 2.0)
+    why = p->damping > 0.25 * speed ? "the damping" : "the speed";
+  else if (fabs(p->drive_amplitude) > 2.0) why = "the drive amplitude at this tolerance";
+  return pendres_context_fail(
+    ctx, PENDRES_TOLERANCE_UNREACHABLE,
+    "damping %g, drive amplitude %g, drive frequency %g, speed %g: %s needs more than %d explicit "
+    "steps a period. A looser tolerance may do, and method cvode_bdf advances such pendulums "
+    "(pendres_strobe_advance); orbits and labels need explicit steps",
+    p->damping, p->drive_amplitude, p->drive_frequency, speed, why, MOST_STEPS);
+}
+
+pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                                    double tolerance, int *steps)
+{
+  if (ctx->options.steps_per_period > 0) {
+    *steps = ctx->options.steps_per_period;
+    return PENDRES_OK;
+  }
+  const cell key = cell_of(p, speed, tolerance);
+  const pendres_steps_memo *m = ctx->steps;
+  /* The latest cells first: neighbours in a list of pendulums share a cell. */
+  for (size_t i = m->used; i-- > 0;)
+    if (same_cell(&m->entries[i].key, &key)) {
+      *steps = m->entries[i].steps;
+      return PENDRES_OK;
+    }
+  int chosen = 0;
+  pendres_status status = probe(ctx, &key, &chosen);
+  if (status == PENDRES_TOLERANCE_UNREACHABLE) return too_many(ctx, &key, p, speed);
+  if (status == PENDRES_OK) status = remember(ctx, &key, chosen);
+  if (status == PENDRES_OK) *steps = chosen;
+  return status;
+}

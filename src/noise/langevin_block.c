@@ -1,0 +1,286 @@
+/*
+ * langevin_block.c -- a block of noisy pendulums; see langevin_block.h.
+ *
+ * The generator of the motion is A + B. A is free motion with friction and drive,
+ * v d/dx + (F0 cos theta - gamma v) d/dv + d/dt; B kicks by force and noise,
+ * f d/dv + gamma T d^2/dv^2 with f = -sin y. Chin's scheme 4B for a step h is
+ *
+ *     exp(a h A) exp(h/2 B') exp(h/sqrt 3 A) exp(h/2 B') exp(a h A),  a = (1 - 1/sqrt 3)/2,
+ *     B' = B + h^2 (2 - sqrt 3)/24 [B, [A, B]].
+ *
+ * [B, [A, B]] = 2 f f' d/dv + 4 gamma T f' d^2/dv^2: neither friction, drive nor the order
+ * of derivatives add to it. So B' is a kick again, with f (1 + c f') for force and
+ * (1 + 2 c f') for variance, c = h^2 (2 - sqrt 3)/12; and 1 + 2 c f' = (1 + c f')^2 to the
+ * order that counts, so that both parts of a kick take the one factor 1 + c f' = 1 - c cos y.
+ *
+ * A is solved exactly. With y = u + pivot, pivot'' + gamma pivot' = F0 cos theta, u is free:
+ * u += (1 - exp(-gamma t))/gamma w, w *= exp(-gamma t).
+ *
+ * First harmonics are sums over the ends of steps: between its kicks a step is accurate to
+ * order two only. A period's equally spaced samples are accurate to any order, but for the
+ * ramp that a trajectory which does not close adds; what the sum makes of a ramp is known.
+ */
+#include "noise/langevin_block.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/kernels_sine.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
+
+enum { ALIGN = 64, ROWS = 25 };
+
+/* Beyond, an angle in the shaken frame loses more than 1e-9 to rounding. */
+static const double largest_pivot = 1e7;
+
+/* Steps of all lanes together between two questions whether to go on: some hundredths of a
+   second, as in flow.c. */
+static const double steps_between = 300000.0;
+
+const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    return &pendres_kernels_langevin_avx512;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    return &pendres_kernels_langevin_avx2;
+#endif
+  return &pendres_kernels_langevin_base;
+}
+
+/* n eight-byte entries on a 64-byte boundary, all zero; n a multiple of 8. */
+static void *allocate(size_t n)
+{
+  void *memory = aligned_alloc(ALIGN, n * sizeof(double));
+  if (memory != NULL) memset(memory, 0, n * sizeof(double));
+  return memory;
+}
+
+pendres_status pendres_langevin_block_make(pendres_langevin_block *b, size_t capacity,
+                                           uint64_t seed)
+{
+  b->kernels = pendres_kernels_langevin_select();
+  b->capacity = capacity;
+  b->key[0] = (uint32_t)seed;
+  b->key[1] = (uint32_t)(seed >> 32);
+  b->memory = allocate(ROWS * capacity);
+  b->id = allocate(capacity);
+  b->words = allocate(PENDRES_LANGEVIN_WORDS * capacity);
+  if (b->memory == NULL || b->id == NULL || b->words == NULL) return PENDRES_OUT_OF_MEMORY;
+
+  double *row = b->memory;
+#define TAKE(name, count) b->name = row, row += (size_t)(count) * capacity
+  TAKE(x, 1), TAKE(v, 1), TAKE(base, 1), TAKE(drive, 1), TAKE(pivot_speed, 1);
+  TAKE(cosine, 1), TAKE(sine, 1), TAKE(work, 1);
+  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) TAKE(reach[d], 1), TAKE(decay[d], 1);
+  TAKE(rows.u, 1), TAKE(rows.w, 1), TAKE(gauss, PENDRES_LANGEVIN_WORDS);
+#undef TAKE
+  /* The kernels only read these; loading a lane writes them through memory. */
+  b->rows.pivot_cos = row, row += capacity;
+  b->rows.pivot_sin = row, row += capacity;
+  b->rows.push = row, row += capacity;
+  b->rows.spread = row, row += capacity;
+  b->rows.bend = row;
+  return PENDRES_OK;
+}
+
+void pendres_langevin_block_clear(pendres_langevin_block *b)
+{
+  free(b->memory);
+  free(b->id);
+  free(b->words);
+  free(b->phases);
+  *b = (pendres_langevin_block){0};
+}
+
+pendres_status pendres_langevin_block_set_steps(pendres_langevin_block *b, int steps)
+{
+  const double within[3] = {0.0, 0.5 - 0.5 * root_third, 0.5 + 0.5 * root_third};
+  double *phases = malloc(6 * (size_t)steps * sizeof *phases);
+  if (phases == NULL) return PENDRES_OUT_OF_MEMORY;
+  /* The library's own sine: the same bytes on any processor. */
+  for (int k = 0; k < 3 * steps; k++)
+    pendres_kernels_sincos(two_pi * (k / 3 + within[k % 3]) / steps, &phases[2 * k + 1],
+                           &phases[2 * k]);
+  free(b->phases);
+  b->phases = phases;
+  b->steps = steps;
+  return PENDRES_OK;
+}
+
+void pendres_langevin_block_resize(pendres_langevin_block *b, size_t count)
+{
+  b->count = count;
+  b->stride = (count + 7) / 8 * 8;
+  b->noisy = 0;
+}
+
+/* pivot = pivot_cos cos theta + pivot_sin sin theta solves y'' + gamma y' = F0 cos theta. */
+static void pivot_of(const pendres_pendulum *p, double *pivot_cos, double *pivot_sin)
+{
+  const double g = p->damping, w = p->drive_frequency;
+  const double reduced = p->drive_amplitude / (w * w + g * g);
+  *pivot_cos = -reduced;
+  *pivot_sin = reduced * g / w;
+}
+
+const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
+{
+  double c, s;
+  pivot_of(p, &c, &s);
+  if (!(fabs(c) <= largest_pivot && fabs(s) <= largest_pivot))
+    return "with noise, the drive must not shake a free particle farther than 1e7";
+  /* What noise alone makes of a velocity, and of a position within a period. */
+  if (!(sqrt(p->temperature) <= largest_pivot * fmax(p->drive_frequency, p->damping)))
+    return "so hot a pendulum is beyond 1e7 within a period";
+  /* 1 - bend cos y must stay positive, and far before that nothing is resolved. */
+  if (!(two_pi / p->drive_frequency / steps <= 3.0))
+    return "with noise, a step must not be longer than 3: more steps a period are needed";
+  return NULL;
+}
+
+void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p,
+                                 uint64_t id, double x, double v)
+{
+  const double h = two_pi / p->drive_frequency / b->steps, g = p->damping;
+  const double durations[PENDRES_LANGEVIN_DURATIONS] = {
+    0.5 * (1.0 - root_third) * h, root_third * h, (1.0 - root_third) * h};
+  const size_t pivot_cos = (size_t)(b->rows.pivot_cos - b->memory) + lane;
+  const size_t apart = b->capacity;
+
+  b->id[lane] = id;
+  b->x[lane] = x;
+  b->v[lane] = v;
+  b->drive[lane] = p->drive_amplitude;
+  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) {
+    b->decay[d][lane] = exp(-g * durations[d]);
+    b->reach[d][lane] = g > 0.0 ? -expm1(-g * durations[d]) / g : durations[d];
+  }
+  pivot_of(p, &b->memory[pivot_cos], &b->memory[pivot_cos + apart]);
+  b->pivot_speed[lane] = p->drive_frequency * b->memory[pivot_cos + apart];
+  b->memory[pivot_cos + 2 * apart] = 0.5 * h;
+  b->memory[pivot_cos + 3 * apart] = sqrt(g * p->temperature * h);
+  b->memory[pivot_cos + 4 * apart] = h * h * (2.0 - 3.0 * root_third) / 12.0;
+  if (p->temperature > 0.0 && g > 0.0) b->noisy = 1;
+}
+
+void pendres_langevin_block_finish(pendres_langevin_block *b)
+{
+  for (size_t i = b->count; i < b->stride; i++) {
+    b->id[i] = b->id[0];
+    for (size_t row = 0; row < ROWS; row++)
+      b->memory[row * b->capacity + i] = b->memory[row * b->capacity];
+  }
+}
+
+/* Strobe point to the shaken frame, at drive phase 0, and within half a turn of the well. */
+static void enter(pendres_langevin_block *b)
+{
+  pendres_langevin_rows *r = &b->rows;
+  for (size_t i = 0; i < b->stride; i++) {
+    b->base[i] = half_pi + two_pi * rint((b->x[i] - half_pi) / two_pi);
+    const double y = b->x[i] - b->base[i];
+    r->u[i] = y - r->pivot_cos[i];
+    r->w[i] = b->v[i] - b->pivot_speed[i];
+    b->cosine[i] = 0.5 * y;
+    b->sine[i] = 0.0;
+  }
+}
+
+/* First harmonic and work of the period that ends at angle y. */
+static void harmonics(pendres_langevin_block *b, size_t i, double y)
+{
+  const double n = b->steps, pi = 0.5 * two_pi;
+  const double moved = y - (b->x[i] - b->base[i]);
+  /* The sum takes a ramp theta for pi/n cot(pi/n) of what it is. */
+  const double missing = 1.0 - pi / n / tan(pi / n);
+  b->cosine[i] = 2.0 / n * (b->cosine[i] + 0.5 * y);
+  b->sine[i] = 2.0 / n * b->sine[i] - moved / pi * missing;
+  /* By parts: integral of cos theta dx = moved + integral of y sin theta. */
+  b->work[i] = b->drive[i] * (moved + pi * b->sine[i]);
+}
+
+/* And back. The next period starts from these numbers, so a run may be cut at any strobe. */
+static void leave(pendres_langevin_block *b)
+{
+  const pendres_langevin_rows *r = &b->rows;
+  b->kernels->drift(b->stride, b->reach[PENDRES_LANGEVIN_EDGE], b->decay[PENDRES_LANGEVIN_EDGE],
+                    r->u, r->w);
+  for (size_t i = 0; i < b->stride; i++) {
+    const double y = r->u[i] + r->pivot_cos[i];
+    if (b->harmonics) harmonics(b, i, y);
+    b->x[i] = y + b->base[i];
+    b->v[i] = r->w[i] + b->pivot_speed[i];
+  }
+}
+
+/* Free motion to kick k of the period, and the kick; on the way, the start of a step. */
+static void kick(pendres_langevin_block *b, int k, const double *gauss)
+{
+  const double *start = b->phases + 6 * (k / 2), *at = start + (k % 2 == 0 ? 2 : 4);
+  int d = PENDRES_LANGEVIN_INNER;
+  if (k % 2 == 0) d = k == 0 ? PENDRES_LANGEVIN_EDGE : PENDRES_LANGEVIN_BETWEEN;
+  if (b->harmonics && d == PENDRES_LANGEVIN_BETWEEN)
+    b->kernels->sample(b->stride, &b->rows, b->reach[PENDRES_LANGEVIN_EDGE], start[0], start[1],
+                       b->cosine, b->sine);
+  b->kernels->kick(b->stride, &b->rows, b->reach[d], b->decay[d], at[0], at[1], gauss);
+}
+
+/* Gaussian numbers of kick k; each call of the generator serves four kicks. */
+static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
+{
+  /* Without noise any finite row will do: it is multiplied by zero. */
+  if (!b->noisy) return b->gauss;
+  const int row = k % PENDRES_LANGEVIN_WORDS;
+  if (row == 0) {
+    b->kernels->words(b->stride, b->id, period, (uint32_t)(k / PENDRES_LANGEVIN_WORDS), b->key,
+                      b->words);
+    b->kernels->gauss(b->stride, b->words, b->gauss);
+  }
+  return b->gauss + (size_t)row * b->stride;
+}
+
+/* Is the period to end here, before that step? Short ones are never asked within. */
+static int stops(const pendres_langevin_block *b, int step)
+{
+  const int every = (int)ceil(steps_between / (double)b->stride);
+  return step > 0 && step % every == 0 && b->stop != NULL && b->stop(b->stop_arg) != 0;
+}
+
+pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period)
+{
+  enter(b);
+  for (int step = 0; step < b->steps; step++) {
+    if (stops(b, step)) return PENDRES_INTERRUPTED;
+    for (int k = 2 * step; k < 2 * step + 2; k++) kick(b, k, noise(b, period, k));
+  }
+  leave(b);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
+                                           pendres_langevin_block *coarse, uint32_t period)
+{
+  const double root_half = 0.70710678118654752440;
+
+  enter(fine);
+  enter(coarse);
+  for (int k = 0; k < coarse->steps * 2; k++) {
+    if (stops(fine, k)) return PENDRES_INTERRUPTED; /* one of its steps at a time */
+    const double *first = noise(fine, period, 2 * k);
+    kick(fine, 2 * k, first);
+    const double *second = noise(fine, period, 2 * k + 1);
+    kick(fine, 2 * k + 1, second);
+    for (size_t i = 0; i < coarse->stride; i++)
+      coarse->gauss[i] = root_half * (first[i] + second[i]);
+    kick(coarse, k, coarse->gauss);
+  }
+  leave(fine);
+  leave(coarse);
+  return PENDRES_OK;
+}

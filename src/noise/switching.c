@@ -1,0 +1,283 @@
+/* switching.c -- transitions between attractors and wells, and their rates; see switching.h. */
+#include <pendres/switching.h>
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "noise/langevin_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
+
+/* A trajectory that runs has no well. */
+static const long NO_WELL = LONG_MIN;
+
+/* Fewer events, or trajectories, say nothing on their scatter; and ln of fewer is not Gaussian. */
+static const double FEWEST = 10.0;
+
+static const double DEFAULT_CORE = 0.5;
+
+/* An ellipse around the strobe point of an attractor, ready for use. */
+typedef struct core_set {
+  int attractor;
+  int running;
+  double x, v;
+  double xx, xv, vv; /* (z - z0)' P (z - z0) <= 1, z = (x, v) */
+} core_set;
+
+typedef struct cores {
+  size_t count;
+  core_set core[STATES];
+} cores;
+
+static int make_core(const pendres_attractor *a, int number, double shrink, core_set *out)
+{
+  const double w = a->orbit.pendulum.drive_frequency, r = shrink * a->trap_radius;
+  /* A chaotic attractor has no ellipse, an orbit about to vanish one of size zero. */
+  if (!(r > 0.0)) return 0;
+  *out = (core_set){.attractor = number, .running = a->orbit.winding != 0, .x = a->orbit.x,
+                    .v = a->orbit.v, .xx = a->trap_metric[0] / (r * r),
+                    .xv = a->trap_metric[1] / (r * r * w),
+                    .vv = a->trap_metric[2] / (r * r * w * w)};
+  return 1;
+}
+
+static void make_cores(const pendres_attractors *set, double shrink, cores *out)
+{
+  const size_t n = pendres_attractors_count(set);
+  out->count = 0;
+  for (size_t i = 0; i < n && out->count < STATES; i++)
+    out->count += (size_t)make_core(pendres_attractors_get(set, i), (int)i,
+                                    shrink > 0.0 ? shrink : DEFAULT_CORE,
+                                    &out->core[out->count]);
+}
+
+/* The core that holds a state, and its well; NULL if none does. */
+static inline const core_set *locate(const cores *c, double x, double v, long *well)
+{
+  for (size_t i = 0; i < c->count; i++) {
+    const core_set *s = &c->core[i];
+    const double turns = rint((x - s->x) / two_pi);
+    const double dx = x - s->x - two_pi * turns, dv = v - s->v;
+    if (s->xx * dx * dx + 2.0 * s->xv * dx * dv + s->vv * dv * dv > 1.0) continue;
+    *well = s->running ? NO_WELL : (long)turns;
+    return s;
+  }
+  return NULL;
+}
+
+void pendres_switching_locate(const pendres_attractors *set, double core, double x, double v,
+                              int *attractor, long *well)
+{
+  cores c;
+  long at = NO_WELL;
+  make_cores(set, core, &c);
+  const core_set *s = locate(&c, x, v, &at);
+  if (attractor != NULL) *attractor = s != NULL ? s->attractor : -1;
+  if (well != NULL) *well = at == NO_WELL ? 0 : at;
+}
+
+/* ---- Counting ------------------------------------------------------------------------------ */
+
+/* Where a trajectory belongs, and what it has done so far. */
+typedef struct track {
+  int state;
+  long well;
+} track;
+
+typedef struct counting {
+  cores cores;
+  size_t states, row; /* numbers a trajectory has: [state][destinations, well, exposure] */
+  track *tracks;
+  uint32_t *numbers;
+} counting;
+
+static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t column)
+{
+  return &c->numbers[(trajectory * c->states + s) * c->row + column];
+}
+
+static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *strobe)
+{
+  counting *c = arg;
+  for (size_t i = 0; i < strobe->count; i++) {
+    track *t = &c->tracks[strobe->first + i];
+    const size_t trajectory = strobe->first + i, from = (size_t)t->state;
+    long well = NO_WELL;
+    ++*number(c, trajectory, from, c->states + 1);
+    const core_set *s = locate(&c->cores, strobe->x[i], strobe->v[i], &well);
+    if (s == NULL || (s->attractor == t->state && well == t->well)) continue;
+    ++*number(c, trajectory, from, (size_t)s->attractor);
+    if (well != t->well && well != NO_WELL && t->well != NO_WELL)
+      ++*number(c, trajectory, from, c->states);
+    *t = (track){s->attractor, well};
+  }
+  return PENDRES_LANGEVIN_GO_ON;
+}
+
+/* Sum up: whole numbers, exact in doubles. */
+static void sum_up(const counting *c, size_t trajectories, pendres_switching_tally *tally)
+{
+  for (size_t i = 0; i < trajectories; i++)
+    for (size_t s = 0; s < c->states; s++) {
+      const double time = *number(c, i, s, c->states + 1);
+      tally->exposure[s] += time;
+      tally->exposure2[s] += time * time;
+      for (size_t t = 0; t <= c->states; t++) {
+        const size_t column = t == c->states ? WELL : t;
+        const double events = *number(c, i, s, t);
+        tally->events[s][column] += events;
+        tally->events2[s][column] += events * events;
+        tally->mixed[s][column] += events * time;
+      }
+    }
+}
+
+/* NULL, or what is wrong with a request. */
+static const char *refuse(const pendres_switching_request *q)
+{
+  const pendres_attractor *a = pendres_attractors_get(q->set, q->from);
+  if (a == NULL) return "there is no such attractor to start from";
+  if (pendres_attractors_count(q->set) > STATES) return "there are too many attractors";
+  if (!(q->core >= 0.0 && q->core <= 1.0)) return "core must be from 0 to 1";
+  if (q->periods < 0) return "the number of periods must not be negative";
+  if (!isfinite(a->orbit.x) || !isfinite(a->orbit.v))
+    return "a chaotic attractor has no point to start from";
+  const pendres_pendulum *p = &a->orbit.pendulum;
+  if (p->damping != q->pendulum.damping || p->drive_amplitude != q->pendulum.drive_amplitude ||
+      p->drive_frequency != q->pendulum.drive_frequency)
+    return "these are attractors of another pendulum";
+  return NULL;
+}
+
+static pendres_status count(pendres_langevin *lv, const pendres_switching_request *request,
+                            pendres_switching_tally *tally)
+{
+  if (request == NULL || tally == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and tally");
+  counting c = {0};
+  double *x = NULL;
+  uint64_t *ids = NULL;
+  pendres_pendulum *pendulums = NULL;
+  const size_t n = request->trajectories;
+  const char *wrong = refuse(request);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+
+  memset(tally, 0, sizeof *tally);
+  if (wrong != NULL) return pendres_langevin_fail(lv, PENDRES_INVALID_ARGUMENT, "%s", wrong);
+  const pendres_attractor *home = pendres_attractors_get(request->set, request->from);
+  c.states = pendres_attractors_count(request->set);
+  c.row = c.states + 2;
+  make_cores(request->set, request->core, &c.cores);
+  c.tracks = malloc((n + 1) * sizeof *c.tracks);
+  c.numbers = calloc(n * c.states * c.row + 1, sizeof *c.numbers);
+  x = malloc((2 * n + 1) * sizeof *x);
+  ids = malloc((n + 1) * sizeof *ids);
+  pendulums = malloc((n + 1) * sizeof *pendulums);
+  if (c.tracks == NULL || c.numbers == NULL || x == NULL || ids == NULL || pendulums == NULL) {
+    status = pendres_langevin_fail(lv, status, "out of memory for %zu trajectories", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    x[i] = home->orbit.x;
+    x[n + i] = home->orbit.v;
+    ids[i] = request->first_id + i;
+    pendulums[i] = request->pendulum;
+    c.tracks[i] = (track){(int)request->from, home->orbit.winding != 0 ? NO_WELL : 0};
+  }
+  const pendres_langevin_observer observer = {.see = see, .arg = &c};
+  status = pendres_langevin_advance(lv, n, pendulums, ids, 0, request->periods, x, x + n,
+                                    &observer);
+  if (status != PENDRES_OK) goto done;
+  tally->states = c.states;
+  tally->period = two_pi / request->pendulum.drive_frequency;
+  tally->trajectories = (double)n;
+  sum_up(&c, n, tally);
+done:
+  free(c.tracks);
+  free(c.numbers);
+  free(x);
+  free(ids);
+  free(pendulums);
+  return status;
+}
+
+pendres_status pendres_switching_count(pendres_langevin *lv,
+                                       const pendres_switching_request *request,
+                                       pendres_switching_tally *tally)
+{
+  return PENDRES_LANGEVIN_CALL(lv, count(lv, request, tally));
+}
+
+void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)
+{
+  if (into == NULL || other == NULL) return;
+  into->states = other->states;
+  into->period = other->period;
+  into->trajectories += other->trajectories;
+  for (size_t s = 0; s < STATES; s++) {
+    into->exposure[s] += other->exposure[s];
+    into->exposure2[s] += other->exposure2[s];
+    for (size_t t = 0; t <= STATES; t++) {
+      into->events[s][t] += other->events[s][t];
+      into->events2[s][t] += other->events2[s][t];
+      into->mixed[s][t] += other->mixed[s][t];
+    }
+  }
+}
+
+/* ---- Rates --------------------------------------------------------------------------------- */
+
+/* Variance of events - rate x exposure over trajectories, by its value for independent events. */
+static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
+{
+  const double events = y->events[s][t], n = y->trajectories;
+  if (events < FEWEST || n < FEWEST) return NAN;
+  const double rate = events / y->exposure[s];
+  const double square =
+    y->events2[s][t] - 2.0 * rate * y->mixed[s][t] + rate * rate * y->exposure2[s];
+  return square * n / (n - 1.0) / events;
+}
+
+pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
+                                         double level, pendres_switching_rate *rate)
+{
+  if (tally == NULL || rate == NULL || s >= STATES || t > STATES || !(level > 0.0 && level < 1.0))
+    return PENDRES_INVALID_ARGUMENT;
+  *rate = (pendres_switching_rate){.value = NAN, .error = NAN, .lower = NAN, .upper = NAN,
+                                   .dispersion = NAN, .events = tally->events[s][t],
+                                   .exposure = tally->exposure[s] * tally->period};
+  if (!(rate->exposure > 0.0)) return PENDRES_OK;
+  rate->dispersion = dispersion(tally, s, t);
+  /* Bursts of d events are one piece of information. */
+  const double d = rate->dispersion > 1.0 ? rate->dispersion : 1.0;
+  const pendres_status status =
+    pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &rate->value,
+                          &rate->lower, &rate->upper);
+  if (status != PENDRES_OK) return status;
+  rate->error = sqrt(rate->events * d) / rate->exposure;
+  if (rate->events > 0.0) return PENDRES_OK;
+  double value, lower;
+  /* Nothing seen: 0 +- 0 would be a lie. */
+  return pendres_langevin_rate(0.0, rate->exposure, 0.68268949213708585, &value, &lower,
+                               &rate->error);
+}
+
+/* ---- Leaving ------------------------------------------------------------------------------- */
+
+void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
+                             unsigned char *left)
+{
+  const pendres_switching_home *h = home;
+  cores c;
+  if (h == NULL || strobe == NULL || left == NULL) return;
+  make_cores(h->set, h->core, &c);
+  for (size_t i = 0; i < strobe->count; i++) {
+    long well = NO_WELL;
+    const core_set *s = locate(&c, strobe->x[i], strobe->v[i], &well);
+    if (s == NULL) continue;
+    if (s->attractor != (int)h->attractor || (well != 0 && well != NO_WELL)) left[i] = 1;
+  }
+}

@@ -1,0 +1,77 @@
+/*
+ * catalogue.h -- the attractors of parameter sets, with their traps.
+ *
+ * Owns: finding attractors from scouts, numbering and labelling them, and telling which
+ * trap a state lies in. Attractors keep the order of their discovery until
+ * pendres_catalogue_order() puts them into their physical order. Works on many parameter sets at a
+ * time, so that blocks stay full.
+ */
+#ifndef PENDRES_CATALOGUE_H
+#define PENDRES_CATALOGUE_H
+
+#include <pendres/attractor.h>
+
+#include "orbits/chaos.h"
+#include "engine/strobe_run.h"
+#include "orbits/trap.h"
+
+enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
+
+typedef struct pendres_catalogue {
+  pendres_pendulum pendulum;
+  pendres_trap_effort effort;
+  int any_well; /* nobody asks for the well that a pendulum settles in */
+  size_t count, capacity;
+  pendres_attractor *attractors;
+  size_t traps, trap_capacity;
+  pendres_trap *trap;
+  int *owner; /* attractor of each trap */
+  size_t covers;
+  pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
+  double transient; /* drive periods that chaos which ends has lasted on average; 0: none met */
+} pendres_catalogue;
+
+/* A state of a parameter set to start from, or to look for an orbit near. */
+typedef struct pendres_scout {
+  size_t set;       /* index of its catalogue */
+  double y, w;
+  int period, winding; /* of the orbit it is thought to be near */
+} pendres_scout;
+
+void pendres_catalogue_clear(pendres_catalogue *c);
+
+/* Integrate scouts (period and winding ignored) and add what they lead to. */
+pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
+                                         pendres_catalogue *catalogues, size_t n,
+                                         pendres_scout *scouts);
+
+/* Refine guesses to orbits, and add the stable ones that are new, with their traps; beside an orbit
+   that is not its own mirror image also that image. */
+pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
+                                     const pendres_scout *guesses);
+
+/* Add a chaotic attractor; the cover becomes the catalogue's. */
+pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
+                                           const pendres_chaos_measures *m, pendres_cover *cover);
+
+/*
+ * The physical order of attractors: order[place] = number. Orbits first, by amplitude, then by
+ * Poincaré point; chaos by its means. What differs by rounding alone does not decide: attractors
+ * whose values of one key follow each other no further apart than that go on to the next key. So
+ * the order is one, whatever that of discovery. Nonzero if out of memory.
+ */
+int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
+
+/* Put attractors into their physical order, and label them; rank[old number] = new number, for as
+   many as there are (rank may be NULL). */
+pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);
+
+/* The trap that a lane is in: its attractor and well; -1 if in none. */
+int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
+                             long *well);
+
+/* The same trap itself; NULL if in none. */
+const pendres_trap *pendres_catalogue_trap(const pendres_catalogue *c,
+                                           const pendres_strobe_lane *lane);
+
+#endif

@@ -1,0 +1,74 @@
+/* catalogue_explore.c -- pendulums that go ahead to find attractors; see catalogue.h. */
+#include "orbits/catalogue.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* A scout that moves less than this in a period is close enough for Newton's method. */
+static const double at_rest = 0.03;
+
+typedef struct scouting {
+  pendres_scout *scouts; /* y and w: one period ago */
+  double *angle;         /* the same with whole turns */
+  const long *periods;   /* of each set */
+} scouting;
+
+/* Scouts stop where they hardly move, or where transients should have faded. */
+static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const scouting *s = arg;
+  pendres_scout *me = &s->scouts[index];
+  const double angle = lane->y + two_pi * (double)lane->turns;
+  const double advance = angle - s->angle[index], turns = rint(advance / two_pi);
+  const double moved = hypot(advance - two_pi * turns, lane->w - me->w);
+  s->angle[index] = angle;
+  me->y = lane->y;
+  me->w = lane->w;
+  me->period = 1;
+  me->winding = (int)turns;
+  return moved < at_rest || lane->period >= s->periods[me->set];
+}
+
+/* Periods after which a transient has faded to a hundredth, within reason. */
+static long scouting_periods(const pendres_pendulum *p)
+{
+  const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
+  return (long)ceil(fmin(fmax(4.6 / rate, 4.0), 60.0));
+}
+
+pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
+                                         pendres_catalogue *catalogues, size_t n,
+                                         pendres_scout *scouts)
+{
+  pendres_status status = PENDRES_OK;
+  if (n == 0) return status;
+  pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
+  long *periods = malloc((sets + 1) * sizeof *periods);
+  double *angle = malloc(n * sizeof *angle);
+  if (lanes == NULL || periods == NULL || angle == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu scouts", n);
+    goto done;
+  }
+  for (size_t i = 0; i < sets; i++) periods[i] = scouting_periods(&catalogues[i].pendulum);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum *p = &catalogues[scouts[i].set].pendulum;
+    lanes[i] = (pendres_strobe_lane){.pendulum = p, .y = scouts[i].y, .w = scouts[i].w};
+    angle[i] = scouts[i].y;
+    /* Scouts only have to come near: Newton's method does the rest. */
+    status = pendres_steps_choose(ctx, p, fabs(scouts[i].w) * p->drive_frequency, 1e-4,
+                                  &lanes[i].steps);
+  }
+  scouting s = {.scouts = scouts, .angle = angle, .periods = periods};
+  if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, scout_look, &s);
+  if (status == PENDRES_OK) status = pendres_catalogue_add(ctx, catalogues, n, scouts);
+done:
+  free(lanes);
+  free(periods);
+  free(angle);
+  return status;
+}

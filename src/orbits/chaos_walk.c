@@ -1,0 +1,179 @@
+/* chaos_walk.c -- pendulums that carry a tangent vector along; see chaos_walk.h. */
+#include "orbits/chaos_walk.h"
+
+#include <math.h>
+
+#include "orbits/catalogue.h"
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Of a period. Chaos forgets single errors: what matters is that the flow is the right one, and
+   that means over time are off by less than chance has them. */
+static const double accuracy = 1e-7;
+
+pendres_walker pendres_walker_at(double y, double w)
+{
+  return (pendres_walker){
+    .y = y, .w = w, .u = {0.6, 0.8}, .low = {y, y}, .high = {y, y}};
+}
+
+static int in_trap(const pendres_catalogue *c, const pendres_walker *a)
+{
+  for (size_t i = 0; i < c->traps; i++)
+    if (pendres_trap_norm2(&c->trap[i], a->y, a->w) <= c->trap[i].radius * c->trap[i].radius)
+      return 1;
+  return 0;
+}
+
+/* ---- samples within a period ---- */
+
+typedef struct watched_block {
+  const pendres_pendulum *pendulum;
+  size_t n;
+  int steps;
+  pendres_walker *a;
+} watched_block;
+
+/*
+ * The angle where it turns back between two samples, `spacing` apart, of opposite velocities: that
+ * of the cubic which has both angles and both velocities.
+ */
+static double turning_angle(double spacing, double y0, double w0, double y1, double w1)
+{
+  const double mean = (y1 - y0) / spacing;
+  const double a = 3.0 * (w0 + w1 - 2.0 * mean), b = 2.0 * (3.0 * mean - 2.0 * w0 - w1);
+  /* Its velocity is w0 + b t + a t^2, t from 0 to 1: of opposite signs at the ends. */
+  const double root = sqrt(fmax(0.0, b * b - 4.0 * a * w0));
+  const double q = -0.5 * (b + copysign(root, b));
+  const double first = q != 0.0 ? w0 / q : -1.0, second = a != 0.0 ? q / a : -1.0;
+  const double t = first >= 0.0 && first <= 1.0 ? first : fmin(fmax(second, 0.0), 1.0);
+  return y0 + spacing * t * (w0 + t * (0.5 * b + t * a / 3.0));
+}
+
+static void reach(pendres_walker *a, double y)
+{
+  a->low[1] = fmin(a->low[1], y);
+  a->high[1] = fmax(a->high[1], y);
+}
+
+/*
+ * At the end of a half the two latest make a period, which counts for a half. So the mirror image
+ * of a motion, half a period later, has the same sum.
+ */
+static void end_half(pendres_walker *a, double y)
+{
+  a->sum[PENDRES_WALK_AMPLITUDE] +=
+    0.25 * (fmax(a->high[0], a->high[1]) - fmin(a->low[0], a->low[1]));
+  a->low[0] = a->low[1];
+  a->high[0] = a->high[1];
+  a->low[1] = a->high[1] = y;
+}
+
+/*
+ * Sums of samples, one after the other over many periods, are integrals by the trapezoidal rule:
+ * their ends count once, whatever happens in between is integrated as a closed orbit is.
+ */
+static void watch(void *arg, int step, double theta, size_t stride, const double *state)
+{
+  const watched_block *b = arg;
+  const double spacing = two_pi / b->steps, cosine = cos(two_pi * step / b->steps);
+  (void)theta;
+  for (size_t i = 0; i < b->n; i++) {
+    pendres_walker *a = &b->a[i];
+    const double y = state[i], w = state[stride + i];
+    a->sum[PENDRES_WALK_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
+    a->sum[PENDRES_WALK_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
+                                  w * w;
+    reach(a, y);
+    if (a->last_w * w < 0.0) reach(a, turning_angle(spacing, a->last_y, a->last_w, y, w));
+    if (step == b->steps / 2 || step == b->steps) end_half(a, y);
+    a->last_y = y;
+    a->last_w = w;
+  }
+}
+
+/* ---- periods ---- */
+
+/* What the flow makes of a walker in one period; its tangent vector grows by the derivative. */
+static void arrive(const pendres_catalogue *c, size_t i, size_t stride, const double *state,
+                   int watched, pendres_walker *a)
+{
+  const double m[6] = {state[i],              state[stride + i],     state[2 * stride + i],
+                       state[3 * stride + i], state[4 * stride + i], state[5 * stride + i]};
+  const double u = m[2] * a->u[0] + m[4] * a->u[1];
+  const double v = m[3] * a->u[0] + m[5] * a->u[1];
+  const double length = hypot(u, v);
+  a->sum[PENDRES_WALK_TURNS] += (m[0] - a->y) / two_pi;
+  a->sum[PENDRES_WALK_SPEED] += m[1];
+  a->y = m[0];
+  a->w = m[1];
+  pendres_strobe_wrap(&a->y, &a->turns);
+  for (int k = 0; k < 2; k++) {
+    /* Of a period that was not watched its end is all that is known. */
+    a->low[k] = watched ? a->low[k] + (a->y - m[0]) : a->y;
+    a->high[k] = watched ? a->high[k] + (a->y - m[0]) : a->y;
+  }
+  a->u[0] = u / length;
+  a->u[1] = v / length;
+  a->sum[PENDRES_WALK_GROWTH] += log(length);
+  a->periods++;
+  if (a->trapped == 0 && in_trap(c, a)) a->trapped = a->periods;
+}
+
+static pendres_status walk_block(pendres_context *ctx, pendres_flow *flow, watched_block *b,
+                                 const pendres_catalogue *c, int watched)
+{
+  pendres_status status = pendres_context_poll(ctx);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < b->n; i++) {
+    pendres_walker *a = &b->a[i];
+    pendres_flow_set_lane(flow, i, b->pendulum, a->y, a->w);
+    a->last_y = a->y;
+    a->last_w = a->w;
+  }
+  status = watched ? pendres_flow_period_sampled(flow, watch, b) : pendres_flow_period(flow);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  ctx->cost.pendulum_periods += (double)b->n;
+  for (size_t i = 0; i < b->n; i++)
+    arrive(c, i, pendres_flow_stride(flow), pendres_flow_state(flow), watched,
+           &b->a[i]);
+  return status;
+}
+
+static void record(pendres_walk_trace *t, long filled, size_t walker, const pendres_walker *a)
+{
+  const size_t at = walker * (size_t)t->length + (size_t)(filled % t->length);
+  t->y[at] = a->y + two_pi * (double)a->turns;
+  t->w[at] = a->w;
+}
+
+pendres_status pendres_walk(pendres_context *ctx, const pendres_catalogue *c, size_t n,
+                            pendres_walker *a, long periods, pendres_walk_trace *trace)
+{
+  pendres_flow *flow = NULL;
+  int steps = 0;
+  double fastest = 0.0;
+  for (size_t i = 0; i < n; i++) fastest = fmax(fastest, fabs(a[i].w));
+  pendres_status status = pendres_steps_choose(
+    ctx, &c->pendulum, fastest * c->pendulum.drive_frequency, accuracy, &steps);
+  if (status == PENDRES_OK) status = pendres_context_flow(ctx, PENDRES_FLOW_VARIATIONAL, &flow);
+  if (status != PENDRES_OK) return status;
+  status = pendres_flow_set_steps(flow, steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+
+  const size_t capacity = pendres_flow_capacity(flow);
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
+    watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
+                       .n = n - first < capacity ? n - first : capacity};
+    pendres_flow_resize(flow, b.n);
+    for (long k = 0; k < periods && status == PENDRES_OK; k++) {
+      status = walk_block(ctx, flow, &b, c, trace != NULL);
+      for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
+        record(trace, trace->filled + k, first + i, &b.a[i]);
+    }
+  }
+  if (trace != NULL) trace->filled += periods;
+  return status;
+}

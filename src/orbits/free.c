@@ -1,0 +1,239 @@
+/*
+ * free.c -- the free pendulum by integration; see free.h.
+ *
+ * With the clock c a turn of the phase takes the time 2 pi / c, so the quarter period is
+ * 2 pi / c where y(2 pi) = 0, and the frequency is then c / 4. There y'' = 0 too, so that
+ * Newton's method in the time of the passage converges to third order.
+ */
+#include <pendres/free.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/strobe_run.h"
+
+static const double pi = 3.14159265358979323846;
+static const double two_pi = 6.28318530717958647693;
+
+enum { FIRST_STEPS = 16, MOST_STEPS = 1000000, MOST_ITERATIONS = 40 };
+
+/* A correction below this leaves an error far below that of the steps. */
+static const double last_correction = 1e-7;
+
+typedef struct swing {
+  double amplitude;
+  pendres_pendulum pendulum; /* its drive_frequency is the clock */
+  int steps, iterations;
+  int have_coarse;
+  double coarse;             /* the clock by fewer steps, and how many */
+  int coarse_steps;
+  double error;              /* of the clock, relative; NaN until it is done */
+} swing;
+
+/* Within a per cent or so: eq. 1.2 of the paper, and near pi the integral's asymptotic form
+   (Abramowitz and Stegun 17.3.26). */
+static double guess(double amplitude)
+{
+  if (amplitude < 2.8) return pendres_free_frequency_belendez(amplitude);
+  return 0.5 * pi / log(4.0 / sin(0.5 * (pi - amplitude)));
+}
+
+/* How much larger the relative error of the time is than that of the start: near pi the time of
+   the fall is that of leaving the top. */
+static double amplification(const swing *s)
+{
+  const double quarter = two_pi / s->pendulum.drive_frequency;
+  return 1.0 + s->amplitude / ((pi - s->amplitude) * quarter);
+}
+
+/* Relative error of the clock by rounding: half a unit in the last place of each step. */
+static double rounding(const swing *s)
+{
+  return 1.1e-16 * sqrt((double)s->steps) * amplification(s) + DBL_TRUE_MIN / s->amplitude;
+}
+
+static int one_period(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  (void)arg, (void)index;
+  return lane->period >= 1;
+}
+
+/* After the clock has settled for the present steps: enough, or more steps? */
+static void judge(const pendres_context *ctx, swing *s)
+{
+  const double order = pendres_table_order(ctx->options.table);
+  const double floor = rounding(s), clock = s->pendulum.drive_frequency;
+  double wanted = 2.0 * s->steps;
+  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
+    s->error = floor; /* its caller knows more */
+    return;
+  }
+  if (s->have_coarse) {
+    const double ratio = (double)s->steps / s->coarse_steps;
+    const double difference = fabs(clock - s->coarse) / clock;
+    /* The order says 1 / (ratio^order - 1); never less than a tenth is claimed. */
+    const double part = fmax(0.1, 1.5 / (pow(ratio, order) - 1.0)) * difference;
+    const int asked = ctx->options.steps_per_period > 0;
+    if (part + floor <= ctx->options.tolerance || part <= floor || asked ||
+        s->steps >= MOST_STEPS) {
+      s->error = part + floor;
+      return;
+    }
+    const double growth = pow(part / ctx->options.tolerance, 1.0 / order) * 1.1;
+    wanted = s->steps * fmin(4.0, fmax(1.4, growth));
+  }
+  s->have_coarse = 1;
+  s->coarse = clock;
+  s->coarse_steps = s->steps;
+  s->steps = (int)fmin(ceil(wanted), MOST_STEPS);
+  s->iterations = 0;
+}
+
+/* One correction of the clock from the state after a turn; 0 if that leads nowhere. */
+static int correct(const pendres_context *ctx, swing *s, const pendres_strobe_lane *lane)
+{
+  /* y + w 2 pi (time / turn) = 0 gives the clock's relative change. */
+  double change = lane->y / (two_pi * lane->w);
+  if (!isfinite(change) || s->iterations++ > MOST_ITERATIONS) return 0;
+  change = fmax(-0.3, fmin(0.3, change));
+  s->pendulum.drive_frequency *= 1.0 + change;
+  if (fabs(change) < fmax(last_correction, rounding(s))) judge(ctx, s);
+  return 1;
+}
+
+/* Turn all swings that are not done once; *left is how many are not done afterwards. */
+static pendres_status turn(pendres_context *ctx, size_t n, swing *s, pendres_strobe_lane *lane,
+                           size_t *which, size_t *left)
+{
+  size_t active = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (!isnan(s[i].error)) continue;
+    which[active] = i;
+    lane[active++] = (pendres_strobe_lane){ .pendulum = &s[i].pendulum, .y = s[i].amplitude,
+                                            .steps = s[i].steps };
+  }
+  const pendres_status status = pendres_strobe_run(ctx, active, lane, one_period, NULL);
+  if (status != PENDRES_OK) return status;
+  ctx->cost.newton_steps += (double)active;
+  *left = 0;
+  for (size_t k = 0; k < active; k++) {
+    swing *one = &s[which[k]];
+    if (!correct(ctx, one, &lane[k]))
+      return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
+                                  "the period of the free pendulum at amplitude %.17g was not "
+                                  "found within %d iterations", one->amplitude, MOST_ITERATIONS);
+    *left += isnan(one->error);
+  }
+  return PENDRES_OK;
+}
+
+/* Clocks of all swings by steps that the method chooses itself; they go on from where they are. */
+static pendres_status settle_clocks(pendres_context *ctx, size_t n, swing *s,
+                                    pendres_strobe_lane *lane, size_t *which)
+{
+  pendres_status status = PENDRES_OK;
+  size_t left = n;
+  for (size_t i = 0; i < n; i++) {
+    s[i].error = NAN;
+    s[i].iterations = 0;
+  }
+  while (left > 0 && status == PENDRES_OK) status = turn(ctx, n, s, lane, which, &left);
+  return status;
+}
+
+/*
+ * Methods that choose their own steps: a run with a far smaller tolerance is the result, and the
+ * error is that of the run as asked for, which is larger.
+ */
+static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
+                                      pendres_strobe_lane *lane, size_t *which)
+{
+  pendres_options options = ctx->options;
+  pendres_context *tight = NULL;
+  pendres_cost cost;
+  options.tolerance = fmax(1e-13, 1e-2 * options.tolerance);
+  pendres_status status = pendres_context_create(&options, &tight);
+  if (status != PENDRES_OK)
+    return pendres_context_fail(ctx, status, "out of memory for a second context");
+  /* It asks as the first one does, which is in use meanwhile. */
+  pendres_context_set_interrupt(tight, pendres_context_stops, ctx);
+
+  status = settle_clocks(ctx, n, s, lane, which);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    s[i].coarse = s[i].pendulum.drive_frequency;
+  if (status == PENDRES_OK) {
+    status = settle_clocks(tight, n, s, lane, which);
+    if (status != PENDRES_OK)
+      (void)pendres_context_fail(ctx, status, "%s", pendres_context_message(tight));
+  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    /* The tolerance is one of each step, relative to one radian; a quarter of a period is made
+       of some tens of them. */
+    s[i].error = fabs(s[i].pendulum.drive_frequency - s[i].coarse) / s[i].coarse +
+                 (amplification(&s[i]) + 1.0 / s[i].amplitude) * 20.0 * options.tolerance +
+                 rounding(&s[i]);
+  pendres_context_cost(tight, &cost);
+  ctx->cost.pendulum_periods += cost.pendulum_periods;
+  ctx->cost.rhs_evaluations += cost.rhs_evaluations;
+  ctx->cost.steps += cost.steps;
+  ctx->cost.newton_steps += cost.newton_steps;
+  pendres_context_free(tight);
+  return status;
+}
+
+static pendres_status find_all(pendres_context *ctx, size_t n, const double *amplitude,
+                               double *frequency, double *error)
+{
+  pendres_status status = PENDRES_OK;
+  size_t left = n;
+  swing *s = malloc(n * sizeof *s);
+  pendres_strobe_lane *lane = malloc(n * sizeof *lane);
+  size_t *which = malloc(n * sizeof *which);
+  const int asked = (ctx->options.steps_per_period + 3) / 4;
+
+  if (s == NULL || lane == NULL || which == NULL) {
+    status =
+      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++)
+    s[i] = (swing){ .amplitude = amplitude[i], .steps = asked > 0 ? asked : FIRST_STEPS,
+                    .pendulum.drive_frequency = 4.0 * guess(amplitude[i]), .error = NAN };
+  if (ctx->options.method != PENDRES_BLOCK_FIXED)
+    status = find_adaptively(ctx, n, s, lane, which);
+  else
+    while (left > 0 && status == PENDRES_OK) status = turn(ctx, n, s, lane, which, &left);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    frequency[i] = 0.25 * s[i].pendulum.drive_frequency;
+    error[i] = s[i].error * frequency[i];
+  }
+done:
+  free(s);
+  free(lane);
+  free(which);
+  return status;
+}
+
+static pendres_status free_frequency_integrate(pendres_context *ctx, size_t n,
+                                               const double *amplitude, double *frequency,
+                                               double *error)
+{
+  if (n > 0 && (amplitude == NULL || frequency == NULL || error == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "amplitude, frequency and error");
+  for (size_t i = 0; i < n; i++)
+    if (!(amplitude[i] > 0.0 && amplitude[i] < pi))
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "amplitude %zu is %g: it must lie between 0 and pi", i,
+                                  amplitude[i]);
+  if (n == 0) return PENDRES_OK;
+  return find_all(ctx, n, amplitude, frequency, error);
+}
+
+pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
+                                                const double *amplitude, double *frequency,
+                                                double *error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, free_frequency_integrate(ctx, n, amplitude, frequency, error));
+}

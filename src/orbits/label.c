@@ -1,0 +1,69 @@
+/* label.c -- what orbits are called; see label.h. */
+#include "orbits/label.h"
+
+#include <math.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* The drives of the paper, 0.1 and 0.2, and somewhat beyond: where an orbit alone has a name by its
+   lag. */
+static const double strongest_by_lag = 0.25;
+/* Amplitudes of mirror images differ by rounding and the orbits' errors alone, those of states that
+   coexist by more, unless they are about to meet. */
+static const double same_amplitude = 1e-7;
+
+/* What an amplitude with an error may be off by and still be that of the same state. */
+static double slack(double a, double b)
+{
+  return same_amplitude + fmin(1e-2, a + b);
+}
+
+int pendres_label_named(const pendres_orbit *o)
+{
+  return o->period == 1 && o->winding == 0;
+}
+
+void pendres_label_note(pendres_label_states *s, const pendres_orbit *o)
+{
+  if (!o->stable || !pendres_label_named(o)) return;
+  for (size_t i = 0; i < s->count; i++)
+    if (fabs(s->amplitude[i] - o->amplitude) <= slack(s->error[i], o->amplitude_error)) return;
+  if (s->count == PENDRES_LABEL_STATES) return;
+  s->amplitude[s->count] = o->amplitude;
+  s->error[s->count++] = o->amplitude_error;
+}
+
+size_t pendres_label_extreme(const pendres_label_states *s, int most)
+{
+  size_t best = 0;
+  for (size_t i = 1; i < s->count; i++)
+    if (most ? s->amplitude[i] > s->amplitude[best] : s->amplitude[i] < s->amplitude[best])
+      best = i;
+  return best;
+}
+
+/* One that is alone. */
+static pendres_label lone(const pendres_label_border *b, const pendres_orbit *o)
+{
+  if (b == NULL) {
+    if (!(fabs(o->pendulum.drive_amplitude) <= strongest_by_lag)) return PENDRES_LABEL_PERIODIC;
+    /* At rest there is no phase lag, and no amplitude. */
+    return o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;
+  }
+  if (!b->distinct) return PENDRES_LABEL_PERIODIC;
+  return o->pendulum.drive_frequency <= b->frequency && o->amplitude < b->amplitude
+           ? PENDRES_LABEL_SA
+           : PENDRES_LABEL_LA;
+}
+
+pendres_label pendres_label_of(const pendres_label_states *s, const pendres_label_border *border,
+                               const pendres_orbit *o)
+{
+  if (o->winding != 0) return PENDRES_LABEL_RUNNING;
+  if (!pendres_label_named(o)) return PENDRES_LABEL_PERIODIC;
+  if (s->count < 2) return lone(border, o);
+  const size_t least = pendres_label_extreme(s, 0);
+  return o->amplitude <= s->amplitude[least] + slack(s->error[least], o->amplitude_error)
+           ? PENDRES_LABEL_SA
+           : PENDRES_LABEL_LA;
+}

@@ -1,0 +1,327 @@
+/* orbit.c -- periodic orbits by Newton's method on the stroboscopic map; see orbit.h. */
+#include <pendres/orbit.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_error.h"
+#include "orbits/orbit_newton.h"
+#include "engine/steps.h"
+#include "orbits/strobe_noise.h"
+
+static const double pi = 3.14159265358979323846;
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+/* A run of one candidate by a number of steps: the corrected point and its measures. */
+typedef struct result {
+  double y, w;
+  double m[2][2];
+  double m_by[2][2][2]; /* how m changes with y and w; of the coarser run */
+  double off[2];        /* from the point that m was taken at to the corrected one */
+  double dy, dw; /* by omega */
+  double slope;  /* dA/domega */
+  double derivative; /* root mean square of dw/domega along the orbit */
+  pendres_orbit_measures measures;
+} result;
+
+/* The samples of one candidate in the tape, moved to the corrected point by the linearised flow. */
+static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                               pendres_orbit_want want, pendres_orbit_tables *tables, double *work,
+                               result *out)
+{
+  const size_t n = tape->samples;
+  double shift[2] = {0.0, 0.0}, by_omega[2] = {NAN, NAN};
+  double *y = work, *w = work + n;
+
+  if (!pendres_newton_closed(c, tape, y, w, shift)) return PENDRES_NOT_CONVERGED;
+  out->y = c->y + shift[0];
+  out->w = c->w + shift[1];
+  memcpy(out->m, c->m, sizeof out->m);
+  memcpy(out->m_by, c->m_by, sizeof out->m_by);
+  memcpy(out->off, shift, sizeof out->off);
+  out->slope = out->derivative = NAN;
+  if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) {
+    if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
+    double sum = 0.0, squares = 0.0;
+    for (size_t k = 0; k < n; k++) {
+      const double *row = pendres_newton_sample(tape, k, c->lane);
+      const double theta = two_pi * c->guess->period * (double)k / (double)n;
+      const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
+      sum += cos(theta) * derivative;
+      squares += derivative * derivative;
+    }
+    out->derivative = sqrt(squares / (double)n);
+    out->slope = c->guess->pendulum.drive_amplitude * two_pi * sum / (double)n;
+  }
+  out->dy = by_omega[0];
+  out->dw = by_omega[1];
+  const pendres_orbit_samples samples = {
+    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
+    .tables = tables};
+  return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
+}
+
+/* rounding: of a step, of an angle of order one. */
+static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
+                 double rounding, pendres_orbit *o)
+{
+  const pendres_pendulum *p = &c->guess->pendulum;
+  const double omega = p->drive_frequency, q = c->guess->period;
+  const double point = hypot(fine->y - coarse->y, fine->w - coarse->w);
+  double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
+
+  (void)pendres_newton_solve(fine->m, unit, z, &stretch);
+  /* Rounding errors of steps add at random, and the fixed point feels them amplified by
+     (I - M)^-1. */
+  const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
+  const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
+  const double noise = sqrt(c->steps * q);
+  const pendres_orbit_doubt doubt = {
+    .apart = fmax(point, pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
+                                                      c->guess->period)),
+    .rounding = last_place * noise * fmax(1.0, stretch)};
+
+  memset(o, 0, sizeof *o);
+  o->pendulum = *p;
+  o->period = c->guess->period;
+  o->winding = c->guess->winding;
+  o->steps = c->steps;
+  /* The mean angle belongs into well 0. */
+  const long turns = pendres_orbit_set_measures(&coarse->measures, &fine->measures, &doubt, o);
+  o->x = fine->y - two_pi * (double)turns + half_pi;
+  o->v = omega * fine->w;
+  /* x itself is a double, and half of pi is none. */
+  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, &doubt) +
+               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
+  /* Rounding swings to and fro between y and v. */
+  o->v_error = omega * pendres_orbit_error(coarse->w, fine->w, 1.0, &doubt) +
+               fmax(0.0, 1.0 - omega) * doubt.rounding;
+
+  pendres_orbit_spectrum spectrum = {.rounding = 6.0 * rounding * noise};
+  memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
+  memcpy(spectrum.by_point, coarse->m_by, sizeof spectrum.by_point);
+  /* The matrix belongs to the corrected point. */
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++)
+      spectrum.fine[i][j] = fine->m[i][j] + coarse->m_by[0][i][j] * fine->off[0] +
+                            coarse->m_by[1][i][j] * fine->off[1];
+  pendres_orbit_set_spectrum(&spectrum, &doubt, o);
+
+  o->frequency_derivative[0] = fine->dy;
+  o->frequency_derivative[1] = fine->w + omega * fine->dw;
+  o->loop_area_slope = fine->slope;
+  /* What the point is to the other measures its derivative is to the slope. */
+  const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
+  const pendres_orbit_doubt slope_doubt = {
+    .apart = 1.5 * (derivative + doubt.apart),
+    .rounding = 2.0 * doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
+                12.0 * rounding * noise * fine->derivative};
+  o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
+                                                 pi * fabs(p->drive_amplitude), &slope_doubt);
+}
+
+static int accurate(const pendres_orbit *o, double tolerance)
+{
+  /* A phase matters as much as the amplitude it belongs to. */
+  return o->x_error <= tolerance && o->v_error <= tolerance && o->loop_area_error <= tolerance &&
+         o->amplitude_error <= tolerance &&
+         !(o->phase_lag_error * fmin(1.0, o->first_harmonic_amplitude) > tolerance);
+}
+
+/* The measures of all converged candidates at their present steps. */
+static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
+                                  pendres_orbit_want want, int bends, result *results)
+{
+  pendres_newton_tape tape = {.bends = bends};
+  pendres_orbit_tables tables = {0};
+  double *work = NULL;
+  size_t work_size = 0;
+  pendres_status status = PENDRES_OK;
+
+  for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
+    status = pendres_newton_pass(ctx, n, c, first, want, &tape, &last);
+    if (status != PENDRES_OK) break;
+    const size_t need = 2 * tape.samples + pendres_orbit_measure_work(tape.samples);
+    if (need > work_size) {
+      work_size = need;
+      double *grown = realloc(work, work_size * sizeof *work);
+      if (grown == NULL) {
+        status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for samples");
+        break;
+      }
+      work = grown;
+    }
+    for (size_t i = first; i < last; i++) {
+      if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
+      const pendres_status one = evaluate(&c[i], &tape, want, &tables, work,
+                                          &results[c[i].index]);
+      if (one == PENDRES_NOT_CONVERGED)
+        c[i].state = PENDRES_NEWTON_FAILED;
+      else if (one != PENDRES_OK)
+        status = pendres_context_fail(ctx, one, "the samples of an orbit could not be measured");
+    }
+  }
+  pendres_newton_tape_free(&tape);
+  pendres_orbit_tables_free(&tables);
+  free(work);
+  return status;
+}
+
+static double singularity(const double m[2][2])
+{
+  return (1.0 - m[0][0]) * (1.0 - m[1][1]) - m[0][1] * m[1][0];
+}
+
+/*
+ * Whether there is an orbit where Newton's method has come to rest; by det (I - M) before and
+ * after one more step. Beyond a fold it wanders about the ghost of the orbit that is gone:
+ * where the map's defect is like z^2 + s^2, a step takes det (I - M) ~ 2 z to less than half, or
+ * past zero. At an orbit, -s^2, a step leaves it as it is. The fold of the map with n steps must
+ * not lie elsewhere than that with 1.4 n either, as seen from here.
+ */
+static int is_there(double before, double after)
+{
+  const double ratio = after / before;
+  return ratio > 0.7 && ratio < 1.4;
+}
+
+/*
+ * One Newton step with the finer map. The linearised flow moves samples to the finer map's point
+ * well enough, but not their derivatives: taken at the coarser map's point, slopes would be no
+ * better than its own, and the two would agree on a wrong value.
+ */
+static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
+                                          pendres_newton_candidate *c, const result *coarse)
+{
+  for (size_t first = 0, last; first < n; first = last) {
+    const pendres_status status =
+      pendres_newton_pass(ctx, n, c, first, PENDRES_ORBIT_PLAIN, NULL, &last);
+    if (status != PENDRES_OK) return status;
+    for (size_t i = first; i < last; i++) {
+      const pendres_newton_candidate *at = &c[i];
+      const result *before = &coarse[at->index];
+      double shift[2];
+      if (at->state == PENDRES_NEWTON_CONVERGED &&
+          is_there(singularity(before->m), singularity(at->m)) &&
+          pendres_newton_solve(at->m, at->residual, shift, NULL)) {
+        c[i].y += shift[0];
+        c[i].w += shift[1];
+      }
+    }
+  }
+  return PENDRES_OK;
+}
+
+/*
+ * Converge, measure at n and at 1.4 n steps; candidates are sorted in place. What is a ghost, or
+ * too close to one to tell, is PENDRES_NOT_CONVERGED with its state left at converged.
+ */
+static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
+                                  pendres_orbit_want want, result *coarse, result *fine,
+                                  pendres_orbit *out, pendres_status *outcome)
+{
+  /* Periodic orbits keep below what the worst of pendulums round. */
+  const double rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table);
+  pendres_status status = pendres_newton_converge(ctx, n, c);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 1, coarse);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < n; i++) {
+    if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
+    c[i].y = coarse[c[i].index].y;
+    c[i].w = coarse[c[i].index].w;
+    c[i].steps = pendres_steps_rung((int)ceil(1.4 * c[i].steps));
+  }
+  if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) status = move_to_finer_point(ctx, n, c, coarse);
+  if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 0, fine);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const size_t k = c[i].index;
+    if (c[i].state != PENDRES_NEWTON_CONVERGED) {
+      outcome[k] = PENDRES_NOT_CONVERGED;
+      continue;
+    }
+    const result *first = &coarse[k], *second = &fine[k];
+    if (!is_there(singularity(first->m), singularity(second->m))) {
+      outcome[k] = PENDRES_NOT_CONVERGED;
+      continue;
+    }
+    fill(&c[i], first, second, rounding, &out[k]);
+    outcome[k] =
+      accurate(&out[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+  }
+  return status;
+}
+
+static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
+                            pendres_newton_candidate *c)
+{
+  for (size_t i = 0; i < n; i++) {
+    const pendres_orbit_guess *g = &guess[i];
+    const char *why = NULL;
+    if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK) {
+      why = pendres_strobe_refuses(&g->pendulum, g->x, g->v);
+      if (g->period < 1) why = "a guess needs a period of at least 1";
+    }
+    if (why != NULL)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
+    c[i] = (pendres_newton_candidate){.guess = g,
+                                      .index = i,
+                                      .w = g->v / g->pendulum.drive_frequency};
+    long turns = 0;
+    pendres_strobe_angle(g->x, &c[i].y, &turns);
+    /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
+       tell whether it was enough. */
+    const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, fabs(g->v),
+                                                       10.0 * ctx->options.tolerance, &c[i].steps);
+    if (status != PENDRES_OK) return status;
+  }
+  return PENDRES_OK;
+}
+
+static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
+                                   pendres_orbit_want want, pendres_orbit *out,
+                                   pendres_status *outcome)
+{
+  enum { MOST_TRIES = 4 };
+  if (n > 0 && (guess == NULL || out == NULL || outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "guess, out and outcome");
+  if (want != PENDRES_ORBIT_PLAIN && want != PENDRES_ORBIT_FREQUENCY_SLOPE)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown wish for an orbit");
+  if (n == 0) return PENDRES_OK;
+
+  pendres_status status = PENDRES_OK;
+  pendres_newton_candidate *c = malloc(n * sizeof *c);
+  result *coarse = malloc(n * sizeof *coarse), *fine = malloc(n * sizeof *fine);
+  if (c == NULL || coarse == NULL || fine == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+    goto done;
+  }
+  status = start(ctx, n, guess, c);
+  size_t left = n;
+  for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
+    status = refine_once(ctx, left, c, want, coarse, fine, out, outcome);
+    /* What missed the tolerance, or could not be told from a ghost, goes on from where it is, with
+       more steps. */
+    size_t again = 0;
+    for (size_t i = 0; i < left && status == PENDRES_OK; i++)
+      if (outcome[c[i].index] != PENDRES_OK && c[i].state == PENDRES_NEWTON_CONVERGED &&
+          ctx->options.steps_per_period == 0)
+        c[again++] = c[i];
+    left = again;
+  }
+done:
+  free(c);
+  free(coarse);
+  free(fine);
+  return status;
+}
+
+pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
+                                    const pendres_orbit_guess *guess, pendres_orbit_want want,
+                                    pendres_orbit *out, pendres_status *outcome)
+{
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, out, outcome));
+}

@@ -1,0 +1,121 @@
+/* orbit_error.c -- errors of orbits from two computations; see orbit_error.h. */
+#include "orbits/orbit_error.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "engine/strobe_run.h"
+
+static const double pi = 3.14159265358979323846;
+static const double two_pi = 6.28318530717958647693;
+static const double root_two = 1.41421356237309504880;
+
+/*
+ * With 1.4 times the steps an order-8 method's error falls to a fifteenth. A quarter of a value's
+ * own difference is claimed, for where the order has not set in yet, and as much as an eighth of
+ * the difference of the whole orbits could make.
+ */
+double pendres_orbit_error(double coarse, double fine, double sensitivity,
+                           const pendres_orbit_doubt *doubt)
+{
+  return 0.25 * fabs(fine - coarse) + sensitivity * (0.12 * doubt->apart + doubt->rounding);
+}
+
+/*
+ * An orbit about the top has the mean pi by symmetry: which way its error points must not decide
+ * to which well it belongs.
+ */
+static long turns_of_mean(double mean)
+{
+  static const double tie = 0.01;
+  long turns = 0;
+  double inside = mean;
+  pendres_strobe_wrap(&inside, &turns);
+  return inside <= tie - pi ? turns - 1 : turns;
+}
+
+long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
+                                const pendres_orbit_measures *fine,
+                                const pendres_orbit_doubt *doubt, pendres_orbit *o)
+{
+  const pendres_pendulum *p = &o->pendulum;
+  const pendres_orbit_measures *a = coarse, *b = fine;
+  const double omega = p->drive_frequency, drive = fabs(p->drive_amplitude);
+  const long turns = turns_of_mean(b->mean_angle);
+
+  o->mean_angle = b->mean_angle - two_pi * (double)turns;
+  o->loop_area = b->loop_area;
+  o->loop_area_error =
+    pendres_orbit_error(a->loop_area, b->loop_area, pi * drive * root_two, doubt);
+  o->dissipation = b->dissipation;
+  o->dissipation_error = pendres_orbit_error(
+    a->dissipation, b->dissipation, 2.0 * two_pi * p->damping * omega * b->rms_speed, doubt);
+  /* What the drive gives is dissipated, so the two are known to be equal: what they differ by is
+     an error of one of them at least. */
+  const double balance = 0.5 * fabs(b->loop_area - b->dissipation);
+  o->loop_area_error = fmax(o->loop_area_error, balance);
+  o->dissipation_error = fmax(o->dissipation_error, balance);
+  o->mean_power = o->loop_area * omega / two_pi;
+  o->mean_power_error = o->loop_area_error * omega / two_pi;
+  o->amplitude = b->amplitude;
+  o->amplitude_error =
+    pendres_orbit_error(a->amplitude, b->amplitude, 1.0, doubt) + b->unresolved;
+  memcpy(o->cosine, b->cosine, sizeof o->cosine);
+  memcpy(o->sine, b->sine, sizeof o->sine);
+  o->harmonics_rest = b->harmonics_rest;
+  o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
+  o->first_harmonic_amplitude_error =
+    pendres_orbit_error(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, 1.0, doubt);
+  o->phase_lag = pendres_orbit_phase_lag(b->cosine[0], b->sine[0], p->drive_amplitude);
+  const double earlier = pendres_orbit_phase_lag(a->cosine[0], a->sine[0], p->drive_amplitude);
+  o->phase_lag_error =
+    pendres_orbit_error(o->phase_lag + remainder(earlier - o->phase_lag, two_pi), o->phase_lag,
+                        1.0 / o->first_harmonic_amplitude, doubt);
+  o->symmetric = o->winding == 0 && b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
+  return turns;
+}
+
+/* Of the entries; of the two off the diagonal in units in which they are alike. */
+static double size_of(const double m[2][2])
+{
+  return fmax(fmax(fabs(m[0][0]), fabs(m[1][1])), sqrt(fabs(m[0][1] * m[1][0])));
+}
+
+/* Of the trace; by what both of its parts differ by, since their sum may agree by chance. */
+static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt)
+{
+  const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
+  const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
+                            s->by_point[1][0][0] + s->by_point[1][1][1]);
+  return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) +
+         bend * (0.1 * doubt->apart + doubt->rounding) + s->rounding * size_of(s->fine);
+}
+
+void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,
+                                pendres_orbit *o)
+{
+  const double omega = o->pendulum.drive_frequency;
+  const double modulus = exp(-o->pendulum.damping * o->period * pi / omega);
+  const double trace = s->fine[0][0] + s->fine[1][1];
+  const double determinant =
+    s->fine[0][0] * s->fine[1][1] - s->fine[0][1] * s->fine[1][0];
+  double trace_error = trace_error_of(s, doubt);
+
+  o->monodromy[0][0] = s->fine[0][0];
+  o->monodromy[0][1] = s->fine[0][1] / omega;
+  o->monodromy[1][0] = s->fine[1][0] * omega;
+  o->monodromy[1][1] = s->fine[1][1];
+  pendres_orbit_set_multipliers(trace, modulus, o);
+  /* The determinant is known (Liouville): an entry of that size off as much as it is leaves the
+     trace no better known. */
+  const double off = 0.5 * fabs(determinant - modulus * modulus) / (2.0 * size_of(s->fine));
+  if (off > trace_error) trace_error = off;
+  /* The trace's error moves a multiplier mu by trace' mu / (mu - other); where two meet they move
+     with the square root. */
+  const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
+                           o->multiplier_im[0] - o->multiplier_im[1]);
+  o->multiplier_error = fmin(trace_error * fmax(1.0, size / fmax(gap, 1e-300)),
+                             sqrt(trace_error) + trace_error);
+}

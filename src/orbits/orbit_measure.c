@@ -1,0 +1,152 @@
+/* orbit_measure.c -- measures of a closed orbit from its samples; see orbit_measure.h. */
+#include "orbits/orbit_measure.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
+                                            const pendres_orbit_samples *s, double *work,
+                                            pendres_orbit_series *out)
+{
+  const size_t n = s->n;
+  const double spacing = two_pi * s->period / (double)n, q = s->period;
+  const double square = p->drive_frequency * p->drive_frequency;
+  double *y = work, *slope = work + n, *curvature = work + 2 * n;
+
+  for (size_t k = 0; k < n; k++) {
+    const double theta = spacing * (double)k;
+    const double force = p->drive_amplitude * cos(theta) - sin(s->y[k]);
+    y[k] = s->y[k] - s->winding * theta / q;
+    slope[k] = q * s->w[k] - s->winding;
+    curvature[k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
+  }
+  return pendres_orbit_series_build(s->tables, n, y, slope, curvature, work + 3 * n, out);
+}
+
+/*
+ * Largest harmonic that a mirror-symmetric orbit does not have. Such an orbit is its own mirror
+ * image about its mean k half drive periods later, k odd, and closes after k whole ones: with odd
+ * q that is half of the whole orbit, y(theta + q pi) = -y(theta), which leaves odd harmonics of it.
+ * What is given with an even q closes earlier, if it has the symmetry, and is read that often.
+ */
+static double symmetry_defect(const pendres_orbit_series *s, int q)
+{
+  double largest = 0.0;
+  size_t closures = 1;
+  while ((size_t)q % (2 * closures) == 0) closures *= 2;
+  for (size_t m = 1; m < s->modes; m++) {
+    const int odd = m % closures == 0 && (m / closures) % 2 == 1;
+    const double square = s->re[m] * s->re[m] + s->im[m] * s->im[m];
+    if (!odd && square > largest) largest = square;
+  }
+  return 2.0 * sqrt(largest);
+}
+
+/* Harmonics of the drive are numbers q, 2 q, ... of the whole orbit. */
+static void keep_harmonics(const pendres_orbit_series *s, int q, pendres_orbit_measures *out)
+{
+  double rest = 0.0;
+  for (size_t m = 1; m < s->modes; m++) {
+    if (m < PENDRES_ORBIT_SPECTRUM) {
+      out->spectrum[2 * m] = s->re[m];
+      out->spectrum[2 * m + 1] = s->im[m];
+    }
+    if (m % (size_t)q != 0) continue;
+    const size_t harmonic = m / (size_t)q;
+    if (harmonic > PENDRES_ORBIT_HARMONICS) {
+      rest += 2.0 * hypot(s->re[m], s->im[m]);
+      continue;
+    }
+    out->cosine[harmonic - 1] = 2.0 * s->re[m];
+    out->sine[harmonic - 1] = -2.0 * s->im[m];
+  }
+  out->spectrum[0] = s->re[0];
+  out->harmonics_rest = rest;
+}
+
+pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                                     double *work, pendres_orbit_measures *out)
+{
+  const double q = s->period;
+  pendres_orbit_series series;
+  double highest = 0.0, lowest = 0.0, square = (s->winding / q) * (s->winding / q);
+
+  memset(out, 0, sizeof *out);
+  pendres_status status = pendres_orbit_samples_series(p, s, work, &series);
+  if (status == PENDRES_OK)
+    status = pendres_orbit_series_extremes(s->tables, &series, &highest, &lowest);
+  if (status != PENDRES_OK) return status;
+  for (size_t m = 1; m < series.modes; m++) {
+    const double by_phase = (double)m / q;
+    square += 2.0 * by_phase * by_phase *
+              (series.re[m] * series.re[m] + series.im[m] * series.im[m]);
+  }
+  keep_harmonics(&series, s->period, out);
+  out->loop_area = 0.5 * two_pi * p->drive_amplitude * out->sine[0];
+  out->dissipation = p->damping * p->drive_frequency * two_pi * square;
+  out->mean_angle = series.re[0];
+  /* At rest rounding may put the top below the bottom. */
+  out->amplitude = fmax(0.0, 0.5 * (highest - lowest));
+  out->unresolved = pendres_orbit_series_tail(&series);
+  out->rms_speed = sqrt(square);
+  out->symmetry_defect = symmetry_defect(&series, s->period);
+  return PENDRES_OK;
+}
+
+double pendres_orbit_measures_apart(const pendres_orbit_measures *a,
+                                    const pendres_orbit_measures *b, int period)
+{
+  double sum = (a->spectrum[0] - b->spectrum[0]) * (a->spectrum[0] - b->spectrum[0]);
+  for (int m = 1; m < PENDRES_ORBIT_SPECTRUM; m++) {
+    const double re = a->spectrum[2 * m] - b->spectrum[2 * m];
+    const double im = a->spectrum[2 * m + 1] - b->spectrum[2 * m + 1];
+    const double by_phase = (double)m / period;
+    sum += 2.0 * fmax(1.0, by_phase * by_phase) * (re * re + im * im);
+  }
+  return sqrt(sum);
+}
+
+double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],
+                                       const double sine[PENDRES_ORBIT_HARMONICS])
+{
+  enum { MODES = PENDRES_ORBIT_HARMONICS + 1, SAMPLES = 2 * MODES / 3 + 1 };
+  double memory[2 * MODES + 3 * SAMPLES] = {0.0}, highest = NAN, lowest = NAN;
+  const pendres_orbit_series s = {
+    .samples = SAMPLES, .modes = MODES, .re = memory, .im = memory + MODES};
+  for (int m = 1; m < MODES; m++) {
+    s.re[m] = 0.5 * cosine[m - 1];
+    s.im[m] = -0.5 * sine[m - 1];
+  }
+  pendres_orbit_tables tables = {0};
+  const pendres_status status = pendres_orbit_series_extremes(&tables, &s, &highest, &lowest);
+  pendres_orbit_tables_free(&tables);
+  return status == PENDRES_OK ? 0.5 * (highest - lowest) : NAN;
+}
+
+double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude)
+{
+  if (hypot(cosine, sine) == 0.0 || drive_amplitude == 0.0) return NAN;
+  /* The drive is F0 cos theta: with F0 < 0 it leads by half a turn. */
+  return drive_amplitude > 0.0 ? atan2(sine, cosine) : atan2(-sine, -cosine);
+}
+
+void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o)
+{
+  /* The product of the two, the square of modulus, may be too small for a double: do without. */
+  const double half = 0.5 * trace;
+  o->multiplier_re[0] = o->multiplier_re[1] = half;
+  o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
+  if (fabs(half) < modulus) {
+    const double share = half / modulus;
+    o->multiplier_im[0] = modulus * sqrt((1.0 - share) * (1.0 + share));
+    o->multiplier_im[1] = -o->multiplier_im[0];
+  } else if (half != 0.0) {
+    /* The larger root first, the other from the product: no cancellation. */
+    const double share = modulus / half, larger = 1.0 + sqrt((1.0 - share) * (1.0 + share));
+    o->multiplier_re[0] = half * larger;
+    o->multiplier_re[1] = modulus * share / larger;
+  }
+  o->stable = hypot(o->multiplier_re[0], o->multiplier_im[0]) < 1.0;
+}

@@ -1,0 +1,70 @@
+/*
+ * orbit_measure.h -- what is measured on equally spaced samples of a closed orbit.
+ *
+ * Owns: sums, Fourier series and extremes. No integration here.
+ */
+#ifndef PENDRES_ORBIT_MEASURE_H
+#define PENDRES_ORBIT_MEASURE_H
+
+#include <stddef.h>
+
+#include <pendres/orbit.h>
+#include <pendres/status.h>
+
+#include "orbits/orbit_series.h"
+
+enum { PENDRES_ORBIT_SPECTRUM = 64 /* harmonics by which two computations are compared */ };
+
+/* Samples k = 0..n-1 at theta = 2 pi q k / n of a closed orbit: angle y, slope w = dy/dtheta. */
+typedef struct pendres_orbit_samples {
+  size_t n;
+  int period, winding;
+  const double *y, *w;
+  pendres_orbit_tables *tables; /* the caller's */
+} pendres_orbit_samples;
+
+typedef struct pendres_orbit_measures {
+  double loop_area, dissipation, amplitude, mean_angle;
+  double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS]; /* see orbit.h */
+  double harmonics_rest;  /* bounds what harmonics beyond those add to the angle */
+  double unresolved;      /* what harmonics that the samples do not tell may add to the angle */
+  double rms_speed;       /* root mean square of w */
+  double symmetry_defect; /* largest harmonic of the angle that mirror symmetry forbids */
+  double spectrum[2 * PENDRES_ORBIT_SPECTRUM]; /* re, im of coefficients m >= 0 */
+} pendres_orbit_measures;
+
+/* Doubles of workspace for n samples. */
+static inline size_t pendres_orbit_measure_work(size_t n)
+{
+  return 3 * n + pendres_orbit_series_memory(n);
+}
+
+pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                                     double *work, pendres_orbit_measures *out);
+
+/* The series of the angle, less the mean advance of a running orbit, by phase theta / period. */
+pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
+                                            const pendres_orbit_samples *s, double *work,
+                                            pendres_orbit_series *out);
+
+/*
+ * How far two computations of an orbit are apart on the whole of it: the root mean square of what
+ * angles and slopes differ by. That the two agree at one phase, or in one measure, may be chance.
+ */
+double pendres_orbit_measures_apart(const pendres_orbit_measures *a,
+                                    const pendres_orbit_measures *b, int period);
+
+/* Lag of a first harmonic behind a drive of that amplitude; NaN if either vanishes. */
+double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitude);
+
+/*
+ * Multipliers from the trace of the monodromy matrix and their geometric mean modulus, which is
+ * known exactly (Liouville): exp(-damping time / 2); and whether both are inside the unit circle.
+ */
+void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o);
+
+/* Half the peak-to-peak of a Fourier series given by its harmonics 1, 2, ... */
+double pendres_orbit_series_half_range(const double cosine[PENDRES_ORBIT_HARMONICS],
+                                       const double sine[PENDRES_ORBIT_HARMONICS]);
+
+#endif

@@ -1,0 +1,244 @@
+/* orbit_newton.c -- Newton's method on the stroboscopic map; see orbit_newton.h. */
+#include "orbits/orbit_newton.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/strobe_run.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { MOST_ITERATIONS = 20 };
+
+static const int longest_period = 1000000;
+
+/* A step longer than this is cut: guesses come from within a well. */
+static const double longest_step = 0.6;
+/* Below this the next iterate is within rounding (quadratic convergence). */
+static const double last_step = 1e-7;
+
+const char *pendres_orbit_refuses(const pendres_orbit *o)
+{
+  const char *why = NULL;
+  if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
+  if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
+  return pendres_strobe_refuses(&o->pendulum, o->x, o->v);
+}
+
+void pendres_newton_tape_free(pendres_newton_tape *tape)
+{
+  free(tape->data);
+  *tape = (pendres_newton_tape){0};
+}
+
+static int tape_prepare(pendres_newton_tape *t, size_t samples, size_t lanes, size_t rows)
+{
+  const size_t wanted = samples * lanes * rows;
+  if (wanted > t->size) {
+    double *data = realloc(t->data, wanted * sizeof *data);
+    if (data == NULL) return -1;
+    t->data = data;
+    t->size = wanted;
+  }
+  t->samples = samples;
+  t->lanes = lanes;
+  t->rows = rows;
+  return 0;
+}
+
+typedef struct recorder {
+  pendres_newton_tape *tape;
+  size_t offset;
+} recorder;
+
+static void record(void *arg, int step, double theta, size_t stride, const double *state)
+{
+  const recorder *r = arg;
+  const size_t sample = r->offset + (size_t)step;
+  (void)theta;
+  if (sample >= r->tape->samples) return; /* the end of the orbit is its beginning */
+  double *to = r->tape->data + sample * r->tape->lanes * r->tape->rows;
+  for (size_t lane = 0; lane < r->tape->lanes; lane++)
+    for (size_t row = 0; row < r->tape->rows; row++) *to++ = state[row * stride + lane];
+}
+
+/* Companions of a candidate start this much beside it, in y and in w: see read_companions. */
+static const double aside = 1e-6;
+
+static void load_lanes(pendres_flow *flow, size_t lanes, int companions,
+                       pendres_newton_candidate *c)
+{
+  pendres_flow_resize(flow, lanes * (size_t)(1 + companions));
+  for (size_t i = 0; i < lanes; i++) {
+    const pendres_pendulum *p = &c[i].guess->pendulum;
+    c[i].lane = i;
+    pendres_flow_set_lane(flow, i, p, c[i].y, c[i].w);
+    if (companions == 0) continue;
+    pendres_flow_set_lane(flow, lanes + i, p, c[i].y + aside, c[i].w);
+    pendres_flow_set_lane(flow, 2 * lanes + i, p, c[i].y, c[i].w + aside);
+  }
+}
+
+/* How the derivative of the map changes with the point: difference quotients, good to 1e-6. */
+static void read_companions(pendres_flow *flow, size_t lanes, pendres_newton_candidate *c)
+{
+  const size_t stride = pendres_flow_stride(flow);
+  const double *state = pendres_flow_state(flow);
+  for (size_t k = 0; k < 2; k++)
+    for (size_t column = 0; column < 2; column++)
+      for (size_t row = 0; row < 2; row++)
+        c->m_by[k][row][column] =
+          (state[(2 + 2 * column + row) * stride + (k + 1) * lanes + c->lane] -
+           c->m[row][column]) / aside;
+}
+
+static void read_lane(const pendres_flow *flow, const double *state, size_t rows,
+                      pendres_newton_candidate *c)
+{
+  const size_t stride = pendres_flow_stride(flow), i = c->lane;
+  c->residual[0] = state[i] - c->y - two_pi * c->guess->winding;
+  c->residual[1] = state[stride + i] - c->w;
+  c->m[0][0] = state[2 * stride + i];
+  c->m[1][0] = state[3 * stride + i];
+  c->m[0][1] = state[4 * stride + i];
+  c->m[1][1] = state[5 * stride + i];
+  if (rows >= PENDRES_ROWS_SENSITIVITY) {
+    c->by_omega[0] = state[6 * stride + i];
+    c->by_omega[1] = state[7 * stride + i];
+  }
+}
+
+pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
+                                   size_t first, pendres_orbit_want want,
+                                   pendres_newton_tape *tape, size_t *last)
+{
+  pendres_flow *flow = NULL;
+  const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
+  const size_t rows = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
+  pendres_status status = pendres_context_poll(ctx);
+  if (status == PENDRES_OK)
+    status = pendres_context_flow(
+      ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
+  if (status != PENDRES_OK) return status;
+
+  const int steps = c[first].steps, q = c[first].guess->period;
+  const int companions = tape != NULL && tape->bends ? 2 : 0;
+  const size_t most = pendres_flow_capacity(flow) / (size_t)(1 + companions);
+  size_t lanes = 0;
+  while (first + lanes < n && lanes < most &&
+         c[first + lanes].steps == steps && c[first + lanes].guess->period == q)
+    lanes++;
+  *last = first + lanes;
+
+  status = pendres_flow_set_steps(flow, steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  if (tape != NULL && tape_prepare(tape, (size_t)steps * (size_t)q, lanes, rows) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
+  load_lanes(flow, lanes, companions, c + first);
+  recorder r = {.tape = tape};
+  if (tape != NULL) record(&r, 0, 0.0, pendres_flow_stride(flow), pendres_flow_state(flow));
+  for (int k = 0; k < q && status == PENDRES_OK; k++) {
+    r.offset = (size_t)k * (size_t)steps;
+    status =
+      tape != NULL ? pendres_flow_period_sampled(flow, record, &r) : pendres_flow_period(flow);
+  }
+  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  ctx->cost.pendulum_periods += (double)(lanes * (size_t)(1 + companions)) * q;
+  ctx->cost.newton_steps += (double)lanes;
+  for (size_t i = first; i < *last; i++) {
+    read_lane(flow, pendres_flow_state(flow), rows, &c[i]);
+    if (companions) read_companions(flow, lanes, &c[i]);
+  }
+  return PENDRES_OK;
+}
+
+int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], double *stretch)
+{
+  const double a = 1.0 - m[0][0], b = -m[0][1], c = -m[1][0], d = 1.0 - m[1][1];
+  const double det = a * d - b * c;
+  if (!(fabs(det) > 1e-300)) return 0;
+  z[0] = (d * r[0] - b * r[1]) / det;
+  z[1] = (a * r[1] - c * r[0]) / det;
+  if (stretch != NULL)
+    *stretch = fmax(fabs(d) + fabs(b), fabs(a) + fabs(c)) / fabs(det);
+  return 1;
+}
+
+int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                          double *y, double *w, double shift[2])
+{
+  if (!pendres_newton_solve(c->m, c->residual, shift, NULL)) return 0;
+  for (size_t k = 0; k < tape->samples; k++) {
+    const double *row = pendres_newton_sample(tape, k, c->lane);
+    y[k] = row[0] + row[2] * shift[0] + row[4] * shift[1];
+    w[k] = row[1] + row[3] * shift[0] + row[5] * shift[1];
+  }
+  return 1;
+}
+
+/* One Newton step from what the latest pass found. */
+static void improve(pendres_newton_candidate *c)
+{
+  const double a = 1.0 - c->m[0][0], b = -c->m[0][1], d = -c->m[1][0], e = 1.0 - c->m[1][1];
+  const double det = a * e - b * d;
+  double dy = (e * c->residual[0] - b * c->residual[1]) / det;
+  double dw = (a * c->residual[1] - d * c->residual[0]) / det;
+  const double omega = c->guess->pendulum.drive_frequency;
+  const double step = hypot(dy, omega * dw);
+
+  c->iterations++;
+  if (!(step < 1e6) || (c->iterations > MOST_ITERATIONS && step >= last_step)) {
+    c->state = PENDRES_NEWTON_FAILED;
+    return;
+  }
+  if (step > longest_step) {
+    dy *= longest_step / step;
+    dw *= longest_step / step;
+  }
+  c->y += dy;
+  c->w += dw;
+  /* Close to a fold rounding keeps steps from shrinking further: that is as good as it gets. */
+  const int stalled = c->iterations > 8 && step < 1e-5 && step >= 0.5 * c->last_step;
+  c->last_step = step;
+  /* A tiny drive's orbit is no larger than its drive: go on until the step is small beside it. */
+  const double size = c->guess->pendulum.drive_amplitude != 0.0 ? hypot(c->y, omega * c->w) : 1.0;
+  if (step < fmin(last_step, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
+}
+
+/* Active candidates first, in the order of steps, period and index. */
+static int in_order(const void *a, const void *b)
+{
+  const pendres_newton_candidate *p = a, *q = b;
+  const int pa = p->state == PENDRES_NEWTON_ACTIVE, qa = q->state == PENDRES_NEWTON_ACTIVE;
+  if (pa != qa) return pa ? -1 : 1;
+  if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
+  if (p->guess->period != q->guess->period)
+    return p->guess->period < q->guess->period ? -1 : 1;
+  return p->index < q->index ? -1 : p->index > q->index;
+}
+
+pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_newton_candidate *c)
+{
+  size_t active = n;
+  for (size_t i = 0; i < n; i++) {
+    c[i].state = PENDRES_NEWTON_ACTIVE;
+    c[i].iterations = 0;
+    c[i].last_step = INFINITY;
+  }
+  while (active > 0) {
+    qsort(c, n, sizeof *c, in_order);
+    for (size_t first = 0, last; first < active; first = last) {
+      const pendres_status status =
+        pendres_newton_pass(ctx, active, c, first, PENDRES_ORBIT_PLAIN, NULL, &last);
+      if (status != PENDRES_OK) return status;
+      for (size_t i = first; i < last; i++) improve(&c[i]);
+    }
+    size_t still = 0;
+    for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;
+    active = still;
+  }
+  /* For what follows: equal steps and periods side by side. */
+  qsort(c, n, sizeof *c, in_order);
+  return PENDRES_OK;
+}

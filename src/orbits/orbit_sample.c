@@ -1,0 +1,160 @@
+/* orbit_sample.c -- points along a closed orbit, with their errors; see orbit.h. */
+#include "orbits/orbit_sample.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_error.h"
+#include "orbits/orbit_newton.h"
+#include "engine/steps.h"
+#include "orbits/strobe_noise.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+/* The series of an orbit by some steps a period, and where it keeps its numbers. */
+typedef struct curve {
+  pendres_orbit_series series;
+  double *memory;
+  double rounding; /* of y and w */
+} curve;
+
+/* Integrate the orbit once, close it, and transform it. */
+static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int steps, curve *out)
+{
+  const pendres_orbit_guess guess = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
+                                     .period = o->period, .winding = o->winding};
+  pendres_newton_candidate c = {.guess = &guess, .y = o->x - half_pi,
+                                .w = o->v / o->pendulum.drive_frequency, .steps = steps};
+  pendres_newton_tape tape = {0};
+  pendres_orbit_tables tables = {0};
+  size_t last = 0;
+  double shift[2], z[2], stretch = 1.0;
+  const double unit[2] = {1.0, 1.0};
+  pendres_status status =
+    pendres_newton_pass(ctx, 1, &c, 0, PENDRES_ORBIT_PLAIN, &tape, &last);
+  if (status != PENDRES_OK) goto done;
+  const size_t n = tape.samples;
+  double *memory = malloc((2 * n + pendres_orbit_measure_work(n)) * sizeof *memory);
+  if (memory == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+    goto done;
+  }
+  free(out->memory);
+  out->memory = memory;
+  if (!pendres_newton_closed(&c, &tape, memory, memory + n, shift)) {
+    status = pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "an orbit at a fold has no samples");
+    goto done;
+  }
+  const pendres_orbit_samples samples = {.n = n, .period = o->period, .winding = o->winding,
+                                         .y = memory, .w = memory + n, .tables = &tables};
+  status = pendres_orbit_samples_series(&o->pendulum, &samples, memory + 2 * n, &out->series);
+  if (status != PENDRES_OK)
+    status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
+  (void)pendres_newton_solve((const double(*)[2])c.m, unit, z, &stretch);
+  out->rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table) *
+                  fmax(o->amplitude, fabs(c.w)) * sqrt((double)n) * fmax(1.0, stretch);
+done:
+  pendres_orbit_tables_free(&tables);
+  pendres_newton_tape_free(&tape);
+  return status;
+}
+
+pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_orbit *orbit,
+                                           double share, pendres_orbit_series *sum)
+{
+  curve c = {.memory = NULL};
+  const size_t q = (size_t)orbit->period;
+  const pendres_status status = trace(ctx, orbit, orbit->steps, &c);
+  for (size_t m = 1; m < sum->modes && status == PENDRES_OK && m * q < c.series.modes; m++) {
+    sum->re[m] += share * c.series.re[m * q];
+    sum->im[m] += share * c.series.im[m * q];
+  }
+  free(c.memory);
+  return status;
+}
+
+/* Angle and velocity at a share of the whole orbit. */
+static void point_at(const pendres_orbit *o, const curve *c, double share, double out[2])
+{
+  double f[3];
+  const double phase = two_pi * share;
+  pendres_orbit_series_at(&c->series, phase, f);
+  out[0] = f[0] + half_pi + o->winding * phase;
+  out[1] = o->pendulum.drive_frequency * (f[1] + o->winding) / o->period;
+}
+
+/* What the finer of two curves may be off by, anywhere: of x and of v. */
+static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *fine,
+                      double error[2])
+{
+  const size_t points = coarse->series.samples;
+  double apart[2] = {0.0, 0.0};
+  for (size_t k = 0; k < points; k++) {
+    double a[2], b[2];
+    point_at(o, coarse, (double)k / (double)points, a);
+    point_at(o, fine, (double)k / (double)points, b);
+    for (int i = 0; i < 2; i++) apart[i] = fmax(apart[i], fabs(a[i] - b[i]));
+  }
+  const double omega = o->pendulum.drive_frequency;
+  const double tail = pendres_orbit_series_tail(&fine->series);
+  const double modes = (double)fine->series.modes / o->period;
+  error[0] = 0.25 * apart[0] + tail + 2.0 * fine->rounding +
+             0.5 * DBL_EPSILON * (fabs(o->x) + two_pi * fabs((double)o->winding));
+  error[1] = 0.25 * apart[1] + omega * tail * modes + 2.0 * fmax(1.0, omega) * fine->rounding;
+}
+
+static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                             double *x, double *v, double *x_error, double *v_error)
+{
+  enum { MOST_TRIES = 5, MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
+  curve coarse = {.memory = NULL}, fine = {.memory = NULL};
+  if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
+  const char *why = pendres_orbit_refuses(orbit);
+  if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS)) why = "it has no steps";
+  if (why == NULL && (count < 1 || count > MOST_SAMPLES / orbit->period))
+    why = "one a period at least, 100 million in all at most";
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "samples of an orbit: %s", why);
+  int steps = orbit->steps;
+  pendres_status status = trace(ctx, orbit, steps, &fine);
+  if (status == PENDRES_OK && (x_error != NULL || v_error != NULL)) {
+    double error[2] = {INFINITY, INFINITY};
+    for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
+      const curve older = coarse;
+      coarse = fine;
+      fine = older;
+      steps = pendres_steps_rung((int)ceil(1.4 * steps));
+      status = trace(ctx, orbit, steps, &fine);
+      if (status == PENDRES_OK) errors_of(orbit, &coarse, &fine, error);
+      if (!(fmax(error[0], error[1]) > ctx->options.tolerance)) break;
+    }
+    if (x_error != NULL) *x_error = error[0];
+    if (v_error != NULL) *v_error = error[1];
+  }
+  const size_t points = (size_t)orbit->period * (size_t)count;
+  for (size_t k = 0; k < points && status == PENDRES_OK; k++) {
+    double at[2];
+    point_at(orbit, &fine, (double)k / (double)points, at);
+    if (x != NULL) x[k] = at[0];
+    if (v != NULL) v[k] = at[1];
+  }
+  free(coarse.memory);
+  free(fine.memory);
+  return status;
+}
+
+pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
+                                               int count, double *x, double *v, double *x_error,
+                                               double *v_error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, x_error, v_error));
+}
+
+pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                                    double *x, double *v)
+{
+  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, NULL, NULL));
+}

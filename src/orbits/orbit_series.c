@@ -1,0 +1,216 @@
+/* orbit_series.c -- Fourier series of closed curves; see orbit_series.h. */
+#include "orbits/orbit_series.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+
+static const double two_pi = 6.28318530717958647693;
+
+void pendres_orbit_tables_free(pendres_orbit_tables *t)
+{
+  if (t->forward != NULL) gsl_fft_real_wavetable_free(t->forward);
+  if (t->backward != NULL) gsl_fft_halfcomplex_wavetable_free(t->backward);
+  if (t->work != NULL) gsl_fft_real_workspace_free(t->work);
+  if (t->dense_work != NULL) gsl_fft_real_workspace_free(t->dense_work);
+  *t = (pendres_orbit_tables){0};
+}
+
+/* Tables to transform n samples with: those that are there, if they are for as many. */
+static pendres_status provide_forward(pendres_orbit_tables *t, size_t n)
+{
+  if (t->forward != NULL && t->forward->n == n) return PENDRES_OK;
+  if (t->forward != NULL) gsl_fft_real_wavetable_free(t->forward);
+  if (t->work != NULL) gsl_fft_real_workspace_free(t->work);
+  t->work = NULL;
+  t->forward = gsl_fft_real_wavetable_alloc(n);
+  if (t->forward != NULL) t->work = gsl_fft_real_workspace_alloc(n);
+  if (t->work != NULL) return PENDRES_OK;
+  pendres_orbit_tables_free(t);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+/* The same for the way back, to a number of points. */
+static pendres_status provide_backward(pendres_orbit_tables *t, size_t points)
+{
+  if (t->backward != NULL && t->backward->n == points) return PENDRES_OK;
+  if (t->backward != NULL) gsl_fft_halfcomplex_wavetable_free(t->backward);
+  if (t->dense_work != NULL) gsl_fft_real_workspace_free(t->dense_work);
+  t->dense_work = NULL;
+  t->backward = gsl_fft_halfcomplex_wavetable_alloc(points);
+  if (t->backward != NULL) t->dense_work = gsl_fft_real_workspace_alloc(points);
+  if (t->dense_work != NULL) return PENDRES_OK;
+  pendres_orbit_tables_free(t);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+/* Three arrays into their coefficients, in GSL's half-complex order. */
+static pendres_status transform(pendres_orbit_tables *t, size_t n, double *values[3])
+{
+  pendres_status status = provide_forward(t, n);
+  for (int i = 0; i < 3 && status == PENDRES_OK; i++)
+    if (gsl_fft_real_transform(values[i], 1, n, t->forward, t->work) != GSL_SUCCESS)
+      status = PENDRES_INTERNAL;
+  return status;
+}
+
+typedef struct complex_number {
+  double re, im;
+} complex_number;
+
+/* Coefficient k <= n / 2 of a transform, a mean over the samples. */
+static complex_number coefficient(const double *c, size_t n, size_t k)
+{
+  if (k == 0) return (complex_number){c[0] / (double)n, 0.0};
+  if (2 * k == n) return (complex_number){c[2 * k - 1] / (double)n, 0.0};
+  return (complex_number){c[2 * k - 1] / (double)n, c[2 * k] / (double)n};
+}
+
+/*
+ * Samples cannot tell harmonic k from k - n and k + n, but slopes weigh them by i k, i (k - n),
+ * i (k + n) and second derivatives by the squares: three equations for three harmonics. They are
+ * solved by Lagrange's polynomials; no quotient is larger than two.
+ */
+static void unfold(size_t n, size_t k, const double *y, const double *slope,
+                   const double *curvature, pendres_orbit_series *out)
+{
+  const complex_number a = coefficient(y, n, k), b = coefficient(slope, n, k);
+  const complex_number c = coefficient(curvature, n, k);
+  const double N = (double)n, u = (double)k;
+  /* Sums of a_m, of m a_m and of m^2 a_m over the three m. */
+  const double s0[2] = {a.re, a.im}, s1[2] = {b.im, -b.re}, s2[2] = {-c.re, -c.im};
+  double below[2], here[2], above[2];
+  for (int i = 0; i < 2; i++) {
+    here[i] = s0[i] - (s2[i] - 2.0 * u * s1[i] + u * u * s0[i]) / (N * N);
+    above[i] = 0.5 * (s2[i] - (2.0 * u - N) * s1[i] + u * (u - N) * s0[i]) / (N * N);
+    below[i] = 0.5 * (s2[i] - (2.0 * u + N) * s1[i] + u * (u + N) * s0[i]) / (N * N);
+  }
+  out->re[k] = here[0];
+  out->im[k] = k == 0 ? 0.0 : here[1];
+  out->re[n + k] = above[0];
+  out->im[n + k] = above[1];
+  if (k == 0) return; /* -n is the conjugate of n */
+  out->re[n - k] = below[0];
+  out->im[n - k] = -below[1];
+}
+
+/* Of an even number the middle: harmonics n/2 and -n/2, conjugates; 3n/2 is let go. */
+static void unfold_middle(size_t n, const double *y, const double *slope, pendres_orbit_series *out)
+{
+  const size_t k = n / 2;
+  out->re[k] = 0.5 * coefficient(y, n, k).re;
+  out->im[k] = -0.5 * coefficient(slope, n, k).re / (double)k;
+}
+
+pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n, double *y,
+                                          double *slope, double *curvature, double *memory,
+                                          pendres_orbit_series *out)
+{
+  double *values[3] = {y, slope, curvature};
+  const pendres_status status = transform(tables, n, values);
+  if (status != PENDRES_OK) return status;
+  const size_t last = (n - 1) / 2;
+  *out = (pendres_orbit_series){
+    .samples = n, .modes = n + last + 1, .re = memory, .im = memory + n + last + 1};
+  for (size_t k = 0; k <= last; k++) unfold(n, k, y, slope, curvature, out);
+  if (n % 2 == 0) unfold_middle(n, y, slope, out);
+  return PENDRES_OK;
+}
+
+void pendres_orbit_series_at(const pendres_orbit_series *s, double phase, double out[3])
+{
+  const double turn_re = cos(phase), turn_im = sin(phase);
+  double re = 1.0, im = 0.0;
+  out[0] = s->re[0];
+  out[1] = out[2] = 0.0;
+  for (size_t m = 1; m < s->modes; m++) {
+    const double next = re * turn_re - im * turn_im, k = (double)m;
+    im = re * turn_im + im * turn_re;
+    re = next;
+    const double a = 2.0 * s->re[m], b = 2.0 * s->im[m];
+    out[0] += a * re - b * im;
+    out[1] += k * (-a * im - b * re);
+    out[2] += k * k * (-a * re + b * im);
+  }
+}
+
+/* The series at `points` equally spaced phases; points >= 2 modes - 1. */
+static pendres_status spread(pendres_orbit_tables *t, const pendres_orbit_series *s, size_t points,
+                             double *out)
+{
+  const pendres_status status = provide_backward(t, points);
+  if (status != PENDRES_OK) return status;
+  memset(out, 0, points * sizeof *out);
+  out[0] = s->re[0];
+  for (size_t m = 1; m < s->modes; m++) {
+    out[2 * m - 1] = s->re[m];
+    if (2 * m < points) out[2 * m] = s->im[m];
+  }
+  return gsl_fft_halfcomplex_backward(out, 1, points, t->backward, t->dense_work) == GSL_SUCCESS
+           ? PENDRES_OK
+           : PENDRES_INTERNAL;
+}
+
+/* The extreme next to point number k of n, by Newton on the slope. */
+static double extreme_near(const pendres_orbit_series *s, size_t n, size_t k)
+{
+  const double spacing = two_pi / (double)n, start = spacing * (double)k;
+  double phase = start, f[3];
+  pendres_orbit_series_at(s, phase, f);
+  for (int i = 0; i < 8; i++) {
+    if (f[2] == 0.0) break;
+    const double next = phase - f[1] / f[2];
+    /* A flat or inflected top: the point itself is the best there is. */
+    if (!(fabs(next - start) <= 1.5 * spacing)) {
+      pendres_orbit_series_at(s, start, f);
+      break;
+    }
+    const double step = fabs(next - phase);
+    phase = next;
+    pendres_orbit_series_at(s, phase, f);
+    if (step < 1e-9) break; /* the value is flat there: settled to 1e-18 */
+  }
+  return f[0];
+}
+
+/* The largest of sign times the series, from its values at n points. */
+static double largest(const pendres_orbit_series *s, size_t n, const double *y, double sign)
+{
+  size_t top = 0;
+  for (size_t k = 1; k < n; k++)
+    if (sign * y[k] > sign * y[top]) top = k;
+  double best = sign * extreme_near(s, n, top);
+  /* Between points another top may rise above that one: by no more than it falls beside them. */
+  double before = sign * y[n - 1], here = sign * y[0];
+  for (size_t k = 0; k < n; k++) {
+    const double after = sign * (k + 1 < n ? y[k + 1] : y[0]);
+    if (k != top && before <= here && after <= here &&
+        here + fmax(here - before, here - after) > best)
+      best = fmax(best, sign * extreme_near(s, n, k));
+    before = here;
+    here = after;
+  }
+  return best;
+}
+
+pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
+                                             const pendres_orbit_series *s, double *highest,
+                                             double *lowest)
+{
+  const size_t points = 3 * s->samples;
+  double *dense = s->im + s->modes;
+  const pendres_status status = spread(tables, s, points, dense);
+  if (status != PENDRES_OK) return status;
+  *highest = largest(s, points, dense, 1.0);
+  *lowest = -largest(s, points, dense, -1.0);
+  return PENDRES_OK;
+}
+
+double pendres_orbit_series_tail(const pendres_orbit_series *s)
+{
+  double sum = 0.0;
+  for (size_t m = s->modes - 1 - s->modes / 6; m < s->modes; m++)
+    sum += s->re[m] * s->re[m] + s->im[m] * s->im[m];
+  return 2.0 * sqrt(sum);
+}

@@ -1,0 +1,220 @@
+/* settle.c -- settling many pendulums of many parameter sets at once; see settle.h. */
+#include "orbits/settle.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "orbits/settle_certain.h"
+#include "orbits/settle_hunt.h"
+#include "orbits/settle_lanes.h"
+#include "engine/steps.h"
+
+enum { SCOUTS = 12 /* members of a parameter set sent ahead */ };
+
+/* ---- batches ---- */
+
+/* Members of a set are consecutive: every so many of them is sent ahead. */
+static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
+                                  size_t n, const size_t *set, const pendres_strobe_lane *lanes)
+{
+  size_t count = 0;
+  pendres_scout *scouts = malloc((sets * SCOUTS + 1) * sizeof *scouts);
+  if (scouts == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for scouts");
+  for (size_t first = 0, last; first < n; first = last) {
+    last = first;
+    while (last < n && set[last] == set[first]) last++;
+    const size_t members = last - first, wanted = members < SCOUTS ? members : SCOUTS;
+    for (size_t k = 0; k < wanted; k++) {
+      const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
+      scouts[count++] = (pendres_scout){.set = set[first], .y = l->y, .w = l->w};
+    }
+  }
+  const pendres_status status = pendres_catalogue_explore(ctx, sets, catalogues, count, scouts);
+  free(scouts);
+  return status;
+}
+
+/* Attractors into their physical order, and outcomes after them. */
+static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
+                                size_t n, const size_t *set, pendres_outcome *outcome)
+{
+  pendres_status status = PENDRES_OK;
+  size_t most = 0;
+  for (size_t s = 0; s < sets; s++) most = catalogues[s].count > most ? catalogues[s].count : most;
+  int *rank = malloc((most + 1) * sizeof *rank);
+  if (rank == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  for (size_t s = 0, i = 0; s < sets && status == PENDRES_OK; s++) {
+    const pendres_catalogue *c = &catalogues[s];
+    status = pendres_catalogue_order(ctx, &catalogues[s], rank);
+    for (; i < n && set[i] == s && status == PENDRES_OK; i++)
+      if (outcome[i].attractor >= 0) {
+        outcome[i].attractor = rank[outcome[i].attractor];
+        outcome[i].label = c->attractors[outcome[i].attractor].label;
+      }
+  }
+  free(rank);
+  return status;
+}
+
+double pendres_settle_accuracy(const pendres_context *ctx)
+{
+  /* An error of the size of the tolerance moves a basin's boundary by about as much; a loose one
+     would leave most labels in doubt. */
+  return fmin(10.0 * ctx->options.tolerance, 1e-5);
+}
+
+pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
+                                    pendres_catalogue *catalogues, int explore, size_t n,
+                                    const size_t *set, const double *x, const double *v,
+                                    pendres_outcome *outcome)
+{
+  pendres_status status = PENDRES_OK;
+  const double accuracy = pendres_settle_accuracy(ctx);
+  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes), *starts = NULL;
+  double *doubt = malloc((n + 1) * sizeof *doubt);
+  long *budget = malloc((sets + 1) * sizeof *budget);
+  if (explore) starts = malloc((n + 1) * sizeof *starts);
+  if (lanes == NULL || doubt == NULL || budget == NULL || (explore && starts == NULL)) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    outcome[i] = pendres_settle_unresolved;
+    doubt[i] = NAN;
+    status = pendres_settle_load(ctx, &catalogues[set[i]].pendulum, x[i], v[i], accuracy,
+                                 &lanes[i]);
+    if (explore) starts[i] = lanes[i];
+  }
+  for (size_t s = 0; s < sets; s++) {
+    budget[s] = pendres_settle_last_budget(ctx, &catalogues[s]);
+    const long first = pendres_settle_first_budget(&catalogues[s].pendulum);
+    if (explore && first < budget[s]) budget[s] = first;
+  }
+  if (explore && status == PENDRES_OK)
+    status = send_scouts(ctx, sets, catalogues, n, set, lanes);
+  pendres_settle_labelling l = {
+    .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
+  if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
+  if (explore && status == PENDRES_OK)
+    status = pendres_settle_hunt(
+      ctx, &(pendres_settle_quarry){.sets = sets, .catalogues = catalogues, .budget = budget,
+                                    .n = n, .set = set, .starts = starts, .lanes = lanes,
+                                    .outcome = outcome});
+  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
+                                            .accuracy = accuracy};
+  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
+  if (explore && status == PENDRES_OK)
+    status = order_all(ctx, sets, catalogues, n, set, outcome);
+  ctx->cost.settled_pendulums += (double)n;
+done:
+  free(lanes);
+  free(starts);
+  free(doubt);
+  free(budget);
+  return status;
+}
+
+/* ---- many pendulums of one parameter set ---- */
+
+enum { SPEEDS = 4096 /* places of the table of steps, a power of 2 */ };
+
+/* Steps by speed, remembered: grids have few speeds, again and again. */
+typedef struct speed_table {
+  double speed[SPEEDS];
+  int steps[SPEEDS]; /* 0: empty */
+} speed_table;
+
+static pendres_status steps_of(pendres_context *ctx, const pendres_pendulum *p, double speed,
+                               double accuracy, speed_table *t, int *steps)
+{
+  uint64_t bits;
+  memcpy(&bits, &speed, sizeof bits);
+  const size_t place = (size_t)((bits * UINT64_C(0x9e3779b97f4a7c15)) >> 52) % SPEEDS;
+  pendres_status status = PENDRES_OK;
+  if (t->steps[place] == 0 || t->speed[place] != speed) {
+    status = pendres_steps_choose(ctx, p, speed, accuracy, &t->steps[place]);
+    t->speed[place] = speed;
+  }
+  *steps = t->steps[place];
+  return status;
+}
+
+/* Pendulums in the order of their steps, each class in its own order; steps[n] is read. */
+static void order_by_steps(size_t n, const int *steps, size_t *order)
+{
+  size_t count = 0;
+  for (int least = 0; count < n;) {
+    int next = INT_MAX;
+    for (size_t i = 0; i < n; i++)
+      if (steps[i] > least && steps[i] < next) next = steps[i];
+    for (size_t i = 0; i < n; i++)
+      if (steps[i] == next) order[count++] = i;
+    least = next;
+  }
+}
+
+pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
+                                    size_t n, const double *x, const double *v, double accuracy,
+                                    pendres_settle_budget budget, pendres_outcome *outcome)
+{
+  const pendres_pendulum *p = &catalogue->pendulum;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  speed_table *table = calloc(1, sizeof *table);
+  int *steps = malloc((n + 1) * sizeof *steps);
+  size_t *order = malloc((n + 1) * sizeof *order);
+  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
+  pendres_outcome *found = malloc((n + 1) * sizeof *found);
+  double *doubt = malloc((n + 1) * sizeof *doubt), *found_doubt = malloc((n + 1) * sizeof *doubt);
+  if (table == NULL || steps == NULL || order == NULL || lanes == NULL || found == NULL ||
+      doubt == NULL || found_doubt == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
+    goto done;
+  }
+  status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = steps_of(ctx, p, fabs(v[i]), accuracy, table, &steps[i]);
+  if (status != PENDRES_OK) goto done;
+  order_by_steps(n, steps, order);
+  for (size_t k = 0; k < n; k++) {
+    const size_t i = order[k];
+    found[k] = pendres_settle_unresolved;
+    lanes[k] = (pendres_strobe_lane){
+      .pendulum = p, .w = v[i] / p->drive_frequency, .steps = steps[i],
+      .added = k > 0 && lanes[k - 1].steps == steps[i]
+                 ? lanes[k - 1].added
+                 : pendres_settle_added(ctx, accuracy, steps[i])};
+    pendres_strobe_angle(x[i], &lanes[k].y, &lanes[k].turns);
+    found_doubt[k] = NAN;
+  }
+  long most = pendres_settle_last_budget(ctx, catalogue);
+  const long soon = pendres_settle_first_budget(p);
+  if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
+  pendres_settle_labelling l = {.catalogues = catalogue, .budget = &most, .outcome = found,
+                                .doubt = found_doubt};
+  status = pendres_settle_lanes(ctx, n, lanes, &l);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    outcome[order[k]] = found[k];
+    doubt[order[k]] = found_doubt[k];
+  }
+  l.outcome = outcome;
+  l.doubt = doubt;
+  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
+                                            .accuracy = accuracy};
+  if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
+  ctx->cost.settled_pendulums += (double)n;
+done:
+  free(table);
+  free(steps);
+  free(order);
+  free(lanes);
+  free(found);
+  free(doubt);
+  free(found_doubt);
+  return status;
+}

@@ -1,0 +1,221 @@
+/* settle_certain.c -- labels that the error leaves no choice; see settle_certain.h. */
+#include "orbits/settle_certain.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+/* The most exact run: there rounding, some hundred steps a period, is as large. */
+static const double most_exact = 1e-14;
+/* A run again has so much less error than is needed, and at least so much less than before. */
+static const double to_spare = 4.0, at_least = 30.0;
+
+/* The pendulums in doubt, those still to be run again first. */
+typedef struct doubtful {
+  size_t count;
+  size_t *index; /* in the batch */
+  size_t *set;
+  pendres_strobe_lane *lanes;
+  pendres_outcome *outcome;
+  double *doubt, *accuracy; /* of the latest run */
+} doubtful;
+
+static void free_doubtful(doubtful *d)
+{
+  free(d->index);
+  free(d->set);
+  free(d->lanes);
+  free(d->outcome);
+  free(d->doubt);
+  free(d->accuracy);
+}
+
+static pendres_status allocate_doubtful(pendres_context *ctx, doubtful *d, size_t n)
+{
+  d->index = malloc(n * sizeof *d->index);
+  d->set = malloc(n * sizeof *d->set);
+  d->lanes = malloc(n * sizeof *d->lanes);
+  d->outcome = malloc(n * sizeof *d->outcome);
+  d->doubt = malloc(n * sizeof *d->doubt);
+  d->accuracy = malloc(n * sizeof *d->accuracy);
+  if (d->index == NULL || d->set == NULL || d->lanes == NULL ||
+      d->outcome == NULL || d->doubt == NULL || d->accuracy == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  return PENDRES_OK;
+}
+
+static int in_doubt(const pendres_outcome *o)
+{
+  return o->attractor >= 0 && !o->certain;
+}
+
+static const pendres_catalogue *catalogue_of(const pendres_settle_labelled *l, size_t i)
+{
+  return &l->job->catalogues[l->job->set != NULL ? l->job->set[i] : 0];
+}
+
+/* Where there is one attractor alone, the well is all that an error can change. */
+static void excuse(const pendres_settle_labelled *l)
+{
+  for (size_t i = 0; i < l->n; i++) {
+    const pendres_catalogue *c = catalogue_of(l, i);
+    if (c->count == 1 && c->any_well && l->job->outcome[i].attractor == 0)
+      l->job->outcome[i].certain = 1;
+  }
+}
+
+static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+{
+  size_t n = 0;
+  excuse(l);
+  for (size_t i = 0; i < l->n; i++) n += in_doubt(&l->job->outcome[i]);
+  if (n == 0) return PENDRES_OK;
+  const pendres_status status = allocate_doubtful(ctx, d, n);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < l->n; i++) {
+    if (!in_doubt(&l->job->outcome[i])) continue;
+    d->index[d->count] = i;
+    d->set[d->count] = l->job->set != NULL ? l->job->set[i] : 0;
+    d->doubt[d->count] = l->job->doubt[i];
+    d->accuracy[d->count++] = l->accuracy;
+  }
+  return status;
+}
+
+/* Error a period that leaves no doubt, by whole tens so that blocks stay full. */
+static double tighter(double accuracy, double doubt)
+{
+  const double wanted = accuracy / fmax(at_least, to_spare * doubt);
+  if (!(wanted > most_exact)) return most_exact;
+  return fmax(most_exact, pow(10.0, floor(log10(wanted))));
+}
+
+/* Few pendulums are run again: in few classes of steps they share blocks. */
+static int coarse_rung(int steps)
+{
+  int rung = 16;
+  while (rung < steps) rung *= 2;
+  return rung / 4 * 3 >= steps ? rung / 4 * 3 : rung;
+}
+
+/* Load what is to be run, with errors a period of d->accuracy; what needs too many steps drops. */
+static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+{
+  size_t n = 0;
+  for (size_t k = 0; k < d->count; k++) {
+    const size_t i = d->index[k];
+    const pendres_status status =
+      pendres_settle_load(ctx, &l->job->catalogues[d->set[k]].pendulum, l->x[i], l->v[i],
+                          d->accuracy[k], &d->lanes[n]);
+    if (status == PENDRES_TOLERANCE_UNREACHABLE) continue; /* it stays in doubt: no failure */
+    if (status != PENDRES_OK) return status;
+    d->lanes[n].steps = coarse_rung(d->lanes[n].steps);
+    d->index[n] = i;
+    d->set[n] = d->set[k];
+    d->accuracy[n] = d->accuracy[k];
+    d->doubt[n] = NAN;
+    d->outcome[n++] = pendres_settle_unresolved;
+  }
+  d->count = n;
+  return PENDRES_OK;
+}
+
+/* Periods that each set's pendulums get, more than most need at first. */
+static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled *l,
+                            const doubtful *d, long **budget)
+{
+  size_t sets = 0;
+  for (size_t k = 0; k < d->count; k++) sets = d->set[k] >= sets ? d->set[k] + 1 : sets;
+  *budget = malloc((sets + 1) * sizeof **budget);
+  if (*budget == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu sets", sets);
+  for (size_t s = 0; s < sets; s++) {
+    const pendres_catalogue *c = &l->job->catalogues[s];
+    const long most = pendres_settle_last_budget(ctx, c);
+    const long some = 8 * pendres_settle_first_budget(&c->pendulum);
+    (*budget)[s] = some < most ? some : most;
+  }
+  return PENDRES_OK;
+}
+
+/* One run again of all that are left. */
+static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+{
+  long *budget = NULL;
+  pendres_status status = load(ctx, l, d);
+  if (status == PENDRES_OK) status = allow(ctx, l, d, &budget);
+  pendres_settle_labelling job = {.catalogues = l->job->catalogues, .set = d->set,
+                                  .budget = budget, .outcome = d->outcome, .doubt = d->doubt};
+  if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, d->count, d->lanes, &job);
+  free(budget);
+  return status;
+}
+
+/*
+ * What the run says counts, unless it has ended nowhere; what is still in doubt, and not at the
+ * end, is left in the list.
+ */
+static void take_over(const pendres_settle_labelled *l, doubtful *d)
+{
+  size_t left = 0;
+  for (size_t k = 0; k < d->count; k++) {
+    const size_t i = d->index[k];
+    if (d->outcome[k].attractor < 0) continue;
+    l->job->outcome[i] = d->outcome[k];
+    l->job->doubt[i] = d->doubt[k];
+    if (d->outcome[k].certain || d->accuracy[k] <= most_exact) continue;
+    d->index[left] = i;
+    d->set[left] = d->set[k];
+    d->doubt[left] = d->doubt[k];
+    d->accuracy[left++] = d->accuracy[k];
+  }
+  d->count = left;
+}
+
+/* The same, of labels that stay: only whether they agree with certain ones. */
+static pendres_status compare(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
+{
+  pendres_outcome *mine = malloc((l->n + 1) * sizeof *mine);
+  if (mine == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums",
+                                l->n);
+  for (size_t i = 0; i < l->n; i++) mine[i] = l->job->outcome[i];
+  pendres_settle_labelling job = *l->job;
+  job.outcome = mine;
+  pendres_settle_labelled other = *l;
+  other.job = &job;
+  pendres_status status = PENDRES_OK;
+  while (d->count > 0 && status == PENDRES_OK) {
+    status = run(ctx, &other, d);
+    if (status == PENDRES_OK) take_over(&other, d);
+    for (size_t k = 0; k < d->count; k++) d->accuracy[k] = tighter(d->accuracy[k], d->doubt[k]);
+  }
+  for (size_t i = 0; i < l->n && status == PENDRES_OK; i++) {
+    pendres_outcome *o = &l->job->outcome[i];
+    o->certain = o->attractor >= 0 && mine[i].certain && mine[i].attractor == o->attractor &&
+                 mine[i].well == o->well;
+  }
+  free(mine);
+  return status;
+}
+
+pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l)
+{
+  doubtful d = {0};
+  pendres_status status = gather(ctx, l, &d);
+  if (!pendres_settle_carries(ctx) && status == PENDRES_OK && d.count > 0) {
+    const pendres_options asked = ctx->options;
+    ctx->options.method = PENDRES_BLOCK_FIXED;
+    ctx->options.steps_per_period = 0;
+    status = compare(ctx, l, &d);
+    ctx->options = asked;
+  }
+  while (pendres_settle_carries(ctx) && d.count > 0 && status == PENDRES_OK) {
+    for (size_t k = 0; k < d.count; k++) d.accuracy[k] = tighter(d.accuracy[k], d.doubt[k]);
+    status = run(ctx, l, &d);
+    if (status == PENDRES_OK) take_over(l, &d);
+  }
+  free_doubtful(&d);
+  return status;
+}

@@ -1,0 +1,196 @@
+/* settle_hunt.c -- what attracts pendulums that are in no known trap; see settle_hunt.h. */
+#include "orbits/settle_hunt.h"
+
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "orbits/recurrence.h"
+
+enum {
+  MOST_GUESSES = 8,  /* orbits looked for at a time in one parameter set */
+  FIRST_HISTORY = 65 /* strobe points that the first round takes for looking at */
+};
+
+/* The orbit that a history, a ring buffer, comes back to; 0 if it does not. */
+static int recurrence(const pendres_settle_history *h, pendres_scout *s)
+{
+  double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
+  pendres_recurrence r;
+  const long points = h->filled < PENDRES_SETTLE_HISTORY ? h->filled : PENDRES_SETTLE_HISTORY;
+  for (long k = 0; k < points; k++) {
+    const long at = (h->filled - points + k) % PENDRES_SETTLE_HISTORY;
+    y[k] = h->y[at];
+    w[k] = h->w[at];
+  }
+  if (!pendres_recurrence_find((int)points, y, w, &r)) return 0;
+  s->y = r.y;
+  s->w = r.w;
+  s->period = r.period;
+  s->winding = r.winding;
+  return 1;
+}
+
+/* Everything about the pendulums that a batch has lost so far. */
+typedef struct lost_lanes {
+  size_t count;
+  size_t *index; /* in the batch */
+  size_t *set;
+  pendres_strobe_lane *lanes;
+  pendres_outcome *outcome;
+  pendres_settle_history *histories;
+  pendres_scout *guesses;
+  const pendres_strobe_lane **suspects;
+  size_t *known; /* attractors of each set when the hunt began */
+} lost_lanes;
+
+static void free_lost(lost_lanes *l)
+{
+  free(l->index);
+  free(l->set);
+  free(l->lanes);
+  free(l->outcome);
+  free(l->histories);
+  free(l->guesses);
+  free(l->suspects);
+  free(l->known);
+}
+
+static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
+{
+  const size_t n = l->count;
+  l->index = malloc(n * sizeof *l->index);
+  l->set = malloc(n * sizeof *l->set);
+  l->lanes = malloc(n * sizeof *l->lanes);
+  l->outcome = malloc(n * sizeof *l->outcome);
+  l->histories = calloc(n, sizeof *l->histories);
+  l->guesses = malloc(n * sizeof *l->guesses);
+  l->suspects = malloc(n * sizeof *l->suspects);
+  l->known = malloc(sets * sizeof *l->known);
+  if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
+      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+  return PENDRES_OK;
+}
+
+/* Orbits that the lost lanes are near, a few in each set. */
+static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
+                                      pendres_catalogue *catalogues)
+{
+  size_t n = 0, in_set = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
+    if (l->outcome[i].attractor >= 0 || l->histories[i].filled == 0) continue;
+    l->guesses[n].set = l->set[i];
+    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], &l->guesses[n])) {
+      n++;
+      in_set++;
+    }
+  }
+  return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
+}
+
+/* Whether a lane is where none of the attractors known is. */
+static int nowhere(const pendres_catalogue *c, const pendres_strobe_lane *lane)
+{
+  long well;
+  for (size_t k = 0; k < c->covers; k++)
+    if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
+  return pendres_catalogue_locate(c, lane, &well) < 0;
+}
+
+/*
+ * Chaos among the lost lanes, set by set, one attractor after the other. Lanes on their way to
+ * what has been found before, or that left a chaos which ends, get there by going on.
+ */
+static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t first = 0, last; first < l->count && status == PENDRES_OK; first = last) {
+    pendres_catalogue *c = &catalogues[l->set[first]];
+    pendres_chaos_verdict verdict = PENDRES_CHAOS_NEW;
+    for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
+    while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
+      size_t n = 0;
+      for (size_t i = first; i < last; i++)
+        if (l->outcome[i].attractor < 0 && nowhere(c, &l->lanes[i]))
+          l->suspects[n++] = &l->lanes[i];
+      status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
+    }
+  }
+  return status;
+}
+
+/* Lanes that went to an attractor found late: again from the start, for their settling times. */
+static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_quarry *q,
+                             pendres_settle_labelling *job)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    const int attractor = l->outcome[i].attractor;
+    if (attractor < 0 || (size_t)attractor < l->known[l->set[i]]) continue;
+    l->index[n] = l->index[i];
+    l->set[n] = q->set[l->index[i]];
+    l->outcome[n] = pendres_settle_unresolved;
+    l->lanes[n++] = q->starts[l->index[i]];
+  }
+  job->outcome = l->outcome;
+  job->set = l->set;
+  job->histories = NULL;
+  const pendres_status status = pendres_settle_lanes(ctx, n, l->lanes, job);
+  l->count = status == PENDRES_OK ? n : 0;
+  return status;
+}
+
+/* Budgets of the next round; 0 when all had been spent before. */
+static int raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round)
+{
+  int longer = 0;
+  for (size_t s = 0; s < q->sets; s++) {
+    const pendres_catalogue *c = &q->catalogues[s];
+    long *budget = &q->budget[s];
+    const long most = pendres_settle_last_budget(ctx, c);
+    const long more = (pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY) << round;
+    if (*budget >= most) continue;
+    longer = 1;
+    *budget = *budget < most - more ? *budget + more : most;
+  }
+  return longer;
+}
+
+pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_quarry *q)
+{
+  lost_lanes l = {0};
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < q->n; i++) l.count += q->outcome[i].attractor < 0;
+  if (l.count == 0) return status;
+  status = allocate_lost(ctx, &l, q->sets);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0, k = 0; i < q->n; i++) {
+    if (q->outcome[i].attractor >= 0) continue;
+    l.index[k] = i;
+    l.set[k] = q->set[i];
+    l.outcome[k] = pendres_settle_unresolved;
+    l.lanes[k++] = q->lanes[i];
+  }
+  for (size_t s = 0; s < q->sets; s++) l.known[s] = q->catalogues[s].count;
+
+  pendres_settle_labelling job = {.catalogues = q->catalogues, .set = l.set, .budget = q->budget,
+                                  .outcome = l.outcome, .histories = l.histories};
+  for (int round = 0; status == PENDRES_OK; round++) {
+    size_t left = 0;
+    const int longer = raise_budgets(ctx, q, round);
+    status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
+    for (size_t i = 0; i < l.count; i++) left += l.outcome[i].attractor < 0;
+    if (status != PENDRES_OK || left == 0 || !longer) break;
+    status = add_recurrences(ctx, &l, q->catalogues);
+    if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->catalogues);
+  }
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
+  if (status == PENDRES_OK) status = repeat(ctx, &l, q, &job);
+  if (status == PENDRES_OK)
+    for (size_t i = 0; i < l.count; i++) q->outcome[l.index[i]] = l.outcome[i];
+done:
+  free_lost(&l);
+  return status;
+}

@@ -1,0 +1,208 @@
+/* settle_lanes.c -- running pendulums until they are inside a trap; see settle_lanes.h. */
+#include "orbits/settle_lanes.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+#include "orbits/strobe_noise.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Strobes in a row in a chaotic attractor's cells that make chaos. */
+enum { CHAOTIC_STREAK = 32 };
+
+/* e-folding time of a small oscillation, in periods. */
+static double settling_time(const pendres_pendulum *p)
+{
+  return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
+}
+
+long pendres_settle_first_budget(const pendres_pendulum *p)
+{
+  return (long)ceil(fmin(20.0 + 10.0 * settling_time(p), 1e7));
+}
+
+/*
+ * Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. So
+ * does chaos that ends: of those in it one in e^10 is left then.
+ */
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c)
+{
+  if (ctx->options.period_budget > 0) return ctx->options.period_budget;
+  double slowest = 0.0;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_orbit *o = &c->attractors[i].orbit;
+    const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
+    if (rate > 0.0) slowest = fmax(slowest, o->period / rate);
+  }
+  const double most = 2000.0 + 100.0 * settling_time(&c->pendulum) + 20.0 * fmin(slowest, 1e4) +
+                      10.0 * fmin(c->transient, 1e4);
+  return (long)ceil(fmin(most, 1e8));
+}
+
+int pendres_settle_carries(const pendres_context *ctx)
+{
+  return ctx->options.method == PENDRES_BLOCK_FIXED && ctx->options.steps_per_period == 0;
+}
+
+double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps)
+{
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
+  if (!pendres_settle_carries(ctx)) return 0.0;
+  return accuracy * accuracy / steps + rounding * rounding;
+}
+
+pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                   double v, double accuracy, pendres_strobe_lane *lane)
+{
+  *lane = (pendres_strobe_lane){.pendulum = p, .w = v / p->drive_frequency};
+  pendres_strobe_angle(x, &lane->y, &lane->turns);
+  const pendres_status status = pendres_steps_choose(ctx, p, fabs(v), accuracy, &lane->steps);
+  if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
+  return status;
+}
+
+static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
+{
+  const long k = h->filled++ % PENDRES_SETTLE_HISTORY;
+  h->y[k] = lane->y + two_pi * (double)lane->turns;
+  h->w[k] = lane->w;
+}
+
+/* Strobes in a row in the cells of one attractor, and whose cells: one number. */
+enum { STREAK_SCALE = 1 << 16 };
+
+/* The streak after one more strobe. */
+static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *lane, int streak)
+{
+  const size_t last = (size_t)(streak / STREAK_SCALE);
+  if (streak % STREAK_SCALE > 0 && pendres_cover_holds(c->cover[last], lane->y, lane->w))
+    return streak % STREAK_SCALE < STREAK_SCALE - 1 ? streak + 1 : streak;
+  for (size_t k = 0; k < c->covers; k++)
+    if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return (int)k * STREAK_SCALE + 1;
+  return 0;
+}
+
+/*
+ * How much larger an error is than what a label can bear. An error carried as a standard deviation
+ * counts three times. Inside a trap a twentieth of the radius is free (trap.h). On the way
+ * there the error has to stay small against the structure of the basins as far as it has unfolded:
+ * near a boundary, error and distance to it grow alike, until the distance is that of different
+ * fates, of order one; a thirtieth of that is borne.
+ */
+static const double deviations = 3.0, borne = 0.03;
+
+static double doubt_on_way(double worst)
+{
+  return deviations * sqrt(worst) / borne;
+}
+
+static double doubt_in_trap(const pendres_trap *t, const pendres_strobe_lane *lane)
+{
+  const pendres_flow_error *e = &lane->off;
+  const double variance =
+    t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
+  const double here = deviations * sqrt(variance) / (pendres_trap_margin * t->radius);
+  const double before = doubt_on_way(lane->worst);
+  if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
+  return isnan(before) || before > here ? before : here;
+}
+
+static void judge(const pendres_settle_labelling *l, size_t i, double doubt)
+{
+  l->outcome[i].certain = doubt <= 1.0; /* what is no number is not */
+  if (l->doubt != NULL) l->doubt[i] = doubt;
+}
+
+/*
+ * A lane in the cells of a chaotic attractor for long enough is chaotic, but not before
+ * transients are over.
+ */
+static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  const int streak = l->streak[i] = longer_streak(c, lane, l->streak[i]);
+  if (streak % STREAK_SCALE <= 1) l->entry[i] = lane->worst;
+  if (streak % STREAK_SCALE < CHAOTIC_STREAK) return 0;
+  if (lane->period < pendres_settle_first_budget(&c->pendulum)) return 0;
+  l->outcome[i] =
+    (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
+                      .attractor = c->cover[streak / STREAK_SCALE]->attractor,
+                      .settling_periods = lane->period - streak % STREAK_SCALE + 1};
+  judge(l, i, lane->added > 0.0 ? doubt_on_way(l->entry[i]) : NAN);
+  return 1;
+}
+
+static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+                   const pendres_strobe_lane *lane)
+{
+  pendres_outcome *o = &l->outcome[i];
+  const int attractor = pendres_catalogue_locate(c, lane, &o->well);
+  if (attractor < 0) return 0;
+  o->attractor = attractor;
+  o->label = c->attractors[attractor].label;
+  o->settling_periods = lane->period;
+  judge(l, i, doubt_in_trap(pendres_catalogue_trap(c, lane), lane));
+  return 1;
+}
+
+static size_t set_of(const pendres_settle_labelling *l, size_t i)
+{
+  return l->set != NULL ? l->set[i] : 0;
+}
+
+static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const pendres_settle_labelling *l = arg;
+  const size_t i = l->origin[index], set = set_of(l, i);
+  const pendres_catalogue *c = &l->catalogues[set];
+  if (trapped(l, i, c, lane)) return 1;
+  if (l->histories != NULL) record(&l->histories[i], lane);
+  if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
+  return lane->period >= l->budget[set];
+}
+
+pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                pendres_settle_labelling *l)
+{
+  size_t left = 0;
+  int covers = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_strobe_lane *rest = malloc((n + 1) * sizeof *rest);
+  size_t *origin = malloc((n + 1) * sizeof *origin);
+  if (rest == NULL || origin == NULL) goto no_memory;
+  for (size_t i = 0; i < n; i++) {
+    const size_t set = set_of(l, i);
+    const pendres_catalogue *c = &l->catalogues[set];
+    if (l->outcome[i].attractor >= 0) continue;
+    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
+    covers |= c->covers > 0;
+    origin[left] = i;
+    rest[left++] = lanes[i];
+  }
+  if (covers) {
+    l->streak = calloc(n, sizeof *l->streak);
+    l->entry = calloc(n, sizeof *l->entry);
+    if (l->streak == NULL || l->entry == NULL) goto no_memory;
+  }
+  l->origin = origin;
+  status = pendres_strobe_run(ctx, left, rest, settle_look, l);
+  for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+    pendres_outcome *o = &l->outcome[origin[i]];
+    lanes[origin[i]] = rest[i];
+    if (o->attractor < 0) *o = pendres_settle_unresolved;
+  }
+  goto done;
+no_memory:
+  (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
+done:
+  free(l->streak);
+  free(l->entry);
+  l->streak = NULL;
+  l->entry = NULL;
+  free(rest);
+  free(origin);
+  return status;
+}

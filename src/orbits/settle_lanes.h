@@ -1,0 +1,62 @@
+/*
+ * settle_lanes.h -- running pendulums until they are inside a trap.
+ *
+ * Owns: what a lane is told after each period, the budgets of periods, and the record of lanes that
+ * do not settle.
+ */
+#ifndef PENDRES_SETTLE_LANES_H
+#define PENDRES_SETTLE_LANES_H
+
+#include "orbits/catalogue.h"
+#include "orbits/recurrence.h"
+
+/* Strobe points kept of a pendulum that does not settle. */
+enum { PENDRES_SETTLE_HISTORY = PENDRES_RECURRENCE_POINTS };
+
+/* The latest strobe points of a lane, a ring buffer. */
+typedef struct pendres_settle_history {
+  long filled; /* points ever recorded */
+  double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY]; /* unwrapped angle */
+} pendres_settle_history;
+
+/* Arrays are by the caller's numbers of lanes. */
+typedef struct pendres_settle_labelling {
+  const pendres_catalogue *catalogues;
+  const size_t *set;        /* of each lane; NULL: all belong to the first catalogue */
+  const long *budget;       /* of each set, periods in all */
+  pendres_outcome *outcome;
+  pendres_settle_history *histories; /* NULL: not kept */
+  double *doubt;            /* of each lane that settles: how much larger the error that it carries
+                               is than what its label can bear; up to 1 it is certain. NULL: not
+                               kept */
+  /* Of the run itself: */
+  const size_t *origin;     /* caller's numbers of the lanes under way */
+  int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
+  double *entry;            /* largest variance of its error before that */
+} pendres_settle_labelling;
+
+static const pendres_outcome pendres_settle_unresolved = {
+  .label = PENDRES_LABEL_UNRESOLVED, .attractor = -1, .settling_periods = -1};
+
+/* Periods after which a pendulum that is in no trap is looked at closely. */
+long pendres_settle_first_budget(const pendres_pendulum *p);
+
+/* Periods after which it is given up. */
+long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c);
+
+/* A pendulum at its start, its steps for this error a period, which is carried if it can be. */
+pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                   double v, double accuracy, pendres_strobe_lane *lane);
+
+/* Whether errors are carried: not with adaptive steps, nor with a number of steps that was asked
+   for, as nothing is known of what one of them adds. */
+int pendres_settle_carries(const pendres_context *ctx);
+
+/* The variance that a step adds. */
+double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
+
+/* Run the lanes that are unresolved; those inside a trap are done before they begin. */
+pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                    pendres_settle_labelling *l);
+
+#endif

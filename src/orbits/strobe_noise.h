@@ -1,0 +1,30 @@
+/*
+ * strobe_noise.h -- rounding along trajectories.
+ *
+ * Owns: the covariance C of the rounding errors of a state, carried along by the variational
+ * equation, C(t) = M C M' + (what is added on the way). A trajectory near a separatrix
+ * amplifies rounding by orders of magnitude, and two runs may then agree by chance.
+ */
+#ifndef PENDRES_STROBE_NOISE_H
+#define PENDRES_STROBE_NOISE_H
+
+#include "engine/strobe_run.h"
+
+/* What one step of a table rounds away, at random: the standard error of the angle. */
+double pendres_strobe_noise_of_step(pendres_table table);
+
+/*
+ * C_yy, C_yw, C_ww after `step` steps from a state where they were noise[]; rounding is that of a
+ * step. state points at a lane of a block with variational rows that began as the identity.
+ */
+void pendres_strobe_noise_carry(const double noise[3], double rounding, int step, size_t stride,
+                                const double *state, double out[3]);
+
+/*
+ * Run n lanes on by `periods` drive periods with the fixed steps of each. noise[n] receives the
+ * standard error by rounding, of the larger of y and v; infinite where it exceeds all bounds.
+ */
+pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
+                                        pendres_strobe_lane *lanes, long periods, double *noise);
+
+#endif

@@ -1,0 +1,379 @@
+/* trap.c -- trapping ellipses around attracting periodic orbits; see trap.h. */
+#include "orbits/trap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/steps.h"
+#include "orbits/trap_ring.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+enum {
+  BASE_POINTS = 12, /* of a ring that only tells whether the linear map rules */
+  BASE_LOOKS = 8,   /* iterates that it may take to contract */
+  BASE_PASSES = 8,
+  FEW_POINTS = 16,  /* of a ring that comes home, by effort */
+  MANY_POINTS = 48,
+  RINGS = 3,        /* at most tried at once */
+  FEW_LOOKS = 12,   /* strobes of the q-th iterate before a ring is given up, by effort */
+  MANY_LOOKS = PENDRES_TRAP_LOOKS,
+  FEW_MORE = 16,    /* points that a ring may get where it bends, by effort */
+  MANY_MORE = 96
+};
+
+/* The ring that is tried first; how much of the contraction non-linearity may take up. */
+static const double base_first = 0.25, base_departure = 0.7;
+/* Iterates are taken together until the linear map contracts to this. */
+static const double base_contraction = 0.6;
+/* Longest semi-axis of the outermost ring: well inside one turn, so that angles stay unique. */
+static const double widest = 1.6;
+static const double climb_ratio = 2.5;
+/* The radius is found to this factor, by effort. */
+static const double few_ratio = 1.3, many_ratio = 1.04;
+/* A multiplier from here on makes its direction slow. */
+static const double slow_multiplier = 0.8;
+/* A point has come home this far inside an ellipse that is shown already. */
+static const double home_share = 0.9;
+
+/*
+ * Close to a fold one direction is slow, and the metric below would make the ellipse short just
+ * along it. There the distance is measured along the eigenvectors instead, all lengths alike.
+ * Returns 0 where that does not apply: multipliers not real or not slow, or directions too close.
+ */
+static int slow_metric(const double m[2][2], double p[3])
+{
+  const double half = 0.5 * (m[0][0] + m[1][1]);
+  const double root2 = half * half - (m[0][0] * m[1][1] - m[0][1] * m[1][0]);
+  if (!(root2 > 0.0) || fabs(half) + sqrt(root2) < slow_multiplier) return 0;
+  double a[2], b[2]; /* unit eigenvectors (a[k], b[k]) */
+  for (int k = 0; k < 2; k++) {
+    const double mu = half + (k == 0 ? sqrt(root2) : -sqrt(root2));
+    const double row[2][2] = {{m[0][1], mu - m[0][0]}, {mu - m[1][1], m[1][0]}};
+    const int r = hypot(row[1][0], row[1][1]) > hypot(row[0][0], row[0][1]);
+    const double length = hypot(row[r][0], row[r][1]);
+    a[k] = row[r][0] / length;
+    b[k] = row[r][1] / length;
+  }
+  const double d = a[0] * b[1] - a[1] * b[0];
+  if (!(fabs(d) > 0.1)) return 0;
+  p[0] = (b[1] * b[1] + b[0] * b[0]) / (d * d);
+  p[1] = -(a[1] * b[1] + a[0] * b[0]) / (d * d);
+  p[2] = (a[1] * a[1] + a[0] * a[0]) / (d * d);
+  return 1;
+}
+
+/*
+ * Metric of a contracting 2x2 matrix: P = sum (M')^k M^k, summed by squaring:
+ * P_{2m} = P_m + (M^m)' P_m M^m. Returns 0 if M does not contract.
+ */
+static int metric_of(const double monodromy[2][2], double omega, double p[3])
+{
+  /* From (x, v) to (y, w = v/omega). */
+  double m[2][2] = {{monodromy[0][0], monodromy[0][1] * omega},
+                    {monodromy[1][0] / omega, monodromy[1][1]}};
+  const double once[2][2] = {{m[0][0], m[0][1]}, {m[1][0], m[1][1]}};
+  p[0] = p[2] = 1.0;
+  p[1] = 0.0;
+  for (int k = 0; k < 60; k++) {
+    const double a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
+    const double more[3] = {
+      a * (p[0] * a + p[1] * c) + c * (p[1] * a + p[2] * c),
+      a * (p[0] * b + p[1] * d) + c * (p[1] * b + p[2] * d),
+      b * (p[0] * b + p[1] * d) + d * (p[1] * b + p[2] * d)};
+    for (int i = 0; i < 3; i++) p[i] += more[i];
+    m[0][0] = a * a + b * c;
+    m[0][1] = b * (a + d);
+    m[1][0] = c * (a + d);
+    m[1][1] = b * c + d * d;
+    if (!(p[0] < 1e12 && p[2] < 1e12)) return 0;
+    if (fabs(more[0]) + fabs(more[2]) < 1e-14 * (p[0] + p[2])) break;
+  }
+  (void)slow_metric(once, p);
+  const double mean = 0.5 * (p[0] + p[2]), spread = hypot(0.5 * (p[0] - p[2]), p[1]);
+  const double least = mean - spread;
+  if (!(least > 0.0)) return 0;
+  for (int i = 0; i < 3; i++) p[i] /= least;
+  return 1;
+}
+
+/* ---- the linear map ---- */
+
+/*
+ * The largest length in the metric that the linear map, `looks` times, leaves of a unit length: the
+ * root of the larger eigenvalue of P^-1 Q with Q = (M^looks)' P M^looks.
+ */
+static double linear_share(const pendres_trap *t, const pendres_orbit *o, int looks)
+{
+  const double omega = o->pendulum.drive_frequency, *p = t->metric;
+  const double m[2][2] = {{o->monodromy[0][0], o->monodromy[0][1] * omega},
+                          {o->monodromy[1][0] / omega, o->monodromy[1][1]}};
+  double a = 1.0, b = 0.0, c = 0.0, d = 1.0;
+  for (int k = 0; k < looks; k++) {
+    const double top[2] = {a, b};
+    a = m[0][0] * top[0] + m[0][1] * c;
+    b = m[0][0] * top[1] + m[0][1] * d;
+    c = m[1][0] * top[0] + m[1][1] * c;
+    d = m[1][0] * top[1] + m[1][1] * d;
+  }
+  const double q[3] = {p[0] * a * a + 2.0 * p[1] * a * c + p[2] * c * c,
+                       p[0] * a * b + p[1] * (a * d + b * c) + p[2] * c * d,
+                       p[0] * b * b + 2.0 * p[1] * b * d + p[2] * d * d};
+  const double half =
+    0.5 * (p[2] * q[0] - 2.0 * p[1] * q[1] + p[0] * q[2]) / (p[0] * p[2] - p[1] * p[1]);
+  const double det = a * d - b * c;
+  return sqrt(half + sqrt(fmax(0.0, half * half - det * det)));
+}
+
+/* What the linear map makes of a difference from the centre, `looks` times. */
+static void linear_image(const pendres_orbit *o, int looks, double d[2])
+{
+  const double omega = o->pendulum.drive_frequency;
+  for (int k = 0; k < looks; k++) {
+    const double y = o->monodromy[0][0] * d[0] + o->monodromy[0][1] * omega * d[1];
+    d[1] = o->monodromy[1][0] / omega * d[0] + o->monodromy[1][1] * d[1];
+    d[0] = y;
+  }
+}
+
+/* By how much the image of point i, counted round the ring, differs from the linear map's. */
+static void point_departure(const pendres_trap_ring *r, const pendres_trap_point *points, int i,
+                            const pendres_orbit *o, double d[2])
+{
+  const pendres_trap *t = r->trap;
+  const pendres_trap_point *p = &points[(i + r->points) % r->points];
+  double at[2] = {p->y[0] - t->y, p->w[0] - t->w};
+  linear_image(o, r->looks, at);
+  const double y = p->y[r->looks] - t->y - at[0];
+  d[0] = y - two_pi * rint(y / two_pi);
+  d[1] = p->w[r->looks] - t->w - at[1];
+}
+
+/*
+ * How much of what the linear contraction leaves between the ring and its image the departure
+ * from the linear map takes up. Below one the image lies inside the ring; as the departure falls
+ * with the square of the radius, all smaller ellipses then shrink, too. The departure between two
+ * points is bounded as that of arcs is (trap_ring.h), and may take up all, at the points
+ * base_departure. Its tangents are those of its neighbours: it changes with the double and
+ * threefold angle, which 12 points follow.
+ */
+static double ring_departure(const pendres_trap_ring *r, const pendres_trap_point *points,
+                             const pendres_orbit *o)
+{
+  pendres_trap origin = *r->trap;
+  origin.y = origin.w = 0.0;
+  double worst = 0.0, d[4][2];
+  for (int i = 0; i < r->points; i++) {
+    double chord[2], first[2], last[2];
+    for (int k = 0; k < 4; k++) point_departure(r, points, i - 1 + k, o, d[k]);
+    for (int j = 0; j < 2; j++) {
+      chord[j] = d[2][j] - d[1][j];
+      first[j] = 0.5 * (d[2][j] - d[0][j]);
+      last[j] = 0.5 * (d[3][j] - d[1][j]);
+    }
+    const double at = sqrt(fmax(pendres_trap_norm2(&origin, d[1][0], d[1][1]),
+                                pendres_trap_norm2(&origin, d[2][0], d[2][1])));
+    const double between = pendres_trap_departure(r->trap, chord, first, last);
+    /* NaN at any of the points makes `between` one. */
+    if (isnan(between)) return INFINITY;
+    worst = fmax(worst, fmax(at, base_departure * (at + between)));
+  }
+  return r->margin > 0.0 ? worst / r->margin : INFINITY;
+}
+
+/* ---- the search for the largest ring ---- */
+
+typedef enum stage {
+  STAGE_BASE,  /* look for a ring where the linear map rules */
+  STAGE_CLIMB, /* larger rings, each coming home into the one before */
+  STAGE_FINE,  /* between the largest that holds and the smallest that does not */
+  STAGE_DONE
+} stage;
+
+typedef struct search {
+  size_t orbit;
+  stage stage;
+  int pass;
+  int base_looks;        /* iterates of a base ring */
+  double base_share;     /* of a length that the linear map leaves then */
+  int looks;             /* of the others */
+  double base;           /* radius of the next base ring */
+  double proven, failed; /* largest radius shown, smallest that could not be */
+  int rings;             /* of this pass */
+  pendres_trap_ring ring[RINGS];
+} search;
+
+/* Iterates until the linear map contracts well in the trap's metric. */
+static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
+{
+  int looks = 1;
+  while (looks < BASE_LOOKS && linear_share(t, o, looks) >= base_contraction) looks++;
+  return looks;
+}
+
+/* Looks that a ring gets: with few pendulums to come it does not pay to wait for stragglers. */
+static int patience(const pendres_orbit *o, pendres_trap_effort effort)
+{
+  if (effort == PENDRES_TRAP_MANY) return MANY_LOOKS;
+  const double rate = -log(hypot(o->multiplier_re[0], o->multiplier_im[0]));
+  const double way = log(climb_ratio / home_share);
+  return (int)fmin(FEW_LOOKS, 2.0 + ceil(way / rate));
+}
+
+static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
+                      int looks)
+{
+  s->ring[s->rings++] = (pendres_trap_ring){
+    .trap = t,
+    .radius = radius,
+    .home = home,
+    .room = home > 0.0 ? s->proven : 0.0,
+    .margin = home == 0.0 ? radius * (1.0 - s->base_share) : radius,
+    .points = points,
+    .looks = looks};
+}
+
+static void plan(search *s, const pendres_trap *t)
+{
+  s->rings = 0;
+  if (s->stage == STAGE_BASE) {
+    plan_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
+  } else if (s->stage == STAGE_CLIMB) {
+    const double radius =
+      s->failed > 0.0 ? sqrt(s->proven * s->failed) : fmin(s->proven * climb_ratio, widest);
+    plan_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
+  } else {
+    for (int k = 1; k <= RINGS; k++)
+      plan_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
+                home_share * s->proven, MANY_POINTS, MANY_LOOKS);
+  }
+}
+
+/* A base ring: on to a better radius, or to the climb. */
+static void judge_base(search *s, const pendres_trap_point *points, const pendres_orbit *o)
+{
+  const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
+  s->pass++;
+  if (departure <= base_departure) {
+    /* By the square law a larger one would do: once. */
+    const int last = s->proven > 0.0 || departure > 0.5 * base_departure || s->base >= widest;
+    s->proven = s->base;
+    if (last || s->pass >= BASE_PASSES) s->stage = STAGE_CLIMB;
+    s->base = fmin(widest, s->base * fmin(0.85 * base_departure / departure, 6.0));
+  } else if (s->proven > 0.0) {
+    s->stage = STAGE_CLIMB;
+  } else {
+    s->base *= fmax(0.85 * base_departure / departure, 1e-2);
+    if (s->pass >= BASE_PASSES) s->stage = STAGE_DONE;
+  }
+}
+
+/* What this pass's rings have shown; sets the next stage. */
+static void judge(search *s, const pendres_trap_point *points, const pendres_orbit *o,
+                  pendres_trap_effort effort)
+{
+  const int many = effort == PENDRES_TRAP_MANY;
+  if (s->stage == STAGE_BASE) {
+    judge_base(s, points, o);
+    return;
+  }
+  for (int k = 0; k < s->rings; k++) {
+    if (!pendres_trap_ring_holds(&s->ring[k], points + s->ring[k].first)) {
+      s->failed = s->ring[k].radius;
+      break;
+    }
+    s->proven = s->ring[k].radius;
+  }
+  if (s->proven >= widest) {
+    s->stage = STAGE_DONE;
+  } else if (s->stage == STAGE_FINE) {
+    if (s->failed < many_ratio * s->proven) s->stage = STAGE_DONE;
+  } else if (s->failed > 0.0 && s->failed < few_ratio * s->proven) {
+    /* A ring too coarse for its gaps may hold with more points. */
+    s->stage = many ? STAGE_FINE : STAGE_DONE;
+    if (many) s->failed *= few_ratio;
+  }
+}
+
+/* Tolerance of rings: small against their margin, in few classes so that blocks stay full. */
+static double ring_tolerance(double margin)
+{
+  return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
+}
+
+/* Integrate the rings of all searches at once, and close the arcs of those that come home. */
+static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
+                                const pendres_orbit *orbits, pendres_trap_effort effort,
+                                pendres_trap_point *points, pendres_strobe_lane *lanes)
+{
+  const int many = effort == PENDRES_TRAP_MANY;
+  size_t count = 0;
+  pendres_trap_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
+  pendres_status status = PENDRES_OK;
+  if (rings == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
+  for (size_t i = 0; i < n; i++)
+    for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
+      pendres_trap_ring *r = rings[count++] = &s[i].ring[k];
+      r->pendulum = &orbits[s[i].orbit].pendulum;
+      status = pendres_steps_choose(ctx, r->pendulum, 0.0, ring_tolerance(r->margin), &r->steps);
+    }
+  if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, lanes);
+  if (status == PENDRES_OK)
+    status = pendres_trap_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
+  free(rings);
+  return status;
+}
+
+pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                 pendres_trap_effort effort, pendres_trap *traps)
+{
+  pendres_status status = PENDRES_OK;
+  search *s = malloc((n + 1) * sizeof *s);
+  pendres_trap_point *points = NULL;
+  pendres_strobe_lane *lanes = NULL;
+  size_t left = 0;
+  if (s == NULL) goto no_memory;
+  for (size_t i = 0; i < n; i++) {
+    const pendres_orbit *o = &orbits[i];
+    traps[i] = (pendres_trap){.y = o->x - half_pi,
+                              .w = o->v / o->pendulum.drive_frequency,
+                              .period = o->period,
+                              .winding = o->winding};
+    if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
+      continue;
+    const int looks = contraction_looks(&traps[i], o);
+    s[left++] = (search){.orbit = i,
+                         .stage = STAGE_BASE,
+                         .base = base_first,
+                         .base_looks = looks,
+                         .base_share = linear_share(&traps[i], o, looks),
+                         .looks = patience(o, effort)};
+  }
+  const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
+  points = malloc((most + 1) * sizeof *points);
+  lanes = malloc((most + 1) * sizeof *lanes);
+  if (points == NULL || lanes == NULL) goto no_memory;
+
+  while (left > 0 && status == PENDRES_OK) {
+    for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit]);
+    status = run_rings(ctx, left, s, orbits, effort, points, lanes);
+    size_t again = 0;
+    for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
+      judge(&s[i], points, &orbits[s[i].orbit], effort);
+      traps[s[i].orbit].radius = (1.0 - pendres_trap_margin) * s[i].proven;
+      if (s[i].stage != STAGE_DONE) s[again++] = s[i];
+    }
+    left = again;
+  }
+  goto done;
+no_memory:
+  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
+done:
+  free(s);
+  free(points);
+  free(lanes);
+  return status;
+}

@@ -1,0 +1,254 @@
+/* trap_ring.c -- rings on the edge of ellipses, and the arcs between their points; trap_ring.h. */
+#include "orbits/trap_ring.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+/* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
+   to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
+static const double widest_gap = 1.0;
+/* Tangents are taken from a second point, so much of an arc further on. */
+static const double beside = 0.125;
+
+/* ---- running ---- */
+
+/* A point of the ellipse, by the Cholesky factor of its metric. */
+static void start(pendres_trap_point *q, pendres_trap_ring *r, double angle,
+                  pendres_strobe_lane *lane)
+{
+  const pendres_trap *t = r->trap;
+  const double l11 = sqrt(t->metric[0]), l21 = t->metric[1] / l11;
+  const double l22 = sqrt(t->metric[2] - l21 * l21);
+  const double dw = r->radius * sin(angle) / l22;
+  q->of = r;
+  q->angle = angle;
+  q->looks = q->home = 0;
+  q->w[0] = t->w + dw;
+  q->y[0] = t->y + (r->radius * cos(angle) - l21 * dw) / l11;
+  *lane = (pendres_strobe_lane){
+    .pendulum = r->pendulum, .y = q->y[0], .w = q->w[0], .steps = r->steps};
+}
+
+static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  pendres_trap_point *p = (pendres_trap_point *)arg + index;
+  pendres_trap_ring *r = p->of;
+  if (lane->period % r->trap->period != 0) return 0;
+  p->looks++;
+  p->y[p->looks] = lane->y;
+  p->w[p->looks] = lane->w;
+  if (r->home == 0.0) return p->looks >= r->looks;
+  if (p->home > 0) return r->failed || p->looks >= p->home + PENDRES_TRAP_AFTER;
+  const double norm2 = pendres_trap_norm2(r->trap, lane->y, lane->w);
+  if (norm2 <= r->home * r->home) {
+    p->home = p->looks;
+    return PENDRES_TRAP_AFTER == 0;
+  }
+  if (p->looks >= r->looks || !(norm2 < 16.0 * r->radius * r->radius)) r->failed = 1;
+  return r->failed;
+}
+
+/* ---- tangents ---- */
+
+/* From a to b at look k, the angle without whole turns. */
+static void chord_of(const pendres_trap_point *a, const pendres_trap_point *b, int k,
+                     double chord[2])
+{
+  const double dy = b->y[k] - a->y[k];
+  chord[0] = dy - two_pi * rint(dy / two_pi);
+  chord[1] = b->w[k] - a->w[k];
+}
+
+static double length_of(const pendres_trap *t, double y, double w)
+{
+  return sqrt(t->metric[0] * y * y + 2.0 * t->metric[1] * y * w + t->metric[2] * w * w);
+}
+
+/* Angles from a to b, round the ring. */
+static double width_of(const pendres_trap_point *a, const pendres_trap_point *b)
+{
+  const double width = b->angle - a->angle;
+  return width > 0.0 ? width : width + two_pi;
+}
+
+/* Derivatives by the angle, from a point further on; unknown where that one was not followed. */
+static void take_tangents(pendres_trap_point *p, const pendres_trap_point *further)
+{
+  for (int k = 1; k <= p->looks; k++) {
+    double d[2] = {NAN, NAN};
+    if (k <= further->looks) chord_of(p, further, k, d);
+    p->ty[k] = d[0] / width_of(p, further);
+    p->tw[k] = d[1] / width_of(p, further);
+  }
+}
+
+pendres_status pendres_trap_rings_run(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
+                                      pendres_trap_point *points, pendres_strobe_lane *lanes)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    pendres_trap_ring *r = rings[i];
+    r->first = count;
+    for (int j = 0; j < r->points; j++, count++)
+      start(&points[count], r, two_pi * j / r->points, &lanes[count]);
+  }
+  return pendres_strobe_run(ctx, count, lanes, look, points);
+}
+
+/* ---- points ---- */
+
+int pendres_trap_ring_holds(const pendres_trap_ring *r, const pendres_trap_point *points)
+{
+  if (r->failed) return 0;
+  for (int i = 0; i < r->points; i++) {
+    const pendres_trap_point *a = &points[i], *b = &points[(i + 1) % r->points];
+    if (a->home == 0) return 0;
+    const int both = a->home < b->home ? a->home : b->home;
+    for (int k = 1; k <= both; k++) {
+      double d[2];
+      chord_of(a, b, k, d);
+      if (!(length_of(r->trap, d[0], d[1]) < widest_gap * r->radius)) return 0;
+    }
+  }
+  return 1;
+}
+
+/* ---- arcs ---- */
+
+double pendres_trap_departure(const pendres_trap *t, const double chord[2], const double first[2],
+                              const double last[2])
+{
+  return 0.25 * (length_of(t, first[0] - chord[0], first[1] - chord[1]) +
+                 length_of(t, last[0] - chord[0], last[1] - chord[1]));
+}
+
+/* Whether the image of an arc, at some look, is inside what is shown already. */
+static int arc_home(const pendres_trap_ring *r, const pendres_trap_point *a,
+                    const pendres_trap_point *b)
+{
+  const double width = width_of(a, b);
+  const int both = a->looks < b->looks ? a->looks : b->looks;
+  for (int k = a->home < b->home ? a->home : b->home; k >= 1 && k <= both; k++) {
+    double d[2];
+    chord_of(a, b, k, d);
+    const double at[2] = {sqrt(pendres_trap_norm2(r->trap, a->y[k], a->w[k])),
+                          sqrt(pendres_trap_norm2(r->trap, b->y[k], b->w[k]))};
+    const double departure = pendres_trap_departure(
+      r->trap, d, (double[2]){width * a->ty[k], width * a->tw[k]},
+      (double[2]){width * b->ty[k], width * b->tw[k]});
+    if (at[0] + departure <= r->room && at[1] + departure <= r->room) return 1;
+  }
+  return 0;
+}
+
+size_t pendres_trap_ring_open(const pendres_trap_ring *r, const pendres_trap_point *points,
+                              pendres_trap_arc *arcs)
+{
+  size_t open = 0;
+  for (int i = 0; i < r->points; i++) {
+    const pendres_trap_arc arc = {&points[i], &points[(i + 1) % r->points]};
+    if (!arc_home(r, arc.a, arc.b)) arcs[open++] = arc;
+  }
+  return open;
+}
+
+/* Arcs under way: those that are open now, those that will be then, and the points between. */
+typedef struct closing {
+  int most;
+  size_t open, used;
+  pendres_trap_arc *arcs, *next;
+  pendres_trap_point *points;
+  pendres_strobe_lane *lanes;
+} closing;
+
+/* A point into the middle of every open arc, unless its ring has had its share. */
+static pendres_status bisect(pendres_context *ctx, closing *c)
+{
+  size_t n = 0, again = 0;
+  for (size_t i = 0; i < c->open; i++) {
+    pendres_trap_ring *r = c->arcs[i].a->of;
+    if (++r->more > c->most) r->failed = 1;
+  }
+  pendres_trap_point *middle = c->points + c->used;
+  for (size_t i = 0; i < c->open; i++) {
+    const pendres_trap_arc arc = c->arcs[i];
+    if (arc.a->of->failed) continue;
+    const double half = 0.5 * width_of(arc.a, arc.b), angle = arc.a->angle + half;
+    start(&middle[2 * n], arc.a->of, angle, &c->lanes[2 * n]);
+    start(&middle[2 * n + 1], arc.a->of, angle + beside * half, &c->lanes[2 * n + 1]);
+    c->arcs[n++] = arc;
+  }
+  const pendres_status status = pendres_strobe_run(ctx, 2 * n, c->lanes, look, middle);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_trap_arc arc = c->arcs[i];
+    const pendres_trap_ring *r = arc.a->of;
+    pendres_trap_point *m = &middle[2 * i];
+    if (r->failed) continue;
+    take_tangents(m, m + 1);
+    if (!arc_home(r, arc.a, m)) c->next[again++] = (pendres_trap_arc){arc.a, m};
+    if (!arc_home(r, m, arc.b)) c->next[again++] = (pendres_trap_arc){m, arc.b};
+  }
+  c->used += 2 * n;
+  c->open = again;
+  pendres_trap_arc *const swap = c->arcs;
+  c->arcs = c->next;
+  c->next = swap;
+  return status;
+}
+
+/* The tangents of all points of the rings that hold, then their open arcs. */
+static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
+                                 pendres_trap_point *points, closing *c)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    pendres_trap_ring *r = rings[i];
+    if (!pendres_trap_ring_holds(r, points + r->first)) continue;
+    const double step = beside * two_pi / r->points;
+    for (int j = 0; j < r->points; j++, count++)
+      start(&c->points[count], r, points[r->first + (size_t)j].angle + step, &c->lanes[count]);
+  }
+  const pendres_status status = pendres_strobe_run(ctx, count, c->lanes, look, c->points);
+  for (size_t k = 0; k < count && status == PENDRES_OK;) {
+    const pendres_trap_ring *r = c->points[k].of;
+    pendres_trap_point *own = points + r->first;
+    for (int j = 0; j < r->points; j++, k++)
+      if (!r->failed) take_tangents(&own[j], &c->points[k]);
+    if (!r->failed) c->open += pendres_trap_ring_open(r, own, c->arcs + c->open);
+  }
+  return status;
+}
+
+pendres_status pendres_trap_rings_close(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
+                                        pendres_trap_point *points, int most)
+{
+  size_t arcs = 0, hold = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (!pendres_trap_ring_holds(rings[i], points + rings[i]->first)) continue;
+    arcs += (size_t)rings[i]->points;
+    hold++;
+  }
+  if (hold == 0) return PENDRES_OK;
+  pendres_status status = PENDRES_OK;
+  const size_t room = arcs + 2 * hold * (size_t)most;
+  closing c = {.most = most};
+  c.arcs = malloc(room * sizeof *c.arcs);
+  c.next = malloc(room * sizeof *c.next);
+  c.points = malloc(room * sizeof *c.points);
+  c.lanes = malloc(room * sizeof *c.lanes);
+  if (c.arcs == NULL || c.next == NULL || c.points == NULL || c.lanes == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping arcs");
+  } else {
+    status = first_arcs(ctx, n, rings, points, &c);
+    c.used = arcs;
+    while (c.open > 0 && status == PENDRES_OK) status = bisect(ctx, &c);
+  }
+  free(c.arcs);
+  free(c.next);
+  free(c.points);
+  free(c.lanes);
+  return status;
+}

@@ -1,0 +1,294 @@
+/* basin.c -- basins of attraction over a grid of initial states; see basin.h. */
+#include <pendres/basin.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "orbits/attractor_internal.h"
+#include "engine/context_internal.h"
+#include "orbits/settle.h"
+
+enum {
+  SCOUT_SIDE = 24,     /* scouts over the grid: at most this many by this many */
+  EXTEND_SCOUTS = 256, /* states that are looked at when some are unresolved */
+  WORTH_WAITING = 384, /* states together that fill blocks well enough to be finished at once */
+  MOST_EXTENSIONS = 4
+};
+
+/* As in strobe_run.h: positions beyond, and those that speeds beyond lead to, are not known. */
+static const double farthest = 1e15;
+
+static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
+                                 const pendres_basin_grid *grid)
+{
+  if (set->sets != 1 || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "a grid needs x and v, and attractors of one parameter set");
+  /* The attractors' parameters are good: what is left are the states. */
+  for (size_t i = 0; i < grid->nx + grid->nv; i++) {
+    const double value = i < grid->nx ? grid->x[i] : grid->v[i - grid->nx];
+    if (!(fabs(value) <= farthest))
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "%c of a grid must be finite, and 1e15 at most",
+                                  i < grid->nx ? 'x' : 'v');
+  }
+  return PENDRES_OK;
+}
+
+static void compact(const pendres_outcome *from, pendres_basin_state *to)
+{
+  *to = (pendres_basin_state){.well = (int32_t)from->well,
+                              .settling_periods = (int32_t)from->settling_periods,
+                              .attractor = (int16_t)from->attractor,
+                              .label = (int8_t)from->label,
+                              .how = from->attractor >= 0 && !from->certain
+                                       ? PENDRES_BASIN_UNCERTAIN
+                                       : PENDRES_BASIN_INTEGRATED};
+}
+
+static pendres_status basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
+                                       const pendres_basin_grid *grid, pendres_attractors **out)
+{
+  double x[SCOUT_SIDE * SCOUT_SIDE], v[SCOUT_SIDE * SCOUT_SIDE];
+  if (p == NULL || grid == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, grid and out");
+  *out = NULL;
+  if (grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "a grid needs x and v");
+  const size_t nx = grid->nx < SCOUT_SIDE ? grid->nx : SCOUT_SIDE;
+  const size_t nv = grid->nv < SCOUT_SIDE ? grid->nv : SCOUT_SIDE;
+  size_t n = 0;
+  for (size_t i = 0; i < nx; i++)
+    for (size_t j = 0; j < nv; j++) {
+      x[n] = grid->x[(2 * i + 1) * grid->nx / (2 * nx)];
+      v[n++] = grid->v[(2 * j + 1) * grid->nv / (2 * nv)];
+    }
+  return pendres_attractors_find(ctx, p, n, x, v, out);
+}
+
+pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pendulum *p,
+                                        const pendres_basin_grid *grid, pendres_attractors **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_attractors(ctx, p, grid, out));
+}
+
+/* That of a context for which none was asked. */
+static const double default_tolerance = 1e-8;
+
+static double smallest_spacing(size_t n, const double *values)
+{
+  double least = INFINITY;
+  for (size_t i = 1; i < n; i++) least = fmin(least, fabs(values[i] - values[i - 1]));
+  return least;
+}
+
+double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_grid *grid)
+{
+  if (ctx == NULL || grid == NULL || grid->x == NULL || grid->v == NULL) return NAN;
+  const double spacing =
+    fmin(smallest_spacing(grid->nx, grid->x), smallest_spacing(grid->nv, grid->v));
+  const double finest = 10.0 * ctx->options.tolerance;
+  /* Who asks for more than the default means it, even if a picture does not show it. */
+  if (ctx->options.tolerance < default_tolerance) return finest;
+  return isfinite(spacing) ? fmax(finest, fmin(1e-3 * spacing, 1e-5)) : finest;
+}
+
+/* Settle states by number; outcomes in their order. */
+static pendres_status settle_states(pendres_context *ctx, const pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                    pendres_settle_budget budget, pendres_basin_state *state)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  double *x = calloc(n + 1, sizeof *x), *v = calloc(n + 1, sizeof *v);
+  pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
+  if (x == NULL || v == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu states", n);
+    goto done;
+  }
+  for (size_t k = 0; k < n; k++) {
+    x[k] = grid->x[index[k] / grid->nv];
+    v[k] = grid->v[index[k] % grid->nv];
+  }
+  status = pendres_settle_known(ctx, set->catalogues, n, x, v,
+                                pendres_basin_accuracy(ctx, grid), budget, outcome);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) compact(&outcome[k], &state[k]);
+done:
+  free(x);
+  free(v);
+  free(outcome);
+  return status;
+}
+
+static pendres_status basin_states(pendres_context *ctx, const pendres_attractors *set,
+                                   const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                   pendres_basin_state *state)
+{
+  if (set == NULL || grid == NULL || (n > 0 && (index == NULL || state == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, index and state");
+  const pendres_status status = check_grid(ctx, set, grid);
+  if (status != PENDRES_OK) return status;
+  for (size_t k = 0; k < n; k++)
+    if (index[k] >= grid->nx * grid->nv)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
+                                  index[k]);
+  return settle_states(ctx, set, grid, n, index, PENDRES_SETTLE_FULL, state);
+}
+
+pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                    pendres_basin_state *state)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_states(ctx, set, grid, n, index, state));
+}
+
+/* The states that have not settled soon: at once if there are many, else marked. */
+static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
+                            const pendres_basin_grid *grid, size_t offset, size_t n,
+                            pendres_basin_state *state, size_t *deferred)
+{
+  size_t left = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < n; k++) left += state[k].attractor < 0;
+  if (deferred != NULL) *deferred = left;
+  if (left < WORTH_WAITING) {
+    for (size_t k = 0; k < n; k++)
+      if (state[k].attractor < 0) state[k].how = PENDRES_BASIN_DEFERRED;
+    return status;
+  }
+  size_t *index = malloc(left * sizeof *index);
+  pendres_basin_state *rest = malloc(left * sizeof *rest);
+  if (index == NULL || rest == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", left);
+    goto done;
+  }
+  left = 0;
+  for (size_t k = 0; k < n; k++)
+    if (state[k].attractor < 0) index[left++] = offset + k;
+  status = settle_states(ctx, set, grid, left, index, PENDRES_SETTLE_FULL, rest);
+  for (size_t k = 0; k < left && status == PENDRES_OK; k++) state[index[k] - offset] = rest[k];
+  if (deferred != NULL) *deferred = 0;
+done:
+  free(index);
+  free(rest);
+  return status;
+}
+
+static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors *set,
+                                 const pendres_basin_grid *grid, size_t first, size_t rows,
+                                 pendres_basin_state *state, size_t *deferred)
+{
+  if (set == NULL || grid == NULL || state == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid and state");
+  pendres_status status = check_grid(ctx, set, grid);
+  if (status != PENDRES_OK) return status;
+  if (first > grid->nx || rows > grid->nx - first)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "rows %zu to %zu are not in the grid", first, first + rows);
+  const size_t n = rows * grid->nv, offset = first * grid->nv;
+  size_t *index = calloc(n + 1, sizeof *index);
+  if (index == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
+  for (size_t k = 0; k < n; k++) index[k] = offset + k;
+  status = settle_states(ctx, set, grid, n, index, PENDRES_SETTLE_SHORT, state);
+  free(index);
+  return status == PENDRES_OK ? defer(ctx, set, grid, offset, n, state, deferred) : status;
+}
+
+pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
+                                  const pendres_basin_grid *grid, size_t first, size_t rows,
+                                  pendres_basin_state *state, size_t *deferred)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_rows(ctx, set, grid, first, rows, state, deferred));
+}
+
+static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set,
+                                   const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                   size_t *grown)
+{
+  if (set == NULL || grid == NULL || grown == NULL || (n > 0 && index == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, index and grown");
+  *grown = 0;
+  pendres_status status = check_grid(ctx, set, grid);
+  if (status != PENDRES_OK || n == 0) return status;
+  double x[EXTEND_SCOUTS], v[EXTEND_SCOUTS];
+  const size_t scouts = n < EXTEND_SCOUTS ? n : EXTEND_SCOUTS, before = set->count;
+  for (size_t k = 0; k < scouts; k++) {
+    const size_t one = index[k * n / scouts];
+    if (one / grid->nv >= grid->nx)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
+                                  one);
+    x[k] = grid->x[one / grid->nv];
+    v[k] = grid->v[one % grid->nv];
+  }
+  status = pendres_attractors_extend(ctx, set, scouts, x, v);
+  *grown = set->count - before;
+  return status;
+}
+
+pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *set,
+                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+                                    size_t *grown)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_extend(ctx, set, grid, n, index, grown));
+}
+
+/* Numbers of the states of a kind. */
+static size_t list_states(size_t n, const pendres_basin_state *state, int deferred, size_t *index)
+{
+  size_t count = 0;
+  for (size_t k = 0; k < n; k++)
+    if (deferred ? state[k].how == PENDRES_BASIN_DEFERRED : state[k].attractor < 0)
+      index[count++] = k;
+  return count;
+}
+
+/* All rows against the attractors that are known. */
+static pendres_status compute_once(pendres_context *ctx, const pendres_attractors *set,
+                                   const pendres_basin_grid *grid, size_t *index,
+                                   pendres_basin_state *state)
+{
+  pendres_status status = PENDRES_OK;
+  const size_t rows_a_time = 1 + 200000 / grid->nv;
+  for (size_t i = 0; i < grid->nx && status == PENDRES_OK; i += rows_a_time) {
+    const size_t rows = grid->nx - i < rows_a_time ? grid->nx - i : rows_a_time;
+    status = pendres_basin_rows(ctx, set, grid, i, rows, state + i * grid->nv, NULL);
+  }
+  if (status != PENDRES_OK) return status;
+  const size_t n = list_states(grid->nx * grid->nv, state, 1, index);
+  pendres_basin_state *rest = malloc((n + 1) * sizeof *rest);
+  if (rest == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
+  status = pendres_basin_states(ctx, set, grid, n, index, rest);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) state[index[k]] = rest[k];
+  free(rest);
+  return status;
+}
+
+static pendres_status basin_compute(pendres_context *ctx, pendres_attractors *set,
+                                    const pendres_basin_grid *grid, pendres_basin_state *state)
+{
+  if (set == NULL || grid == NULL || state == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid and state");
+  pendres_status status = check_grid(ctx, set, grid);
+  if (status != PENDRES_OK) return status;
+  size_t *index = malloc(grid->nx * grid->nv * sizeof *index);
+  if (index == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for the grid");
+  size_t grown = 1;
+  for (int round = 0; round <= MOST_EXTENSIONS && grown > 0 && status == PENDRES_OK; round++) {
+    grown = 0;
+    status = compute_once(ctx, set, grid, index, state);
+    if (status != PENDRES_OK || round == MOST_EXTENSIONS) break;
+    const size_t lost = list_states(grid->nx * grid->nv, state, 0, index);
+    status = pendres_basin_extend(ctx, set, grid, lost, index, &grown);
+  }
+  free(index);
+  return status;
+}
+
+pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *set,
+                                     const pendres_basin_grid *grid, pendres_basin_state *state)
+{
+  return PENDRES_CONTEXT_CALL(ctx, basin_compute(ctx, set, grid, state));
+}

@@ -1,0 +1,384 @@
+/* basin_statistics.c -- fractions, entropy and uncertainty exponent of grids; see basin.h. */
+#include <pendres/basin.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "questions/basin_scatter.h"
+#include "questions/basin_wells.h"
+
+enum { BOX = PENDRES_BASIN_BOX, BOX_STATES = BOX * BOX };
+
+/* What one state alone can change of a box's entropy at most: among 25 alike ones, -1/25 log 1/25 -
+   24/25 log 24/25. The next one changes less. */
+static const double state_entropy = 0.16794414;
+
+/* Sums over the rows of an attractor. */
+typedef struct member {
+  double share;     /* of the area */
+  double crossings; /* along v, where its basin begins or ends */
+  double last[2];   /* shares of the two rows before */
+  double square;    /* of second differences between rows */
+  size_t states;
+} member;
+
+struct pendres_basin_sums {
+  size_t nx, nv, attractors;
+  int scales;
+  double step;        /* of v */
+  size_t rows;        /* added so far */
+  double *x_share, *v_share; /* of the window that belongs to each row and column of states */
+  double *row_share;  /* of each attractor in one row */
+  member *members;    /* the last one: what is unresolved */
+  int16_t *box_rows;  /* attractors of the rows of unfinished boxes */
+  uint8_t *box_doubt; /* states of them that are uncertain, by column */
+  double group[PENDRES_SCATTER_QUANTITIES]; /* of the unfinished boxes' rows */
+  double counts[PENDRES_BASIN_SCALES];      /* of uncertain states, over all rows */
+  pendres_scatter scatter; /* between rows of boxes */
+  size_t uncertain;        /* states that may belong elsewhere */
+  double entropy_doubt, boundary_doubt; /* what these can change of boxes' entropy, and boxes */
+  double suspect;          /* states that may be labelled wrongly, though nobody knows which */
+  pendres_basin_tally tally;
+  pendres_basin_well *wells;
+};
+
+/* Shares of the range from the first value to the last: half the way to either neighbour. */
+static double *shares_of(size_t n, const double *values)
+{
+  double *share = malloc(n * sizeof *share);
+  const double range = values[n - 1] - values[0];
+  if (share == NULL) return NULL;
+  for (size_t i = 0; i < n; i++) {
+    const double left = values[i > 0 ? i - 1 : 0], right = values[i + 1 < n ? i + 1 : n - 1];
+    share[i] = range != 0.0 ? 0.5 * (right - left) / range : 1.0 / (double)n;
+  }
+  return share;
+}
+
+/* The step of v, 0 if its values are not evenly spaced to a thousandth of it. */
+static double even_step(const pendres_basin_grid *grid)
+{
+  if (grid->nv < 2) return 0.0;
+  const double step = (grid->v[grid->nv - 1] - grid->v[0]) / (double)(grid->nv - 1);
+  for (size_t j = 1; j < grid->nv; j++)
+    if (fabs(grid->v[j] - grid->v[j - 1] - step) > 1e-3 * fabs(step)) return 0.0;
+  return fabs(step);
+}
+
+pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
+                                         pendres_basin_sums **out)
+{
+  if (out == NULL) return PENDRES_INVALID_ARGUMENT;
+  *out = NULL;
+  if (grid == NULL || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL ||
+      attractors > INT16_MAX)
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_basin_sums *s = calloc(1, sizeof *s);
+  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
+  s->nx = grid->nx;
+  s->nv = grid->nv;
+  s->attractors = attractors;
+  s->step = even_step(grid);
+  while (s->step > 0.0 && s->scales < PENDRES_BASIN_SCALES &&
+         (size_t)8 << s->scales <= grid->nv)
+    s->scales++;
+  s->x_share = shares_of(grid->nx, grid->x);
+  s->v_share = shares_of(grid->nv, grid->v);
+  s->row_share = calloc(attractors + 1, sizeof *s->row_share);
+  s->members = calloc(attractors + 1, sizeof *s->members);
+  s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
+  s->box_doubt = calloc(grid->nv, sizeof *s->box_doubt);
+  if (s->x_share == NULL || s->v_share == NULL || s->row_share == NULL || s->members == NULL ||
+      s->box_rows == NULL || s->box_doubt == NULL) {
+    pendres_basin_sums_free(s);
+    return PENDRES_OUT_OF_MEMORY;
+  }
+  *out = s;
+  return PENDRES_OK;
+}
+
+void pendres_basin_sums_free(pendres_basin_sums *s)
+{
+  if (s == NULL) return;
+  free(s->x_share);
+  free(s->v_share);
+  free(s->row_share);
+  free(s->members);
+  free(s->box_rows);
+  free(s->box_doubt);
+  free(s->wells);
+  pendres_basin_tally_free(&s->tally);
+  free(s);
+}
+
+/* ---- adding ---- */
+
+/* How many states of the box from column `left` on are of each kind; the number of kinds. */
+static int count_kinds(const pendres_basin_sums *s, size_t left, int *count)
+{
+  int16_t kind[BOX_STATES];
+  int kinds = 0;
+  for (size_t i = 0; i < BOX; i++)
+    for (size_t j = left; j < left + BOX; j++) {
+      const int16_t a = s->box_rows[i * s->nv + j];
+      int k = 0;
+      while (k < kinds && kind[k] != a) k++;
+      if (k == kinds) {
+        kind[kinds] = a;
+        count[kinds++] = 0;
+      }
+      count[k]++;
+    }
+  return kinds;
+}
+
+/* What uncertain states can change: a box's entropy, and whether there is a boundary in it. */
+static void add_doubt(pendres_basin_sums *s, size_t left, int kinds, const int *count)
+{
+  int doubt = 0, largest = count[0], smallest = count[0];
+  for (size_t j = left; j < left + BOX; j++) doubt += s->box_doubt[j];
+  if (doubt == 0) return;
+  for (int k = 1; k < kinds; k++) {
+    if (count[k] > largest) largest = count[k];
+    if (count[k] < smallest) smallest = count[k];
+  }
+  /* One state that goes from m to n of its box changes the entropy by log(m / n) / 25. */
+  s->entropy_doubt +=
+    doubt * (kinds > 1 ? log((largest + 1.0) / smallest) / BOX_STATES : state_entropy);
+  s->boundary_doubt += BOX_STATES - largest <= doubt;
+}
+
+static void add_boxes(pendres_basin_sums *s)
+{
+  for (size_t left = 0; left + BOX <= s->nv; left += BOX) {
+    int count[BOX_STATES];
+    const int kinds = count_kinds(s, left, count);
+    double entropy = 0.0;
+    for (int k = 0; k < kinds; k++) {
+      const double p = (double)count[k] / BOX_STATES;
+      if (kinds > 1) entropy -= p * log(p);
+    }
+    s->group[PENDRES_SCATTER_ENTROPY] += entropy;
+    s->group[PENDRES_SCATTER_BOUNDARY_BOXES] += kinds > 1;
+    add_doubt(s, left, kinds, count);
+  }
+  memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
+}
+
+/* A row's shares into those of the area, and its scatter beside the rows before. */
+static void add_shares(pendres_basin_sums *s, size_t row)
+{
+  for (size_t a = 0; a <= s->attractors; a++) {
+    member *m = &s->members[a];
+    const double share = s->row_share[a], bend = m->last[1] - 2.0 * m->last[0] + share;
+    const double weight = row > 0 ? s->x_share[row - 1] : 0.0;
+    m->share += s->x_share[row] * share;
+    if (row >= 2) m->square += bend * bend * weight * weight;
+    m->last[1] = m->last[0];
+    m->last[0] = share;
+    s->row_share[a] = 0.0;
+  }
+}
+
+static void count_unlike(pendres_basin_sums *s, const int16_t *a)
+{
+  for (int k = 0; k < s->scales; k++) {
+    const size_t far = (size_t)1 << k;
+    size_t unlike = 0;
+    for (size_t j = far; j + far < s->nv; j++)
+      unlike += a[j - far] != a[j] || a[j + far] != a[j];
+    s->group[k] += (double)unlike;
+    s->counts[k] += (double)unlike;
+  }
+}
+
+/* The states of a row by attractor and well, one run of like ones after the other. */
+static pendres_status count_states(pendres_basin_sums *s, const int16_t *a,
+                                   const pendres_basin_state *state)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t j = 0, end; j < s->nv && status == PENDRES_OK; j = end) {
+    for (end = j + 1; end < s->nv && a[end] == a[j] && state[end].well == state[j].well; end++) {}
+    s->members[a[j]].states += end - j;
+    if ((size_t)a[j] < s->attractors)
+      status = pendres_basin_tally_add(&s->tally, a[j], state[j].well, end - j);
+  }
+  return status;
+}
+
+static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *state)
+{
+  const size_t row = s->rows++, slot = row % BOX;
+  int16_t *a = s->box_rows + slot * s->nv;
+  for (size_t j = 0; j < s->nv; j++) {
+    const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
+    a[j] = known ? state[j].attractor : (int16_t)s->attractors;
+    s->row_share[a[j]] += s->v_share[j];
+    if (state[j].how == PENDRES_BASIN_UNCERTAIN) {
+      s->uncertain++;
+      s->box_doubt[j]++;
+    }
+    if (j > 0 && a[j] != a[j - 1]) {
+      s->members[a[j]].crossings += 1.0;
+      s->members[a[j - 1]].crossings += 1.0;
+    }
+  }
+  const pendres_status status = count_states(s, a, state);
+  if (status != PENDRES_OK) return status;
+  add_shares(s, row);
+  count_unlike(s, a);
+  if (slot == BOX - 1) {
+    add_boxes(s);
+    pendres_scatter_add(&s->scatter, s->group);
+    memset(s->group, 0, sizeof s->group);
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_sums_add(pendres_basin_sums *s, size_t rows,
+                                      const pendres_basin_state *state)
+{
+  if (s == NULL || (rows > 0 && state == NULL) || rows > s->nx - s->rows)
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < rows && status == PENDRES_OK; i++)
+    status = add_row(s, state + i * s->nv);
+  return status;
+}
+
+pendres_status pendres_basin_sums_suspect(pendres_basin_sums *s, double states)
+{
+  if (s == NULL || !(states >= 0.0) || !isfinite(states)) return PENDRES_INVALID_ARGUMENT;
+  s->suspect += states;
+  return PENDRES_OK;
+}
+
+/* ---- results ---- */
+
+/*
+ * States that are missing from a basin, or too many in it, because some are uncertain. They lie on
+ * both sides of their boundaries, so that they cancel but for their scatter, twice which is
+ * claimed, and a tenth of them for what does not cancel. Where there is one attractor alone, only
+ * its well is uncertain.
+ */
+static double misplaced(const pendres_basin_sums *s)
+{
+  const double n = (double)s->uncertain;
+  return s->attractors > 1 ? fmin(n, 2.0 * sqrt(n) + 0.1 * n) : 0.0;
+}
+
+/*
+ * Error of a share of the area. Rows scatter around a trend: two standard errors. At the least, a
+ * basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice that,
+ * since the boundary is as uncertain between the rows. Where rows are too few to scatter, half of
+ * what they differ by.
+ */
+static double fraction_error(const pendres_basin_sums *s, size_t a)
+{
+  const member *m = &s->members[a];
+  const double states = (double)s->rows * (double)s->nv, n = (double)s->rows;
+  const double ends = sqrt((m->crossings + 1.0) / 3.0) / states;
+  const double doubt =
+    (misplaced(s) + s->suspect) / states + s->members[s->attractors].share;
+  if (s->rows == 1) return ends + doubt;
+  if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
+  const double student = pendres_scatter_student((n - 2.0) * 18.0 / 35.0);
+  return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + doubt;
+}
+
+/* Mean entropy over boxes, and over those with a boundary. */
+static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statistics *out)
+{
+  const double boxes = (double)s->scatter.groups * (double)(s->nv / BOX);
+  const double entropy = s->scatter.total[PENDRES_SCATTER_ENTROPY];
+  const double boundary = s->scatter.total[PENDRES_SCATTER_BOUNDARY_BOXES];
+  const double all = (double)s->rows * (double)s->nv;
+  /* Uncertain states change either way, as above; those that are suspect may be anywhere. */
+  const double part = s->uncertain > 0 ? misplaced(s) / (double)s->uncertain : 0.0;
+  const double suspect = state_entropy * s->suspect * boxes * BOX_STATES / all;
+  double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
+  out->boundary_boxes = out->entropy = out->entropy_error = NAN;
+  out->boundary_entropy = out->boundary_entropy_error = NAN;
+  if (boxes == 0.0) return;
+  weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boxes;
+  out->boundary_boxes = boundary / boxes;
+  out->entropy = entropy / boxes;
+  out->entropy_error = sqrt(pendres_scatter_variance(&s->scatter, weight)) +
+                       (part * s->entropy_doubt + suspect) / boxes;
+  if (boundary == 0.0) return;
+  weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boundary;
+  weight[PENDRES_SCATTER_BOUNDARY_BOXES] = -entropy / (boundary * boundary);
+  out->boundary_entropy = entropy / boundary;
+  /* One that is suspect adds to a box with a boundary, or makes one with the least entropy. */
+  const double each = fmax(1.0, fabs(out->boundary_entropy / state_entropy - 1.0));
+  out->boundary_entropy_error =
+    sqrt(pendres_scatter_variance(&s->scatter, weight)) +
+    (part * (s->entropy_doubt + out->boundary_entropy * s->boundary_doubt) + suspect * each) /
+      boundary;
+}
+
+/* Shares of uncertain states by distance, and their exponent. */
+static void conclude_exponent(const pendres_basin_sums *s, pendres_basin_statistics *out)
+{
+  const double rows = (double)s->rows, grouped = (double)(s->scatter.groups * BOX);
+  pendres_scatter scatter = s->scatter;
+  double tried[PENDRES_BASIN_SCALES];
+  for (int k = 0; k < PENDRES_BASIN_SCALES; k++) {
+    double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
+    const int used = k < out->scales;
+    tried[k] = used ? rows * (double)(s->nv - ((size_t)2 << k)) : NAN;
+    weight[k] = 1.0;
+    scatter.total[k] = s->counts[k]; /* rows that make no box as well */
+    out->distance[k] = used ? s->step * (double)((size_t)1 << k) : NAN;
+    out->uncertain[k] = used ? s->counts[k] / tried[k] : NAN;
+    /* Rows at the end that make no box scatter like the others. A state that is labelled wrongly
+       makes itself and two others uncertain. */
+    out->uncertain_error[k] =
+      used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped) / tried[k] +
+               3.0 * s->suspect / ((double)s->nv * rows)
+           : NAN;
+  }
+  pendres_scatter_exponent(&scatter, out->scales, out->distance, tried,
+                           &out->uncertainty_exponent, &out->uncertainty_exponent_error);
+}
+
+pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_basin_statistics *out,
+                                         double *fraction, double *error)
+{
+  if (s == NULL || out == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  for (size_t a = 0; a < s->attractors; a++) {
+    if (fraction != NULL) fraction[a] = s->members[a].share;
+    if (error != NULL) error[a] = fraction_error(s, a);
+  }
+  *out = (pendres_basin_statistics){.states = s->rows * s->nv,
+                                    .unresolved = s->members[s->attractors].states,
+                                    .scales = s->scales,
+                                    .uncertain_states = s->uncertain};
+  conclude_entropy(s, out);
+  conclude_exponent(s, out);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_sums_counts(const pendres_basin_sums *s, size_t *states)
+{
+  if (s == NULL || states == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  for (size_t a = 0; a < s->attractors; a++) states[a] = s->members[a].states;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_sums_wells(pendres_basin_sums *s, size_t *n,
+                                        const pendres_basin_well **wells)
+{
+  if (s == NULL || n == NULL || wells == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  *n = 0;
+  *wells = NULL;
+  pendres_basin_well *list = malloc((s->tally.used + 1) * sizeof *list);
+  if (list == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_basin_tally_list(&s->tally, list);
+  free(s->wells);
+  s->wells = list;
+  *n = s->tally.used;
+  *wells = list;
+  return PENDRES_OK;
+}

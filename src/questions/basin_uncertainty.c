@@ -1,0 +1,207 @@
+/* basin_uncertainty.c -- the uncertainty exponent from random states; see basin.h. */
+#include <pendres/basin.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "orbits/attractor_internal.h"
+#include "questions/basin_scatter.h"
+#include "questions/basin_uncertainty.h"
+#include "engine/context_internal.h"
+#include "orbits/settle.h"
+
+enum {
+  LEAST_SCALES = 3,
+  LEAST_STATES = 16,
+  FIRST_SAMPLE = 256, /* tell what more of them cost, and whether they are of use */
+  SAMPLES_AT_A_TIME = 4096
+};
+
+/*
+ * Slopes of the pendulum that all states together may take: some ten seconds of one processor, but
+ * the same number on all. Where chaos lasts long before it ends a state takes thousands of periods,
+ * each over and over with ever smaller errors; elsewhere what is asked takes a third of this.
+ */
+static const double most_slopes = 4e9;
+
+/* The bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), as a number in [0, 1). */
+static double uniform(uint64_t seed, uint64_t counter)
+{
+  uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + (counter + 1) * UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
+  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
+static void place(const pendres_basin_window *window, uint64_t seed, uint64_t i, int scales,
+                  const double *distance, double *x, double *v)
+{
+  const double at_x =
+    window->x_low + (window->x_high - window->x_low) * uniform(seed, 2 * i);
+  const double at_v =
+    window->v_low + (window->v_high - window->v_low) * uniform(seed, 2 * i + 1);
+  for (int k = 0; k <= 2 * scales; k++) x[k] = at_x;
+  v[0] = at_v;
+  for (int k = 0; k < scales; k++) {
+    v[1 + 2 * k] = at_v - distance[k];
+    v[2 + 2 * k] = at_v + distance[k];
+  }
+}
+
+/* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a
+   group of its own, since states know nothing of one another. */
+static void count_sample(pendres_scatter *s, int scales, const pendres_outcome *outcome)
+{
+  double unlike[PENDRES_SCATTER_QUANTITIES] = {0.0};
+  for (int k = 0; k < scales; k++)
+    unlike[k] = outcome[1 + 2 * k].attractor != outcome[0].attractor ||
+                outcome[2 + 2 * k].attractor != outcome[0].attractor;
+  pendres_scatter_add(s, unlike);
+}
+
+/* Shares and exponent of what has been counted. */
+static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
+{
+  double tried[PENDRES_BASIN_SCALES];
+  const double n = (double)out->states;
+  for (int k = 0; k < PENDRES_BASIN_SCALES; k++) {
+    const double share = k < out->scales ? s->total[k] / n : NAN;
+    tried[k] = n;
+    out->uncertain[k] = share;
+    out->uncertain_error[k] = sqrt(share * (1.0 - share) / n);
+  }
+  pendres_scatter_exponent(s, out->scales, out->distance, tried, &out->uncertainty_exponent,
+                           &out->uncertainty_exponent_error);
+}
+
+/*
+ * Whether an exponent may yet come of more states: at enough distances the share that counts so far
+ * could be one half, by five standard deviations of it.
+ */
+static int hopeful(const pendres_scatter *s, double states, int scales)
+{
+  int below = 0;
+  for (int k = 0; k < scales; k++) below += s->total[k] <= 0.5 * states + 2.5 * sqrt(states);
+  return below >= LEAST_SCALES;
+}
+
+typedef struct sample {
+  const pendres_attractors *set;
+  const pendres_basin_window *window;
+  uint64_t seed;
+  double *x, *v; /* a state and its neighbours, one after the other */
+  pendres_outcome *outcome;
+} sample;
+
+/* Settle so many more states of a sample, with their neighbours. */
+static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
+                                  pendres_scatter *counts, pendres_basin_statistics *out)
+{
+  const size_t each = 1 + 2 * (size_t)out->scales;
+  for (size_t i = 0; i < count; i++)
+    place(a->window, a->seed, (uint64_t)(out->states + i), out->scales, out->distance,
+          &a->x[i * each], &a->v[i * each]);
+  const pendres_status status =
+    pendres_settle_known(ctx, a->set->catalogues, count * each, a->x, a->v,
+                         10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, a->outcome);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < count; i++) {
+    out->unresolved += a->outcome[i * each].attractor < 0;
+    count_sample(counts, out->scales, &a->outcome[i * each]);
+  }
+  out->states += count;
+  return status;
+}
+
+/* States that are settled next: as many as can be paid for, from what the others took. */
+static size_t next_count(size_t left, size_t done, double spent, double most)
+{
+  size_t count = done == 0 ? FIRST_SAMPLE : SAMPLES_AT_A_TIME;
+  if (count > left) count = left;
+  const double affordable = done == 0 ? (double)count : (most - spent) / spent * (double)done;
+  return affordable >= (double)count ? count : affordable >= 1.0 ? (size_t)affordable : 0;
+}
+
+/* Settle the n states of a sample, or the first of them, in the end so many as out->states. */
+static pendres_status settle_sample(pendres_context *ctx, sample *a, size_t n, double most,
+                                    pendres_scatter *counts, pendres_basin_statistics *out)
+{
+  const double before = pendres_context_slopes(ctx);
+  double spent = 0.0;
+  pendres_status status = PENDRES_OK;
+  while (out->states < n && status == PENDRES_OK) {
+    const size_t count = next_count(n - out->states, out->states, spent, most);
+    if (count == 0) break;
+    status = settle_some(ctx, a, count, counts, out);
+    spent = pendres_context_slopes(ctx) - before;
+    if (!hopeful(counts, (double)out->states, out->scales)) break;
+  }
+  return status;
+}
+
+static pendres_status compute_sample(pendres_context *ctx, sample *a, size_t n, double most,
+                                     pendres_basin_statistics *out)
+{
+  const size_t at_a_time = n < SAMPLES_AT_A_TIME ? n : SAMPLES_AT_A_TIME;
+  const size_t room = at_a_time * (1 + 2 * (size_t)out->scales);
+  pendres_scatter counts = {0};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  a->x = calloc(room, sizeof *a->x);
+  a->v = calloc(room, sizeof *a->v);
+  a->outcome = malloc(room * sizeof *a->outcome);
+  if (a->x == NULL || a->v == NULL || a->outcome == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for random states");
+  else
+    status = settle_sample(ctx, a, n, most, &counts, out);
+  if (status == PENDRES_OK) conclude(&counts, out);
+  free(a->x);
+  free(a->v);
+  free(a->outcome);
+  return status;
+}
+
+pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
+                                                const pendres_attractors *set,
+                                                const pendres_basin_window *window, size_t n,
+                                                int scales, const double *distance, uint64_t seed,
+                                                pendres_basin_statistics *out)
+{
+  if (set == NULL || window == NULL || distance == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, window, distance and out");
+  if (n < LEAST_STATES || scales < LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
+      set->sets != 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "an uncertainty exponent needs states and at least %d distances",
+                                LEAST_SCALES);
+  int bad = !(window->x_low < window->x_high && window->v_low < window->v_high &&
+              fmax(fmax(fabs(window->x_low), fabs(window->x_high)),
+                   fmax(fabs(window->v_low), fabs(window->v_high))) <= 1e15);
+  for (int k = 0; k < scales; k++) bad |= !(distance[k] > 0.0 && distance[k] <= 1e15);
+  if (bad)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "an uncertainty exponent needs a window and positive distances");
+  *out = (pendres_basin_statistics){.scales = scales,
+                                    .entropy = NAN, .entropy_error = NAN, .boundary_entropy = NAN,
+                                    .boundary_entropy_error = NAN, .boundary_boxes = NAN};
+  for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
+    out->distance[k] = k < scales ? distance[k] : NAN;
+  sample a = {.set = set, .window = window, .seed = seed};
+  const pendres_status status = compute_sample(ctx, &a, n, most, out);
+  if (status != PENDRES_OK) return status;
+  if (isnan(out->uncertainty_exponent))
+    return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
+                                "at too few of the distances the boundary is met often enough, "
+                                "and by fewer than half of %zu states%s", out->states,
+                                out->states < n ? ": more were not worth their time" : "");
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
+                                         const pendres_basin_window *window, size_t n, int scales,
+                                         const double *distance, uint64_t seed,
+                                         pendres_basin_statistics *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n,
+                                                                    scales, distance, seed, out));
+}

@@ -1,0 +1,265 @@
+/* boundary.c -- basin boundaries as curves; see boundary.h. */
+#include <pendres/boundary.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/strobe.h>
+
+#include "questions/boundary_grow.h"
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+#include "engine/steps.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+/* Of a point in (x, v), whatever else: rounding near the saddle, not amplified going back. */
+static const double rounding = 1e-12;
+
+struct pendres_boundary {
+  size_t count, capacity;
+  double *x, *v, *error;
+  int *piece;
+  int pieces, complete;
+  double bound;
+};
+
+void pendres_boundary_free(pendres_boundary *b)
+{
+  if (b == NULL) return;
+  free(b->x);
+  free(b->v);
+  free(b->error);
+  free(b->piece);
+  free(b);
+}
+
+size_t pendres_boundary_count(const pendres_boundary *b)
+{
+  return b != NULL ? b->count : 0;
+}
+
+const double *pendres_boundary_x(const pendres_boundary *b)
+{
+  return b != NULL ? b->x : NULL;
+}
+
+const double *pendres_boundary_v(const pendres_boundary *b)
+{
+  return b != NULL ? b->v : NULL;
+}
+
+const int *pendres_boundary_piece(const pendres_boundary *b)
+{
+  return b != NULL ? b->piece : NULL;
+}
+
+const double *pendres_boundary_error(const pendres_boundary *b)
+{
+  return b != NULL ? b->error : NULL;
+}
+
+double pendres_boundary_bound(const pendres_boundary *b)
+{
+  return b != NULL ? b->bound : 0.0;
+}
+
+int pendres_boundary_complete(const pendres_boundary *b)
+{
+  return b != NULL && b->complete;
+}
+
+/* ---- what is wanted ---- */
+
+static const char *resolve(pendres_boundary_options *o)
+{
+  if (o->x_low == 0.0 && o->x_high == 0.0) {
+    o->x_low = -half_pi;
+    o->x_high = 3.0 * half_pi;
+  }
+  if (o->v_low == 0.0 && o->v_high == 0.0) {
+    o->v_low = -2.5;
+    o->v_high = 2.5;
+  }
+  if (o->spacing == 0.0) o->spacing = 0.05;
+  if (o->deviation == 0.0) o->deviation = 1e-5;
+  if (o->most_points == 0) o->most_points = 400000;
+  if (!(o->x_high > o->x_low && o->x_high - o->x_low < 1e4))
+    return "the window in x is empty or absurd";
+  if (!(o->v_high > o->v_low && fmax(-o->v_low, o->v_high) < 1e4))
+    return "the window in v is empty or absurd";
+  if (!(o->spacing > 0.0 && o->deviation > 0.0)) return "spacing and deviation must be positive";
+  return NULL;
+}
+
+/* ---- into the window ---- */
+
+static pendres_status append(pendres_context *ctx, pendres_boundary *b, double x, double v,
+                             double error)
+{
+  if (b->count == b->capacity) {
+    const size_t size = 2 * b->capacity + 256;
+    double *px = realloc(b->x, size * sizeof *px);
+    if (px != NULL) b->x = px;
+    double *pv = realloc(b->v, size * sizeof *pv);
+    if (pv != NULL) b->v = pv;
+    double *pe = realloc(b->error, size * sizeof *pe);
+    if (pe != NULL) b->error = pe;
+    int *pp = realloc(b->piece, size * sizeof *pp);
+    if (pp != NULL) b->piece = pp;
+    if (px == NULL || pv == NULL || pe == NULL || pp == NULL)
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+    b->capacity = size;
+  }
+  b->x[b->count] = x;
+  b->v[b->count] = v;
+  b->error[b->count] = error;
+  b->piece[b->count++] = b->pieces;
+  b->bound = fmax(b->bound, error);
+  return PENDRES_OK;
+}
+
+/* A curve with the errors of its nodes. */
+typedef struct traced {
+  const pendres_boundary_node *node;
+  const double *x, *v, *error;
+  size_t count;
+} traced;
+
+/* What one translation of the curve shows in the window: nodes inside, in runs. */
+static pendres_status show(pendres_context *ctx, const traced *t, const pendres_boundary_options *o,
+                           double shift, pendres_boundary *b)
+{
+  int open = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
+    const double x = t->x[i] + shift, v = t->v[i];
+    const int inside = x >= o->x_low && x <= o->x_high && v >= o->v_low && v <= o->v_high;
+    const int goes_on = i > 0 && t->node[i].piece == t->node[i - 1].piece;
+    if (open && !(inside && goes_on)) {
+      b->pieces++;
+      open = 0;
+    }
+    /* Nodes may coincide where the curve is stretched to the limit of rounding. */
+    const int again = open && x == b->x[b->count - 1] && v == b->v[b->count - 1];
+    if (!inside || again) continue;
+    status = append(ctx, b, x, v, t->error[i]);
+    open = 1;
+  }
+  if (open) b->pieces++;
+  return status;
+}
+
+/*
+ * Errors of the nodes: mapped forward with other steps, their distance from the local manifold,
+ * taken back, tells how far they are from the curve; and the curve bends between them.
+ */
+static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
+                            const pendres_boundary_options *o, int steps,
+                            const pendres_boundary_curve *curve, pendres_boundary *b)
+{
+  const size_t n = curve->count;
+  const double omega = saddle->pendulum.drive_frequency;
+  pendres_boundary_seed coarse;
+  double *memory = malloc((3 * n + 1) * sizeof *memory);
+  if (memory == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  double *x = memory, *v = x + n, *error = v + n;
+  pendres_status status = pendres_boundary_grow_seed(ctx, saddle, steps, &coarse);
+  if (status == PENDRES_OK)
+    status = pendres_boundary_grow_distance(ctx, &coarse, n, curve->node, error);
+  if (status != PENDRES_OK) goto done;
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = 0; i < n; i++) {
+    x[i] = curve->node[i].y + half_pi;
+    v[i] = curve->node[i].w * omega;
+    /* The coarser manifold is some fifteen times as far from the true one as the finer. */
+    error[i] = 0.25 * error[i] + 1.5 * curve->node[i].sagitta + rounding;
+    low = fmin(low, x[i]);
+    high = fmax(high, x[i]);
+  }
+  const traced t = {.node = curve->node, .x = x, .v = v, .error = error, .count = n};
+  for (double k = floor((o->x_low - high) / two_pi); k <= ceil((o->x_high - low) / two_pi); k++) {
+    status = show(ctx, &t, o, k * two_pi, b);
+    if (status != PENDRES_OK) break;
+  }
+done:
+  free(memory);
+  return status;
+}
+
+/* One point of the saddle: grow, trace, and add to the boundary. */
+static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddle,
+                                const pendres_boundary_options *o, pendres_boundary *b)
+{
+  pendres_boundary_seed seed;
+  pendres_boundary_curve curve = {.complete = 1};
+  int steps = 0;
+  const double speed = fmax(fabs(o->v_low), fabs(o->v_high));
+  pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
+                                               10.0 * ctx->options.tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_rung((int)ceil(1.4 * steps)),
+                                        &seed);
+  if (status == PENDRES_OK) status = pendres_boundary_grow(ctx, &seed, o, &curve);
+  if (status == PENDRES_OK) status = trace(ctx, saddle, o, steps, &curve, b);
+  b->complete = b->complete && curve.complete;
+  pendres_boundary_grow_free(&curve);
+  return status;
+}
+
+static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                    const pendres_boundary_options *options, pendres_boundary **out)
+{
+  if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
+  const char *no_orbit = pendres_orbit_refuses(saddle);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", no_orbit);
+  *out = NULL;
+  pendres_boundary_options o = {0};
+  const char *why = NULL;
+  if (options != NULL) o = *options;
+  why = resolve(&o);
+  if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
+  if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
+
+  pendres_boundary *b = calloc(1, sizeof *b);
+  if (b == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  b->complete = 1;
+  pendres_orbit point = *saddle;
+  pendres_status status = PENDRES_OK;
+  for (int j = 0; j < saddle->period && status == PENDRES_OK; j++) {
+    if (j > 0) {
+      pendres_status outcome = PENDRES_OK;
+      pendres_orbit_guess next = {.pendulum = saddle->pendulum,
+                                  .x = point.x,
+                                  .v = point.v,
+                                  .period = saddle->period,
+                                  .winding = saddle->winding};
+      status = pendres_strobe_advance(ctx, 1, &next.pendulum, &next.x, &next.v, 1, NULL);
+      if (status == PENDRES_OK)
+        status = pendres_orbit_refine(ctx, 1, &next, PENDRES_ORBIT_PLAIN, &point, &outcome);
+      if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED)
+        status = pendres_context_fail(ctx, outcome, "a point of the saddle could not be refined");
+      if (status != PENDRES_OK) break;
+    }
+    status = add_point(ctx, &point, &o, b);
+  }
+  if (status == PENDRES_OK) {
+    *out = b;
+    b = NULL;
+  }
+  pendres_boundary_free(b);
+  return status;
+}
+
+pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                     const pendres_boundary_options *options,
+                                     pendres_boundary **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, boundary_find(ctx, saddle, options, out));
+}

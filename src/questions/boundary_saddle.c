@@ -1,0 +1,101 @@
+/* boundary_saddle.c -- the unstable orbit behind the fold of a branch; see boundary.h. */
+#include <pendres/boundary.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+#include "continuation/continuation_walk.h"
+
+enum { MOST_ADVANCES = 300 };
+static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
+static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
+
+/* Walk until the drive frequency is back where it was; *u is near the orbit there. */
+static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[PENDRES_U_COUNT])
+{
+  const double start = w->here.u[PENDRES_U_OMEGA];
+  pendres_walk_point last = w->here;
+  for (int i = 0; i < MOST_ADVANCES; i++) {
+    const pendres_status status = pendres_walk_advance(ctx, 1, w);
+    if (status != PENDRES_OK) return status;
+    if (w->stuck) return PENDRES_NOT_FOUND;
+    for (int k = 0; k < w->found; k++) {
+      const pendres_walk_point *p = &w->ahead[k];
+      const double before = last.u[PENDRES_U_OMEGA] - start, now = p->u[PENDRES_U_OMEGA] - start;
+      if (before * now < 0.0) {
+        const double part = before / (before - now);
+        for (int m = 0; m < PENDRES_U_COUNT; m++)
+          u[m] = last.u[m] + part * (p->u[m] - last.u[m]);
+        u[PENDRES_U_OMEGA] = start;
+        return PENDRES_OK;
+      }
+      last = *p;
+    }
+    const double omega = w->here.u[PENDRES_U_OMEGA];
+    if (omega > widest_range * start || omega * widest_range < start) break;
+    if (w->here.growth > wildest) break;
+  }
+  return PENDRES_NOT_FOUND;
+}
+
+/* Refine what a walk came back to. */
+static pendres_status refine(pendres_context *ctx, const pendres_orbit *attractor,
+                             const double u[PENDRES_U_COUNT], pendres_orbit *out)
+{
+  const double half_pi = 1.57079632679489661923;
+  const pendres_orbit_guess guess = {.pendulum = attractor->pendulum,
+                                     .x = u[PENDRES_U_Y] + half_pi,
+                                     .v = u[PENDRES_U_W] * attractor->pendulum.drive_frequency,
+                                     .period = attractor->period,
+                                     .winding = attractor->winding};
+  pendres_status outcome = PENDRES_OK;
+  const pendres_status status =
+    pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
+  if (status != PENDRES_OK) return status;
+  if (outcome == PENDRES_NOT_CONVERGED || out->stable) return PENDRES_NOT_FOUND;
+  if (outcome != PENDRES_OK)
+    return pendres_context_fail(ctx, outcome,
+                                "the orbit between two attractors is known to %.1e only",
+                                fmax(out->x_error, out->v_error));
+  return PENDRES_OK;
+}
+
+static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
+                                  pendres_orbit *out)
+{
+  if (attractor == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractor and out");
+  const char *no_orbit = pendres_orbit_refuses(attractor);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: %s", no_orbit);
+  pendres_status status = PENDRES_NOT_FOUND;
+  /* Softening springs: a small orbit's fold is above its frequency, a large one's below. */
+  for (int i = 0; i < 2 && status == PENDRES_NOT_FOUND; i++) {
+    const double up = attractor->phase_lag < 1.0 ? 1.0 : -1.0;
+    double u[PENDRES_U_COUNT];
+    pendres_walk walk = {.map = pendres_continuation_map_of(attractor, u),
+                         .condition = PENDRES_CONDITION_NONE,
+                         .unknowns = 3,
+                         .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA},
+                         .tolerance = 1e-7,
+                         .longest = 0.1};
+    status = pendres_walk_begin(ctx, &walk, u, i == 0 ? up : -up);
+    if (status == PENDRES_OK) status = walk_back(ctx, &walk, u);
+    if (status == PENDRES_OK) status = refine(ctx, attractor, u, out);
+    if (status == PENDRES_NOT_CONVERGED)
+      return pendres_context_fail(ctx, status, "no orbit to start from at drive frequency %g",
+                                  attractor->pendulum.drive_frequency);
+  }
+  if (status == PENDRES_NOT_FOUND)
+    return pendres_context_fail(ctx, status,
+                                "the branch of the orbit does not come back to drive frequency %g",
+                                attractor->pendulum.drive_frequency);
+  return status;
+}
+
+pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
+                                   pendres_orbit *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, saddle_find(ctx, attractor, out));
+}

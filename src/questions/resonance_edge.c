@@ -1,0 +1,231 @@
+/* resonance_edge.c -- resonances at jumps: folds, and basins alone; see resonance_refine.h. */
+#include "questions/resonance_refine.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <pendres/continuation.h>
+
+#include "engine/context_internal.h"
+#include "questions/resonance_gap.h"
+
+/*
+ * A state of `here` that has no counterpart in `there`: it ends in between. NULL if all go on (then
+ * members change their basins).
+ */
+static const pendres_attractor *ending_state(const pendres_response *here,
+                                             const pendres_response *there)
+{
+  for (size_t i = 0; i < here->states; i++) {
+    int goes_on = 0;
+    const pendres_orbit *o = &here->state[i].orbit;
+    for (size_t j = 0; j < there->states; j++) {
+      const pendres_orbit *p = &there->state[j].orbit;
+      const double distance = hypot(o->x - p->x, o->v - p->v);
+      /* Gaps are narrow: an orbit moves by far less than it differs from another, but for the
+         square-root rush into its fold. */
+      goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
+    }
+    if (!goes_on && isfinite(o->x)) return &here->state[i];
+  }
+  return NULL;
+}
+
+/*
+ * Whether the jump between a and b lies beyond m. Of several the one next to the largest value
+ * counts, else the larger. What the states' own slopes explain is no jump: where a state comes or
+ * goes without one, as the partners of a mirror pair do, the states tell.
+ */
+static int jump_is_right(const pendres_scan_point *a, const pendres_scan_point *m,
+                         const pendres_scan_point *b)
+{
+  const double width =
+    b->response.pendulum.drive_frequency - a->response.pendulum.drive_frequency;
+  const double at_a = a->response.mean_loop_area, at_b = b->response.mean_loop_area;
+  const double at_m = m->response.mean_loop_area;
+  const double left = fabs(at_m - at_a), right = fabs(at_b - at_m);
+  const double drift = width * fmax(fabs(m->slope), fmax(fabs(a->slope), fabs(b->slope)));
+  if (left <= drift && right <= drift) {
+    pendres_gap before, behind;
+    pendres_gap_look(a, m, 0, &before);
+    pendres_gap_look(m, b, 0, &behind);
+    if ((before.kind == PENDRES_GAP_JUMP) != (behind.kind == PENDRES_GAP_JUMP))
+      return behind.kind == PENDRES_GAP_JUMP;
+  }
+  if (at_a >= fmax(at_m, at_b) && left > drift) return 0;
+  if (at_b >= fmax(at_a, at_m) && right > drift) return 1;
+  return right >= left;
+}
+
+/* Halve the gap between two different points until it is narrower than `width`. */
+static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
+                             pendres_scan_point *a, pendres_scan_point *b)
+{
+  for (;;) {
+    const double lower = a->response.pendulum.drive_frequency;
+    const double upper = b->response.pendulum.drive_frequency;
+    const double middle = 0.5 * (lower + upper);
+    if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
+    pendres_scan_point m;
+    const pendres_status status =
+      pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, NULL, &m);
+    if (status != PENDRES_OK) return status;
+    if (jump_is_right(a, &m, b))
+      *a = m;
+    else
+      *b = m;
+  }
+}
+
+enum { DECIDERS = 8 /* members that are followed up to a fold */ };
+
+/*
+ * Of the n starts in x, those that settle on an orbit's state at a frequency, at most `most`, are
+ * moved to its front; *found is their number.
+ */
+static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+                                 double v, double amplitude, size_t most, double *x, size_t *found)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
+  double *velocity = malloc(n * sizeof *velocity);
+  pendres_outcome *outcome = malloc(n * sizeof *outcome);
+  pendres_attractors *set = NULL;
+  *found = 0;
+  if (pendulums == NULL || velocity == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu members", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    pendulums[i] = *p;
+    velocity[i] = v;
+  }
+  status = pendres_settle(ctx, n, pendulums, x, velocity, outcome, &set);
+  if (status != PENDRES_OK) goto done;
+  size_t on = 0;
+  for (int pass = 0; pass < 2; pass++) {
+    /* First count them, then take them evenly from all. */
+    const size_t all = on;
+    on = 0;
+    for (size_t i = 0; i < n; i++) {
+      const pendres_attractor *a =
+        outcome[i].attractor < 0 ? NULL
+                                 : pendres_attractors_get(set, (size_t)outcome[i].attractor);
+      /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
+      if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
+      if (pass == 1 && *found < most && on * most >= *found * all) x[(*found)++] = x[i];
+      on++;
+    }
+  }
+done:
+  pendres_attractors_free(set);
+  free(pendulums);
+  free(velocity);
+  free(outcome);
+  return status;
+}
+
+/*
+ * Whether the fold makes a jump of the ensemble's mean: the state that is born there has members
+ * at once. Members on it a thousandth off the fold are followed to a millionth: one that is on it
+ * still was inside its basin when that was born. A few tell mostly; where the basin is torn to
+ * shreds and they have all left, the others are asked.
+ */
+static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
+                                   const pendres_fold *fold, double side, int *decides)
+{
+  const size_t most[2] = {DECIDERS, e->members};
+  double *x = malloc(e->members * sizeof *x);
+  pendres_status status = PENDRES_OK;
+  *decides = 0;
+  if (x == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
+  for (int pass = 0; pass < 2 && !*decides && status == PENDRES_OK; pass++) {
+    size_t n = e->members;
+    for (size_t k = 1; k <= n; k++) x[k - 1] = pendres_ensemble_x(e, k);
+    for (double off = 1e-3; off > 5e-7 && n > 0 && status == PENDRES_OK; off *= 0.1) {
+      pendres_pendulum p = fold->orbit.pendulum;
+      p.drive_frequency = fold->value + side * off;
+      status = members_on(ctx, &p, n, e->v, fold->orbit.amplitude, most[pass], x, &n);
+    }
+    *decides = n > 0;
+  }
+  free(x);
+  return status;
+}
+
+pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                           const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_point *at,
+                                           double *beside, int *found)
+{
+  pendres_fold fold;
+  const double lower = a->response.pendulum.drive_frequency;
+  const double upper = b->response.pendulum.drive_frequency;
+  const pendres_attractor *left = ending_state(&a->response, &b->response);
+  const pendres_attractor *right = ending_state(&b->response, &a->response);
+  const pendres_attractor *state = left != NULL ? left : right;
+  const pendres_scan_point *without = left != NULL ? b : a;
+  const double side = left != NULL ? -1.0 : 1.0; /* where the state exists */
+  *found = 0;
+  if (state == NULL || (left != NULL && right != NULL) || without->response.states == 0)
+    return PENDRES_OK;
+  pendres_status status = pendres_fold_find(ctx, &state->orbit, &fold);
+  if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
+  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  if (!(fold.value > lower && fold.value < upper)) return PENDRES_OK;
+  int decides = 0;
+  status = fold_decides(ctx, ensemble, &fold, side, &decides);
+  if (status != PENDRES_OK || !decides) return status;
+
+  status = pendres_scan_follow(ctx, without, fold.value, at);
+  if (status != PENDRES_OK) return status;
+  at->at_fold = side < 0.0 ? -1 : 1;
+  at->fold = fold.value;
+  at->fold_error = fold.value_error;
+  const double room = fabs(fold.value - (side < 0 ? lower : upper));
+  *beside = fold.value + side * fmin(1e-3, 0.5 * room);
+  *found = 1;
+  return PENDRES_OK;
+}
+
+/* The resonance at a point, with what follows from the error of its frequency. */
+static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *at, double step,
+                               pendres_resonance *out)
+{
+  pendres_scan_point beside;
+  const pendres_status status =
+    pendres_scan_follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
+  if (status != PENDRES_OK) return status;
+  pendres_resonance_take(out, at);
+  pendres_resonance_add_error(out, &beside);
+  out->loop_area_error = out->response.mean_loop_area_error;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,
+                                         pendres_resonance *out)
+{
+  *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
+                             .frequency_error = at->fold_error,
+                             .fold_frequency = at->fold,
+                             .fold_frequency_error = at->fold_error};
+  return conclude(ctx, at, -1e-6 * at->at_fold, out);
+}
+
+pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out)
+{
+  pendres_scan_point lower = *a, upper = *b;
+  const double width = 0.25 * pendres_context_options(ctx)->tolerance;
+  const pendres_status status = bisect(ctx, ensemble, width, &lower, &upper);
+  if (status != PENDRES_OK) return status;
+  const int low = lower.response.mean_loop_area > upper.response.mean_loop_area;
+  *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
+                             .frequency_error = upper.response.pendulum.drive_frequency -
+                                                lower.response.pendulum.drive_frequency,
+                             .fold_frequency = NAN,
+                             .fold_frequency_error = NAN};
+  return conclude(ctx, low ? &lower : &upper, low ? -1e-6 : 1e-6, out);
+}

@@ -1,0 +1,20 @@
+/*
+ * response_internal.h -- from the outcomes of an ensemble's members to its means.
+ */
+#ifndef PENDRES_RESPONSE_INTERNAL_H
+#define PENDRES_RESPONSE_INTERNAL_H
+
+#include <pendres/response.h>
+
+#include "orbits/catalogue.h"
+
+/*
+ * The response of n members whose outcomes count the attractors of c: means over all of them, and
+ * those attractors listed that most members are on. where[n], which may be NULL, receives the
+ * listed attractor that each member is on; -1: none.
+ */
+pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_catalogue *c,
+                                          size_t n, const pendres_outcome *outcome,
+                                          signed char *where, pendres_response *r);
+
+#endif

@@ -1,0 +1,65 @@
+/*
+ * reference.c -- the strobe map of the independent reference; see reference.h.
+ */
+#include <pendres/reference.h>
+
+#include <math.h>
+#include <stddef.h>
+
+#include "reference/reference_taylor.h"
+
+static pendres_status check_start(const pendres_pendulum *p, long double y, long double v,
+                                  long periods)
+{
+  if (pendres_pendulum_check(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
+  if (!(fabsl(y) <= 1e9L) || !isfinite(v) || periods < 0) return PENDRES_INVALID_ARGUMENT;
+  return PENDRES_OK;
+}
+
+static pendres_reference_model model_of(const pendres_pendulum *p)
+{
+  return (pendres_reference_model){ p->damping, p->drive_amplitude, p->drive_frequency };
+}
+
+pendres_status pendres_reference_advance(const pendres_pendulum *p, long double *y,
+                                         long double *v, long *turns, long periods)
+{
+  if (y == NULL || v == NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = check_start(p, *y, *v, periods);
+  if (status != PENDRES_OK) return status;
+  const pendres_reference_model model = model_of(p);
+  pendres_reference_walk walk;
+  const long start = pendres_reference_taylor_init(&walk, &model, *y, *v);
+  status = pendres_reference_taylor_advance(&walk, periods);
+  if (status != PENDRES_OK) return status;
+  *y = walk.y.hi;
+  *v = walk.v.hi;
+  if (turns != NULL) *turns += start + walk.turns;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_reference_map(const pendres_pendulum *p, long double y, long double v,
+                                     long periods, pendres_reference_image *out)
+{
+  if (out == NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = check_start(p, y, v, periods);
+  if (status != PENDRES_OK) return status;
+  const pendres_reference_model model = model_of(p);
+  pendres_reference_walk walk;
+  const long start = pendres_reference_taylor_init(&walk, &model, y, v);
+  walk.columns = PENDRES_REFERENCE_COLUMNS;
+  status = pendres_reference_taylor_advance(&walk, periods);
+  if (status != PENDRES_OK) return status;
+  out->y = walk.y.hi;
+  out->v = walk.v.hi;
+  out->turns = start + walk.turns;
+  for (int i = 0; i < 2; i++) {
+    const pendres_reference_pair *row = i == 0 ? walk.u : walk.w;
+    out->monodromy[i][0] = row[PENDRES_REFERENCE_BY_Y].hi;
+    out->monodromy[i][1] = row[PENDRES_REFERENCE_BY_V].hi;
+    out->by_frequency[i] = row[PENDRES_REFERENCE_BY_FREQUENCY].hi;
+    out->by_damping[i] = row[PENDRES_REFERENCE_BY_DAMPING].hi;
+    out->by_amplitude[i] = row[PENDRES_REFERENCE_BY_AMPLITUDE].hi;
+  }
+  return PENDRES_OK;
+}

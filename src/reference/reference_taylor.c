@@ -1,0 +1,333 @@
+/*
+ * reference_taylor.c -- the Taylor-series integrator of reference.h.
+ *
+ * With coefficients y_k, v_k of powers of t around the beginning of a step, and s, c those of
+ * sin y and cos y, d and e those of cos theta and sin theta:
+ *
+ *     (k+1) y_k+1 = v_k                 (k+1) v_k+1 = -s_k - damping v_k + F0 d_k
+ *     (k+1) s_k+1 = (v * c)_k           (k+1) c_k+1 = -(v * s)_k
+ *     (k+1) d_k+1 = -omega e_k          (k+1) e_k+1 = omega d_k
+ *
+ * where * is the Cauchy product, (k+1) y_k+1 = v_k having been used in the usual recurrences
+ * for sine and cosine. A column (u, w) of the variational equation, at fixed drive phase:
+ *
+ *     (k+1) u_k+1 = w_k + a_k           (k+1) w_k+1 = -(c * u)_k - damping w_k + b_k
+ *
+ * with sources (a, b) = (-v, -dv/dt)/omega for the drive frequency (the clock theta runs
+ * slower in t), (0, -v) for the damping, (0, cos theta) for the drive amplitude.
+ *
+ * Source: Jorba and Zou, Experimental Mathematics 14 (2005) 99; two-word sums: Dekker,
+ * Numerische Mathematik 18 (1971) 224.
+ */
+#include "reference/reference_taylor.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Step ends lie on this grid in theta, so that the phase is exact but for its own wrap. */
+static const long double grid = 0x1p-40L;
+
+static pendres_reference_pair two_sum(long double a, long double b)
+{
+  const long double s = a + b;
+  const long double part = s - a;
+  return (pendres_reference_pair){ s, (a - (s - part)) + (b - part) };
+}
+
+static void pair_add(pendres_reference_pair *a, long double b)
+{
+  const pendres_reference_pair s = two_sum(a->hi, b);
+  *a = two_sum(s.hi, s.lo + a->lo);
+}
+
+/* a b exactly in two words, by splitting each in halves. */
+static pendres_reference_pair two_product(long double a, long double b)
+{
+  const long double splitter = ldexpl(1.0L, (LDBL_MANT_DIG + 1) / 2) + 1.0L;
+  const long double ta = splitter * a, tb = splitter * b;
+  const long double ah = ta - (ta - a), al = a - ah;
+  const long double bh = tb - (tb - b), bl = b - bh;
+  const long double product = a * b;
+  return (pendres_reference_pair){
+    product, ((ah * bh - product) + ah * bl + al * bh) + al * bl };
+}
+
+/* 2 pi as three doubles, whatever the format of long double. */
+static const double two_pi_part[3] = { 0x1.921fb54442d18p+2, 0x1.1a62633145c07p-52,
+                                       -0x1.f1976b7ed8fbcp-108 };
+
+pendres_reference_pair pendres_reference_taylor_two_pi(void)
+{
+  pendres_reference_pair sum = two_sum(two_pi_part[0], two_pi_part[1]);
+  pair_add(&sum, two_pi_part[2]);
+  return sum;
+}
+
+/* Take whole turns off y until it is in (-pi, pi], and count them. */
+static void wrap(pendres_reference_walk *walk)
+{
+  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double half = two_pi / 2.0L;
+  while (walk->y.hi > half || walk->y.hi <= -half) {
+    long double n = rintl(walk->y.hi / two_pi);
+    if (n == 0.0L) n = walk->y.hi > 0.0L ? 1.0L : -1.0L;
+    for (int i = 0; i < 3; i++) {
+      const pendres_reference_pair part = two_product(-n, two_pi_part[i]);
+      pair_add(&walk->y, part.hi);
+      pair_add(&walk->y, part.lo);
+    }
+    walk->turns += (long)n;
+  }
+}
+
+long pendres_reference_taylor_init(pendres_reference_walk *walk,
+                                   const pendres_reference_model *model, long double y,
+                                   long double v)
+{
+  memset(walk, 0, sizeof *walk);
+  walk->model = *model;
+  walk->order = PENDRES_REFERENCE_ORDER;
+  walk->y.hi = y;
+  walk->v.hi = v;
+  walk->u[PENDRES_REFERENCE_BY_Y].hi = 1.0L;
+  walk->w[PENDRES_REFERENCE_BY_V].hi = 1.0L;
+  walk->highest = -HUGE_VALL;
+  walk->lowest = HUGE_VALL;
+  wrap(walk);
+  const long taken = walk->turns;
+  walk->turns = 0;
+  return taken;
+}
+
+/* sum of a_j b_k-j */
+static long double cauchy(const long double *a, const long double *b, int k)
+{
+  long double even = 0.0L, odd = 0.0L;
+  int j = 0;
+  /* Two sums, because one would wait for each addition to finish. */
+  for (; j < k; j += 2) {
+    even += a[j] * b[k - j];
+    odd += a[j + 1] * b[k - j - 1];
+  }
+  if (j == k) even += a[k] * b[0];
+  return even + odd;
+}
+
+/* sum of c_k h^k for k >= 1 */
+static long double increment(const long double *c, int order, long double h)
+{
+  long double sum = c[order];
+  for (int k = order - 1; k >= 1; k--) sum = c[k] + h * sum;
+  return h * sum;
+}
+
+/* sum of k c_k h^(k-1) for k >= 1 */
+static long double slope(const long double *c, int order, long double h)
+{
+  long double sum = c[order] * (long double)order;
+  for (int k = order - 1; k >= 1; k--) sum = c[k] * (long double)k + h * sum;
+  return sum;
+}
+
+static void expand_state(pendres_reference_walk *walk)
+{
+  const long double damping = walk->model.damping, omega = walk->model.drive_frequency;
+  const long double force = walk->model.drive_amplitude;
+  long double *y = walk->sy, *v = walk->sv, *s = walk->ssin, *c = walk->scos;
+  long double *d = walk->sdrive, *e = walk->squad;
+  const long double sine = sinl(walk->y.hi), cosine = cosl(walk->y.hi);
+  y[0] = walk->y.hi;
+  v[0] = walk->v.hi;
+  s[0] = sine + cosine * walk->y.lo;
+  c[0] = cosine - sine * walk->y.lo;
+  d[0] = cosl(walk->theta);
+  e[0] = sinl(walk->theta);
+  for (int k = 0; k < walk->order; k++) {
+    const long double n = k + 1;
+    y[k + 1] = v[k] / n;
+    v[k + 1] = (force * d[k] - s[k] - damping * v[k]) / n;
+    s[k + 1] = cauchy(v, c, k) / n;
+    c[k + 1] = -cauchy(v, s, k) / n;
+    d[k + 1] = -omega * e[k] / n;
+    e[k + 1] = omega * d[k] / n;
+  }
+}
+
+static void expand_column(pendres_reference_walk *walk, int column)
+{
+  const long double damping = walk->model.damping, omega = walk->model.drive_frequency;
+  long double *u = walk->su[column], *w = walk->sw[column];
+  u[0] = walk->u[column].hi;
+  w[0] = walk->w[column].hi;
+  for (int k = 0; k < walk->order; k++) {
+    const long double n = k + 1;
+    long double a = 0.0L, b = 0.0L;
+    if (column == PENDRES_REFERENCE_BY_FREQUENCY) {
+      a = -walk->sv[k] / omega;
+      b = -walk->sv[k + 1] * n / omega;
+    } else if (column == PENDRES_REFERENCE_BY_DAMPING) {
+      b = -walk->sv[k];
+    } else if (column == PENDRES_REFERENCE_BY_AMPLITUDE) {
+      b = walk->sdrive[k];
+    }
+    u[k + 1] = (w[k] + a) / n;
+    w[k + 1] = (b - cauchy(walk->scos, u, k) - damping * w[k]) / n;
+  }
+}
+
+/* Size of the k-th coefficients of everything integrated, each beside its own scale. */
+static long double relative_term(const pendres_reference_walk *walk, int k)
+{
+  const long double scale = fabsl(walk->sy[0]) + fabsl(walk->sv[0]) +
+                            fabsl(walk->model.drive_amplitude);
+  if (scale == 0.0L) return 0.0L;
+  long double largest = fmaxl(fabsl(walk->sy[k]), fabsl(walk->sv[k])) / scale;
+  for (int i = 0; i < walk->columns; i++) {
+    const int small = i == PENDRES_REFERENCE_BY_FREQUENCY || i == PENDRES_REFERENCE_BY_DAMPING;
+    const long double own = fabsl(walk->su[i][0]) + fabsl(walk->sw[i][0]) + (small ? scale : 1.0L);
+    largest = fmaxl(largest, fmaxl(fabsl(walk->su[i][k]), fabsl(walk->sw[i][k])) / own);
+  }
+  return largest;
+}
+
+/* The step in theta that the series allows: its last two terms fall below the rounding. */
+static long double allowed_step(const pendres_reference_walk *walk)
+{
+  const long double omega = walk->model.drive_frequency;
+  /* Longer than a decay time, terms of a series would cancel; longer than a radian, those
+     of the drive. */
+  double longest = (double)(1.0L / fmaxl(fmaxl(1.0L, walk->model.damping), omega));
+  for (int k = walk->order - 1; k <= walk->order; k++) {
+    const double term = (double)relative_term(walk, k);
+    if (term > 0.0)
+      longest = fmin(longest, exp((log((double)LDBL_EPSILON / 256.0) - log(term)) / k));
+  }
+  return floorl(longest * omega / grid) * grid;
+}
+
+/* Largest and smallest y - drift theta within the step: ends and zeros of its velocity. */
+static void note_extremes(pendres_reference_walk *walk, const long double *series, long double h)
+{
+  enum { PIECES = 8 };
+  long double before = series[1];
+  for (int i = 0; i <= PIECES; i++) {
+    long double at = h * (long double)i / PIECES;
+    const long double here = slope(series, walk->order, at);
+    if ((before < 0.0L && here > 0.0L) || (before > 0.0L && here < 0.0L)) {
+      long double from = at - h / PIECES, to = at;
+      /* Bisection is enough: an extreme forgives half of the digits of its place. */
+      for (int j = 0; j < LDBL_MANT_DIG * 2 / 3; j++) {
+        at = 0.5L * (from + to);
+        const long double middle = slope(series, walk->order, at);
+        if ((middle < 0.0L) == (before < 0.0L)) from = at;
+        else to = at;
+      }
+    }
+    const long double value = series[0] + increment(series, walk->order, at);
+    walk->highest = fmaxl(walk->highest, value);
+    walk->lowest = fminl(walk->lowest, value);
+    before = here;
+  }
+}
+
+/* A step of t + rest by a series, where rest is the second word of the step. It acts at the
+   step's end: taken from its beginning it would feed energy in, a little each period. */
+static long double advance_series(const long double *c, int order, pendres_reference_pair t)
+{
+  return increment(c, order, t.hi) + t.lo * slope(c, order, t.hi);
+}
+
+/* Integral over the step of the product of two series. */
+static void integrate(const pendres_reference_walk *walk, const long double *a,
+                      const long double *b, long double factor, pendres_reference_pair t,
+                      pendres_reference_pair *sum)
+{
+  pendres_reference_series product = { 0.0L };
+  for (int k = 0; k < walk->order; k++)
+    product[k + 1] = cauchy(a, b, k) / (long double)(k + 1);
+  pair_add(sum, factor * advance_series(product, walk->order, t));
+}
+
+static void measure(pendres_reference_walk *walk, pendres_reference_pair t)
+{
+  const long double two_pi = pendres_reference_taylor_two_pi().hi;
+  const long double omega = walk->model.drive_frequency, force = walk->model.drive_amplitude;
+  pendres_reference_series steady;
+  memcpy(steady, walk->sy, sizeof steady);
+  steady[0] += two_pi * ((long double)walk->turns - walk->drift * (long double)walk->periods) -
+               walk->drift * walk->theta;
+  steady[1] -= walk->drift * omega;
+  note_extremes(walk, steady, t.hi);
+  integrate(walk, steady, walk->sdrive, 1.0L, t, &walk->cosine);
+  integrate(walk, steady, walk->squad, 1.0L, t, &walk->sine);
+  integrate(walk, walk->sv, walk->sv, 1.0L, t, &walk->square);
+  integrate(walk, walk->sv, walk->sdrive, force, t, &walk->area);
+  for (int i = 0; i < walk->columns; i++)
+    integrate(walk, walk->sw[i], walk->sdrive, force, t, &walk->area_by[i]);
+  if (walk->columns > PENDRES_REFERENCE_BY_FREQUENCY)
+    integrate(walk, walk->sv, walk->sdrive, -force / omega, t,
+              &walk->area_by[PENDRES_REFERENCE_BY_FREQUENCY]);
+  if (walk->columns > PENDRES_REFERENCE_BY_AMPLITUDE)
+    integrate(walk, walk->sv, walk->sdrive, 1.0L, t,
+              &walk->area_by[PENDRES_REFERENCE_BY_AMPLITUDE]);
+}
+
+/* One step of h + tail in theta; h is on the grid or ends the period. */
+static void step(pendres_reference_walk *walk, long double h, long double tail)
+{
+  const int order = walk->order;
+  const long double omega = walk->model.drive_frequency;
+  pendres_reference_pair t = { h / omega, 0.0L };
+  const pendres_reference_pair back = two_product(t.hi, omega);
+  t.lo = (((h - back.hi) - back.lo) + tail) / omega;
+  if (walk->measures) measure(walk, t);
+  /* The second word of y is in the series, that of v acts to first order. */
+  const long double more = t.hi * walk->v.lo;
+  pair_add(&walk->y, advance_series(walk->sy, order, t) + more);
+  pair_add(&walk->v, advance_series(walk->sv, order, t) - walk->model.damping * more);
+  for (int i = 0; i < walk->columns; i++) {
+    pair_add(&walk->u[i], advance_series(walk->su[i], order, t));
+    pair_add(&walk->w[i], advance_series(walk->sw[i], order, t));
+  }
+  walk->theta += h;
+  wrap(walk);
+}
+
+/* From drive phase 0 to `end`, at which the phase is left. */
+static pendres_status advance_to(pendres_reference_walk *walk, pendres_reference_pair end)
+{
+  walk->theta = 0.0L;
+  for (;;) {
+    expand_state(walk);
+    for (int i = 0; i < walk->columns; i++) expand_column(walk, i);
+    const long double h = walk->steps > 0
+                            ? floorl(two_pi_part[0] / walk->steps / grid + 1.0L) * grid
+                            : allowed_step(walk);
+    const long double left = end.hi - walk->theta;
+    /* NaN and infinities end here, too. A million steps a period are far more than
+       anything physical asks for. */
+    if (!(h > 1e-6L) || !isfinite(walk->y.hi) || !isfinite(walk->v.hi))
+      return PENDRES_INTEGRATION_FAILED;
+    if (h >= left) {
+      step(walk, left, end.lo);
+      return PENDRES_OK;
+    }
+    step(walk, h, 0.0L);
+  }
+}
+
+pendres_status pendres_reference_taylor_advance(pendres_reference_walk *walk, long periods)
+{
+  for (long i = 0; i < periods; i++) {
+    const pendres_status status = advance_to(walk, pendres_reference_taylor_two_pi());
+    if (status != PENDRES_OK) return status;
+    walk->periods++;
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_reference_taylor_advance_half(pendres_reference_walk *walk)
+{
+  const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
+  return advance_to(walk, (pendres_reference_pair){ 0.5L * two_pi.hi, 0.5L * two_pi.lo });
+}
