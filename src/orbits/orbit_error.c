@@ -77,7 +77,7 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
 }
 
 /* Of the entries; of the two off the diagonal in units in which they are alike. */
-static double size_of(const double m[2][2])
+static double size_of(const double (*m)[2])
 {
   return fmax(fmax(fabs(m[0][0]), fabs(m[1][1])), sqrt(fabs(m[0][1] * m[1][0])));
 }

@@ -12,6 +12,7 @@ read as the standard says (or as harmless input deserves). 'varies': releases of
 The values expected of us stand with each case, so that a label says something even if gfortran
 changes its mind.
 """
+import glob
 import os
 import shutil
 import subprocess
@@ -141,10 +142,9 @@ def run(command, **kw):
 
 def build(folder):
     cc = os.environ.get('CC', 'cc').split()
-    sources = [os.path.join(HERE, 'ours.c')] + sorted(
-        os.path.join(TOP, 'drivers', f) for f in os.listdir(os.path.join(TOP, 'drivers'))
-        if f.endswith('.c') and f.startswith(('namelist', 'deck', 'safe_text')))
-    sources.append(os.path.join(TOP, 'src', 'sweep.c'))  # what lists and ranges make of an axis
+    sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '*.c')))
+    sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
+    sources.append(os.path.join(TOP, 'src', 'questions', 'sweep.c'))  # what lists and ranges make of an axis
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
                          '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)
 
