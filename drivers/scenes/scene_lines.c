@@ -69,8 +69,8 @@ static void judge_line(scene_lines *l, size_t task)
   for (size_t k = 0; k < l->drives; k++) {
     char words[80];
     if (line->place[k] == SIZE_MAX || line->points[line->place[k]].unresolved == 0) continue;
-    snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may do",
-             line->points[line->place[k]].unresolved, l->ensemble.members);
+    snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
+             "do", line->points[line->place[k]].unresolved, l->ensemble.members);
     scene_failures_mark(&l->failed, task * l->drives + k, SCENE_FAILURE_UNRESOLVED, words);
   }
 }

@@ -115,8 +115,8 @@ static void judge_points(grid *g, size_t first, size_t n)
     if (g->failed.reason[i] != SCENE_FAILURE_NONE) continue;
     if (r->unresolved > 0) {
       char words[80];
-      snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may do",
-               r->unresolved, g->ensemble.members);
+      snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
+               "do", r->unresolved, g->ensemble.members);
       scene_failures_mark(&g->failed, i, SCENE_FAILURE_UNRESOLVED, words);
     } else if (isnan(r->mean_loop_area)) {
       scene_failures_mark(&g->failed, i, SCENE_FAILURE_NO_MEAN, NULL);

@@ -147,7 +147,7 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
   double off = NAN;
   if (!wrong) {
     const pendres_orbit *o = &pendres_attractors_get(found, 0)->orbit;
-    const double most = 1e-6; /* of amplitudes below 1, at a tolerance far below: more is no answer */
+    const double most = 1e-6; /* of amplitudes below 1, at a tolerance far below */
     off = hard_over_claim((double)fabsl(o->amplitude - exact.amplitude), o->amplitude_error, most);
     off = hard_larger(off, hard_over_claim((double)fabsl(o->loop_area - exact.loop_area),
                                            o->loop_area_error, most));

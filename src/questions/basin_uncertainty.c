@@ -202,6 +202,7 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          const double *distance, uint64_t seed,
                                          pendres_basin_statistics *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n,
-                                                                    scales, distance, seed, out));
+  return PENDRES_CONTEXT_CALL(
+    ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n, scales, distance, seed,
+                                          out));
 }

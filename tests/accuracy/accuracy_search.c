@@ -112,6 +112,6 @@ void accuracy_search(accuracy *a)
         accuracy_complain(a, "a larger loop area than the largest", how);
     }
   }
-  printf("\nsearch: %ld resonances, %ld of them ragged, %ld not beside all %d frequencies; %ld ranges "
-         "without one\n", peaks, ragged, cut, (int)FREQUENCIES, none);
+  printf("\nsearch: %ld resonances, %ld of them ragged, %ld not beside all %d frequencies; %ld "
+         "ranges without one\n", peaks, ragged, cut, (int)FREQUENCIES, none);
 }
