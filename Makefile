@@ -10,6 +10,7 @@
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make doc        reference manual from the public headers, with doxygen
+#   make decks-reference   docs/decks.md anew, from the table of keys
 #   make style      where lines or files are too long
 #   make clean
 #
@@ -158,7 +159,8 @@ ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots doc style clean \
+.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots doc decks-reference \
+        style clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -316,6 +318,9 @@ uninstall:
 doc:
 	@mkdir -p build
 	doxygen Doxyfile
+
+decks-reference: $(PROGRAM)
+	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
 
 style:
 	@tests/style.sh

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "ending.h"
+#include "deck/deck_explain.h"
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
@@ -234,6 +235,22 @@ static int report(job *j)
   return SOME_POINTS_FAILED;
 }
 
+/* What is asked about decks, not of one. */
+static int answer(const options *o)
+{
+  char why[200];
+  pendres_status status = PENDRES_OK;
+  if (o->action == OPTIONS_LIST) deck_list(stdout);
+  else if (o->action == OPTIONS_REFERENCE) deck_reference(stdout);
+  else if (o->action == OPTIONS_INIT) status = deck_init(o->word, stdout, why, sizeof why);
+  else status = deck_explain(o->word, stdout, why, sizeof why);
+  if (status == PENDRES_OK) return options_written(stdout);
+  fputs("resonance: error: ", stderr);
+  safe_text_write(stderr, why);
+  fputs("\n", stderr);
+  return BAD_USAGE;
+}
+
 /* A store that is not closed by now is given up, without a trace. */
 static void let_go(job *j)
 {
@@ -272,6 +289,7 @@ int main(int argc, char **argv)
   if (code != DONE) return code;
   if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);
   if (j.options.action == OPTIONS_VERSION) return options_print_version(stdout);
+  if (j.options.action >= OPTIONS_LIST) return answer(&j.options);
   provenance_start(&j.provenance);
   progress_init(&j.progress, stderr, j.options.quiet);
   code = farm_errand(run_job, &j);

@@ -19,6 +19,10 @@ static const char help[] =
   "and noisy pendulums, and write its results to an HDF5 file (default: the deck's name with .h5,\n"
   "in the working directory). A short table goes to standard output, all else to standard error.\n"
   "\n"
+  "      --list            kinds of scenes, a line each\n"
+  "      --explain=WORD    meaning, unit, default and range of a key, or of all of a kind or group\n"
+  "      --init=KIND       print a deck of that kind to start from, with comments\n"
+  "      --reference       print all that --explain knows as a page (docs/decks.md)\n"
   "  -n, --dry-run         check the deck and say what would be computed\n"
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
@@ -50,6 +54,19 @@ static int threads_of(const char *text)
   return errno != 0 || end == text || *end != '\0' || n < 1 || n > MOST_THREADS ? 0 : (int)n;
 }
 
+/* What needs no deck. */
+static options_action asked_for(int option)
+{
+  switch (option) {
+  case 'L': return OPTIONS_LIST;
+  case 'E': return OPTIONS_EXPLAIN;
+  case 'I': return OPTIONS_INIT;
+  case 'R': return OPTIONS_REFERENCE;
+  case 'V': return OPTIONS_VERSION;
+  default: return OPTIONS_HELP;
+  }
+}
+
 /* One option; 0, or 2 after a message. */
 static int apply(int option, const char *value, const char *name, options *out)
 {
@@ -63,8 +80,15 @@ static int apply(int option, const char *value, const char *name, options *out)
     return 0;
   case 'h':
   case 'V':
-    if (out->action <= OPTIONS_DUMP_NAMELIST)
-      out->action = option == 'h' ? OPTIONS_HELP : OPTIONS_VERSION;
+  case 'L':
+  case 'R':
+    if (out->action <= OPTIONS_DUMP_NAMELIST) out->action = asked_for(option);
+    return 0;
+  case 'E':
+  case 'I':
+    if (out->action > OPTIONS_DUMP_NAMELIST) return 0;
+    out->action = asked_for(option);
+    out->word = value;
     return 0;
   case 'o':
     out->output = value;
@@ -111,6 +135,8 @@ int options_parse(int argc, char **argv, options *out)
     { "output", required_argument, NULL, 'o' },  { "threads", required_argument, NULL, 't' },
     { "quiet", no_argument, NULL, 'q' },         { "log", required_argument, NULL, 'l' },
     { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
+    { "list", no_argument, NULL, 'L' },          { "explain", required_argument, NULL, 'E' },
+    { "init", required_argument, NULL, 'I' },    { "reference", no_argument, NULL, 'R' },
     { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
@@ -122,7 +148,7 @@ int options_parse(int argc, char **argv, options *out)
     const int code = apply(option, optarg, name, out);
     if (code != 0) return code;
   }
-  if (out->action >= OPTIONS_HELP) return 0;
+  if (out->action >= OPTIONS_LIST) return 0;
   if (optind >= argc) {
     fprintf(stderr, "%s: no deck was given\n", name);
     return complain(name);
@@ -136,7 +162,7 @@ int options_parse(int argc, char **argv, options *out)
   return threads_of_environment(out, name);
 }
 
-static int written(FILE *out)
+int options_written(FILE *out)
 {
   if (fflush(out) == 0 && !ferror(out)) return 0;
   perror("resonance: standard output");
@@ -146,7 +172,7 @@ static int written(FILE *out)
 int options_print_help(FILE *out)
 {
   fputs(help, out);
-  return written(out);
+  return options_written(out);
 }
 
 int options_print_version(FILE *out)
@@ -157,5 +183,5 @@ int options_print_version(FILE *out)
           "License GPL-3.0-or-later: you are free to change and redistribute it; there is no\n"
           "warranty, to the extent permitted by law.\n",
           PENDRES_VERSION, pendres_version(), pendres_build_info());
-  return written(out);
+  return options_written(out);
 }

@@ -13,6 +13,10 @@ typedef enum options_action {
   OPTIONS_RUN,
   OPTIONS_DRY_RUN,       /* check the deck and say what would be computed */
   OPTIONS_DUMP_NAMELIST, /* print the resolved deck */
+  OPTIONS_LIST,          /* name the kinds of scenes */
+  OPTIONS_EXPLAIN,       /* tell all about a kind, group or key */
+  OPTIONS_INIT,          /* print a deck to start from */
+  OPTIONS_REFERENCE,     /* print the page docs/decks.md */
   OPTIONS_HELP,
   OPTIONS_VERSION
 } options_action;
@@ -23,12 +27,16 @@ typedef struct options {
   const char *deck;   /* NULL for help and version */
   const char *output; /* instead of the deck's; NULL: not given */
   const char *log;    /* NULL: none */
+  const char *word;   /* of --explain and --init */
   int threads;        /* of --threads or OMP_NUM_THREADS; 0: all cores */
   int quiet;
 } options;
 
 /* 0, or 2 after a message on stderr. Not thread safe (getopt). */
 int options_parse(int argc, char **argv, options *out);
+
+/* 0 if all that went to the stream arrived, or 1 after a message. */
+int options_written(FILE *out);
 
 /* What --help and --version print; 0, or 1 if that could not be written. */
 int options_print_help(FILE *out);

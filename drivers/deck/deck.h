@@ -19,21 +19,34 @@
 
 #include "deck/namelist.h"
 
-/* Kinds of scenes with their names in decks; deck_kind_name() and the table follow this list. */
+/*
+ * Kinds of scenes with their names in decks and what each computes, in words for --list; the table
+ * and deck_kind_name() follow this list.
+ */
 #define DECK_KIND_LIST(ITEM)                                                                      \
-  ITEM(FREE_OSCILLATION, "free_oscillation")                                                      \
-  ITEM(RESONANCE_CURVE, "resonance_curve")                                                        \
-  ITEM(RESPONSE, "response")                                                                      \
-  ITEM(ORBIT, "orbit")                                                                            \
-  ITEM(BASINS, "basins")                                                                          \
-  ITEM(PHASE_DIAGRAM, "phase_diagram")                                                            \
-  ITEM(BRANCHES, "branches")                                                                      \
-  ITEM(WORK_PRECISION, "work_precision")                                                          \
-  ITEM(HARD_CASES, "hard_cases")                                                                  \
-  ITEM(SWITCHING, "switching")
+  ITEM(FREE_OSCILLATION, "free_oscillation",                                                      \
+       "frequency of the free, undamped pendulum against its amplitude")                          \
+  ITEM(RESONANCE_CURVE, "resonance_curve",                                                        \
+       "resonance of an ensemble, found to the tolerance, against damping")                       \
+  ITEM(RESPONSE, "response",                                                                      \
+       "amplitude, phase lag and loop area of an ensemble against drive period or frequency")     \
+  ITEM(ORBIT, "orbit",                                                                            \
+       "one pendulum in time: an attractor, or the way to it, with measures and multipliers")      \
+  ITEM(BASINS, "basins",                                                                          \
+       "attractor on which each start of a window settles; with a temperature, thermal clouds")   \
+  ITEM(PHASE_DIAGRAM, "phase_diagram",                                                            \
+       "where SA, LA, both or neither exist, over damping and drive frequency")                   \
+  ITEM(BRANCHES, "branches",                                                                      \
+       "orbits followed over the drive frequency, unstable parts and bifurcations included")      \
+  ITEM(WORK_PRECISION, "work_precision",                                                          \
+       "methods compared: speed against error on the same pendulums")                             \
+  ITEM(HARD_CASES, "hard_cases",                                                                  \
+       "cases that break pendulum programs, each with its bound and the figure measured")         \
+  ITEM(SWITCHING, "switching",                                                                    \
+       "rates at which noise drives a pendulum from one state to another, against temperature")
 
 typedef enum deck_kind {
-#define DECK_KIND_CODE(code, name) DECK_##code,
+#define DECK_KIND_CODE(code, name, words) DECK_##code,
   DECK_KIND_LIST(DECK_KIND_CODE)
 #undef DECK_KIND_CODE
   DECK_KIND_COUNT
@@ -175,8 +188,9 @@ pendres_status deck_dump(const deck *d, FILE *stream);
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);
 
-/** Names in decks; NULL if out of range. */
+/** Names in decks, and what a kind computes in words; NULL if out of range. */
 const char *deck_kind_name(deck_kind kind);
+const char *deck_kind_words(deck_kind kind);
 const char *deck_axis_name(deck_axis_id axis);
 
 #endif

@@ -170,7 +170,8 @@ static void check_idle_keys(deck_builder *b)
     const int line = x->group != NULL ? x->group->line : b->kind_line;
     const int column = x->group != NULL ? x->group->column : b->kind_column;
     namelist_error_at(b->nl, line, column, 1, b->errors,
-                      "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in &orbit");
+                      "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in "
+                      "&orbit");
   }
 }
 

@@ -1,6 +1,6 @@
 /*
  * deck_dump.c -- the resolved deck as a namelist for Fortran and for deck_read: every key in use,
- * reals with 17 significant digits so that they come back to the last bit.
+ * reals as the shortest decimals that come back to the last bit.
  */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* uselocale */
@@ -34,10 +34,8 @@ static void put(writer *w, const char *text)
 
 static void put_real(writer *w, double x)
 {
-  char text[40];
-  snprintf(text, sizeof text, "%.17g", x);
-  if (strpbrk(text, ".en") == NULL) strcat(text, ".0"); /* a real also to the eye */
-  put(w, text);
+  char text[DECK_DECIMAL];
+  put(w, deck_decimal(x, text));
 }
 
 static void put_integer(writer *w, int64_t n)

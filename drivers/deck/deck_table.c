@@ -1,9 +1,14 @@
 /*
- * deck_table.c -- the keys of all decks, a line or two each.
+ * deck_table.c -- the keys of all decks: one row a key holds what the reader checks and what
+ * --explain, --init and docs/decks.md say.
  *
- * To add a key: a field in struct deck and a row here. To give a scene a key: its bit in .scenes.
- * One name may have several rows if they belong to different scenes. Rows of a group stand
- * together, in the order in which deck_dump writes them.
+ * To add a key: a field in struct deck and a row here with SAYS(unit, meaning). To give a scene a
+ * key: its bit in .scenes. One name may have several rows if they belong to different scenes; the
+ * first of them has the words. EXAMPLE makes --init write the key with that value instead of its
+ * default in a comment: needed keys have one. Rows of a group stand together, in the order in which
+ * deck_dump writes them. `make decks-reference` renews docs/decks.md.
+ *
+ * Units: omega0 = sqrt(g/l) is the angular frequency of small oscillations without drive.
  */
 #include "deck/deck_table.h"
 
@@ -50,12 +55,14 @@
 #define POSITIVE .low = 0.0, .high = BIG, .open = 1
 #define NOT_NEGATIVE .low = 0.0, .high = BIG
 #define FREQUENCY .low = 1e-6, .high = 1e6
+#define SAYS(u, words) .unit = u, .meaning = words
+#define EXAMPLE(values) .example = values
 
 #define BIG 1e6
 #define PI 3.14159265358979323846
 
 static const char *const kinds[] = {
-#define KIND_NAME(code, name) name,
+#define KIND_NAME(code, name, words) name,
   DECK_KIND_LIST(KIND_NAME)
 #undef KIND_NAME
   NULL
@@ -73,7 +80,8 @@ static const char *const compared[] = {
   "block_adaptive_tsit5", "block_adaptive_vern9", "block_adaptive_sh9", "block_adaptive_dp5",
   "single", "single_order8", "single_order5", "cvode_adams", "cvode_bdf", "gsl_rk8pd", "naive", NULL
 };
-static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "6", "7", "8", NULL };
+static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "6", "7", "8",
+                                      NULL };
 static const char *const cases[] = {
 #define CASE_NAME(name) #name,
   HARD_CASE_LIST(CASE_NAME)
@@ -84,69 +92,146 @@ static const char *const units[] = { "ensemble", "sweep", NULL };
 
 const deck_key deck_table[] = {
   /* clang-format off */
-  { CHOICE("scene", "kind", kind), NEEDED_IN(ALL), .choices = kinds },
-  { STRING("scene", "title", title), IN(ALL) },
-  { STRING("scene", "output", output), IN(ALL) },
+  { CHOICE("scene", "kind", kind), NEEDED_IN(ALL), .choices = kinds,
+    SAYS(NULL, "kind of scene: what is computed") },
+  { STRING("scene", "title", title), IN(ALL),
+    SAYS(NULL, "title of the file of results and of pictures") },
+  { STRING("scene", "output", output), IN(ALL),
+    SAYS(NULL, "file of results; without it the deck's name with .h5, in the working directory") },
 
-  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(DRIVEN & ~BRANCHES), NOT_NEGATIVE, .number = NAN },
-  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(BRANCHES), POSITIVE, .number = NAN },
-  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE, .number = NAN },
-  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE, .number = NAN },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
+    NEEDED_IN(DRIVEN & ~BRANCHES), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
+    SAYS("m g l", "amplitude F0 of the torque that drives the pendulum") },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(BRANCHES),
+    POSITIVE, .number = NAN, EXAMPLE("0.2") },
+  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE,
+    .number = NAN, EXAMPLE("0.12"),
+    SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
+  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
+    .number = NAN, EXAMPLE("0.12") },
   { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },
-  { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY, .number = NAN, .when = DECK_BY_FREQUENCY },
-  { REAL("pendulum", "drive_period", pendulum.drive_period), IN(POINT), FREQUENCY, .number = NAN, .when = DECK_BY_PERIOD },
+  { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
+    .number = NAN, .when = DECK_BY_FREQUENCY,
+    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period'") },
+  { REAL("pendulum", "drive_period", pendulum.drive_period), IN(POINT), FREQUENCY,
+    .number = NAN, .when = DECK_BY_PERIOD, EXAMPLE("8.0"),
+    SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID), FREQUENCY },
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY },
-  { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE },
+  { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE,
+    SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
 
-  { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), RANGE(0.0, PI), .open = 1 },
-  { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE },
-  { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5, .number2 = 1.2 },
-  { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID), .needed = GRID, FREQUENCY },
-  { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY },
+  { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), RANGE(0.0, PI), .open = 1,
+    EXAMPLE("0.1, 3.1, 31"), SAYS("rad", "amplitude of the angle") },
+  { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE,
+    EXAMPLE("0.1, 0.4, 4"),
+    SAYS("omega0", "friction coefficient gamma; one value may stand in &pendulum instead") },
+  { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5,
+    .number2 = 1.2, SAYS("omega0", "lowest and highest drive frequency where the resonance is "
+                         "looked for") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE), FREQUENCY,
+    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period' where both are "
+         "possible") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), NEEDED_IN(GRID), FREQUENCY,
+    EXAMPLE("0.7, 0.9, 21") },
+  { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
+    SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(0), NOT_NEGATIVE },
-  { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG) },
-  { SWEEP("v", V), NEEDED_IN(BASINS), RANGE(-BIG, BIG) },
+  { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
+    EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
+    SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
+  { SWEEP("v", V), NEEDED_IN(BASINS), RANGE(-BIG, BIG), EXAMPLE("-2.5, 2.5, 64"),
+    SAYS("omega0", "initial velocity") },
   { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE },
-  { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE },
-  { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2) },
-  { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared },
-  { CHOICE("sweep", "unit", unit), IN(WORK), .choices = units, .text = "ensemble" },
-  { CHOICES("sweep", "case", cases), IN(HARD), .choices = cases },
+  { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE,
+    EXAMPLE("0.0125, 0.02, 3") },
+  { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2),
+    EXAMPLE("1e-4, 1e-6, 1e-8"), SAYS("1", "tolerances that each method is asked for") },
+  { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared,
+    EXAMPLE("'block_fixed', 'block_adaptive'"),
+    SAYS(NULL, "methods compared; a Butcher table may follow a method of blocks; 'single_...' is "
+         "one ARKODE problem a pendulum, 'naive' ARKODE with all but its tolerance as it comes") },
+  { CHOICE("sweep", "unit", unit), IN(WORK), .choices = units, .text = "ensemble",
+    SAYS(NULL, "pendulums compared on: 200 starts of one, or 1000 different ones") },
+  { CHOICES("sweep", "case", cases), IN(HARD), .choices = cases, EXAMPLE("'separatrix'"),
+    SAYS(NULL, "cases to run; without it all") },
 
-  { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT), .number = 200 },
-  { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG), .number = -PI / 2 },
-  { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG), .number = 3 * PI / 2 },
-  { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0 },
+  { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
+    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
+  { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
+    .number = -PI / 2,
+    SAYS("rad", "initial positions lie above this one, which is left out") },
+  { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
+    .number = 3 * PI / 2, SAYS("rad", "initial positions go up to this one, equally spaced") },
+  { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
+    SAYS("omega0", "initial velocity") },
 
-  { CHOICE("orbit", "start", orbit.start), IN(ORBIT), .choices = starts },
-  { REAL("orbit", "x", orbit.x), IN(ORBIT), RANGE(-BIG, BIG), .number = NAN, .when = DECK_WITHOUT_START },
-  { REAL("orbit", "v", orbit.v), IN(ORBIT), RANGE(-BIG, BIG), .number = 0, .when = DECK_WITHOUT_START },
-  { INTEGER("orbit", "periods", orbit.periods), IN(ORBIT), RANGE(1, DECK_MAX_COUNT), .number = 4 },
-  { INTEGER("orbit", "samples", orbit.samples), IN(ORBIT), RANGE(1, 65536), .number = 256 },
-  { LOGICAL("orbit", "transient", orbit.transient), IN(ORBIT), .number = 0 },
+  { CHOICE("orbit", "start", orbit.start), IN(ORBIT), .choices = starts, EXAMPLE("'sa'"),
+    SAYS(NULL, "attractor recorded: SA, LA, or its number in the order of amplitude; without it "
+         "the one reached from 'x', 'v'") },
+  { REAL("orbit", "x", orbit.x), IN(ORBIT), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+  { REAL("orbit", "v", orbit.v), IN(ORBIT), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+  { INTEGER("orbit", "periods", orbit.periods), IN(ORBIT), RANGE(1, DECK_MAX_COUNT),
+    .number = 4, SAYS(NULL, "drive periods recorded") },
+  { INTEGER("orbit", "samples", orbit.samples), IN(ORBIT), RANGE(1, 65536), .number = 256,
+    SAYS(NULL, "samples a drive period") },
+  { LOGICAL("orbit", "transient", orbit.transient), IN(ORBIT), .number = 0,
+    SAYS(NULL, "record from the start on instead of after settling") },
 
-  { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0 },
-  { LOGICAL("basins", "boundary", basins.boundary), IN(BASINS), .number = 0 },
-  { LOGICAL("basins", "statistics", basins.statistics), IN(BASINS), .number = 1 },
-  { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT), .number = 1000, .when = DECK_WITH_NOISE },
-  { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
-  { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS), RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE },
+  { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
+    SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "
+         "random sample of these") },
+  { LOGICAL("basins", "boundary", basins.boundary), IN(BASINS), .number = 0,
+    SAYS(NULL, "compute the boundary of the basins as a curve") },
+  { LOGICAL("basins", "statistics", basins.statistics), IN(BASINS), .number = 1,
+    SAYS(NULL, "estimate shares, entropy and uncertainty exponent of the basins") },
+  { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT),
+    .number = 1000, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "strobe points recorded of each cloud") },
+  { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1,
+    .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
+  { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS),
+    RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "independent noisy trajectories of each cloud") },
 
-  { INTEGER("switching", "from", switching.from), IN(SWITCHING), RANGE(0, PENDRES_SWITCHING_STATES), .number = 0 },
-  { INTEGER("switching", "to", switching.to), IN(SWITCHING), RANGE(0, PENDRES_SWITCHING_STATES), .number = 0 },
+  { INTEGER("switching", "from", switching.from), IN(SWITCHING),
+    RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
+    SAYS(NULL, "number of one state, in the order of amplitude from 1 on; 0: SA and LA") },
+  { INTEGER("switching", "to", switching.to), IN(SWITCHING),
+    RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
+    SAYS(NULL, "number of the other state; with 'from'") },
 
-  { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING), RANGE(0, 0x1p63), .number = 1, .when = DECK_WITH_NOISE },
-  { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING), RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE },
-  { INTEGER("noise", "periods", noise.periods), IN(RESPONSE | SWITCHING), RANGE(1, 1e9), .number = 1000, .when = DECK_WITH_NOISE },
+  { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING), RANGE(0, 0x1p63),
+    .number = 1, .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
+  { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING),
+    RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "independent noisy trajectories at each temperature") },
+  { INTEGER("noise", "periods", noise.periods), IN(RESPONSE | SWITCHING), RANGE(1, 1e9),
+    .number = 1000, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "drive periods over which each trajectory is followed") },
 
-  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2), .why = "less is beyond double precision", .number = 1e-8 },
-  { CHOICE("precision", "method", precision.method), IN(RESULTS), .choices = methods, .text = "block_fixed" },
-  { CHOICE("precision", "table", precision.table), IN(RESULTS), .choices = tables, .text = "tp8" },
-  { INTEGER("precision", "steps_per_period", precision.steps_per_period), IN(RESULTS), RANGE(0, DECK_MAX_COUNT), .number = 0 },
-  { INTEGER("precision", "block_lanes", precision.block_lanes), IN(RESULTS | WORK), RANGE(0, 4096), .number = 0 },
-  { INTEGER("precision", "period_budget", precision.period_budget), IN(SETTLING), RANGE(0, 1e9), .number = 0 },
+  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2),
+    .why = "less is beyond double precision", .number = 1e-8,
+    SAYS("1", "wanted error of the results, absolute for angles of order one") },
+  { CHOICE("precision", "method", precision.method), IN(RESULTS), .choices = methods,
+    .text = "block_fixed",
+    SAYS(NULL, "way to integrate; orbits and their measures are by 'block_fixed' throughout") },
+  { CHOICE("precision", "table", precision.table), IN(RESULTS), .choices = tables, .text = "tp8",
+    SAYS(NULL, "Butcher table of the Runge-Kutta methods") },
+  { INTEGER("precision", "steps_per_period", precision.steps_per_period), IN(RESULTS),
+    RANGE(0, DECK_MAX_COUNT), .number = 0,
+    SAYS(NULL, "steps a drive period; 0: as many as the tolerance needs") },
+  { INTEGER("precision", "block_lanes", precision.block_lanes), IN(RESULTS | WORK),
+    RANGE(0, 4096), .number = 0,
+    SAYS(NULL, "pendulums integrated side by side, a multiple of 8; 0: as many as are fast; "
+         "results do not depend on it") },
+  { INTEGER("precision", "period_budget", precision.period_budget), IN(SETTLING),
+    RANGE(0, 1e9), .number = 0,
+    SAYS(NULL, "drive periods after which a pendulum that has not settled is called unresolved; "
+         "0: from damping and tolerance") },
   /* clang-format on */
 };
 
@@ -154,15 +239,18 @@ const size_t deck_table_size = sizeof deck_table / sizeof *deck_table;
 
 _Static_assert(sizeof deck_table / sizeof *deck_table <= DECK_MAX_KEYS, "raise DECK_MAX_KEYS");
 
-/* 1: the key of that name, 2: the range of that axis, 0: neither. */
-static int key_matches(const deck_key *key, const char *name)
+int deck_table_has_range(const deck_key *key)
+{
+  /* Tolerances are not spaced evenly by anyone. */
+  return key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
+}
+
+int deck_table_matches(const deck_key *key, const char *name, int *range)
 {
   const size_t n = strlen(key->name);
   if (strncmp(key->name, name, n) != 0) return 0;
-  if (name[n] == '\0') return 1;
-  /* Tolerances are not spaced evenly by anyone. */
-  if (key->type != DECK_SWEEP || key->axis == DECK_AXIS_TOLERANCE) return 0;
-  return strcmp(name + n, "_range") == 0 ? 2 : 0;
+  *range = name[n] != '\0';
+  return !*range || (deck_table_has_range(key) && strcmp(name + n, "_range") == 0);
 }
 
 size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range)
@@ -170,12 +258,32 @@ size_t deck_table_find(const char *group, const char *name, unsigned scenes, int
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if (strcmp(key->group, group) != 0 || (scenes != 0 && (key->scenes & scenes) == 0)) continue;
-    const int match = key_matches(key, name);
-    if (match == 0) continue;
-    *range = match == 2;
-    return i;
+    if (deck_table_matches(key, name, range)) return i;
   }
   return deck_table_size;
+}
+
+const deck_key *deck_table_words(const deck_key *key)
+{
+  const deck_key *other = NULL;
+  if (key->meaning != NULL) return key;
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *k = &deck_table[i];
+    if (k->meaning == NULL || strcmp(k->name, key->name) != 0) continue;
+    if (strcmp(k->group, key->group) == 0) return k;
+    if (other == NULL) other = k;
+  }
+  return other;
+}
+
+const char *deck_kind_words(deck_kind kind)
+{
+  static const char *const words[] = {
+#define KIND_WORDS(code, name, text) text,
+    DECK_KIND_LIST(KIND_WORDS)
+#undef KIND_WORDS
+  };
+  return (unsigned)kind < DECK_KIND_COUNT ? words[kind] : NULL;
 }
 
 const char *deck_kind_name(deck_kind kind)

@@ -44,6 +44,10 @@ typedef struct deck_key {
   const char *text;            /* default of a string; NULL: "" */
   const char *const *choices;  /* NULL-terminated */
   deck_when when;
+  const char *unit;            /* NULL: a number of things, a name, a choice */
+  const char *meaning;         /* NULL: that of a row of the same name, see deck_table_words */
+  const char *example;         /* what --init writes for it, three values meaning NAME_range;
+                                  NULL: its default, as a comment */
 } deck_key;
 
 enum { DECK_MAX_KEYS = 96 };
@@ -56,6 +60,14 @@ extern const size_t deck_table_size;
  * axis NAME and sets *range.
  */
 size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range);
+
+/* Is that a name of the key: its own or, then *range is set, NAME_range where it has one? */
+int deck_table_matches(const deck_key *key, const char *name, int *range);
+int deck_table_has_range(const deck_key *key);
+
+/* What one key means and in which unit, also where its row leaves that to another row of the same
+   name, in the same group or, failing that, in any. Never NULL for a key of the table. */
+const deck_key *deck_table_words(const deck_key *key);
 
 /* Where and how a key was given. */
 typedef struct deck_given {
@@ -82,6 +94,11 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
 void deck_key_defaults(deck *d);
 /* Does the key count in this deck? */
 int deck_key_applies(const deck_key *key, const deck *d);
+
+/* deck_decimal.c: the shortest decimal that reads back as x, in the C locale, with a point or an
+   exponent so that it is a real to the eye. */
+enum { DECK_DECIMAL = 40 };
+const char *deck_decimal(double x, char text[DECK_DECIMAL]);
 
 /* deck_check.c: everything that concerns several keys; expands the axes. */
 void deck_check(deck_builder *b);

@@ -1,6 +1,6 @@
 /*
  * namelist_lex.h -- the characters of a namelist: position, character classes, looking ahead.
- * Internal to the reader (namelist.c).
+ * Internal to the reader (namelist_parse.c).
  */
 #ifndef NAMELIST_LEX_H
 #define NAMELIST_LEX_H

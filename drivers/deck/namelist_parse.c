@@ -1,5 +1,5 @@
 /*
- * namelist.c -- text to tree: groups, assignments, values. See namelist.h.
+ * namelist_parse.c -- text to tree: groups, assignments, values. See namelist.h.
  *
  * A recursive-descent reader without look-behind. What may follow a value is decided by looking
  * ahead: `name =`, also with a subscript, starts the next assignment; everything else that is not

@@ -1,4 +1,4 @@
-/* deck.c -- from the tree of a namelist to a checked deck; see deck.h. */
+/* deck_read.c -- from the tree of a namelist to a checked deck; see deck.h. */
 #include "deck/deck_table.h"
 
 #include <stdlib.h>
