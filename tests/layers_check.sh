@@ -15,7 +15,7 @@ drivers_layers='terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/guard.h
-  engine/context_internal.h engine/kernels_sine.h engine/steps.h engine/strobe_run.h engine/tables.h
+  engine/context_internal.h engine/kernels_sine.h engine/passage.h engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_sample.h orbits/settle.h
   continuation/continuation_map.h continuation/continuation_walk.h'

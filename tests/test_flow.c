@@ -9,6 +9,7 @@
 #include <pendres/reference.h>
 
 #include "engine/context_internal.h"
+#include "engine/flow.h"
 #include "engine/tables.h"
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
@@ -70,15 +71,14 @@ static double error_of(pendres_flow *flow, int n, size_t from, size_t to)
     pendres_flow_set_lane(flow, i, &p, y, v / p.drive_frequency);
   }
   check_ok(pendres_flow_period(flow));
-  const double *state = pendres_flow_state(flow);
-  const size_t stride = pendres_flow_stride(flow);
+  const pendres_rows found = pendres_flow_rows(flow);
   for (size_t i = 0; i < LANES; i++) {
     pendres_pendulum p;
     double y, v, rows[MOST_ROWS];
     example(i, &p, &y, &v);
     expected(&p, y, v, rows);
     for (size_t r = from; r < to; r++)
-      worst = fmax(worst, fabs(state[r * stride + i] - rows[r]));
+      worst = fmax(worst, fabs(pendres_rows_get(&found, (int)r, i) - rows[r]));
   }
   assert_true(isfinite(worst));
   return worst;
@@ -167,16 +167,13 @@ static void test_rows_agree(void **state)
   double end[3][2 * LANES];
   (void)state;
   for (int k = 0; k < 3; k++) {
-    const pendres_rows kind[] = { PENDRES_FLOW_STATE, PENDRES_FLOW_VARIATIONAL,
-                                  PENDRES_FLOW_SENSITIVITY };
+    const pendres_flow_kind kind[] = { PENDRES_FLOW_STATE, PENDRES_FLOW_VARIATIONAL,
+                                       PENDRES_FLOW_SENSITIVITY };
     check_ok(pendres_context_flow(ctx, kind[k], &flow[k]));
     (void)error_of(flow[k], 40, 0, 2);
-    const double *s = pendres_flow_state(flow[k]);
-    const size_t stride = pendres_flow_stride(flow[k]);
-    for (size_t i = 0; i < LANES; i++) {
-      end[k][2 * i] = s[i];
-      end[k][2 * i + 1] = s[stride + i];
-    }
+    const pendres_rows rows = pendres_flow_rows(flow[k]);
+    for (size_t i = 0; i < LANES; i++)
+      for (int r = 0; r < 2; r++) end[k][2 * i + (size_t)r] = pendres_rows_get(&rows, r, i);
     /* Different numbers of rows, the same operations on each: the same bits. */
     assert_memory_equal(end[k], end[0], sizeof end[0]);
   }
@@ -185,18 +182,21 @@ static void test_rows_agree(void **state)
 
 typedef struct samples {
   int steps, calls;
-  double theta, y;
+  double y;
 } samples;
 
-static void keep(void *arg, int step, double theta, size_t stride, const double *state)
+static void keep(void *arg, int step, const pendres_rows *rows)
 {
   samples *s = arg;
-  (void)stride;
   assert_int_equal(step, ++s->calls);
-  /* The clock adds steps up: an ulp each. */
-  check_near(theta, 6.28318530717958647693 * step / s->steps, 1e-15 * 6.3 * s->steps);
-  s->theta = theta;
-  s->y = state[0];
+  s->y = pendres_rows_get(rows, PENDRES_ROW_Y, 0);
+}
+
+/* Of the first lane, after a period. */
+static double row_of(const pendres_flow *flow, int row)
+{
+  const pendres_rows rows = pendres_flow_rows(flow);
+  return pendres_rows_get(&rows, row, 0);
 }
 
 /* Sampling changes no bit, ends on the period's end, and two half periods are a period. */
@@ -210,21 +210,21 @@ static void test_samples_and_halves(void **state)
   (void)state;
   check_ok(pendres_context_flow(ctx, PENDRES_FLOW_STATE, &flow));
   (void)error_of(flow, s.steps, 0, 2);
-  const double whole = pendres_flow_state(flow)[0];
+  const double whole = row_of(flow, PENDRES_ROW_Y);
   example(0, &p, &y, &v);
   pendres_flow_set_lane(flow, 0, &p, y, v / p.drive_frequency);
   check_ok(pendres_flow_period_sampled(flow, keep, &s));
   assert_int_equal(s.calls, s.steps);
-  assert_true(s.y == whole && pendres_flow_state(flow)[0] == whole);
+  assert_true(s.y == whole && row_of(flow, PENDRES_ROW_Y) == whole);
 
   /* From phase pi on the drive has the other sign: the second half by the mirrored pendulum. */
-  double *block = pendres_flow_state(flow);
   pendres_flow_set_lane(flow, 0, &p, y, v / p.drive_frequency);
   check_ok(pendres_flow_half_period(flow));
-  pendres_flow_set_lane(flow, 0, &p, -block[0], -block[pendres_flow_stride(flow)]);
+  pendres_flow_set_lane(flow, 0, &p, -row_of(flow, PENDRES_ROW_Y),
+                        -row_of(flow, PENDRES_ROW_W));
   check_ok(pendres_flow_half_period(flow));
   /* Rounding of 34 steps, and of cos(theta) on the other half of the circle. */
-  check_near(-pendres_flow_state(flow)[0], whole, 34 * 2.2e-16 * 3.0);
+  check_near(-row_of(flow, PENDRES_ROW_Y), whole, 34 * 2.2e-16 * 3.0);
   pendres_context_free(ctx);
 }
 
@@ -318,12 +318,11 @@ typedef struct swing {
   double worst;
 } swing;
 
-static void compare_with_sine(void *arg, int step, double theta, size_t stride, const double *state)
+static void compare_with_sine(void *arg, int step, const pendres_rows *rows)
 {
   swing *s = arg;
-  (void)theta;
   const double meant = 6.283185307179586476925287 * step / s->steps;
-  s->worst = fmax(s->worst, fabs(state[stride] - sin(meant)));
+  s->worst = fmax(s->worst, fabs(pendres_rows_get(rows, PENDRES_ROW_W, 0) - sin(meant)));
 }
 
 /*
@@ -350,11 +349,11 @@ static void test_clock_of_many_steps(void **state)
   const double before = pendres_flow_steps(flow);
   pendres_flow_set_lane(flow, 0, &p, -1.0, 0.0);
   check_ok(pendres_flow_period(flow));
-  check_near(pendres_flow_state(flow)[pendres_flow_stride(flow)], 0.0, rounding);
+  check_near(row_of(flow, PENDRES_ROW_W), 0.0, rounding);
   assert_true(pendres_flow_steps(flow) - before == s.steps);
   pendres_flow_set_lane(flow, 0, &p, -1.0, 0.0);
   check_ok(pendres_flow_half_period(flow));
-  check_near(pendres_flow_state(flow)[pendres_flow_stride(flow)], 0.0, rounding);
+  check_near(row_of(flow, PENDRES_ROW_W), 0.0, rounding);
   pendres_context_free(ctx);
 }
 

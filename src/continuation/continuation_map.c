@@ -8,11 +8,11 @@
 #include <gsl/gsl_linalg.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
 
 static const double pi = 3.14159265358979323846;
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
    method: an error of 1e-5 of them costs no accuracy of the solution. So short since second
@@ -35,8 +35,9 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o,
                                                      double u[PENDRES_U_COUNT])
 {
   pendres_continuation_map map = {.period = o->period, .winding = o->winding};
-  u[PENDRES_U_Y] = o->x - half_pi;
-  u[PENDRES_U_W] = o->v / o->pendulum.drive_frequency;
+  const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  u[PENDRES_U_Y] = s.y;
+  u[PENDRES_U_W] = s.w;
   u[PENDRES_U_OMEGA] = o->pendulum.drive_frequency;
   u[PENDRES_U_GAMMA] = o->pendulum.damping;
   u[PENDRES_U_DRIVE] = o->pendulum.drive_amplitude;
@@ -80,21 +81,20 @@ double pendres_continuation_map_growth(const pendres_continuation_image *i)
 
 /* ---- images ---- */
 
-static void read_image(const pendres_flow *flow, const double *state, size_t lane,
+static void read_image(const pendres_rows *rows, size_t lane,
                        const pendres_continuation_map *map, const double u[PENDRES_U_COUNT],
                        int columns, pendres_continuation_image *out)
 {
-  const size_t stride = pendres_flow_stride(flow);
   const double sign = map->mirror ? -1.0 : 1.0;
   const double turns = two_pi * (map->mirror ? map->winding : -map->winding);
   const double time = (map->mirror ? pi : two_pi) * map->period / u[PENDRES_U_OMEGA];
-  const double *s = state + lane;
 
-  out->f[0] = sign * s[0] + turns - u[PENDRES_U_Y];
-  out->f[1] = sign * s[stride] - u[PENDRES_U_W];
+  out->f[0] = sign * pendres_rows_get(rows, PENDRES_ROW_Y, lane) + turns - u[PENDRES_U_Y];
+  out->f[1] = sign * pendres_rows_get(rows, PENDRES_ROW_W, lane) - u[PENDRES_U_W];
   for (int i = 0; i < 2; i++)
     for (int k = 0; k < PENDRES_U_COUNT; k++)
-      out->j[i][k] = k < columns ? sign * s[(size_t)(2 + 2 * k + i) * stride] : NAN;
+      out->j[i][k] =
+        k < columns ? sign * pendres_rows_get(rows, PENDRES_ROW_BY_Y + 2 * k + i, lane) : NAN;
   for (int i = 0; i < 2; i++) {
     for (int k = 0; k < 2; k++) out->n[i][k] = out->j[i][k];
     out->j[i][i] -= 1.0;
@@ -103,25 +103,23 @@ static void read_image(const pendres_flow *flow, const double *state, size_t lan
   out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
 }
 
-static pendres_status run_block(pendres_context *ctx, pendres_flow *flow,
-                                const pendres_continuation_map *map, size_t n,
+static pendres_status run_block(pendres_block *b, const pendres_continuation_map *map, size_t n,
                                 const double (*u)[PENDRES_U_COUNT], int columns,
                                 pendres_continuation_image *out)
 {
   pendres_status status = PENDRES_OK;
-  pendres_flow_resize(flow, n);
+  pendres_block_resize(b, n);
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum p = pendres_continuation_map_pendulum(u[i]);
-    pendres_flow_set_lane(flow, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
+    pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
   const int whole = map->mirror ? map->period / 2 : map->period;
-  for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_flow_period(flow);
-  if (map->mirror && status == PENDRES_OK) status = pendres_flow_half_period(flow);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)n * map->period * (map->mirror ? 0.5 : 1.0);
-  ctx->cost.newton_steps += (double)n;
-  for (size_t i = 0; i < n; i++)
-    read_image(flow, pendres_flow_state(flow), i, map, u[i], columns, &out[i]);
+  for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_block_period(b);
+  if (map->mirror && status == PENDRES_OK) status = pendres_block_half_period(b);
+  if (status != PENDRES_OK) return status;
+  b->ctx->cost.newton_steps += (double)n;
+  const pendres_rows rows = pendres_block_rows(b);
+  for (size_t i = 0; i < n; i++) read_image(&rows, i, map, u[i], columns, &out[i]);
   return PENDRES_OK;
 }
 
@@ -130,18 +128,14 @@ static pendres_status images(pendres_context *ctx, const pendres_continuation_ma
                              size_t n, const double (*u)[PENDRES_U_COUNT], int columns,
                              pendres_continuation_image *out)
 {
-  pendres_flow *flow = NULL;
-  pendres_status status = pendres_context_poll(ctx);
-  if (status == PENDRES_OK)
-    status = pendres_context_flow(
-      ctx, columns > 2 ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
+  pendres_block b;
+  pendres_status status = pendres_block_open(
+    ctx, columns > 2 ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
   if (status != PENDRES_OK) return status;
-  status = pendres_flow_set_steps(flow, steps);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  const size_t capacity = pendres_flow_capacity(flow);
+  const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(ctx, flow, map, count, u + first, columns, out + first);
+    status = run_block(&b, map, count, u + first, columns, out + first);
   }
   return status;
 }

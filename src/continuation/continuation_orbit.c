@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 
-static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
 /* Of an entry of M, at random in every step: see strobe_noise.c. */
@@ -139,8 +139,9 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   o->winding = winding_of(&pair->map);
   o->steps = pair->fine_steps;
   const long turns = pendres_orbit_set_measures(&a->measures, &b->measures, &doubt, o);
-  o->x = pair->fine[PENDRES_U_Y] - two_pi * (double)turns + half_pi;
-  o->v = omega * pair->fine[PENDRES_U_W];
+  const pendres_place s = {
+    .y = pair->fine[PENDRES_U_Y], .w = pair->fine[PENDRES_U_W], .turns = -turns};
+  pendres_passage_out(&o->pendulum, &s, &o->x, &o->v);
   o->x_error =
     pendres_orbit_error(pair->coarse[PENDRES_U_Y], pair->fine[PENDRES_U_Y], 1.0, &doubt) +
     0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);

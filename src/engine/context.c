@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/compat.h"
+#include "engine/flow.h"
 #include "engine/steps.h"
 #include "engine/tables.h"
 
@@ -81,7 +82,9 @@ pendres_status pendres_context_create(const pendres_options *options, pendres_co
     status = PENDRES_INVALID_ARGUMENT;
     goto fail;
   }
-  if (pendres_compat_context_create(&ctx->sun) != 0) goto fail;
+  SUNContext sun = NULL;
+  if (pendres_compat_context_create(&sun) != 0) goto fail;
+  ctx->sun = sun;
   status = pendres_steps_create(&ctx->steps);
   if (status != PENDRES_OK) goto fail;
   *out = ctx;
@@ -103,7 +106,8 @@ void pendres_context_free(pendres_context *ctx)
   if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_flow_free(ctx->flows[i]);
   pendres_steps_free(ctx->steps);
-  if (ctx->sun != NULL) SUNContext_Free(&ctx->sun);
+  SUNContext sun = ctx->sun;
+  if (sun != NULL) SUNContext_Free(&sun);
   free(ctx);
 }
 
@@ -192,7 +196,8 @@ pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_f
                               pendres_flow_failure(flow));
 }
 
-pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pendres_flow **out)
+pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
+                                    pendres_flow **out)
 {
   static const size_t rows[PENDRES_FLOW_KINDS] = {
     PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL, PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_STATE};

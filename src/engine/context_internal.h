@@ -10,24 +10,24 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-#include "engine/flow.h"
 #include "base/guard.h"
 
 /* The blocks of a context. */
-typedef enum pendres_rows {
+typedef enum pendres_flow_kind {
   PENDRES_FLOW_STATE,
   PENDRES_FLOW_VARIATIONAL,
   PENDRES_FLOW_SENSITIVITY,
   PENDRES_FLOW_ADAPTIVE, /* the state, by adaptive steps */
   PENDRES_FLOW_KINDS
-} pendres_rows;
+} pendres_flow_kind;
 
 struct pendres_steps_memo; /* steps.c */
+typedef struct pendres_flow pendres_flow; /* flow.h */
 
 struct pendres_context {
   pendres_guard guard;
   pendres_options options; /* defaults resolved */
-  SUNContext sun;
+  void *sun; /* a SUNContext, for the flows */
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
@@ -59,7 +59,8 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
   __attribute__((format(printf, 3, 4)));
 
 /* The context's block of a kind, made at its first use. */
-pendres_status pendres_context_flow(pendres_context *ctx, pendres_rows kind, pendres_flow **out);
+pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
+                                    pendres_flow **out);
 
 /* PENDRES_INTERRUPTED when the caller asked to stop. */
 pendres_status pendres_context_poll(pendres_context *ctx);

@@ -261,11 +261,6 @@ void pendres_flow_resize(pendres_flow *flow, size_t lanes)
   }
 }
 
-size_t pendres_flow_stride(const pendres_flow *flow)
-{
-  return flow->shape.stride;
-}
-
 size_t pendres_flow_capacity(const pendres_flow *flow)
 {
   return flow->shape.capacity;
@@ -283,11 +278,10 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
   flow->coefficient[2][lane] = p->damping / omega;
   flow->coefficient[3][lane] = 1.0 / omega;
   for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + lane] = 0.0;
-  data[lane] = y;
-  data[stride + lane] = w;
+  pendres_flow_put_state(flow, lane, y, w);
   if (flow->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
-    data[2 * stride + lane] = 1.0;
-    data[5 * stride + lane] = 1.0;
+    data[PENDRES_ROW_BY_Y * stride + lane] = 1.0;
+    data[(PENDRES_ROW_BY_W + 1) * stride + lane] = 1.0;
   }
 }
 
@@ -334,9 +328,15 @@ pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
   return (pendres_flow_error){flow->off[0][lane], flow->off[1][lane], flow->off[2][lane]};
 }
 
-double *pendres_flow_state(pendres_flow *flow)
+pendres_rows pendres_flow_rows(const pendres_flow *flow)
 {
-  return flow->rows;
+  return (pendres_rows){.at = flow->rows, .stride = flow->shape.stride};
+}
+
+void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w)
+{
+  flow->rows[PENDRES_ROW_Y * flow->shape.stride + lane] = y;
+  flow->rows[PENDRES_ROW_W * flow->shape.stride + lane] = w;
 }
 
 /* Put the clock back to phase 0, with the block's present state. */
@@ -387,7 +387,8 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
     if (flow->failure < 0) return failed(flow);
     pendres_lanes_read(flow->state, flow->rows);
-    sample(arg, step, reached, flow->shape.stride, flow->rows);
+    const pendres_rows rows = pendres_flow_rows(flow);
+    sample(arg, step, &rows);
   }
   return PENDRES_OK;
 }

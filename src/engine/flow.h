@@ -43,21 +43,14 @@ void pendres_flow_free(pendres_flow *flow);
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
 
 /*
- * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept. The
- * stride (distance between rows) becomes lanes rounded up to a multiple of 8.
+ * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept.
  */
 void pendres_flow_resize(pendres_flow *flow, size_t lanes);
-size_t pendres_flow_stride(const pendres_flow *flow);
 size_t pendres_flow_capacity(const pendres_flow *flow);
 
 /* Put a pendulum into a lane; variational rows start as the identity, sensitivities as 0. */
 void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
                            double w);
-
-/* What a lane is off by: variance of y, of y and w, of w. */
-typedef struct pendres_flow_error {
-  double yy, yw, ww;
-} pendres_flow_error;
 
 /*
  * From now on carry the errors of the lanes along, or no longer; blocks of states with fixed steps
@@ -74,7 +67,9 @@ pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
 void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
 
 /* Rows of the block, valid until the next call that advances or resizes. */
-double *pendres_flow_state(pendres_flow *flow);
+pendres_rows pendres_flow_rows(const pendres_flow *flow);
+/* Set the state of a lane, and nothing else of it. */
+void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w);
 
 /* Advance all lanes by one drive period. PENDRES_INTERRUPTED if stop() said so. */
 pendres_status pendres_flow_period(pendres_flow *flow);
@@ -86,11 +81,10 @@ pendres_status pendres_flow_period(pendres_flow *flow);
 pendres_status pendres_flow_half_period(pendres_flow *flow);
 
 /*
- * Like pendres_flow_period, and call sample(arg, step, theta, stride, state) after each step
+ * Like pendres_flow_period, and call sample(arg, step, rows) after each step
  * 1..n; fixed steps only, so the samples are equally spaced and the last one is the period's end.
  */
-typedef void pendres_flow_sample(void *arg, int step, double theta, size_t stride,
-                                 const double *state);
+typedef void pendres_flow_sample(void *arg, int step, const pendres_rows *rows);
 pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
                                            void *arg);
 

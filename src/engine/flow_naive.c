@@ -13,6 +13,7 @@
 
 #include "engine/compat.h"
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
@@ -90,7 +91,7 @@ static pendres_status run_one(pendres_context *ctx, size_t index, pendres_strobe
     lane->turns = turns;
     lane->y = s[0] - half_pi;
     lane->w = s[1] / omega;
-    pendres_strobe_wrap(&lane->y, &lane->turns);
+    pendres_passage_wrap(&lane->y, &lane->turns);
     finished = visit(arg, index, lane);
   }
 done:

@@ -22,6 +22,7 @@
 #include "engine/compat.h"
 #include "engine/context_internal.h"
 #include "engine/flow_table.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -200,7 +201,7 @@ static pendres_status run_one(problem *b, size_t index, pendres_strobe_lane *lan
     lane->y = N_VGetArrayPointer(b->state)[0];
     lane->w = N_VGetArrayPointer(b->state)[1];
     lane->turns = turns;
-    pendres_strobe_wrap(&lane->y, &lane->turns);
+    pendres_passage_wrap(&lane->y, &lane->turns);
     done = visit(arg, index, lane);
   }
   return status;

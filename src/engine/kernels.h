@@ -35,6 +35,43 @@ typedef struct pendres_coefficients {
  *                                       initial y0 and w0
  */
 enum { PENDRES_ROWS_STATE = 2, PENDRES_ROWS_VARIATIONAL = 6, PENDRES_ROWS_SENSITIVITY = 12 };
+typedef enum pendres_row {
+  PENDRES_ROW_Y,
+  PENDRES_ROW_W,
+  PENDRES_ROW_BY_Y, /* from here on two rows each: of y and of w, derived by ... */
+  PENDRES_ROW_BY_W = PENDRES_ROW_BY_Y + 2,
+  PENDRES_ROW_BY_OMEGA = PENDRES_ROW_BY_W + 2,
+  PENDRES_ROW_BY_GAMMA = PENDRES_ROW_BY_OMEGA + 2,
+  PENDRES_ROW_BY_DRIVE = PENDRES_ROW_BY_GAMMA + 2
+} pendres_row;
+
+/* The rows of a block, to be read: row r of lane i is at[r stride + i]. */
+typedef struct pendres_rows {
+  const double *at;
+  size_t stride;
+} pendres_rows;
+
+static inline double pendres_rows_get(const pendres_rows *rows, int row, size_t lane)
+{
+  return rows->at[(size_t)row * rows->stride + lane];
+}
+
+/* Derivatives of a lane's (y, w), the pair of rows that starts with `row`. */
+static inline void pendres_rows_pair(const pendres_rows *rows, int row, size_t lane,
+                                     double pair[2])
+{
+  pair[0] = pendres_rows_get(rows, row, lane);
+  pair[1] = pendres_rows_get(rows, row + 1, lane);
+}
+
+/* The derivative of a lane's (y, w) by its initial (y, w). */
+static inline void pendres_rows_tangent(const pendres_rows *rows, size_t lane, double m[2][2])
+{
+  for (int i = 0; i < 2; i++) {
+    m[i][0] = pendres_rows_get(rows, PENDRES_ROW_BY_Y + i, lane);
+    m[i][1] = pendres_rows_get(rows, PENDRES_ROW_BY_W + i, lane);
+  }
+}
 
 enum { PENDRES_KERNELS_TERMS = 20 }; /* the most terms of a sum: stages of a table, plus some */
 
@@ -80,6 +117,11 @@ typedef struct pendres_carried {
   const double *added;
   const double *keep, *kick;
 } pendres_carried;
+
+/* What one lane is off by, in the same words. */
+typedef struct pendres_flow_error {
+  double yy, yw, ww;
+} pendres_flow_error;
 
 /* A few lanes side by side: where in each vector they are, and their coefficients. */
 typedef struct pendres_strip {

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/flow.h"
+#include "engine/passage.h"
 
 enum {
   PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
@@ -98,14 +100,14 @@ static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *
   *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
 }
 
-static void load_probe(pendres_flow *flow, size_t lane, int i, const pendres_pendulum *p,
+static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendulum *p,
                        double speed)
 {
   /* Half start at rest over the well, half at the largest speed either way. */
   const int half = PROBES / 2, k = i % half;
   const double y = -2.75 + 5.5 * k / (half - 1);
   const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
-  pendres_flow_set_lane(flow, lane, p, y, v / p->drive_frequency);
+  pendres_block_load(b, lane, p, y, v / p->drive_frequency);
 }
 
 /*
@@ -136,21 +138,22 @@ static int stride_of(const pendres_pendulum *p, int steps)
   return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
 }
 
-static void look(void *arg, int step, double theta, size_t stride, const double *state)
+static void look(void *arg, int step, const pendres_rows *rows)
 {
   sight *s = arg;
   int k = s->points - 1;
-  (void)theta;
   if (step % s->stride == 0 && step / s->stride <= s->dense) k = step / s->stride - 1;
   else if (step < s->steps) return;
   for (size_t i = 0; i < s->lanes; i++) {
     double *growth = &s->growth[k][s->first + i];
-    s->y[k][s->first + i] = state[i];
-    s->v[k][s->first + i] = s->omega * state[stride + i];
+    s->y[k][s->first + i] = pendres_rows_get(rows, PENDRES_ROW_Y, i);
+    s->v[k][s->first + i] = s->omega * pendres_rows_get(rows, PENDRES_ROW_W, i);
     if (!s->growing) continue;
-    *growth = fmax(fabs(state[2 * stride + i]), fabs(state[5 * stride + i]));
-    *growth = fmax(*growth, s->omega * fabs(state[3 * stride + i]));
-    *growth = fmax(*growth, fabs(state[4 * stride + i]) / s->omega);
+    double m[2][2];
+    pendres_rows_tangent(rows, i, m);
+    *growth = fmax(fabs(m[0][0]), fabs(m[1][1]));
+    *growth = fmax(*growth, s->omega * fabs(m[1][0]));
+    *growth = fmax(*growth, fabs(m[0][1]) / s->omega);
   }
 }
 
@@ -158,24 +161,21 @@ static void look(void *arg, int step, double theta, size_t stride, const double 
 static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                  sight *s)
 {
-  pendres_flow *flow = NULL;
-  pendres_status status = pendres_context_flow(
-    ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
+  pendres_block b;
+  pendres_status status = pendres_block_open(
+    ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, s->steps, &b);
   if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_flow_capacity(flow);
-  const double before = pendres_flow_evaluations(flow);
-  status = pendres_flow_set_steps(flow, s->steps);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+  const size_t capacity = pendres_block_capacity(&b);
+  const double before = pendres_flow_evaluations(b.flow);
   for (s->first = 0; s->first < PROBES; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
-    pendres_flow_resize(flow, s->lanes);
-    for (size_t i = 0; i < s->lanes; i++) load_probe(flow, i, (int)(s->first + i), p, speed);
-    status = pendres_flow_period_sampled(flow, look, s);
-    if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
+    pendres_block_resize(&b, s->lanes);
+    for (size_t i = 0; i < s->lanes; i++) load_probe(&b, i, (int)(s->first + i), p, speed);
+    status = pendres_block_period_sampled(&b, look, s);
+    if (status != PENDRES_OK) return status;
   }
-  ctx->cost.pendulum_periods += PROBES;
   ctx->probed_periods += PROBES;
-  ctx->probed_slopes += pendres_flow_evaluations(flow) - before;
+  ctx->probed_slopes += pendres_flow_evaluations(b.flow) - before;
   return PENDRES_OK;
 }
 

@@ -5,67 +5,21 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/flow.h"
 #include "engine/flow_naive.h"
 #include "engine/flow_single.h"
+#include "engine/passage.h"
 
-static const double half_pi = 1.57079632679489661923;
-/* 2 pi in two parts, so that taking out many turns costs no digits. */
-static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
-/* A position beyond is not known to a tenth of a radian. */
-static const double farthest = 1e15;
-
-void pendres_strobe_wrap(double *y, long *turns)
+pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v)
 {
-  if (fabs(*y) <= 3.14159265358979323846) return;
-  const double k = rint(*y / two_pi_high);
-  if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
-    *y = NAN;
-    return;
-  }
-  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, *y));
-  *turns += (long)k;
+  const pendres_place s = pendres_passage_in(p, x, v);
+  return (pendres_strobe_lane){.pendulum = p, .y = s.y, .w = s.w, .turns = s.turns};
 }
 
-void pendres_strobe_angle(double x, double *y, long *turns)
+void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
 {
-  /* Whole turns first: of a large x the digits would be lost in the difference. */
-  const double k = rint((x - half_pi) / two_pi_high);
-  *turns = 0;
-  *y = NAN;
-  if (!(fabs(x) <= farthest)) return;
-  *turns = (long)k;
-  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - half_pi;
-  pendres_strobe_wrap(y, turns);
-}
-
-double pendres_strobe_position(double y, long turns)
-{
-  return fma(two_pi_high, (double)turns, fma(two_pi_low, (double)turns, y + half_pi));
-}
-
-const char *pendres_strobe_refuses(const pendres_pendulum *p, double x, double v)
-{
-  const double w = p->drive_frequency, slowest = fmax(w, p->damping);
-  if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
-  if (!(fabs(x) <= farthest))
-    return "beyond 1e15 double precision knows a position to a tenth of a radian at best";
-  if (!(fabs(v) / slowest <= farthest && isfinite(v / w)))
-    return "so fast a pendulum is beyond 1e15 within a period, where its angle is not known";
-  if (!(fabs(p->drive_amplitude) / w / slowest <= farthest))
-    return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
-  if (!(p->damping / w <= farthest))
-    return "so strong a damping acts within less of a period than double precision can tell";
-  if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w))))
-    return "so low a drive frequency has a square that is zero in double precision";
-  return NULL;
-}
-
-void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
-{
-  static const double nothing = 1e-290;
-  pendres_strobe_wrap(y, turns);
-  if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
-    *y = *w = 0.0;
+  const pendres_place s = {.y = l->y, .w = l->w, .turns = l->turns};
+  pendres_passage_out(l->pendulum, &s, x, v);
 }
 
 double pendres_strobe_doubt(double distance)
@@ -118,14 +72,12 @@ static void put(block *b, size_t slot, size_t index)
 static int look(block *b, size_t slot)
 {
   pendres_strobe_lane *l = &b->lanes[b->slot[slot]];
-  double *state = pendres_flow_state(b->flow);
-  const size_t stride = pendres_flow_stride(b->flow);
-  l->y = state[slot];
-  l->w = state[stride + slot];
+  const pendres_rows rows = pendres_flow_rows(b->flow);
+  l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, slot);
+  l->w = pendres_rows_get(&rows, PENDRES_ROW_W, slot);
   l->period++;
-  pendres_strobe_arrive(l->pendulum, &l->y, &l->w, &l->turns);
-  state[slot] = l->y;
-  state[stride + slot] = l->w;
+  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  pendres_flow_put_state(b->flow, slot, l->y, l->w);
   if (b->carry) {
     l->off = pendres_flow_get_error(b->flow, slot);
     const double off = l->off.yy + l->off.ww;

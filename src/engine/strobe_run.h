@@ -12,7 +12,7 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-#include "engine/flow.h"
+#include "engine/kernels.h"
 
 /* One pendulum under way. y is kept within half a turn of zero; whole turns are counted. */
 typedef struct pendres_strobe_lane {
@@ -47,19 +47,10 @@ typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_l
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
-/*
- * Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond what
- * double precision can say (1e15 in all).
- */
-void pendres_strobe_wrap(double *y, long *turns);
-
-/* A position's angle y, -pi <= y <= pi, and its whole turns: x = pi/2 + y + 2 pi turns; and
-   back. */
-void pendres_strobe_angle(double x, double *y, long *turns);
-double pendres_strobe_position(double y, long turns);
-
-/* NULL, or why double precision cannot follow a pendulum from a state: a static sentence. */
-const char *pendres_strobe_refuses(const pendres_pendulum *p, double x, double v);
+/* A lane at a state (x, v), whole turns taken out: steps and errors are the caller's to set. */
+pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v);
+/* Where it is now. */
+void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v);
 
 /*
  * How far off a run may be that is so far from a better one. The better one is off as well, by less
@@ -71,12 +62,5 @@ double pendres_strobe_doubt(double distance);
 
 /* The failure of a pendulum whose state is no number after some periods. */
 pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period);
-
-/*
- * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies
- * down to denormal numbers and stays there, in steps that take forty times as long: below 1e-290 it
- * is put to rest.
- */
-void pendres_strobe_arrive(const pendres_pendulum *p, double *y, double *w, long *turns);
 
 #endif

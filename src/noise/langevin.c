@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 /* A position beyond is not known to a tenth of a radian; see strobe_run.h. */
 static const double farthest = 1e15;
@@ -156,7 +156,7 @@ pendres_status pendres_langevin_accept(pendres_langevin *lv, const pendres_pendu
 {
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
-    why = pendres_strobe_refuses(p, x, v);
+    why = pendres_passage_refuses(p, x, v);
     if (why == NULL) why = pendres_langevin_block_refuses(p, lv->options.steps_per_period);
   }
   if (why == NULL) return PENDRES_OK;

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -100,7 +100,7 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
 {
   pendres_langevin_linear coarse;
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
-      pendres_strobe_refuses(pendulum, x, v) != NULL || cycle < 1)
+      pendres_passage_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
   /* 128 steps a unit of time: an error near 1e-11, and rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);

@@ -7,7 +7,7 @@
 #include "orbits/attractor_internal.h"
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
@@ -26,7 +26,7 @@ static pendres_status check_states(pendres_context *ctx, size_t n, const pendres
   for (size_t i = 0; i < n; i++) {
     const char *why = NULL;
     if (pendres_pendulum_check(&p[i * stride], &why) == PENDRES_OK)
-      why = pendres_strobe_refuses(&p[i * stride], x[i], v[i]);
+      why = pendres_passage_refuses(&p[i * stride], x[i], v[i]);
     if (why == NULL && p[i * stride].damping == 0.0)
       why = "without damping nothing settles";
     if (why != NULL)

@@ -5,6 +5,7 @@
 
 #include "orbits/catalogue.h"
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -75,14 +76,14 @@ static void end_half(pendres_walker *a, double y)
  * Sums of samples, one after the other over many periods, are integrals by the trapezoidal rule:
  * their ends count once, whatever happens in between is integrated as a closed orbit is.
  */
-static void watch(void *arg, int step, double theta, size_t stride, const double *state)
+static void watch(void *arg, int step, const pendres_rows *rows)
 {
   const watched_block *b = arg;
   const double spacing = two_pi / b->steps, cosine = cos(two_pi * step / b->steps);
-  (void)theta;
   for (size_t i = 0; i < b->n; i++) {
     pendres_walker *a = &b->a[i];
-    const double y = state[i], w = state[stride + i];
+    const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
+    const double w = pendres_rows_get(rows, PENDRES_ROW_W, i);
     a->sum[PENDRES_WALK_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
     a->sum[PENDRES_WALK_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
                                   w * w;
@@ -97,23 +98,24 @@ static void watch(void *arg, int step, double theta, size_t stride, const double
 /* ---- periods ---- */
 
 /* What the flow makes of a walker in one period; its tangent vector grows by the derivative. */
-static void arrive(const pendres_catalogue *c, size_t i, size_t stride, const double *state,
-                   int watched, pendres_walker *a)
+static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *rows, int watched,
+                   pendres_walker *a)
 {
-  const double m[6] = {state[i],              state[stride + i],     state[2 * stride + i],
-                       state[3 * stride + i], state[4 * stride + i], state[5 * stride + i]};
-  const double u = m[2] * a->u[0] + m[4] * a->u[1];
-  const double v = m[3] * a->u[0] + m[5] * a->u[1];
+  const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
+  double m[2][2];
+  pendres_rows_tangent(rows, i, m);
+  const double u = m[0][0] * a->u[0] + m[0][1] * a->u[1];
+  const double v = m[1][0] * a->u[0] + m[1][1] * a->u[1];
   const double length = hypot(u, v);
-  a->sum[PENDRES_WALK_TURNS] += (m[0] - a->y) / two_pi;
-  a->sum[PENDRES_WALK_SPEED] += m[1];
-  a->y = m[0];
-  a->w = m[1];
-  pendres_strobe_wrap(&a->y, &a->turns);
+  a->sum[PENDRES_WALK_TURNS] += (y - a->y) / two_pi;
+  a->y = y;
+  a->w = pendres_rows_get(rows, PENDRES_ROW_W, i);
+  a->sum[PENDRES_WALK_SPEED] += a->w;
+  pendres_passage_wrap(&a->y, &a->turns);
   for (int k = 0; k < 2; k++) {
     /* Of a period that was not watched its end is all that is known. */
-    a->low[k] = watched ? a->low[k] + (a->y - m[0]) : a->y;
-    a->high[k] = watched ? a->high[k] + (a->y - m[0]) : a->y;
+    a->low[k] = watched ? a->low[k] + (a->y - y) : a->y;
+    a->high[k] = watched ? a->high[k] + (a->y - y) : a->y;
   }
   a->u[0] = u / length;
   a->u[1] = v / length;
@@ -122,23 +124,20 @@ static void arrive(const pendres_catalogue *c, size_t i, size_t stride, const do
   if (a->trapped == 0 && in_trap(c, a)) a->trapped = a->periods;
 }
 
-static pendres_status walk_block(pendres_context *ctx, pendres_flow *flow, watched_block *b,
+static pendres_status walk_block(pendres_block *block, watched_block *b,
                                  const pendres_catalogue *c, int watched)
 {
-  pendres_status status = pendres_context_poll(ctx);
-  if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < b->n; i++) {
     pendres_walker *a = &b->a[i];
-    pendres_flow_set_lane(flow, i, b->pendulum, a->y, a->w);
+    pendres_block_load(block, i, b->pendulum, a->y, a->w);
     a->last_y = a->y;
     a->last_w = a->w;
   }
-  status = watched ? pendres_flow_period_sampled(flow, watch, b) : pendres_flow_period(flow);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)b->n;
-  for (size_t i = 0; i < b->n; i++)
-    arrive(c, i, pendres_flow_stride(flow), pendres_flow_state(flow), watched,
-           &b->a[i]);
+  const pendres_status status =
+    watched ? pendres_block_period_sampled(block, watch, b) : pendres_block_period(block);
+  if (status != PENDRES_OK) return status;
+  const pendres_rows rows = pendres_block_rows(block);
+  for (size_t i = 0; i < b->n; i++) arrive(c, i, &rows, watched, &b->a[i]);
   return status;
 }
 
@@ -152,24 +151,23 @@ static void record(pendres_walk_trace *t, long filled, size_t walker, const pend
 pendres_status pendres_walk(pendres_context *ctx, const pendres_catalogue *c, size_t n,
                             pendres_walker *a, long periods, pendres_walk_trace *trace)
 {
-  pendres_flow *flow = NULL;
+  pendres_block block;
   int steps = 0;
   double fastest = 0.0;
   for (size_t i = 0; i < n; i++) fastest = fmax(fastest, fabs(a[i].w));
   pendres_status status = pendres_steps_choose(
     ctx, &c->pendulum, fastest * c->pendulum.drive_frequency, accuracy, &steps);
-  if (status == PENDRES_OK) status = pendres_context_flow(ctx, PENDRES_FLOW_VARIATIONAL, &flow);
+  if (status == PENDRES_OK)
+    status = pendres_block_open(ctx, PENDRES_FLOW_VARIATIONAL, steps, &block);
   if (status != PENDRES_OK) return status;
-  status = pendres_flow_set_steps(flow, steps);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
 
-  const size_t capacity = pendres_flow_capacity(flow);
+  const size_t capacity = pendres_block_capacity(&block);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
                        .n = n - first < capacity ? n - first : capacity};
-    pendres_flow_resize(flow, b.n);
+    pendres_block_resize(&block, b.n);
     for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-      status = walk_block(ctx, flow, &b, c, trace != NULL);
+      status = walk_block(&block, &b, c, trace != NULL);
       for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
         record(trace, trace->filled + k, first + i, &b.a[i]);
     }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -92,8 +93,8 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   o->steps = c->steps;
   /* The mean angle belongs into well 0. */
   const long turns = pendres_orbit_set_measures(&coarse->measures, &fine->measures, &doubt, o);
-  o->x = fine->y - two_pi * (double)turns + half_pi;
-  o->v = omega * fine->w;
+  const pendres_place s = {.y = fine->y, .w = fine->w, .turns = -turns};
+  pendres_passage_out(p, &s, &o->x, &o->v);
   /* x itself is a double, and half of pi is none. */
   o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, &doubt) +
                0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
@@ -262,16 +263,13 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
     const pendres_orbit_guess *g = &guess[i];
     const char *why = NULL;
     if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK) {
-      why = pendres_strobe_refuses(&g->pendulum, g->x, g->v);
+      why = pendres_passage_refuses(&g->pendulum, g->x, g->v);
       if (g->period < 1) why = "a guess needs a period of at least 1";
     }
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
-    c[i] = (pendres_newton_candidate){.guess = g,
-                                      .index = i,
-                                      .w = g->v / g->pendulum.drive_frequency};
-    long turns = 0;
-    pendres_strobe_angle(g->x, &c[i].y, &turns);
+    const pendres_place s = pendres_passage_in(&g->pendulum, g->x, g->v);
+    c[i] = (pendres_newton_candidate){.guess = g, .index = i, .y = s.y, .w = s.w};
     /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
        tell whether it was enough. */
     const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, fabs(g->v),

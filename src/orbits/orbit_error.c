@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 static const double pi = 3.14159265358979323846;
 static const double two_pi = 6.28318530717958647693;
@@ -31,7 +31,7 @@ static long turns_of_mean(double mean)
   static const double tie = 0.01;
   long turns = 0;
   double inside = mean;
-  pendres_strobe_wrap(&inside, &turns);
+  pendres_passage_wrap(&inside, &turns);
   return inside <= tie - pi ? turns - 1 : turns;
 }
 

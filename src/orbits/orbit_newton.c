@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -23,7 +23,7 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   const char *why = NULL;
   if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
   if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
-  return pendres_strobe_refuses(&o->pendulum, o->x, o->v);
+  return pendres_passage_refuses(&o->pendulum, o->x, o->v);
 }
 
 void pendres_newton_tape_free(pendres_newton_tape *tape)
@@ -52,103 +52,89 @@ typedef struct recorder {
   size_t offset;
 } recorder;
 
-static void record(void *arg, int step, double theta, size_t stride, const double *state)
+static void record(void *arg, int step, const pendres_rows *rows)
 {
   const recorder *r = arg;
   const size_t sample = r->offset + (size_t)step;
-  (void)theta;
   if (sample >= r->tape->samples) return; /* the end of the orbit is its beginning */
   double *to = r->tape->data + sample * r->tape->lanes * r->tape->rows;
   for (size_t lane = 0; lane < r->tape->lanes; lane++)
-    for (size_t row = 0; row < r->tape->rows; row++) *to++ = state[row * stride + lane];
+    for (size_t row = 0; row < r->tape->rows; row++)
+      *to++ = pendres_rows_get(rows, (int)row, lane);
 }
 
 /* Companions of a candidate start this much beside it, in y and in w: see read_companions. */
 static const double aside = 1e-6;
 
-static void load_lanes(pendres_flow *flow, size_t lanes, int companions,
-                       pendres_newton_candidate *c)
+static void load_lanes(pendres_block *b, size_t lanes, int companions, pendres_newton_candidate *c)
 {
-  pendres_flow_resize(flow, lanes * (size_t)(1 + companions));
+  pendres_block_resize(b, lanes * (size_t)(1 + companions));
   for (size_t i = 0; i < lanes; i++) {
     const pendres_pendulum *p = &c[i].guess->pendulum;
     c[i].lane = i;
-    pendres_flow_set_lane(flow, i, p, c[i].y, c[i].w);
+    pendres_block_load(b, i, p, c[i].y, c[i].w);
     if (companions == 0) continue;
-    pendres_flow_set_lane(flow, lanes + i, p, c[i].y + aside, c[i].w);
-    pendres_flow_set_lane(flow, 2 * lanes + i, p, c[i].y, c[i].w + aside);
+    pendres_block_load(b, lanes + i, p, c[i].y + aside, c[i].w);
+    pendres_block_load(b, 2 * lanes + i, p, c[i].y, c[i].w + aside);
   }
 }
 
 /* How the derivative of the map changes with the point: difference quotients, good to 1e-6. */
-static void read_companions(pendres_flow *flow, size_t lanes, pendres_newton_candidate *c)
+static void read_companions(const pendres_rows *rows, size_t lanes, pendres_newton_candidate *c)
 {
-  const size_t stride = pendres_flow_stride(flow);
-  const double *state = pendres_flow_state(flow);
-  for (size_t k = 0; k < 2; k++)
-    for (size_t column = 0; column < 2; column++)
-      for (size_t row = 0; row < 2; row++)
-        c->m_by[k][row][column] =
-          (state[(2 + 2 * column + row) * stride + (k + 1) * lanes + c->lane] -
-           c->m[row][column]) / aside;
+  for (size_t k = 0; k < 2; k++) {
+    double m[2][2];
+    pendres_rows_tangent(rows, (k + 1) * lanes + c->lane, m);
+    for (size_t row = 0; row < 2; row++)
+      for (size_t column = 0; column < 2; column++)
+        c->m_by[k][row][column] = (m[row][column] - c->m[row][column]) / aside;
+  }
 }
 
-static void read_lane(const pendres_flow *flow, const double *state, size_t rows,
-                      pendres_newton_candidate *c)
+static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_candidate *c)
 {
-  const size_t stride = pendres_flow_stride(flow), i = c->lane;
-  c->residual[0] = state[i] - c->y - two_pi * c->guess->winding;
-  c->residual[1] = state[stride + i] - c->w;
-  c->m[0][0] = state[2 * stride + i];
-  c->m[1][0] = state[3 * stride + i];
-  c->m[0][1] = state[4 * stride + i];
-  c->m[1][1] = state[5 * stride + i];
-  if (rows >= PENDRES_ROWS_SENSITIVITY) {
-    c->by_omega[0] = state[6 * stride + i];
-    c->by_omega[1] = state[7 * stride + i];
-  }
+  c->residual[0] =
+    pendres_rows_get(rows, PENDRES_ROW_Y, c->lane) - c->y - two_pi * c->guess->winding;
+  c->residual[1] = pendres_rows_get(rows, PENDRES_ROW_W, c->lane) - c->w;
+  pendres_rows_tangent(rows, c->lane, c->m);
+  if (sensitive) pendres_rows_pair(rows, PENDRES_ROW_BY_OMEGA, c->lane, c->by_omega);
 }
 
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    size_t first, pendres_orbit_want want,
                                    pendres_newton_tape *tape, size_t *last)
 {
-  pendres_flow *flow = NULL;
+  pendres_block b;
   const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
-  const size_t rows = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
-  pendres_status status = pendres_context_poll(ctx);
-  if (status == PENDRES_OK)
-    status = pendres_context_flow(
-      ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, &flow);
+  const int steps = c[first].steps, q = c[first].guess->period;
+  pendres_status status = pendres_block_open(
+    ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
   if (status != PENDRES_OK) return status;
 
-  const int steps = c[first].steps, q = c[first].guess->period;
   const int companions = tape != NULL && tape->bends ? 2 : 0;
-  const size_t most = pendres_flow_capacity(flow) / (size_t)(1 + companions);
+  const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
   size_t lanes = 0;
   while (first + lanes < n && lanes < most &&
          c[first + lanes].steps == steps && c[first + lanes].guess->period == q)
     lanes++;
   *last = first + lanes;
 
-  status = pendres_flow_set_steps(flow, steps);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  if (tape != NULL && tape_prepare(tape, (size_t)steps * (size_t)q, lanes, rows) != 0)
+  const size_t kept = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
+  if (tape != NULL && tape_prepare(tape, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
-  load_lanes(flow, lanes, companions, c + first);
+  load_lanes(&b, lanes, companions, c + first);
   recorder r = {.tape = tape};
-  if (tape != NULL) record(&r, 0, 0.0, pendres_flow_stride(flow), pendres_flow_state(flow));
+  const pendres_rows rows = pendres_block_rows(&b);
+  if (tape != NULL) record(&r, 0, &rows);
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
     r.offset = (size_t)k * (size_t)steps;
-    status =
-      tape != NULL ? pendres_flow_period_sampled(flow, record, &r) : pendres_flow_period(flow);
+    status = tape != NULL ? pendres_block_period_sampled(&b, record, &r) : pendres_block_period(&b);
   }
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)(lanes * (size_t)(1 + companions)) * q;
+  if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)lanes;
   for (size_t i = first; i < *last; i++) {
-    read_lane(flow, pendres_flow_state(flow), rows, &c[i]);
-    if (companions) read_companions(flow, lanes, &c[i]);
+    read_lane(&rows, sensitive, &c[i]);
+    if (companions) read_companions(&rows, lanes, &c[i]);
   }
   return PENDRES_OK;
 }

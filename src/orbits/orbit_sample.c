@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -26,8 +27,8 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
 {
   const pendres_orbit_guess guess = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                      .period = o->period, .winding = o->winding};
-  pendres_newton_candidate c = {.guess = &guess, .y = o->x - half_pi,
-                                .w = o->v / o->pendulum.drive_frequency, .steps = steps};
+  const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  pendres_newton_candidate c = {.guess = &guess, .y = s.y, .w = s.w, .steps = steps};
   pendres_newton_tape tape = {0};
   pendres_orbit_tables tables = {0};
   size_t last = 0;

@@ -184,12 +184,11 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
   for (size_t k = 0; k < n; k++) {
     const size_t i = order[k];
     found[k] = pendres_settle_unresolved;
-    lanes[k] = (pendres_strobe_lane){
-      .pendulum = p, .w = v[i] / p->drive_frequency, .steps = steps[i],
-      .added = k > 0 && lanes[k - 1].steps == steps[i]
-                 ? lanes[k - 1].added
-                 : pendres_settle_added(ctx, accuracy, steps[i])};
-    pendres_strobe_angle(x[i], &lanes[k].y, &lanes[k].turns);
+    lanes[k] = pendres_strobe_lane_at(p, x[i], v[i]);
+    lanes[k].steps = steps[i];
+    lanes[k].added = k > 0 && lanes[k - 1].steps == steps[i]
+                       ? lanes[k - 1].added
+                       : pendres_settle_added(ctx, accuracy, steps[i]);
     found_doubt[k] = NAN;
   }
   long most = pendres_settle_last_budget(ctx, catalogue);

@@ -57,8 +57,7 @@ double pendres_settle_added(const pendres_context *ctx, double accuracy, int ste
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane)
 {
-  *lane = (pendres_strobe_lane){.pendulum = p, .w = v / p->drive_frequency};
-  pendres_strobe_angle(x, &lane->y, &lane->turns);
+  *lane = pendres_strobe_lane_at(p, x, v);
   const pendres_status status = pendres_steps_choose(ctx, p, fabs(v), accuracy, &lane->steps);
   if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
   return status;

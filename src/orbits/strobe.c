@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
@@ -26,7 +27,7 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
                                 periods);
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK)
-      why = pendres_strobe_refuses(&p[i], x[i], v[i]);
+      why = pendres_passage_refuses(&p[i], x[i], v[i]);
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
@@ -56,8 +57,7 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
 {
   for (size_t i = 0; i < n; i++) {
     pendres_strobe_lane *l = &lanes[i];
-    *l = (pendres_strobe_lane){.pendulum = &p[i], .w = v[i] / p[i].drive_frequency};
-    pendres_strobe_angle(x[i], &l->y, &l->turns);
+    *l = pendres_strobe_lane_at(&p[i], x[i], v[i]);
     if (ctx->options.method != PENDRES_BLOCK_FIXED) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], fabs(v[i]),
@@ -205,10 +205,8 @@ static pendres_status strobe_advance(pendres_context *ctx, size_t n,
   if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
   if (status == PENDRES_OK && error != NULL)
     status = estimate(ctx, n, pendulums, x, v, periods, lanes, error);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    x[i] = pendres_strobe_position(lanes[i].y, lanes[i].turns);
-    v[i] = lanes[i].w * pendulums[i].drive_frequency;
-  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    pendres_strobe_lane_out(&lanes[i], &x[i], &v[i]);
   free(lanes);
   return status;
 }

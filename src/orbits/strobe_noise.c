@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/tables.h"
 
 /*
@@ -20,12 +21,13 @@ double pendres_strobe_noise_of_step(pendres_table table)
   return step_rounding * fmax(1.0, weights / usual_weights);
 }
 
-void pendres_strobe_noise_carry(const double noise[3], double rounding, int step, size_t stride,
-                                const double *state, double out[3])
+void pendres_strobe_noise_carry(const double noise[3], double rounding, int step,
+                                const pendres_rows *rows, size_t lane, double out[3])
 {
-  const double a = state[2 * stride], c = state[3 * stride];
-  const double b = state[4 * stride], d = state[5 * stride];
-  const double w = fmax(1.0, fabs(state[stride]));
+  double m[2][2];
+  pendres_rows_tangent(rows, lane, m);
+  const double a = m[0][0], b = m[0][1], c = m[1][0], d = m[1][1];
+  const double w = fmax(1.0, fabs(pendres_rows_get(rows, PENDRES_ROW_W, lane)));
   /* What is added on the way grows on the way: half of it counts as there from the start. */
   const double added = 0.5 * rounding * rounding * step;
   const double yy = noise[0] + added, yw = noise[1], ww = noise[2] + added * w * w;
@@ -39,31 +41,26 @@ typedef struct covariance {
 } covariance;
 
 /* One period of a block of n lanes of equal steps. */
-static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n,
-                           const pendres_strobe_rank *rank, pendres_strobe_lane *lanes,
-                           covariance *noise)
+static pendres_status turn(pendres_block *b, const pendres_strobe_rank *rank,
+                           pendres_strobe_lane *lanes, covariance *noise)
 {
-  pendres_status status = pendres_context_poll(ctx);
-  if (status != PENDRES_OK) return status;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0; i < b->lanes; i++) {
     const pendres_strobe_lane *l = &lanes[rank[i].index];
-    pendres_flow_set_lane(flow, i, l->pendulum, l->y, l->w);
+    pendres_block_load(b, i, l->pendulum, l->y, l->w);
   }
-  status = pendres_flow_period(flow);
-  if (status != PENDRES_OK) return pendres_context_flow_failed(ctx, flow, status);
-  ctx->cost.pendulum_periods += (double)n;
-  const double *state = pendres_flow_state(flow);
-  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
-  const size_t stride = pendres_flow_stride(flow);
-  for (size_t i = 0; i < n; i++) {
+  const pendres_status status = pendres_block_period(b);
+  if (status != PENDRES_OK) return status;
+  const pendres_rows rows = pendres_block_rows(b);
+  const double rounding = pendres_strobe_noise_of_step(b->ctx->options.table);
+  for (size_t i = 0; i < b->lanes; i++) {
     pendres_strobe_lane *l = &lanes[rank[i].index];
     covariance *old = &noise[rank[i].index], next;
-    pendres_strobe_noise_carry(old->c, rounding, l->steps, stride, state + i, next.c);
+    pendres_strobe_noise_carry(old->c, rounding, l->steps, &rows, i, next.c);
     *old = next;
-    l->y = state[i];
-    l->w = state[stride + i];
+    l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, i);
+    l->w = pendres_rows_get(&rows, PENDRES_ROW_W, i);
     l->period++;
-    pendres_strobe_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+    pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   }
   return PENDRES_OK;
 }
@@ -71,10 +68,7 @@ static pendres_status turn(pendres_context *ctx, pendres_flow *flow, size_t n,
 pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
                                         pendres_strobe_lane *lanes, long periods, double *noise)
 {
-  pendres_flow *flow = NULL;
-  pendres_status status = pendres_context_flow(ctx, PENDRES_FLOW_VARIATIONAL, &flow);
-  if (status != PENDRES_OK) return status;
-  const size_t capacity = pendres_flow_capacity(flow);
+  pendres_status status = PENDRES_OK;
   pendres_strobe_rank *rank = malloc((n + 1) * sizeof *rank);
   covariance *sum = calloc(n + 1, sizeof *sum);
   if (rank == NULL || sum == NULL) {
@@ -85,16 +79,15 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
     rank[i] = (pendres_strobe_rank){.steps = lanes[i].steps, .index = i};
   pendres_strobe_order(n, rank);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
+    pendres_block b;
     last = first + 1;
+    status = pendres_block_open(ctx, PENDRES_FLOW_VARIATIONAL, rank[first].steps, &b);
+    if (status != PENDRES_OK) break;
+    const size_t capacity = pendres_block_capacity(&b);
     while (last < n && last - first < capacity && rank[last].steps == rank[first].steps) last++;
-    status = pendres_flow_set_steps(flow, rank[first].steps);
-    if (status != PENDRES_OK) {
-      status = pendres_context_flow_failed(ctx, flow, status);
-      break;
-    }
-    pendres_flow_resize(flow, last - first);
+    pendres_block_resize(&b, last - first);
     for (long k = 0; k < periods && status == PENDRES_OK; k++)
-      status = turn(ctx, flow, last - first, rank + first, lanes, sum);
+      status = turn(&b, rank + first, lanes, sum);
   }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const double omega = lanes[i].pendulum->drive_frequency;

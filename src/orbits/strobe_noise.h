@@ -15,10 +15,10 @@ double pendres_strobe_noise_of_step(pendres_table table);
 
 /*
  * C_yy, C_yw, C_ww after `step` steps from a state where they were noise[]; rounding is that of a
- * step. state points at a lane of a block with variational rows that began as the identity.
+ * step. The lane's rows of derivatives began as the identity.
  */
-void pendres_strobe_noise_carry(const double noise[3], double rounding, int step, size_t stride,
-                                const double *state, double out[3]);
+void pendres_strobe_noise_carry(const double noise[3], double rounding, int step,
+                                const pendres_rows *rows, size_t lane, double out[3]);
 
 /*
  * Run n lanes on by `periods` drive periods with the fixed steps of each. noise[n] receives the

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
@@ -23,24 +24,25 @@ typedef struct recorder {
   double *x_noise, *v_noise; /* NULL in the first run */
   double noise[3];           /* C_yy, C_yw, C_ww at the period's start */
   int stretch;               /* steps between two points */
-  double omega;
+  const pendres_pendulum *p;
   long turns;                /* of the period's start */
   double rounding;           /* of a step */
 } recorder;
 
-static void keep(void *arg, int step, double theta, size_t stride, const double *state)
+static void keep(void *arg, int step, const pendres_rows *rows)
 {
   const recorder *r = arg;
   const int k = step / r->stretch;
-  (void)theta;
   if (step % r->stretch != 0) return;
-  r->x[k] = pendres_strobe_position(state[0], r->turns);
-  r->v[k] = r->omega * state[stride];
+  const pendres_place s = {.y = pendres_rows_get(rows, PENDRES_ROW_Y, 0),
+                           .w = pendres_rows_get(rows, PENDRES_ROW_W, 0),
+                           .turns = r->turns};
+  pendres_passage_out(r->p, &s, &r->x[k], &r->v[k]);
   if (r->x_noise != NULL) {
     double noise[3];
-    pendres_strobe_noise_carry(r->noise, r->rounding, step, stride, state, noise);
+    pendres_strobe_noise_carry(r->noise, r->rounding, step, rows, 0, noise);
     r->x_noise[k] = sqrt(noise[0]);
-    r->v_noise[k] = r->omega * sqrt(noise[2]);
+    r->v_noise[k] = r->p->drive_frequency * sqrt(noise[2]);
   }
 }
 
@@ -56,18 +58,15 @@ typedef struct record {
 static pendres_status run(pendres_context *ctx, const record *what, int stretch, double *x,
                           double *v, double *x_noise, double *v_noise)
 {
-  pendres_flow *flow = NULL;
-  const double omega = what->p->drive_frequency;
-  double y = 0.0, w = what->v0 / omega;
-  recorder r = { .stretch = stretch, .omega = omega,
+  pendres_block b;
+  pendres_place s = pendres_passage_in(what->p, what->x0, what->v0);
+  recorder r = { .stretch = stretch, .p = what->p,
                  .rounding = pendres_strobe_noise_of_step(ctx->options.table) };
-  long turns = 0;
-  pendres_status status = pendres_context_flow(
-    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, &flow);
+  pendres_status status = pendres_block_open(
+    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, what->samples * stretch,
+    &b);
   if (status != PENDRES_OK) return status;
-  status = pendres_flow_set_steps(flow, what->samples * stretch);
-  pendres_strobe_angle(what->x0, &y, &turns);
-  pendres_flow_resize(flow, 1);
+  pendres_block_resize(&b, 1);
   x[0] = what->x0;
   v[0] = what->v0;
   if (x_noise != NULL) x_noise[0] = v_noise[0] = 0.0;
@@ -77,26 +76,21 @@ static pendres_status run(pendres_context *ctx, const record *what, int stretch,
     r.v = v + first;
     r.x_noise = x_noise != NULL ? x_noise + first : NULL;
     r.v_noise = v_noise != NULL ? v_noise + first : NULL;
-    r.turns = turns;
-    status = pendres_context_poll(ctx);
-    if (status != PENDRES_OK) return status;
-    pendres_flow_set_lane(flow, 0, what->p, y, w);
-    status = pendres_flow_period_sampled(flow, keep, &r);
-    ctx->cost.pendulum_periods += 1.0;
-    const double *state = pendres_flow_state(flow);
-    const size_t stride = pendres_flow_stride(flow);
+    r.turns = s.turns;
+    pendres_block_load(&b, 0, what->p, s.y, s.w);
+    status = pendres_block_period_sampled(&b, keep, &r);
+    const pendres_rows rows = pendres_block_rows(&b);
     double noise[3] = { 0.0 };
     if (x_noise != NULL)
-      pendres_strobe_noise_carry(r.noise, r.rounding, what->samples * stretch, stride, state,
-                                 noise);
+      pendres_strobe_noise_carry(r.noise, r.rounding, what->samples * stretch, &rows, 0, noise);
     for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
-    y = state[0];
-    w = state[stride];
-    pendres_strobe_arrive(what->p, &y, &w, &turns);
-    if (status == PENDRES_OK && !(isfinite(y) && isfinite(w)))
+    s.y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
+    s.w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
+    pendres_passage_arrive(what->p, &s.y, &s.w, &s.turns);
+    if (status == PENDRES_OK && !(isfinite(s.y) && isfinite(s.w)))
       return pendres_strobe_lost(ctx, what->p, k + 1);
   }
-  return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, flow, status);
+  return status;
 }
 
 static pendres_status check(pendres_context *ctx, const record *what)
@@ -108,7 +102,7 @@ static pendres_status check(pendres_context *ctx, const record *what)
       why = "1 to 1000000 samples a period, please";
     else if (what->periods >= LONG_MAX / 64 / what->samples)
       why = "there are too many samples in all";
-    else why = pendres_strobe_refuses(what->p, what->x0, what->v0);
+    else why = pendres_passage_refuses(what->p, what->x0, what->v0);
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);

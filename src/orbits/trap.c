@@ -5,11 +5,11 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/trap_ring.h"
 
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 enum {
   BASE_POINTS = 12, /* of a ring that only tells whether the linear map rules */
@@ -338,10 +338,9 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
   if (s == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = &orbits[i];
-    traps[i] = (pendres_trap){.y = o->x - half_pi,
-                              .w = o->v / o->pendulum.drive_frequency,
-                              .period = o->period,
-                              .winding = o->winding};
+    const pendres_place at = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+    traps[i] = (pendres_trap){
+      .y = at.y, .w = at.w, .period = o->period, .winding = o->winding};
     if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
       continue;
     const int looks = contraction_looks(&traps[i], o);

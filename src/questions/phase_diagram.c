@@ -6,7 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "orbits/label.h"
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 enum { MOST_CROSSINGS = 16 };
 
@@ -171,7 +171,7 @@ static pendres_status check_line(pendres_context *ctx, size_t n, const pendres_p
   const char *why = e->members == 0 ? "an ensemble needs members" : NULL;
   for (size_t i = 0; i < n && why == NULL; i++) {
     if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) break;
-    why = pendres_strobe_refuses(&p[i], fmax(fabs(e->x_first), fabs(e->x_last)), e->v);
+    why = pendres_passage_refuses(&p[i], fmax(fabs(e->x_first), fabs(e->x_last)), e->v);
     if (why != NULL) break;
     if (p[i].damping != p[0].damping || p[i].drive_amplitude != p[0].drive_amplitude)
       why = "a line has one damping and one drive amplitude";

@@ -9,7 +9,7 @@
 #include "questions/resonance_gap.h"
 #include "questions/resonance_search.h"
 #include "questions/response_name.h"
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 enum { SECTIONS = 4 /* a gap is cut into */ };
 
@@ -337,7 +337,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
     pendres_pendulum at = *p;
     at.drive_frequency = i == 0 ? lowest : highest;
     if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
-      why = pendres_strobe_refuses(&at, fmax(fabs(ensemble->x_first), fabs(ensemble->x_last)),
+      why = pendres_passage_refuses(&at, fmax(fabs(ensemble->x_first), fabs(ensemble->x_last)),
                                    ensemble->v);
   }
   if (ensemble->members < 1) why = "an ensemble needs members";

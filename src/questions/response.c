@@ -11,7 +11,7 @@
 #include "questions/response_loop.h"
 #include "questions/response_members.h"
 #include "orbits/settle.h"
-#include "engine/strobe_run.h"
+#include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -309,7 +309,7 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   for (size_t i = 0; i < n; i++) {
     const char *why = NULL;
     if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK) {
-      why = pendres_strobe_refuses(&pendulums[i], fmax(fabs(ensemble->x_first),
+      why = pendres_passage_refuses(&pendulums[i], fmax(fabs(ensemble->x_first),
                                                        fabs(ensemble->x_last)), ensemble->v);
       if (pendulums[i].damping == 0.0) why = "without damping nothing settles";
     }

@@ -1,0 +1,137 @@
+/* passage.c -- the one way into lanes and out of them; see passage.h. */
+#include "engine/passage.h"
+
+#include <math.h>
+
+#include "engine/flow.h"
+
+static const double half_pi = 1.57079632679489661923;
+/* 2 pi in two parts, so that taking out many turns costs no digits. */
+static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
+/* A position beyond is not known to a tenth of a radian. */
+static const double farthest = 1e15;
+
+/* ---- states ---- */
+
+const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double v)
+{
+  const double w = p->drive_frequency, slowest = fmax(w, p->damping);
+  if (!(isfinite(x) && isfinite(v))) return "position and velocity must be finite";
+  if (!(fabs(x) <= farthest))
+    return "beyond 1e15 double precision knows a position to a tenth of a radian at best";
+  if (!(fabs(v) / slowest <= farthest && isfinite(v / w)))
+    return "so fast a pendulum is beyond 1e15 within a period, where its angle is not known";
+  if (!(fabs(p->drive_amplitude) / w / slowest <= farthest))
+    return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
+  if (!(p->damping / w <= farthest))
+    return "so strong a damping acts within less of a period than double precision can tell";
+  if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w))))
+    return "so low a drive frequency has a square that is zero in double precision";
+  return NULL;
+}
+
+void pendres_passage_wrap(double *y, long *turns)
+{
+  if (fabs(*y) <= 3.14159265358979323846) return;
+  const double k = rint(*y / two_pi_high);
+  if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
+    *y = NAN;
+    return;
+  }
+  *y = fma(-k, two_pi_low, fma(-k, two_pi_high, *y));
+  *turns += (long)k;
+}
+
+pendres_place pendres_passage_in(const pendres_pendulum *p, double x, double v)
+{
+  pendres_place s = {.y = NAN, .w = v / p->drive_frequency};
+  if (!(fabs(x) <= farthest)) return s;
+  /* Whole turns first: of a large x the digits would be lost in the difference. */
+  const double k = rint((x - half_pi) / two_pi_high);
+  s.turns = (long)k;
+  s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - half_pi;
+  pendres_passage_wrap(&s.y, &s.turns);
+  return s;
+}
+
+pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, double v)
+{
+  return (pendres_place){.y = x - half_pi, .w = v / p->drive_frequency};
+}
+
+void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v)
+{
+  const double turns = (double)s->turns;
+  *x = fma(two_pi_high, turns, fma(two_pi_low, turns, s->y + half_pi));
+  if (v != NULL) *v = s->w * p->drive_frequency;
+}
+
+void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
+{
+  static const double nothing = 1e-290;
+  pendres_passage_wrap(y, turns);
+  if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
+    *y = *w = 0.0;
+}
+
+/* ---- blocks ---- */
+
+pendres_status pendres_block_open(pendres_context *ctx, pendres_flow_kind kind, int steps,
+                                  pendres_block *out)
+{
+  *out = (pendres_block){.ctx = ctx};
+  pendres_status status = pendres_context_flow(ctx, kind, &out->flow);
+  if (status != PENDRES_OK) return status;
+  status = pendres_flow_set_steps(out->flow, steps);
+  return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, out->flow, status);
+}
+
+size_t pendres_block_capacity(const pendres_block *b)
+{
+  return pendres_flow_capacity(b->flow);
+}
+
+void pendres_block_resize(pendres_block *b, size_t lanes)
+{
+  b->lanes = lanes;
+  pendres_flow_resize(b->flow, lanes);
+}
+
+void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p, double y,
+                        double w)
+{
+  pendres_flow_set_lane(b->flow, lane, p, y, w);
+}
+
+/* What comes after a run of this many periods. */
+static pendres_status ran(pendres_block *b, double periods, pendres_status status)
+{
+  if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+  b->ctx->cost.pendulum_periods += (double)b->lanes * periods;
+  return status;
+}
+
+pendres_status pendres_block_period(pendres_block *b)
+{
+  const pendres_status status = pendres_context_poll(b->ctx);
+  return status == PENDRES_OK ? ran(b, 1.0, pendres_flow_period(b->flow)) : status;
+}
+
+pendres_status pendres_block_half_period(pendres_block *b)
+{
+  const pendres_status status = pendres_context_poll(b->ctx);
+  return status == PENDRES_OK ? ran(b, 0.5, pendres_flow_half_period(b->flow)) : status;
+}
+
+pendres_status pendres_block_period_sampled(pendres_block *b, pendres_block_sample *sample,
+                                            void *arg)
+{
+  const pendres_status status = pendres_context_poll(b->ctx);
+  if (status != PENDRES_OK) return status;
+  return ran(b, 1.0, pendres_flow_period_sampled(b->flow, sample, arg));
+}
+
+pendres_rows pendres_block_rows(const pendres_block *b)
+{
+  return pendres_flow_rows(b->flow);
+}

@@ -1,0 +1,88 @@
+/*
+ * passage.h -- the one way of a pendulum into lanes, and out of them again.
+ *
+ * Owns: what a state is inside the engine; whole turns, taken out and put back in one order; and
+ * the use of a block: its steps, loading its lanes, running it by periods, reading it by rows.
+ * Nobody outside the engine touches a flow.
+ *
+ * Outside, a state is (x, v) as in pendulum.h. Inside it is (y, w): y = x - pi/2 is the angle, kept
+ * within half a turn of zero while whole turns are counted apart, and w = dy/dtheta = v/omega.
+ */
+#ifndef PENDRES_PASSAGE_H
+#define PENDRES_PASSAGE_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include "engine/context_internal.h"
+#include "engine/kernels.h"
+
+/* ---- states ---- */
+
+typedef struct pendres_place {
+  double y, w;
+  long turns;
+} pendres_place;
+
+/* NULL, or why double precision cannot follow a pendulum from a state: a static sentence. */
+const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double v);
+
+/* In, with whole turns taken out: -pi <= y <= pi. y is NaN beyond 1e15, where an angle is not
+   known to a tenth of a radian. */
+pendres_place pendres_passage_in(const pendres_pendulum *p, double x, double v);
+
+/* In, with all turns left in y: for orbits, which stay together as one curve. */
+pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, double v);
+
+/* Out; v may be NULL. */
+void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v);
+
+/* Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond 1e15. */
+void pendres_passage_wrap(double *y, long *turns);
+
+/*
+ * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies
+ * down to denormal numbers and stays there, in steps that take forty times as long: below 1e-290 it
+ * is put to rest.
+ */
+void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, long *turns);
+
+/* ---- blocks ---- */
+
+/* A context's block, with fixed steps, for the use of one function at a time. */
+typedef struct pendres_block {
+  pendres_context *ctx;
+  pendres_flow *flow;
+  size_t lanes; /* in use */
+} pendres_block;
+
+/*
+ * The context's block of a kind, with so many steps a period from now on. Here and below a failure
+ * has its words in the context.
+ */
+pendres_status pendres_block_open(pendres_context *ctx, pendres_flow_kind kind, int steps,
+                                  pendres_block *out);
+
+/* The most lanes that it holds. */
+size_t pendres_block_capacity(const pendres_block *b);
+
+/* Use so many lanes from now on; those that were in use before and still are keep their states. */
+void pendres_block_resize(pendres_block *b, size_t lanes);
+
+/* Put a pendulum into a lane, at a state; rows of derivatives start anew. */
+void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p, double y,
+                        double w);
+
+/* One drive period, or its first half, of all lanes: asks whether to go on, and counts the cost. */
+pendres_status pendres_block_period(pendres_block *b);
+pendres_status pendres_block_half_period(pendres_block *b);
+
+/* A period whose steps 1..n are looked at, one after the other. */
+typedef void pendres_block_sample(void *arg, int step, const pendres_rows *rows);
+pendres_status pendres_block_period_sampled(pendres_block *b, pendres_block_sample *sample,
+                                            void *arg);
+
+/* The rows as they are, valid until the block is run or resized. */
+pendres_rows pendres_block_rows(const pendres_block *b);
+
+#endif
