@@ -36,7 +36,8 @@ static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *str
 }
 
 /* Pendulum-periods a second, the best of several. */
-static double speed(pendres_langevin *lv, const pendres_pendulum *pendulum, int harmonics)
+static double speed(pendres_context *ctx, const pendres_pendulum *pendulum, int steps,
+                    int harmonics)
 {
   pendres_pendulum p[LANES];
   double x[LANES], v[LANES], best = INFINITY, sink = 0.0;
@@ -44,10 +45,11 @@ static double speed(pendres_langevin *lv, const pendres_pendulum *pendulum, int 
 
   for (int i = 0; i < LANES; i++) p[i] = *pendulum, x[i] = 2.1, v[i] = 0.1;
   for (int r = 0; r < REPEATS; r++) {
+    const pendres_langevin_run run = {.n = LANES, .pendulums = p, .first_period = r * PERIODS,
+                                      .periods = PERIODS, .steps_per_period = steps,
+                                      .observer = &observer};
     const double start = now();
-    if (pendres_langevin_advance(lv, LANES, p, NULL, r * PERIODS, PERIODS, x, v, &observer) !=
-        PENDRES_OK)
-      return NAN;
+    if (pendres_langevin_advance(ctx, &run, x, v) != PENDRES_OK) return NAN;
     best = fmin(best, now() - start);
   }
   return LANES * (double)PERIODS / best;
@@ -57,18 +59,19 @@ static double speed(pendres_langevin *lv, const pendres_pendulum *pendulum, int 
 static int cloud(const char *name, double x, double temperature)
 {
   pendres_pendulum p = {.damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = two_pi / 8.0};
-  const pendres_langevin_options exact = {.steps_per_period = 1000};
-  pendres_langevin *lv = NULL;
+  const pendres_langevin_run wait = {.n = 1, .pendulums = &p, .periods = 300,
+                                     .steps_per_period = 1000};
+  pendres_context *ctx = NULL;
   pendres_langevin_bias bias;
   double v = 0.0, worst = 0.0, error = 0.0;
   int code = 1;
 
-  if (pendres_langevin_create(&exact, &lv) != PENDRES_OK) goto done;
-  if (pendres_langevin_advance(lv, 1, &p, NULL, 0, 300, &x, &v, NULL) != PENDRES_OK) goto done;
+  if (pendres_context_create(NULL, &ctx) != PENDRES_OK) goto done;
+  if (pendres_langevin_advance(ctx, &wait, &x, &v) != PENDRES_OK) goto done;
   p.temperature = temperature;
   const pendres_langevin_request request = {.pendulum = p, .x = x, .v = v, .trajectories = 384,
                                             .settle = 60, .record = 60};
-  if (pendres_langevin_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, 0.01, &bias) !=
+  if (pendres_langevin_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD, 0.01, &bias) !=
       PENDRES_OK)
     goto done;
   for (int s = 0; s <= PENDRES_LANGEVIN_COV_VV; s++) {
@@ -77,7 +80,8 @@ static int cloud(const char *name, double x, double temperature)
   }
   printf("%s, T = %g: %d steps a period, bias %.2f %% of the width (known to %.2f %%): ", name,
          temperature, bias.steps_per_period, 100.0 * worst, 100.0 * error);
-  const double plain = speed(lv, &p, 0), harmonics = speed(lv, &p, 1);
+  const int steps = bias.steps_per_period;
+  const double plain = speed(ctx, &p, steps, 0), harmonics = speed(ctx, &p, steps, 1);
   printf("%.2f million pendulum-periods a second", 1e-6 * plain);
   printf(", %.2f with harmonics and work\n", 1e-6 * harmonics);
   bench_figure(bias.steps_per_period, '<', bench_count, "noise.steps.%s.%.0e", name, temperature);
@@ -85,8 +89,8 @@ static int cloud(const char *name, double x, double temperature)
                pendres_kernels_langevin_select()->name);
   code = 0;
 done:
-  if (code != 0) printf("%s: failed: %s\n", name, pendres_langevin_message(lv));
-  pendres_langevin_free(lv);
+  if (code != 0) printf("%s: failed: %s\n", name, pendres_context_message(ctx));
+  pendres_context_free(ctx);
   return code;
 }
 

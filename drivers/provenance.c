@@ -74,7 +74,6 @@ static pendres_status write_origin(const provenance *p, const deck *d, const far
   char hdf5[64], system[2 * sizeof host.sysname + 2] = "";
   unsigned version[3] = { 0 };
   const int noise = deck_has_noise(d);
-  const int64_t seed = d->kind == DECK_BASINS ? d->basins.seed : d->noise.seed;
 
   if (uname(&host) != 0) memset(&host, 0, sizeof host);
   snprintf(system, sizeof system, "%s %s", host.sysname, host.machine);
@@ -91,7 +90,7 @@ static pendres_status write_origin(const provenance *p, const deck *d, const far
     { .key = "threads", .integer = farm_threads(f), .is_integer = 1, .long_name = "threads" },
     { .key = "tolerance", .number = d->precision.tolerance,
       .long_name = "tolerance of the results" },
-    { .key = "seed", .integer = noise ? seed : 0, .is_integer = 1,
+    { .key = "seed", .integer = noise ? (int64_t)deck_seed(d) : 0, .is_integer = 1,
       .long_name = noise ? "seed of the random numbers" : "no random numbers were used" },
   };
   return pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);

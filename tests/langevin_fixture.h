@@ -14,14 +14,21 @@
  */
 static const double sigmas = 4.5;
 
-static inline pendres_langevin *make(uint64_t seed, int steps, int lanes)
+/* A context with a seed, whose noisy trajectories have so many steps a period. */
+static inline pendres_context *make(uint64_t seed, int steps, int lanes)
 {
-  const pendres_langevin_options options = {
+  const pendres_options options = {
     .seed = seed, .steps_per_period = steps, .block_lanes = lanes};
-  pendres_langevin *lv = NULL;
-  check_ok(pendres_langevin_create(&options, &lv));
-  return lv;
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&options, &ctx));
+  return ctx;
 }
+
+/* Trajectories to advance, with the context's steps. */
+#define RUN(count, who, names, first, number, observed)                           \
+  &(const pendres_langevin_run){.n = (count), .pendulums = (who), .ids = (names), \
+                                .first_period = (first), .periods = (number),     \
+                                .observer = (observed)}
 
 /* The parameters of the paper's Fig. 7. */
 static inline pendres_pendulum figure7(double temperature)
@@ -35,13 +42,13 @@ static inline pendres_pendulum figure7(double temperature)
 static inline void orbit(int large, double *x, double *v)
 {
   const pendres_pendulum p = figure7(0.0);
-  pendres_langevin *lv = make(0, 40, 8);
+  pendres_context *coarse = make(0, 40, 8), *fine = make(0, 2000, 8);
   *x = large ? -0.1 * PI : 0.5 * PI;
   *v = 0.0;
-  check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, 100, x, v, NULL));
-  check_ok(pendres_langevin_set_steps(lv, 2000));
-  check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 100, 60, x, v, NULL));
-  pendres_langevin_free(lv);
+  check_ok(pendres_langevin_advance(coarse, RUN(1, &p, NULL, 0, 100, NULL), x, v));
+  check_ok(pendres_langevin_advance(fine, RUN(1, &p, NULL, 100, 60, NULL), x, v));
+  pendres_context_free(coarse);
+  pendres_context_free(fine);
 }
 
 #endif

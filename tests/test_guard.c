@@ -15,7 +15,6 @@
 /* What a function that a handle calls tries to do with that handle. */
 typedef struct intruder {
   pendres_context *ctx;
-  pendres_langevin *lv;
   int asked, in_thread;
   pendres_status answer;
   char said[256];
@@ -26,21 +25,15 @@ static void *intrude(void *arg)
   intruder *a = arg;
   const pendres_pendulum p = figure7(0.0);
   double x = 1.0, v = 0.0;
-  const char *said = "";
-  if (a->ctx != NULL) {
-    a->answer = pendres_strobe_advance(a->ctx, 1, &p, &x, &v, 1, NULL);
-    said = pendres_context_message(a->ctx);
-    pendres_context_set_interrupt(a->ctx, NULL, NULL);
-    pendres_context_cost_reset(a->ctx);
-    pendres_context_free(a->ctx);
-  } else {
-    a->answer = pendres_langevin_advance(a->lv, 1, &p, NULL, 0, 1, &x, &v, NULL);
-    said = pendres_langevin_message(a->lv);
-    pendres_langevin_set_interrupt(a->lv, NULL, NULL);
-    pendres_langevin_free(a->lv);
-  }
+  a->answer = pendres_strobe_advance(a->ctx, 1, &p, &x, &v, 1, NULL);
+  (void)snprintf(a->said, sizeof a->said, "%s", pendres_context_message(a->ctx));
+  const pendres_status noisy =
+    pendres_langevin_advance(a->ctx, RUN(1, &p, NULL, 0, 1, NULL), &x, &v);
+  assert_int_equal(noisy, a->answer);
+  pendres_context_set_interrupt(a->ctx, NULL, NULL);
+  pendres_context_cost_reset(a->ctx);
+  pendres_context_free(a->ctx);
   assert_true(x == 1.0 && v == 0.0);
-  (void)snprintf(a->said, sizeof a->said, "%s", said);
   return NULL;
 }
 
@@ -127,30 +120,30 @@ static void intruding_leave(void *arg, const pendres_langevin_strobe *strobe, un
   (void)intrude_once(arg);
 }
 
-static void noisy_handles_in_use_are_refused(void **state)
+static void noisy_contexts_in_use_are_refused(void **state)
 {
   const pendres_pendulum p = figure7(1e-3);
   (void)state;
   for (int k = 0; k < 6; k++) {
-    pendres_langevin *lv = make(1, 16, 8);
-    intruder a = {.lv = lv, .in_thread = k % 2};
+    pendres_context *ctx = make(1, 16, 8);
+    intruder a = {.ctx = ctx, .in_thread = k % 2};
     double x = 1.0, v = 0.0;
     const pendres_langevin_observer observer = {intruding_observer, &a, 0};
     const pendres_langevin_request request = {.pendulum = p, .x = 1.0, .trajectories = 2,
                                               .record = 5, .leave = intruding_leave, .arg = &a};
     pendres_langevin_cloud cloud;
     if (k < 2) {
-      pendres_langevin_set_interrupt(lv, intrude_once, &a);
-      check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, 5, &x, &v, NULL));
+      pendres_context_set_interrupt(ctx, intrude_once, &a);
+      check_ok(pendres_langevin_advance(ctx, RUN(1, &p, NULL, 0, 5, NULL), &x, &v));
     } else if (k < 4) {
-      check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, 5, &x, &v, &observer));
+      check_ok(pendres_langevin_advance(ctx, RUN(1, &p, NULL, 0, 5, &observer), &x, &v));
     } else {
-      check_ok(pendres_langevin_measure(lv, &request, &cloud, NULL, NULL));
+      check_ok(pendres_langevin_measure(ctx, &request, &cloud, NULL, NULL));
     }
     check_refused(&a);
     assert_true(a.asked >= 5);
-    assert_string_equal(pendres_langevin_message(lv), "");
-    pendres_langevin_free(lv);
+    assert_string_equal(pendres_context_message(ctx), "");
+    pendres_context_free(ctx);
   }
 }
 
@@ -175,16 +168,16 @@ static void successes_say_nothing(void **state)
   assert_non_null(strstr(pendres_context_message(ctx), "NULL"));
   pendres_context_free(ctx);
 
-  pendres_langevin *lv = make(1, 16, 8);
-  assert_int_equal(pendres_langevin_advance(lv, 1, &bad, NULL, 0, 1, &x, &v, NULL),
+  ctx = make(1, 16, 8);
+  assert_int_equal(pendres_langevin_advance(ctx, RUN(1, &bad, NULL, 0, 1, NULL), &x, &v),
                    PENDRES_INVALID_ARGUMENT);
-  assert_non_null(strstr(pendres_langevin_message(lv), "damping"));
-  assert_int_equal(pendres_langevin_advance(lv, 1, NULL, NULL, 0, 1, &x, &v, NULL),
+  assert_non_null(strstr(pendres_context_message(ctx), "damping"));
+  assert_int_equal(pendres_langevin_advance(ctx, RUN(1, NULL, NULL, 0, 1, NULL), &x, &v),
                    PENDRES_INVALID_ARGUMENT);
-  assert_non_null(strstr(pendres_langevin_message(lv), "NULL"));
-  check_ok(pendres_langevin_advance(lv, 1, &good, NULL, 0, 1, &x, &v, NULL));
-  assert_string_equal(pendres_langevin_message(lv), "");
-  pendres_langevin_free(lv);
+  assert_non_null(strstr(pendres_context_message(ctx), "NULL"));
+  check_ok(pendres_langevin_advance(ctx, RUN(1, &good, NULL, 0, 1, NULL), &x, &v));
+  assert_string_equal(pendres_context_message(ctx), "");
+  pendres_context_free(ctx);
 }
 
 int main(void)
@@ -192,7 +185,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(contexts_in_use_are_refused),
     cmocka_unit_test(second_contexts_ask_for_the_first),
-    cmocka_unit_test(noisy_handles_in_use_are_refused),
+    cmocka_unit_test(noisy_contexts_in_use_are_refused),
     cmocka_unit_test(successes_say_nothing),
   };
   return cmocka_run_group_tests_name("guard", tests, NULL, NULL);

@@ -15,9 +15,9 @@ static void free_diffusion_is_ornstein_uhlenbeck(void **state)
   const double g = 0.7, T = 1e6, t = 2.0 * PI;
   const pendres_langevin_request q = {.pendulum = {g, 0.3, 1.0, T}, .trajectories = N,
                                       .settle = 0, .record = 1};
-  pendres_langevin *lv = make(3, 24, 192);
+  pendres_context *ctx = make(3, 24, 192);
   pendres_langevin_cloud c;
-  check_ok(pendres_langevin_measure(lv, &q, &c, NULL, NULL));
+  check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
   /* Uhlenbeck and Ornstein, Phys. Rev. 36 (1930) 823. The force of the well and the steps,
    * (gamma h)^4/2880, change these by less than 1e-5 relative. */
   const double e = exp(-g * t), one = -expm1(-g * t);
@@ -33,7 +33,7 @@ static void free_diffusion_is_ornstein_uhlenbeck(void **state)
     const double error = i == 1 ? sqrt(xx * vv * (1.0 + r * r) / N) : want[i] * sqrt(2.0 / N);
     check_relative(s.error, error, 0.1);
   }
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
 }
 
 /* Around a well's bottom all is linear: Sigma(t) = T (1 - M M^T), undriven, from a point. */
@@ -47,7 +47,7 @@ static void small_oscillations_are_linear(void **state)
                                         .trajectories = 4096, .settle = 1, .record = 1};
     pendres_langevin_linear lin;
     pendres_langevin_cloud c;
-    pendres_langevin *lv = make(4, damping[i] > 1.0 ? 64 : 24, 192);
+    pendres_context *ctx = make(4, damping[i] > 1.0 ? 64 : 24, 192);
     check_ok(pendres_langevin_linear_theory(&q.pendulum, q.x, 0.0, 1, &lin));
     /* Equilibrium: equipartition, whatever the damping. */
     check_near(lin.covariance.xx, T, 1e-9 * T);
@@ -62,12 +62,12 @@ static void small_oscillations_are_linear(void **state)
     const double want[3] = {T * (1.0 - s[0] * s[0] - s[1] * s[1]),
                             T * (-s[0] * s[2] - s[1] * s[3]),
                             T * (1.0 - s[2] * s[2] - s[3] * s[3])};
-    check_ok(pendres_langevin_measure(lv, &q, &c, NULL, NULL));
+    check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
     for (int k = 0; k < 3; k++) {
       const pendres_langevin_estimate e = c.statistics[PENDRES_LANGEVIN_COV_XX + k];
       check_near(e.value, want[k], sigmas * e.error);
     }
-    pendres_langevin_free(lv);
+    pendres_context_free(ctx);
   }
 }
 
@@ -108,12 +108,12 @@ static void check_equilibrium(double damping, double T)
                                       .settle = damping < 0.1 ? 60 : 15};
   double cuts[BINS] = {0}, counts[BINS] = {0}, mean = 0.0, square = 0.0, chi2 = 0.0;
   double *x = malloc(N * RECORD * sizeof *x), *v = malloc(N * RECORD * sizeof *v);
-  pendres_langevin *lv = make(5, damping > 1.0 ? 64 : 14, 192);
+  pendres_context *ctx = make(5, damping > 1.0 ? 64 : 14, 192);
   pendres_langevin_cloud c;
 
   assert_true(x != NULL && v != NULL);
   const double want = boltzmann(T, BINS, cuts);
-  check_ok(pendres_langevin_measure(lv, &q, &c, x, v));
+  check_ok(pendres_langevin_measure(ctx, &q, &c, x, v));
   const pendres_langevin_estimate vv = c.statistics[PENDRES_LANGEVIN_COV_VV];
   check_near(vv.value, T, sigmas * vv.error);
   /* An error that is itself sensible: between all strobes independent and all equal. */
@@ -139,7 +139,7 @@ static void check_equilibrium(double damping, double T)
   check_near(chi2, 0.0, gsl_cdf_chisq_Qinv(2.0 * gsl_cdf_ugaussian_Q(sigmas), BINS - 1));
   free(x);
   free(v);
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
 }
 
 static void equilibrium_is_boltzmann(void **state)
@@ -161,7 +161,7 @@ static void clouds_of_figure7_are_linear(void **state)
     pendres_langevin_linear lin;
     pendres_langevin_cloud c;
     pendres_langevin_bias bias;
-    pendres_langevin *lv = make(7, 0, 0);
+    pendres_context *ctx = make(7, 0, 0);
 
     orbit(large, &q.x, &q.v);
     check_ok(pendres_langevin_linear_theory(&q.pendulum, q.x, q.v, 1, &lin));
@@ -173,8 +173,9 @@ static void clouds_of_figure7_are_linear(void **state)
     pendres_langevin_request few = q;
     few.trajectories = 192;
     few.record = 60;
-    check_ok(pendres_langevin_choose_steps(lv, &few, PENDRES_LANGEVIN_CLOUD, 0.01, &bias));
-    check_ok(pendres_langevin_measure(lv, &q, &c, NULL, NULL));
+    check_ok(pendres_langevin_choose_steps(ctx, &few, PENDRES_LANGEVIN_CLOUD, 0.01, &bias));
+    q.steps_per_period = bias.steps_per_period;
+    check_ok(pendres_langevin_measure(ctx, &q, &c, NULL, NULL));
     assert_int_equal(c.left, 0);
     const double want[3] = {lin.covariance.xx, lin.covariance.xv, lin.covariance.vv};
     for (int k = 0; k < 3; k++) {
@@ -187,7 +188,7 @@ static void clouds_of_figure7_are_linear(void **state)
       /* And the comparison means something: errors of a per cent of the scale at most. */
       assert_true(error < 0.01 * bias.scale[s]);
     }
-    pendres_langevin_free(lv);
+    pendres_context_free(ctx);
   }
 }
 
@@ -198,12 +199,11 @@ static void chosen_steps_keep_their_bias(void **state)
     pendres_langevin_request q = {.pendulum = figure7(1e-5), .trajectories = 192, .settle = 40,
                                   .record = 20};
     pendres_langevin_bias bias;
-    pendres_langevin *lv = make(8, 0, 0);
+    pendres_context *ctx = make(8, 0, 0);
     double x, v;
 
     orbit(large, &q.x, &q.v);
-    check_ok(pendres_langevin_choose_steps(lv, &q, PENDRES_LANGEVIN_CLOUD, 0.02, &bias));
-    assert_int_equal(pendres_langevin_steps(lv), bias.steps_per_period);
+    check_ok(pendres_langevin_choose_steps(ctx, &q, PENDRES_LANGEVIN_CLOUD, 0.02, &bias));
     for (int s = 0; s <= PENDRES_LANGEVIN_COV_VV; s++)
       assert_true(fabs(bias.statistics[s].value) + 2.0 * bias.statistics[s].error <=
                   0.02 * bias.scale[s]);
@@ -213,13 +213,15 @@ static void chosen_steps_keep_their_bias(void **state)
     pendres_pendulum still = figure7(0.0);
     x = q.x;
     v = q.v;
-    check_ok(pendres_langevin_advance(lv, 1, &still, NULL, 0, 200, &x, &v, NULL));
+    const pendres_langevin_run run = {.n = 1, .pendulums = &still, .periods = 200,
+                                      .steps_per_period = bias.steps_per_period};
+    check_ok(pendres_langevin_advance(ctx, &run, &x, &v));
     const pendres_langevin_estimate *e = bias.statistics;
     check_near(e[PENDRES_LANGEVIN_MEAN_X].value, x - q.x,
                sigmas * e[PENDRES_LANGEVIN_MEAN_X].error + 0.25 * fabs(x - q.x));
     check_near(e[PENDRES_LANGEVIN_MEAN_V].value, v - q.v,
                sigmas * e[PENDRES_LANGEVIN_MEAN_V].error + 0.25 * fabs(v - q.v));
-    pendres_langevin_free(lv);
+    pendres_context_free(ctx);
   }
 }
 
@@ -242,10 +244,10 @@ static void harmonics_and_work(void **state)
     for (int j = 0; j < 2; j++) {
       double y[2] = {x, v};
       const pendres_langevin_observer observer = {keep_strobe, j == 0 ? fine : coarse, 1};
-      pendres_langevin *lv = make(0, j == 0 ? 2000 : 40, 8);
-      check_ok(pendres_langevin_advance(lv, 1, &p, NULL, 0, j == 0 ? 1 : 200, y, y + 1,
-                                        &observer));
-      pendres_langevin_free(lv);
+      pendres_context *ctx = make(0, j == 0 ? 2000 : 40, 8);
+      check_ok(pendres_langevin_advance(ctx, RUN(1, &p, NULL, 0, j == 0 ? 1 : 200, &observer), y,
+                                        y + 1));
+      pendres_context_free(ctx);
     }
     /* On a closed orbit the work is what friction takes. */
     enum { SPLIT = 4096 };
@@ -270,10 +272,10 @@ static void harmonics_and_work(void **state)
   const pendres_pendulum free_flight = {0.0, 0.0, 1.0, 0.0};
   double x = PI / 2.0, v = 100.0, out[3];
   const pendres_langevin_observer observer = {keep_strobe, out, 1};
-  pendres_langevin *lv = make(0, 230, 8);
-  check_ok(pendres_langevin_advance(lv, 1, &free_flight, NULL, 0, 1, &x, &v, &observer));
+  pendres_context *ctx = make(0, 230, 8);
+  check_ok(pendres_langevin_advance(ctx, RUN(1, &free_flight, NULL, 0, 1, &observer), &x, &v));
   check_near(out[1], -(x - PI / 2.0) / PI, 1e-3);
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
 }
 
 static void leave_at_ten(void *arg, const pendres_langevin_strobe *strobe, unsigned char *left)
@@ -290,9 +292,9 @@ static void those_who_left_do_not_count(void **state)
   pendres_langevin_request q = {.pendulum = figure7(1e-4), .x = PI / 2.0, .trajectories = N,
                                 .settle = 5, .record = RECORD, .leave = leave_at_ten};
   double x[N * RECORD], v[N * RECORD];
-  pendres_langevin *lv = make(9, 16, 64);
+  pendres_context *ctx = make(9, 16, 64);
   pendres_langevin_cloud c;
-  check_ok(pendres_langevin_measure(lv, &q, &c, x, v));
+  check_ok(pendres_langevin_measure(ctx, &q, &c, x, v));
   /* A hundred left at the end of period 10, when four of their strobes had counted. */
   assert_int_equal(c.left, 100);
   check_near(c.exposure, 100 * 10.0 + 200 * 13.0, 0.0);
@@ -301,8 +303,8 @@ static void those_who_left_do_not_count(void **state)
   q.settle = 20;
   q.trajectories = 2;
   q.leave = leave_at_ten;
-  assert_int_equal(pendres_langevin_measure(lv, &q, &c, NULL, NULL), PENDRES_NOT_FOUND);
-  pendres_langevin_free(lv);
+  assert_int_equal(pendres_langevin_measure(ctx, &q, &c, NULL, NULL), PENDRES_NOT_FOUND);
+  pendres_context_free(ctx);
 }
 
 /* ---- Linear theory and rates ------------------------------------------------------------- */
@@ -344,18 +346,21 @@ static void linear_theory_refuses(void **state)
 static void rates_have_exact_intervals(void **state)
 {
   (void)state;
-  double rate, lower, upper;
+  pendres_langevin_interval rate;
   /* Garwood's intervals as tabulated (95 %), to the digits of the tables. */
-  check_ok(pendres_langevin_rate(0.0, 2.0, 0.95, &rate, &lower, &upper));
-  check_near(rate, 0.0, 0.0);
-  check_near(lower, 0.0, 0.0);
-  check_near(upper, 3.6889 / 2.0, 3e-5);
-  check_ok(pendres_langevin_rate(10.0, 1.0, 0.95, &rate, &lower, &upper));
-  check_near(lower, 4.7954, 5e-5);
-  check_near(upper, 18.3904, 5e-5);
-  assert_int_equal(pendres_langevin_rate(-1.0, 1.0, 0.95, &rate, &lower, &upper),
+  check_ok(pendres_langevin_rate(0.0, 2.0, 0.95, &rate));
+  check_near(rate.value, 0.0, 0.0);
+  check_near(rate.lower, 0.0, 0.0);
+  check_near(rate.upper, 3.6889 / 2.0, 3e-5);
+  /* Without events the error is the upper end at one sigma: exp(-mean) = (1 - 0.6827) / 2. */
+  check_relative(rate.error, -log(0.5 * (1.0 - 0.68268949213708585)) / 2.0, 1e-9);
+  check_ok(pendres_langevin_rate(10.0, 1.0, 0.95, &rate));
+  check_near(rate.lower, 4.7954, 5e-5);
+  check_near(rate.upper, 18.3904, 5e-5);
+  check_relative(rate.error, sqrt(10.0), 1e-15);
+  assert_int_equal(pendres_langevin_rate(-1.0, 1.0, 0.95, &rate),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_langevin_rate(1.0, 0.0, 0.95, &rate, &lower, &upper),
+  assert_int_equal(pendres_langevin_rate(1.0, 0.0, 0.95, &rate),
                    PENDRES_INVALID_ARGUMENT);
 }
 
@@ -382,17 +387,19 @@ static void intervals_leave_their_tails(void **state)
   for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
     for (size_t k = 0; k < sizeof levels / sizeof *levels; k++) {
       const double tail = 0.5 * (1.0 - levels[k]), tolerance = counts[i] < 499 ? 1e-9 : 3e-3;
-      double rate, lower, upper;
-      check_ok(pendres_langevin_rate((double)counts[i], 1.0, levels[k], &rate, &lower, &upper));
-      check_relative(poisson_up_to(counts[i], upper), tail, tolerance);
-      check_relative(1.0 - poisson_up_to(counts[i] - 1, lower), tail, fmax(tolerance, 1e-6));
+      pendres_langevin_interval rate;
+      check_ok(pendres_langevin_rate((double)counts[i], 1.0, levels[k], &rate));
+      check_relative(poisson_up_to(counts[i], rate.upper), tail, tolerance);
+      check_relative(1.0 - poisson_up_to(counts[i] - 1, rate.lower), tail, fmax(tolerance, 1e-6));
     }
   /* Fractions of events, as counts divided by their dispersion are. */
-  double before = -1.0, rate, lower, upper;
+  pendres_langevin_interval rate;
+  double before = -1.0;
   for (double events = 1e-8; events < 600.0; events *= 1.5) {
-    check_ok(pendres_langevin_rate(events, 1.0, 0.95, &rate, &lower, &upper));
-    assert_true(lower >= 0.0 && lower < events && upper > events && upper > before);
-    before = upper;
+    check_ok(pendres_langevin_rate(events, 1.0, 0.95, &rate));
+    assert_true(rate.lower >= 0.0 && rate.lower < events);
+    assert_true(rate.upper > events && rate.upper > before);
+    before = rate.upper;
   }
 }
 

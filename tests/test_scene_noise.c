@@ -348,40 +348,6 @@ static void bad_temperatures_are_deck_errors(void **state)
     }
 }
 
-/* Parts of a cloud make the statistics of the whole. */
-static void merging_parts_is_exact(void **state)
-{
-  enum { N = 37, CUT = 15, RECORD = 4 };
-  const pendres_pendulum p = { 0.3, 0.2, 0.9, 0.05 };
-  pendres_langevin_request q = { .pendulum = p, .x = 1.7, .v = 0.1, .trajectories = N, .settle = 3,
-                                 .record = RECORD, .first_id = 77 };
-  pendres_langevin_cloud whole, merged, parts[3];
-  pendres_langevin *lv = NULL;
-  (void)state;
-  check_ok(pendres_langevin_create(NULL, &lv));
-  check_ok(pendres_langevin_measure(lv, &q, &whole, NULL, NULL));
-  q.trajectories = CUT;
-  check_ok(pendres_langevin_measure(lv, &q, &parts[0], NULL, NULL));
-  q.first_id += CUT;
-  q.trajectories = N - CUT;
-  check_ok(pendres_langevin_measure(lv, &q, &parts[1], NULL, NULL));
-  /* One of which nothing is left. */
-  parts[2] = (pendres_langevin_cloud){ .left = 2, .exposure = 5.0, .phase_lag = { NAN, NAN } };
-  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)
-    parts[2].statistics[s] = (pendres_langevin_estimate){ NAN, NAN };
-  scene_noise_merge(3, parts, &merged);
-  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++) {
-    check_near(merged.statistics[s].value, whole.statistics[s].value, 1e-14);
-    /* Errors come from fewer trajectories each: their own scatter is 1/sqrt(2 N). */
-    check_relative(merged.statistics[s].error, whole.statistics[s].error, 0.25);
-  }
-  check_near(merged.phase_lag.value, whole.phase_lag.value, 1e-14);
-  check_relative(merged.phase_lag.error, whole.phase_lag.error, 0.25);
-  check_near(merged.exposure, whole.exposure + 5.0, 0.0);
-  assert_int_equal(merged.left, 2);
-  pendres_langevin_free(lv);
-}
-
 /* Chunks cover all trajectories once, none of them alone. */
 static void chunks_cover_everything(void **state)
 {
@@ -402,7 +368,6 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(chunks_cover_everything),
-    cmocka_unit_test(merging_parts_is_exact),
     cmocka_unit_test(bad_temperatures_are_deck_errors),
     cmocka_unit_test(too_hot_points_are_marked),
     cmocka_unit_test(switching_counts_both_ways),

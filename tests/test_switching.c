@@ -56,10 +56,10 @@ static void wells_are_left_as_kramers_says(void **state)
     assert_int_equal(pendres_attractors_count(set), 1);
     const pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = N,
                                           .periods = 600, .first_id = 1000 };
-    pendres_langevin *lv = make(11, 40, 192);
+    pendres_context *ctx = make(11, 40, 192);
     pendres_switching_tally tally;
     pendres_switching_rate rate;
-    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_ok(pendres_switching_count(ctx, &q, &tally));
     check_ok(pendres_switching_rate_of(&tally, 0, PENDRES_SWITCHING_WELL, 0.95, &rate));
     /* All exits lead to a well. */
     assert_true(tally.events[0][0] == tally.events[0][PENDRES_SWITCHING_WELL]);
@@ -71,7 +71,7 @@ static void wells_are_left_as_kramers_says(void **state)
     assert_true(rate.error < 0.1 * rate.value);
     /* Hops are independent: their dispersion scatters by sqrt(2/N) = 7 % around 1. */
     check_near(rate.dispersion, 1.0, sigmas * sqrt(2.0 / N));
-    pendres_langevin_free(lv);
+    pendres_context_free(ctx);
     pendres_attractors_free(set);
   }
 }
@@ -82,7 +82,7 @@ static void counts_are_what_plain_counting_gives(void **state)
   enum { N = 24, PERIODS = 400 };
   const pendres_pendulum p = balanced(0.03);
   pendres_attractors *set = attractors(p);
-  pendres_langevin *lv = make(5, 24, 8);
+  pendres_context *ctx = make(5, 24, 8);
   double events[2][2] = { { 0.0 } }, wells[2] = { 0.0 }, exposure[2] = { 0.0 };
   pendres_switching_tally tally;
   (void)state;
@@ -90,7 +90,7 @@ static void counts_are_what_plain_counting_gives(void **state)
   const pendres_attractor *la = pendres_attractors_get(set, 1);
   const pendres_switching_request q = { .pendulum = p, .set = set, .from = 1, .trajectories = N,
                                         .periods = PERIODS, .first_id = 40 };
-  check_ok(pendres_switching_count(lv, &q, &tally));
+  check_ok(pendres_switching_count(ctx, &q, &tally));
   for (uint64_t i = 0; i < N; i++) {
     double x = la->orbit.x, v = la->orbit.v;
     const uint64_t id = 40 + i;
@@ -99,7 +99,7 @@ static void counts_are_what_plain_counting_gives(void **state)
     for (long k = 0; k < PERIODS; k++) {
       int at;
       long well;
-      check_ok(pendres_langevin_advance(lv, 1, &p, &id, k, 1, &x, &v, NULL));
+      check_ok(pendres_langevin_advance(ctx, RUN(1, &p, &id, k, 1, NULL), &x, &v));
       exposure[home] += 1.0;
       pendres_switching_locate(set, 0.5, x, v, &at, &well);
       if (at < 0 || (at == home && well == home_well)) continue;
@@ -115,7 +115,7 @@ static void counts_are_what_plain_counting_gives(void **state)
     for (int t = 0; t < 2; t++) check_near(tally.events[s][t], events[s][t], 0.0);
   }
   assert_true(events[1][0] > 5.0 && events[0][1] > 5.0);
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
   pendres_attractors_free(set);
 }
 
@@ -127,7 +127,7 @@ static void parts_add_up(void **state)
   pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = 100, .periods = 200,
                                   .first_id = 7 };
   pendres_switching_tally whole, part[2], sum = { 0 };
-  pendres_langevin *one = make(3, 20, 192), *other = make(3, 20, 16);
+  pendres_context *one = make(3, 20, 192), *other = make(3, 20, 16);
   (void)state;
   check_ok(pendres_switching_count(one, &q, &whole));
   q.trajectories = 37;
@@ -139,8 +139,8 @@ static void parts_add_up(void **state)
   pendres_switching_add(&sum, &part[0]);
   assert_true(whole.events[0][1] > 0.0);
   assert_memory_equal(&sum, &whole, sizeof sum);
-  pendres_langevin_free(one);
-  pendres_langevin_free(other);
+  pendres_context_free(one);
+  pendres_context_free(other);
   pendres_attractors_free(set);
 }
 
@@ -149,14 +149,14 @@ static void stillness_and_nonsense(void **state)
 {
   const pendres_pendulum p = balanced(0.0);
   pendres_attractors *set = attractors(p);
-  pendres_langevin *lv = make(1, 60, 8);
+  pendres_context *ctx = make(1, 60, 8);
   pendres_switching_request q = { .pendulum = p, .set = set, .trajectories = 8, .periods = 50 };
   pendres_switching_tally tally;
   pendres_switching_rate rate;
   (void)state;
   for (size_t from = 0; from < 2; from++) {
     q.from = from;
-    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_ok(pendres_switching_count(ctx, &q, &tally));
     check_near(tally.exposure[from], 8 * 50, 0.0);
     for (size_t t = 0; t <= PENDRES_SWITCHING_STATES; t++)
       assert_true(tally.events[from][t] == 0.0);
@@ -169,20 +169,20 @@ static void stillness_and_nonsense(void **state)
   static const double bad[] = { -1e-3, NAN, INFINITY };
   for (size_t i = 0; i < 3; i++) {
     q.pendulum.temperature = bad[i];
-    assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
-    assert_true(strlen(pendres_langevin_message(lv)) > 10);
+    assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
+    assert_true(strlen(pendres_context_message(ctx)) > 10);
   }
   q.pendulum = p;
   q.pendulum.damping = 0.13;
-  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
   q.pendulum = p;
   q.from = 2;
-  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
   q.from = 0;
   q.core = 1.5;
-  assert_int_equal(pendres_switching_count(lv, &q, &tally), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_switching_rate_of(&tally, 0, 1, 1.0, &rate), PENDRES_INVALID_ARGUMENT);
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
   pendres_attractors_free(set);
 }
 
@@ -327,7 +327,7 @@ static void bursts_widen_intervals(void **state)
   enum { N = 100 };
   pendres_switching_tally t = { .states = 2, .period = 1.0, .trajectories = N };
   pendres_switching_rate rate;
-  double lower, upper, value;
+  pendres_langevin_interval alone;
   (void)state;
   /* Half of the trajectories have none, the others eight in equal times: variance 16, mean 4. */
   for (int i = 0; i < N; i++) {
@@ -343,9 +343,9 @@ static void bursts_widen_intervals(void **state)
   check_relative(rate.dispersion, d, 1e-12);
   check_relative(rate.value, 4.0 / 50.0, 1e-12);
   check_relative(rate.error, sqrt(4.0 * N * d) / (50.0 * N), 1e-12);
-  check_ok(pendres_langevin_rate(4.0 * N / d, 50.0 * N / d, 0.9, &value, &lower, &upper));
-  check_relative(rate.lower, lower, 1e-12);
-  check_relative(rate.upper, upper, 1e-12);
+  check_ok(pendres_langevin_rate(4.0 * N / d, 50.0 * N / d, 0.9, &alone));
+  check_relative(rate.lower, alone.lower, 1e-12);
+  check_relative(rate.upper, alone.upper, 1e-12);
 }
 
 /* A whole ellipse's edge turns trajectories back; halves and quarters agree. */
@@ -353,7 +353,7 @@ static void rates_do_not_depend_on_the_core(void **state)
 {
   const pendres_pendulum p = balanced(0.02);
   pendres_attractors *set = attractors(p);
-  pendres_langevin *lv = make(9, 32, 192);
+  pendres_context *ctx = make(9, 32, 192);
   pendres_switching_rate rate[2];
   (void)state;
   for (int i = 0; i < 2; i++) {
@@ -361,12 +361,12 @@ static void rates_do_not_depend_on_the_core(void **state)
                                           .trajectories = 384, .periods = 1000,
                                           .first_id = 10000u * (unsigned)i };
     pendres_switching_tally tally;
-    check_ok(pendres_switching_count(lv, &q, &tally));
+    check_ok(pendres_switching_count(ctx, &q, &tally));
     check_ok(pendres_switching_rate_of(&tally, 0, 1, 0.95, &rate[i]));
     assert_true(rate[i].events > 50.0);
   }
   check_near(rate[0].value, rate[1].value, sigmas * hypot(rate[0].error, rate[1].error));
-  pendres_langevin_free(lv);
+  pendres_context_free(ctx);
   pendres_attractors_free(set);
 }
 

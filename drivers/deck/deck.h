@@ -188,6 +188,9 @@ pendres_status deck_dump(const deck *d, FILE *stream);
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);
 
+/** The seed of its random numbers. */
+uint64_t deck_seed(const deck *d);
+
 /** Names in decks, and what a kind computes in words; NULL if out of range. */
 const char *deck_kind_name(deck_kind kind);
 const char *deck_kind_words(deck_kind kind);

@@ -349,6 +349,11 @@ int deck_has_noise(const deck *d)
   return t->count > 0 && t->value[t->count - 1] > 0.0;
 }
 
+uint64_t deck_seed(const deck *d)
+{
+  return (uint64_t)(d->kind == DECK_BASINS ? d->basins.seed : d->noise.seed);
+}
+
 int deck_key_applies(const deck_key *key, const deck *d)
 {
   switch (key->when) {

@@ -15,8 +15,6 @@ struct farm {
   farm_options options;
   int threads;
   int short_of;              /* threads that could be had, when there were fewer; else 0 */
-  pthread_mutex_t lock;      /* of `added` */
-  pendres_cost added;
   pendres_context **context; /* one a thread, made at its first task */
   char message[512];
 };
@@ -79,8 +77,7 @@ pendres_status farm_create(const farm_options *options, farm **out)
   f->options = *options;
   f->threads = options->threads > 0 ? options->threads : processors();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
-  if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
-    free(f->context);
+  if (f->context == NULL) {
     free(f);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -93,7 +90,6 @@ void farm_free(farm *f)
   if (f == NULL) return;
   for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
   free(f->context);
-  (void)pthread_mutex_destroy(&f->lock);
   free(f);
 }
 
@@ -304,16 +300,9 @@ static void add_cost(pendres_cost *sum, const pendres_cost *one)
   sum->settled_pendulums += one->settled_pendulums;
 }
 
-void farm_add_cost(farm *f, const pendres_cost *cost)
-{
-  pthread_mutex_lock(&f->lock);
-  add_cost(&f->added, cost);
-  pthread_mutex_unlock(&f->lock);
-}
-
 void farm_cost(const farm *f, pendres_cost *cost)
 {
-  *cost = f->added;
+  *cost = (pendres_cost){ 0 };
   for (int i = 0; i < f->threads; i++) {
     pendres_cost one = { 0 };
     if (f->context[i] == NULL) continue;

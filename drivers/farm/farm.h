@@ -63,14 +63,10 @@ pendres_context *farm_context(farm *f);
 
 int farm_threads(const farm *f);
 
-/* Is the run to stop? For what a task does without its context: `farm` is a farm; the signature is
-   that of pendres_langevin_set_interrupt. */
+/* Is the run to stop? For what a task does without its context: `farm` is a farm. */
 int farm_stopped(void *farm);
 
-/* Add what tasks have spent without their contexts; any thread may. */
-void farm_add_cost(farm *f, const pendres_cost *cost);
-
-/* What all contexts have spent so far, and what was added. */
+/* What all contexts have spent so far. */
 void farm_cost(const farm *f, pendres_cost *cost);
 
 #endif

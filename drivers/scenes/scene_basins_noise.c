@@ -105,7 +105,6 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   cloud *c = &w->clouds[number];
   const pendres_attractor *a = attractor_of(w, number);
   pendres_switching_home home;
-  pendres_langevin *lv = NULL;
   if (!has_cloud(a)) return PENDRES_OK;
   if (!(temperature_of(w, number) > 0.0)) {
     c->compared = 1;
@@ -121,13 +120,9 @@ static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
   }
   request.trajectories = TRAJECTORIES;
   request.record = RECORD;
-  pendres_status status = scene_noise_open(w->farm, w->d->basins.seed, &lv);
-  if (status == PENDRES_OK)
-    status =
-      scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, CLOUD_BIAS_WANTED, &c->bias);
-  status = scene_failures_note(&w->failed, number, status, pendres_langevin_message(lv));
-  scene_noise_close(w->farm, lv);
-  return status;
+  const pendres_status status =
+    scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD, CLOUD_BIAS_WANTED, &c->bias);
+  return scene_failures_note(&w->failed, number, status, pendres_context_message(ctx));
 }
 
 /* Strobes of a chunk into their place among those of the cloud, as many as are written. */
@@ -147,27 +142,21 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
   const size_t number = task / w->chunks;
   size_t first, count;
   pendres_switching_home home;
-  pendres_langevin *lv = NULL;
-  double *points = NULL;
-  (void)ctx;
   if (!is_followed(w, number)) return PENDRES_OK;
   pendres_langevin_request request = request_of(w, number, &home);
   scene_noise_chunk(w->trajectories, task % w->chunks, &first, &count);
   request.first_id += first;
   request.trajectories = count;
   const size_t n = count * (size_t)w->record;
-  pendres_status status = scene_noise_open(w->farm, w->d->basins.seed, &lv);
-  if (status != PENDRES_OK) return status;
-  points = malloc(2 * n * sizeof *points);
-  status = points != NULL ? pendres_langevin_set_steps(lv, w->clouds[number].bias.steps_per_period)
-                          : PENDRES_OUT_OF_MEMORY;
-  if (status == PENDRES_OK)
-    status = pendres_langevin_measure(lv, &request, &w->parts[task], points, points + n);
+  request.steps_per_period = w->clouds[number].bias.steps_per_period;
+  double *points = malloc(2 * n * sizeof *points);
+  if (points == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status =
+    pendres_langevin_measure(ctx, &request, &w->parts[task], points, points + n);
   if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* all have left: an empty part */
   if (status == PENDRES_OK) keep_strobes(w, number, first, count, points, points + n);
-  status = scene_failures_note(&w->tasks, task, status, pendres_langevin_message(lv));
+  status = scene_failures_note(&w->tasks, task, status, pendres_context_message(ctx));
   free(points);
-  scene_noise_close(w->farm, lv);
   return status;
 }
 
@@ -210,8 +199,8 @@ static pendres_status compute(scene_run *run, cloud_work *w)
   for (size_t i = 0; i < n; i++) empty_broken(w, i);
   for (size_t i = 0; i < n; i++)
     if (is_followed(w, i))
-      scene_noise_merge(w->chunks, w->parts + i * w->chunks, &w->clouds[i].measured);
-  return PENDRES_OK;
+      status = pendres_langevin_merge(w->chunks, w->parts + i * w->chunks, &w->clouds[i].measured);
+  return status;
 }
 
 pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractors *set)

@@ -94,14 +94,16 @@ static int8_t verdict(const cloud *c)
   return verdict;
 }
 
-static scene_noise_rate escape_rate(const cloud_work *w, size_t number)
+static pendres_langevin_interval escape_rate(const cloud_work *w, size_t number)
 {
   const cloud *c = &w->clouds[number];
   const double period = two_pi / attractor_of(w, number)->orbit.pendulum.drive_frequency;
   if (!has_cloud(attractor_of(w, number)) || is_broken(w, number))
-    return (scene_noise_rate){ NAN, NAN, NAN, NAN };
-  if (!is_followed(w, number)) return (scene_noise_rate){ 0.0, 0.0, 0.0, 0.0 };
-  return scene_noise_rate_of((double)c->measured.left, c->measured.exposure, period);
+    return (pendres_langevin_interval){ NAN, NAN, NAN, NAN };
+  if (!is_followed(w, number)) return (pendres_langevin_interval){ 0.0, 0.0, 0.0, 0.0 };
+  pendres_langevin_interval rate;
+  (void)pendres_langevin_rate((double)c->measured.left, c->measured.exposure * period, 0.95, &rate);
+  return rate;
 }
 
 #define CLOUD_DIMENSIONS .dimensions = { "temperature", "attractor" }

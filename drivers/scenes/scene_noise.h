@@ -1,8 +1,7 @@
 /*
  * scene_noise.h -- what scenes with noise share.
  *
- * Owns: steps a period, settling times, the ids of trajectories, and clouds put together from
- * parts that were made by different tasks.
+ * Owns: steps a period, settling times, the ids of trajectories, and which of them make a task.
  */
 #ifndef SCENE_NOISE_H
 #define SCENE_NOISE_H
@@ -13,12 +12,6 @@ enum {
   SCENE_NOISE_CHUNK = 192,  /* trajectories a task */
   SCENE_NOISE_IDS = 1 << 20 /* ids between those of one pendulum and attractor and others */
 };
-
-/* A handle for a task; it stops with the run. */
-pendres_status scene_noise_open(farm *f, int64_t seed, pendres_langevin **out);
-
-/* Free a handle, NULL is allowed, and count in the farm what it has spent. */
-void scene_noise_close(farm *f, pendres_langevin *lv);
 
 /* The first id of trajectories of a pendulum that start on attractor number `attractor`. Ids follow
    from parameters, so that results do not depend on what else a deck asks for. */
@@ -32,7 +25,7 @@ long scene_noise_settle(const pendres_orbit *orbit);
  * their scale; chosen at the request's temperature or, where that is hot, at a lower one. *bias is
  * the one at the request's own temperature; NaN if nothing stays on the attractor there.
  */
-pendres_status scene_noise_choose_steps(pendres_langevin *lv,
+pendres_status scene_noise_choose_steps(pendres_context *ctx,
                                         const pendres_langevin_request *request,
                                         unsigned statistics, double tolerance,
                                         pendres_langevin_bias *bias);
@@ -42,18 +35,7 @@ pendres_status scene_noise_choose_steps(pendres_langevin *lv,
 size_t scene_noise_chunks(size_t trajectories);
 void scene_noise_chunk(size_t trajectories, size_t chunk, size_t *first, size_t *count);
 
-/* The cloud of all trajectories of n clouds of one pendulum that started at one point. Parts that
-   are empty (all have left) count in `left` and `exposure` alone. */
-void scene_noise_merge(size_t n, const pendres_langevin_cloud *parts, pendres_langevin_cloud *out);
-
 /* Covariance of the errors of two statistics of a cloud's first harmonic: cosine and sine. */
 double scene_noise_harmonic_covariance(const pendres_langevin_cloud *cloud);
-
-/* Rate of events a unit time after so many pendulum-periods: value, standard error (the upper
-   bound at one sigma where there are no events), confidence interval of 95 %. */
-typedef struct scene_noise_rate {
-  double value, error, lower, upper;
-} scene_noise_rate;
-scene_noise_rate scene_noise_rate_of(double events, double pendulum_periods, double period);
 
 #endif

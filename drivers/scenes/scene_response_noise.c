@@ -61,27 +61,23 @@ static void count_members(const pendres_response *r, double *all, double *loops)
 }
 
 /* Choose steps and make the cloud of trajectories that start on one state. */
-static pendres_status measure_state(const work *w, const pendres_response *r, size_t state,
-                                    double temperature, size_t trajectories,
-                                    pendres_langevin_cloud *cloud, pendres_langevin_bias *bias,
-                                    char why[SCENE_TOLD])
+static pendres_status measure_state(const work *w, pendres_context *ctx,
+                                    const pendres_response *r, size_t state, double temperature, size_t trajectories,
+                                    pendres_langevin_cloud *cloud, pendres_langevin_bias *bias)
 {
   enum { TRAJECTORIES = 192, RECORD = 60 };
   const pendres_orbit *o = &r->state[state].orbit;
-  pendres_langevin *lv = NULL;
   pendres_langevin_request request = { .pendulum = r->pendulum, .x = o->x, .v = o->v,
                                        .trajectories = TRAJECTORIES, .record = RECORD,
                                        .settle = scene_noise_settle(o) };
   request.pendulum.temperature = temperature;
   request.first_id = scene_noise_first_id(&request.pendulum, state);
-  pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
-  if (status == PENDRES_OK)
-    status = scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
+  pendres_status status =
+    scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
   request.trajectories = trajectories;
   request.record = (long)w->d->noise.periods;
-  if (status == PENDRES_OK) status = pendres_langevin_measure(lv, &request, cloud, NULL, NULL);
-  if (status != PENDRES_OK) snprintf(why, SCENE_TOLD, "%s", pendres_langevin_message(lv));
-  scene_noise_close(w->farm, lv);
+  request.steps_per_period = bias->steps_per_period;
+  if (status == PENDRES_OK) status = pendres_langevin_measure(ctx, &request, cloud, NULL, NULL);
   return status;
 }
 
@@ -171,8 +167,6 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
   point *p = &w->points[task];
   harmonic h = { 0 };
   double all, loops;
-  char why[SCENE_TOLD];
-  (void)ctx;
   count_members(r, &all, &loops);
   if (!(temperature > 0.0)) {
     still_point(r, p);
@@ -185,8 +179,9 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
     if (!isfinite(r->state[i].orbit.x)) continue;
     const double n = ceil(members / all * (double)w->d->noise.trajectories);
     const pendres_status status =
-      measure_state(w, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias, why);
-    if (status != PENDRES_OK) return note_point(w, task, status, why);
+      measure_state(w, ctx, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias);
+    if (status != PENDRES_OK)
+      return note_point(w, task, status, pendres_context_message(ctx));
     add_area(&p->area, members / all, &cloud, &bias);
     if (r->state[i].orbit.winding == 0) add_harmonic(&h, members / loops, &cloud, &bias);
     if (bias.steps_per_period > p->steps) p->steps = bias.steps_per_period;

@@ -106,22 +106,17 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
   const pendres_attractor *a = pendres_attractors_get(w->set, (size_t)w->index[task]);
   pendres_pendulum p = w->pendulum;
   pendres_switching_home home = { w->set, (size_t)w->index[task], 0.0 };
-  pendres_langevin *lv = NULL;
   pendres_langevin_bias bias;
-  (void)ctx;
   p.temperature = temperature_of_choice;
   const pendres_langevin_request request = {
     .pendulum = p, .x = a->orbit.x, .v = a->orbit.v, .trajectories = TRAJECTORIES,
     .settle = scene_noise_settle(&a->orbit), .record = RECORD,
     .first_id = scene_noise_first_id(&p, home.attractor),
     .leave = pendres_switching_leave, .arg = &home };
-  pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
-  if (status == PENDRES_OK)
-    status = scene_noise_choose_steps(lv, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
+  const pendres_status status =
+    scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
   if (status == PENDRES_OK) w->steps[task] = 2 * bias.steps_per_period;
-  status = scene_failures_note(&w->choices, task, status, pendres_langevin_message(lv));
-  scene_noise_close(w->farm, lv);
-  return status;
+  return scene_failures_note(&w->choices, task, status, pendres_context_message(ctx));
 }
 
 /* The larger of the states' steps: trajectories visit both. */
@@ -146,8 +141,6 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   const int start = (int)(task / w->chunks % STARTS);
   const size_t all = share(w, start);
   size_t first, n;
-  pendres_langevin *lv = NULL;
-  (void)ctx;
   if (chunk >= scene_noise_chunks(all)) return PENDRES_OK;
   for (int s = 0; s < STARTS; s++)
     if (w->choices.reason[s] != SCENE_FAILURE_NONE) return PENDRES_OK;
@@ -156,14 +149,10 @@ static pendres_status count(void *arg, size_t task, pendres_context *ctx)
   const size_t from = (size_t)w->index[start];
   const pendres_switching_request request = {
     .pendulum = p, .set = w->set, .from = from, .trajectories = n,
-    .periods = (long)w->d->noise.periods,
+    .periods = (long)w->d->noise.periods, .steps_per_period = steps_of(w),
     .first_id = scene_noise_first_id(&p, from) + first };
-  pendres_status status = scene_noise_open(w->farm, w->d->noise.seed, &lv);
-  if (status == PENDRES_OK) status = pendres_langevin_set_steps(lv, steps_of(w));
-  if (status == PENDRES_OK) status = pendres_switching_count(lv, &request, &w->tallies[task]);
-  status = scene_failures_note(&w->tasks, task, status, pendres_langevin_message(lv));
-  scene_noise_close(w->farm, lv);
-  return status;
+  const pendres_status status = pendres_switching_count(ctx, &request, &w->tallies[task]);
+  return scene_failures_note(&w->tasks, task, status, pendres_context_message(ctx));
 }
 
 /* The states that the deck asks for by number: in the order of amplitude, from 1 on. */

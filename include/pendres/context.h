@@ -74,6 +74,8 @@ typedef struct pendres_options {
   int block_lanes;      /**< pendulums side by side, a multiple of 8; default 512 */
   long period_budget;   /**< drive periods after which a pendulum is unresolved; default
                              from damping and tolerance */
+  uint64_t seed;        /**< of all random numbers of noisy trajectories (langevin.h): any value;
+                             zero is a seed like any other */
 } pendres_options;
 
 /** What a context has spent since its creation or the last reset. */

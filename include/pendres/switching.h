@@ -49,6 +49,7 @@ typedef struct pendres_switching_request {
   double core;                   /**< from 0 to 1; 0: a half */
   size_t trajectories;
   long periods;                  /**< of each */
+  int steps_per_period;          /**< steps a drive period, as in pendres_langevin_run */
   uint64_t first_id;             /**< trajectory i has id first_id + i */
 } pendres_switching_request;
 
@@ -71,11 +72,11 @@ typedef struct pendres_switching_tally {
 } pendres_switching_tally;
 
 /**
- * Follow the request's trajectories through all their periods, with the handle's steps, and count.
+ * Follow the request's trajectories through all their periods, and count.
  * *tally is overwritten. Errors: as pendres_langevin_advance; PENDRES_INVALID_ARGUMENT if the set
  * is not the pendulum's, or has more than PENDRES_SWITCHING_STATES attractors.
  */
-pendres_status pendres_switching_count(pendres_langevin *lv,
+pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
                                        pendres_switching_tally *tally);
 

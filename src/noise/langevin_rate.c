@@ -7,6 +7,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 
+#include "base/student.h"
+
 /*
  * Points of the gamma distribution of unit scale. GSL's own inverses fail for shapes below a
  * tenth, give wrong values above a thousand (GSL 2.7), and end the program when they notice.
@@ -58,21 +60,33 @@ static pendres_status gamma_point(gamma_tail g, double *x)
   return gsl == GSL_SUCCESS ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }
 
-pendres_status pendres_langevin_rate(double events, double exposure, double level, double *rate,
-                                     double *lower, double *upper)
+/* The interval of the given level around so many events of unit exposure. */
+static pendres_status interval(double events, double level, double *lower, double *upper)
 {
-  if (rate == NULL || lower == NULL || upper == NULL ||
-      !(events >= 0.0 && isfinite(events) && exposure > 0.0 && isfinite(exposure) && level > 0.0 &&
-        level < 1.0))
-    return PENDRES_INVALID_ARGUMENT;
   const double tail = 0.5 * (1.0 - level);
-  double low = 0.0, high = 0.0;
   pendres_status status = PENDRES_OK;
-  if (events > 0.0) status = gamma_point((gamma_tail){events, tail, 0}, &low);
-  if (status == PENDRES_OK) status = gamma_point((gamma_tail){events + 1.0, tail, 1}, &high);
+  *lower = 0.0;
+  if (events > 0.0) status = gamma_point((gamma_tail){events, tail, 0}, lower);
+  if (status == PENDRES_OK) status = gamma_point((gamma_tail){events + 1.0, tail, 1}, upper);
+  return status;
+}
+
+pendres_status pendres_langevin_rate(double events, double exposure, double level,
+                                     pendres_langevin_interval *rate)
+{
+  double low, high, lowest, one_sigma = 0.0;
+  if (rate == NULL) return PENDRES_INVALID_ARGUMENT;
+  *rate = (pendres_langevin_interval){NAN, NAN, NAN, NAN};
+  if (!(events >= 0.0 && isfinite(events) && exposure > 0.0 && isfinite(exposure) &&
+        level > 0.0 && level < 1.0))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_status status = interval(events, level, &low, &high);
+  /* Where nothing was seen, a rate of 0 +- 0 would be a lie. */
+  if (status == PENDRES_OK && events == 0.0)
+    status = interval(0.0, PENDRES_ONE_SIGMA, &lowest, &one_sigma);
   if (status != PENDRES_OK) return status;
-  *rate = events / exposure;
-  *lower = low / exposure;
-  *upper = high / exposure;
+  *rate = (pendres_langevin_interval){
+    .value = events / exposure, .lower = low / exposure, .upper = high / exposure,
+    .error = (events > 0.0 ? sqrt(events) : one_sigma) / exposure};
   return PENDRES_OK;
 }

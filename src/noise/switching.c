@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "noise/langevin_internal.h"
+#include "engine/context_internal.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -90,9 +90,13 @@ typedef struct track {
 
 typedef struct counting {
   cores cores;
-  size_t states, row; /* numbers a trajectory has: [state][destinations, well, exposure] */
-  track *tracks;
-  uint32_t *numbers;
+  size_t states;
+  size_t row;        /* of numbers a trajectory has for each state: destinations, well, exposure */
+  track *tracks;     /* [trajectory] */
+  uint32_t *numbers; /* [trajectory][state][row] */
+  double *x;         /* [2 trajectories] positions, velocities */
+  uint64_t *ids;
+  pendres_pendulum *pendulums;
 } counting;
 
 static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t column)
@@ -153,62 +157,79 @@ static const char *refuse(const pendres_switching_request *q)
   return NULL;
 }
 
-static pendres_status count(pendres_langevin *lv, const pendres_switching_request *request,
+/* Memory for n trajectories; clear it in any case. */
+static pendres_status make_counting(counting *c, size_t n)
+{
+  c->tracks = malloc((n + 1) * sizeof *c->tracks);
+  c->numbers = calloc(n * c->states * c->row + 1, sizeof *c->numbers);
+  c->x = malloc((2 * n + 1) * sizeof *c->x);
+  c->ids = malloc((n + 1) * sizeof *c->ids);
+  c->pendulums = malloc((n + 1) * sizeof *c->pendulums);
+  if (c->tracks == NULL || c->numbers == NULL || c->x == NULL || c->ids == NULL ||
+      c->pendulums == NULL)
+    return PENDRES_OUT_OF_MEMORY;
+  return PENDRES_OK;
+}
+
+static void clear_counting(counting *c)
+{
+  free(c->tracks);
+  free(c->numbers);
+  free(c->x);
+  free(c->ids);
+  free(c->pendulums);
+}
+
+/* Every trajectory of a request at its attractor's strobe point. */
+static void start(const pendres_switching_request *q, counting *c)
+{
+  const pendres_orbit *home = &pendres_attractors_get(q->set, q->from)->orbit;
+  for (size_t i = 0; i < q->trajectories; i++) {
+    c->x[i] = home->x;
+    c->x[q->trajectories + i] = home->v;
+    c->ids[i] = q->first_id + i;
+    c->pendulums[i] = q->pendulum;
+    c->tracks[i] = (track){(int)q->from, home->winding != 0 ? NO_WELL : 0};
+  }
+}
+
+static pendres_status count(pendres_context *ctx, const pendres_switching_request *request,
                             pendres_switching_tally *tally)
 {
-  if (request == NULL || tally == NULL) return PENDRES_LANGEVIN_NULL(lv, "request and tally");
-  counting c = {0};
-  double *x = NULL;
-  uint64_t *ids = NULL;
-  pendres_pendulum *pendulums = NULL;
+  if (request == NULL || tally == NULL) return PENDRES_CONTEXT_NULL(ctx, "request and tally");
   const size_t n = request->trajectories;
   const char *wrong = refuse(request);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-
   memset(tally, 0, sizeof *tally);
-  if (wrong != NULL) return pendres_langevin_fail(lv, PENDRES_INVALID_ARGUMENT, "%s", wrong);
-  const pendres_attractor *home = pendres_attractors_get(request->set, request->from);
-  c.states = pendres_attractors_count(request->set);
+  if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
+  counting c = {.states = pendres_attractors_count(request->set)};
   c.row = c.states + 2;
   make_cores(request->set, request->core, &c.cores);
-  c.tracks = malloc((n + 1) * sizeof *c.tracks);
-  c.numbers = calloc(n * c.states * c.row + 1, sizeof *c.numbers);
-  x = malloc((2 * n + 1) * sizeof *x);
-  ids = malloc((n + 1) * sizeof *ids);
-  pendulums = malloc((n + 1) * sizeof *pendulums);
-  if (c.tracks == NULL || c.numbers == NULL || x == NULL || ids == NULL || pendulums == NULL) {
-    status = pendres_langevin_fail(lv, status, "out of memory for %zu trajectories", n);
+  pendres_status status = make_counting(&c, n);
+  if (status != PENDRES_OK) {
+    status = pendres_context_fail(ctx, status, "out of memory for %zu trajectories", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++) {
-    x[i] = home->orbit.x;
-    x[n + i] = home->orbit.v;
-    ids[i] = request->first_id + i;
-    pendulums[i] = request->pendulum;
-    c.tracks[i] = (track){(int)request->from, home->orbit.winding != 0 ? NO_WELL : 0};
-  }
+  start(request, &c);
   const pendres_langevin_observer observer = {.see = see, .arg = &c};
-  status = pendres_langevin_advance(lv, n, pendulums, ids, 0, request->periods, x, x + n,
-                                    &observer);
+  const pendres_langevin_run run = {.n = n, .pendulums = c.pendulums, .ids = c.ids,
+                                    .periods = request->periods, .observer = &observer,
+                                    .steps_per_period = request->steps_per_period};
+  status = pendres_langevin_advance(ctx, &run, c.x, c.x + n);
   if (status != PENDRES_OK) goto done;
   tally->states = c.states;
   tally->period = two_pi / request->pendulum.drive_frequency;
   tally->trajectories = (double)n;
   sum_up(&c, n, tally);
 done:
-  free(c.tracks);
-  free(c.numbers);
-  free(x);
-  free(ids);
-  free(pendulums);
+  clear_counting(&c);
   return status;
 }
 
-pendres_status pendres_switching_count(pendres_langevin *lv,
+pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
                                        pendres_switching_tally *tally)
 {
-  return PENDRES_LANGEVIN_CALL(lv, count(lv, request, tally));
+  return PENDRES_CONTEXT_CALL(ctx, count(ctx, request, tally));
 }
 
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)
@@ -253,16 +274,15 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   rate->dispersion = dispersion(tally, s, t);
   /* Bursts of d events are one piece of information. */
   const double d = rate->dispersion > 1.0 ? rate->dispersion : 1.0;
+  pendres_langevin_interval i;
   const pendres_status status =
-    pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &rate->value,
-                          &rate->lower, &rate->upper);
+    pendres_langevin_rate(rate->events / d, rate->exposure / d, level, &i);
   if (status != PENDRES_OK) return status;
-  rate->error = sqrt(rate->events * d) / rate->exposure;
-  if (rate->events > 0.0) return PENDRES_OK;
-  double value, lower;
-  /* Nothing seen: 0 +- 0 would be a lie. */
-  return pendres_langevin_rate(0.0, rate->exposure, 0.68268949213708585, &value, &lower,
-                               &rate->error);
+  rate->value = i.value;
+  rate->lower = i.lower;
+  rate->upper = i.upper;
+  rate->error = rate->events > 0.0 ? sqrt(rate->events * d) / rate->exposure : i.error;
+  return PENDRES_OK;
 }
 
 /* ---- Leaving ------------------------------------------------------------------------------- */

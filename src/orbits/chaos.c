@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_cdf.h>
-
+#include "base/student.h"
 #include "orbits/catalogue.h"
 #include "orbits/chaos_walk.h"
 #include "engine/context_internal.h"
@@ -265,7 +264,7 @@ static pendres_chaos_mean mean_of(const vigil *v, pendres_walk_measure m, double
 /* The error as a share of scatter that the given confidence asks for (Student). */
 static pendres_chaos_mean confident(pendres_chaos_mean m)
 {
-  m.error *= gsl_cdf_tdist_Pinv(0.5 * (1.0 + confidence), WALKERS - 1.0);
+  m.error *= pendres_student(confidence, WALKERS - 1.0);
   return m;
 }
 

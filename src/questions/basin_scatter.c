@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/student.h"
+
 enum {
   QUANTITIES = PENDRES_SCATTER_QUANTITIES,
   LEAST_COUNT = 25, /* uncertain states that make a share worth fitting */
@@ -30,13 +32,6 @@ void pendres_scatter_add(pendres_scatter *s, const double *group)
   s->groups++;
 }
 
-double pendres_scatter_student(double freedom)
-{
-  /* 1.857, 1.353, 1.128 and 1.062 of 1, 2, 5 and 10; tables have 1.837, 1.321, 1.111 and 1.053 at
-     the 68.27 % of a standard error. */
-  return 1.0 + 0.6 / (fmax(freedom, 1.0) - 0.3);
-}
-
 double pendres_scatter_variance(const pendres_scatter *s, const double *weight)
 {
   if (s->groups < LEAST_GROUPS) return NAN;
@@ -46,7 +41,7 @@ double pendres_scatter_variance(const pendres_scatter *s, const double *weight)
     for (int l = 0; l < QUANTITIES; l++) sum += weight[k] * weight[l] * s->square[k][l];
   /* A second difference of independent ones has six times their variance; differences overlap, so
      that 35 of them tell as much as 18 free ones. */
-  const double student = pendres_scatter_student(differences * 18.0 / 35.0);
+  const double student = pendres_student(PENDRES_ONE_SIGMA, differences * 18.0 / 35.0);
   return fmax(sum, 0.0) / 6.0 * n / differences * student * student;
 }
 
@@ -116,7 +111,7 @@ static double bend(const pendres_scatter *s, const usable *u, int m)
     expected += variance_of_logs(s, u, m, c) / (slopes - 1);
   }
   const double beyond = fmax(squares - expected, 0.0);
-  return sqrt(beyond * (1.0 + 1.0 / slopes)) * pendres_scatter_student(slopes - 1.0);
+  return sqrt(beyond * (1.0 + 1.0 / slopes)) * pendres_student(PENDRES_ONE_SIGMA, slopes - 1.0);
 }
 
 void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double *distance,

@@ -35,9 +35,6 @@ void pendres_scatter_add(pendres_scatter *s, const double *group);
 /* Variance of sum weight[k] total[k], with Student's factor; NaN of fewer than four groups. */
 double pendres_scatter_variance(const pendres_scatter *s, const double *weight);
 
-/* Student's factor by which a standard error from so many degrees of freedom grows; at least 1. */
-double pendres_scatter_student(double freedom);
-
 /*
  * The exponent alpha in f ~ distance^alpha over the smallest distances that are usable, from totals
  * of uncertain states and the numbers tried; NaN if fewer than three are.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/student.h"
 #include "questions/basin_scatter.h"
 #include "questions/basin_wells.h"
 
@@ -283,7 +284,7 @@ static double fraction_error(const pendres_basin_sums *s, size_t a)
     (misplaced(s) + s->suspect) / states + s->members[s->attractors].share;
   if (s->rows == 1) return ends + doubt;
   if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
-  const double student = pendres_scatter_student((n - 2.0) * 18.0 / 35.0);
+  const double student = pendres_student(PENDRES_ONE_SIGMA, (n - 2.0) * 18.0 / 35.0);
   return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + doubt;
 }
 
