@@ -9,6 +9,7 @@
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
+#   make deps-python   what the Python package needs; make deps-plots, what plots need
 #   make doc        reference manual from the public headers, with doxygen
 #   make decks-reference   docs/decks.md anew, from the table of keys
 #   make style      where lines or files are too long
@@ -73,7 +74,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-plots clean uninstall doc style help,$(GOALS))
+BUILDING := $(filter-out deps deps-plots deps-python clean uninstall doc style help,$(GOALS))
 
 ifneq ($(BUILDING),)
 have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
@@ -159,7 +160,7 @@ ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots doc decks-reference \
+.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots deps-python doc decks-reference \
         style clean \
         help FORCE
 .SUFFIXES:
@@ -340,12 +341,16 @@ endif
 PACKAGES := gcc make pkg-config libc6-dev libsundials-dev libhdf5-dev libgsl-dev libcmocka-dev \
             librandom123-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
+PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
 
 deps:
 	@.ci/packages $(PACKAGES)
 
 deps-plots:
 	@.ci/packages $(PLOT_PACKAGES)
+
+deps-python:
+	@.ci/packages $(PYTHON_PACKAGES)
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(DRIVER_OBJECTS:.o=.d) $(OBJ)/drivers/main.d \
          $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(ACCURACY_OBJECTS:.o=.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)

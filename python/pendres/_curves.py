@@ -1,0 +1,150 @@
+"""Branches of orbits, their bifurcations, curves of these, and boundaries of basins."""
+import numpy as np
+
+from ._handles import as_pendulums, default_context, named, options, record
+from ._library import Handle, array, c, ffi, make, stacked, viewed
+
+
+class Branch:
+    """A branch of orbits in order: points (orbit, kind, arclength, ... see pendres_branch_point),
+    its bifurcations (kind, value, value_error, orbit, ...), and how it ends at both ends
+    (pendres.BranchEnd)."""
+
+    def __init__(self, pointer, owner):
+        self.pointer, self._owner = pointer, owner
+        self.points = stacked("pendres_branch_point", [
+            c.branch_get(pointer, i) for i in range(c.branch_count(pointer))])
+        self.bifurcations = stacked("pendres_bifurcation", [
+            c.branch_bifurcation(pointer, i) for i in range(c.branch_bifurcations(pointer))])
+        self.ends = c.branch_end_of(pointer, 0), c.branch_end_of(pointer, 1)
+
+    def at(self, value, *, context=None):
+        """All orbits of the branch at a value of its parameter."""
+        return _crossed("pendres_orbit", c.branch_cross, context, self.pointer, value)
+
+
+class Branches(Handle):
+    """A set of branches."""
+
+    ctype = "pendres_branches"
+
+    def list(self):
+        """Its branches, which keep it."""
+        return [Branch(c.branches_get(self, i), self) for i in range(c.branches_count(self))]
+
+
+class Curve:
+    """A curve of bifurcations in two parameters, in order: points (value[2], value_error[2],
+    curvature, orbit, ...) and cusps (value[2], value_error[2], orbit)."""
+
+    def __init__(self, pointer, owner):
+        self.pointer, self._owner = pointer, owner
+        self.points = stacked("pendres_curve_point", [
+            c.curve_get(pointer, i) for i in range(c.curve_count(pointer))])
+        self.cusps = stacked("pendres_cusp", [
+            c.curve_cusp(pointer, i) for i in range(c.curve_cusps(pointer))])
+
+    def at(self, value, *, context=None):
+        """The bifurcations of the curve at a value of its second parameter."""
+        return _crossed("pendres_bifurcation", c.curve_cross, context, self.pointer, value)
+
+
+class Curves(Handle):
+    """A set of curves."""
+
+    ctype = "pendres_curves"
+
+    def list(self):
+        """Its curves, which keep it."""
+        return [Curve(c.curves_get(self, i), self) for i in range(c.curves_count(self))]
+
+
+def _crossed(name, function, context, pointer, value):
+    room, found = 16, ffi.new("size_t *")
+    while True:
+        out = array(name, room)
+        function(default_context(context), pointer, value, room, out, found)
+        if found[0] <= room:
+            return out[:found[0]]
+        room = found[0]
+
+
+def _several(values):
+    return np.ascontiguousarray(np.atleast_1d(values))
+
+
+def branches(orbits, low, high, *, parameter="drive_frequency", context=None, **more):
+    """The branches that orbits lie on, each once, stable and unstable parts, while `parameter`
+    ("drive_frequency", "damping", "drive_amplitude", ...) is between low and high: a list of
+    Branch. Further choices: spacing, wildest, most_points."""
+    several = _several(orbits)
+    choice = options("pendres_branch_options", dict(parameter=parameter, low=low, high=high,
+                                                    **more))
+    return make(Branches, c.branches_find, default_context(context), several.size, several,
+                choice).list()
+
+
+def fold(orbit, *, context=None):
+    """The fold in drive frequency at the end of the branch that an orbit lies on: value,
+    value_error, curvature, orbit."""
+    out = array("pendres_bifurcation")
+    c.fold_find(default_context(context), _several(orbit), out)
+    return record(out)
+
+
+def curves(bifurcations, second, low, high, *, context=None, **more):
+    """The curves that bifurcations lie on, each once, as the parameter in which they were found
+    and a second one ("damping", ...) change between low[2] and high[2]: a list of Curve."""
+    several = _several(bifurcations)
+    choice = options("pendres_curve_options", dict(second=second, low=low, high=high, **more))
+    return make(Curves, c.curves_find, default_context(context), several.size, several,
+                choice).list()
+
+
+def cusp(near, second="damping", *, context=None):
+    """The cusp that the curve of folds through `near` leads to, as its parameter and a second one
+    change: value[2], value_error[2], orbit."""
+    out = array("pendres_cusp")
+    c.cusp_find(default_context(context), _several(near), named(second), out)
+    return record(out)
+
+
+def backbone(p, *, context=None):
+    """The drive frequency at which orbits lag pi/2 behind the drive: (orbits, frequency_error,
+    outcome), one for each pendulum, whose own frequency is not read."""
+    pendulums = np.ascontiguousarray(as_pendulums(p))
+    found, outcome = (array(name, pendulums.shape) for name in ("pendres_orbit", "pendres_status"))
+    error = np.empty(pendulums.shape)
+    c.backbone_find(default_context(context), pendulums.size, pendulums, found, error, outcome)
+    return record(found), error, outcome
+
+
+class Boundary(Handle):
+    """A basin boundary as a curve in pieces: x (rad), v, piece (0, 1, ...) and error of each point,
+    without copies; bound, the largest error; complete, whether that is all of it."""
+
+    ctype = "pendres_boundary"
+
+    def __init__(self, pointer):
+        super().__init__(pointer)
+        n = c.boundary_count(self)
+        self.x, self.v, self.error = (viewed("double", ask(self), n, self.pointer) for ask in (
+            c.boundary_x, c.boundary_v, c.boundary_error))
+        self.piece = viewed("int", c.boundary_piece(self), n, self.pointer)
+        self.bound, self.complete = c.boundary_bound(self), bool(c.boundary_complete(self))
+
+
+def saddle(attractor, *, context=None):
+    """The unstable orbit that separates the basin of an orbit (period one, stable) from its
+    neighbour's."""
+    out = array("pendres_orbit")
+    c.saddle_find(default_context(context), _several(attractor), out)
+    return record(out)
+
+
+def boundary(saddle_orbit, *, context=None, **more):
+    """The boundary between two basins: the stable manifold of the saddle between them, in a window
+    of initial states. Choices: x_low, x_high (rad), v_low, v_high, spacing, deviation,
+    most_points."""
+    return make(Boundary, c.boundary_find, default_context(context), _several(saddle_orbit),
+                options("pendres_boundary_options", more))

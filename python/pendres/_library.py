@@ -1,0 +1,318 @@
+"""The shared library: found, opened, and every public function of it made callable with arrays.
+
+Owns: where library and headers are looked for, numpy's view of the library's structures, the
+conversion of arguments, and exceptions in place of status codes.
+"""
+import ctypes.util
+import enum
+import os
+import shutil
+import subprocess
+
+import cffi
+import numpy as np
+
+from . import _headers
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+TREE = os.path.dirname(os.path.dirname(HERE))
+# Written by setup.py: the headers that an installed package was made from.
+INSTALLED_HEADERS = os.path.join(HERE, "headers.txt")
+
+
+def _pkg_config(variable):
+    if not shutil.which("pkg-config"):
+        return None
+    answer = subprocess.run(["pkg-config", f"--variable={variable}", "pendres"],
+                            capture_output=True, text=True, check=False)
+    return answer.stdout.strip() if answer.returncode == 0 else None
+
+
+def headers():
+    """The text of the public headers: of the source tree, of this package, or of the system."""
+    if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
+        return _headers.folder_text(os.path.join(TREE, "include", "pendres"))
+    if os.path.exists(INSTALLED_HEADERS):
+        with open(INSTALLED_HEADERS, encoding="utf-8") as text:
+            return text.read()
+    folder = _pkg_config("includedir")
+    if not folder:
+        raise ImportError("the headers of libpendres were not found: install the library, and let "
+                          "pkg-config know it (PKG_CONFIG_PATH)")
+    return _headers.folder_text(os.path.join(folder, "pendres"))
+
+
+def _candidates(major):
+    """Where the library may be, the likeliest first."""
+    yield os.environ.get("PENDRES_LIBRARY")
+    if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
+        yield os.path.join(TREE, "build", "libpendres.so")
+    yield f"libpendres.so.{major}"
+    folder = _pkg_config("libdir")
+    if folder:
+        yield os.path.join(folder, f"libpendres.so.{major}")
+    yield ctypes.util.find_library("pendres")
+
+
+def _open(ffi, constants):
+    tried = []
+    for path in _candidates(constants["PENDRES_VERSION_MAJOR"]):
+        if not path:
+            continue
+        try:
+            found = ffi.dlopen(path)
+        except OSError as why:
+            tried.append(f"  {why}")
+            if path == os.environ.get("PENDRES_LIBRARY"):
+                break
+            continue
+        version = ffi.string(found.pendres_version()).decode()
+        if version != constants["PENDRES_VERSION"]:
+            raise ImportError(f"{path} is version {version}, and this package was made for "
+                              f"{constants['PENDRES_VERSION']}: install it anew")
+        return found
+    raise ImportError("libpendres was not found. Install it (make install, then ldconfig), or say "
+                      "where it is: PENDRES_LIBRARY=/folder/libpendres.so\n" + "\n".join(tried))
+
+
+declared = _headers.Declarations(headers())
+ffi = cffi.FFI()
+ffi.cdef(declared.cdef)
+lib = _open(ffi, declared.constants)
+
+# ---- Enumerations and exceptions ---------------------------------------------------------------
+
+
+def _enumeration(name):
+    """An IntEnum of one of the library's: members without what all their names begin with."""
+    elements = ffi.typeof(name).relements
+    members = {key: value for key, value in elements.items() if not key.endswith("_COUNT")}
+    shared = os.path.commonprefix(list(members)) if len(members) > 1 else "PENDRES_"
+    shared = shared[:shared.rfind("_") + 1] or "PENDRES_"
+    title = "".join(part.title() for part in name.split("_")[1:])
+    ordered = sorted(members.items(), key=lambda item: item[1])
+    return enum.IntEnum(title, [(key[len(shared):], value) for key, value in ordered],
+                        module="pendres")
+
+
+enumerations = {name: _enumeration(name) for name in ffi.list_types()[0]
+                if ffi.typeof(name).kind == "enum"}
+Status = enumerations["pendres_status"]
+
+
+class Error(RuntimeError):
+    """The library could not do what was asked; the text is its own sentence. `status` says which
+    kind of failure it was; each kind is a class of its own."""
+
+    status = None
+
+
+_BASES = {"INVALID_ARGUMENT": ValueError, "OUT_OF_MEMORY": MemoryError, "IO": OSError,
+          "UNSUPPORTED": NotImplementedError}
+errors = {}
+for _status in Status:
+    if _status != Status.OK:
+        _name = "".join(part.title() for part in _status.name.split("_"))
+        _words = ffi.string(lib.pendres_status_message(int(_status))).decode()
+        _bases = (Error,) + ((_BASES[_status.name],) if _status.name in _BASES else ())
+        errors[int(_status)] = type(_name if _name != "Io" else "FileError", _bases, {
+            "__doc__": f"{_words[0].upper()}{_words[1:]}.", "__module__": "pendres",
+            "status": _status})
+
+# ---- Structures as numpy sees them -------------------------------------------------------------
+
+_PRIMITIVES = {"float": "f4", "double": "f8", "long double": "g", "char": "i1", "_Bool": "?"}
+_dtypes = {}
+
+
+def dtype(name):
+    """The numpy type of one of the library's: `dtype("pendres_pendulum")` has its fields."""
+    ctype = ffi.typeof(name) if isinstance(name, str) else name
+    if ctype not in _dtypes:
+        _dtypes[ctype] = _dtype_of(ctype)
+    return _dtypes[ctype]
+
+
+def _dtype_of(ctype):
+    if ctype.kind == "primitive":
+        if ctype.cname in _PRIMITIVES:
+            return np.dtype(_PRIMITIVES[ctype.cname])
+        signed = int(ffi.cast(ctype, -1)) < 0
+        return np.dtype(f"{'i' if signed else 'u'}{ffi.sizeof(ctype)}")
+    if ctype.kind == "enum":
+        return np.dtype(f"i{ffi.sizeof(ctype)}")
+    if ctype.kind == "array":
+        return np.dtype((dtype(ctype.item), (ctype.length,)))
+    if ctype.kind == "struct" and ctype.fields is not None:
+        names, fields = zip(*ctype.fields)
+        plain = np.dtype({"names": list(names), "formats": [dtype(f.type) for f in fields],
+                          "offsets": [f.offset for f in fields], "itemsize": ffi.sizeof(ctype)})
+        return np.dtype((np.record, plain))
+    return np.dtype(np.uintp)
+
+
+def array(name, shape=()):
+    """Zeros of one of the library's types."""
+    zeros = np.zeros(shape, dtype(name))
+    return zeros.view(np.recarray) if zeros.dtype.names else zeros
+
+
+def copied(name, pointer):
+    """What a pointer of the library's points to, as a record of our own."""
+    raw = bytearray(ffi.buffer(pointer, ffi.sizeof(name)))
+    return np.frombuffer(raw, dtype(name))[0]
+
+
+def stacked(name, pointers):
+    """An array of what each pointer points to."""
+    raw = bytearray().join(ffi.buffer(p, ffi.sizeof(name)) for p in pointers)
+    return np.frombuffer(raw, dtype(name)).view(np.recarray)
+
+
+def viewed(name, pointer, count, owner):
+    """An array on memory of the library's, without a copy; the owner lives as long as it."""
+    if not count:
+        return np.zeros(0, dtype(name))
+    memory = ffi.gc(pointer, lambda _memory, owner=owner: None)
+    values = np.frombuffer(ffi.buffer(memory, count * ffi.sizeof(name)), dtype(name))
+    values.flags.writeable = False
+    return values
+
+
+# ---- Handles -----------------------------------------------------------------------------------
+
+
+class Handle:
+    """An object of the library's, freed with the last name for it."""
+
+    ctype = None  # such as "pendres_attractors"
+
+    def __init__(self, pointer):
+        self.pointer = ffi.gc(pointer, getattr(lib, self.ctype + "_free"))
+        self.interrupt = None
+        if self.ctype + "_set_interrupt" in declared.functions:
+            self.interrupt = Interrupt()
+            getattr(lib, self.ctype + "_set_interrupt")(self.pointer, self.interrupt.callback,
+                                                        ffi.NULL)
+
+    def message(self):
+        """The library's sentence on the last failure; "" if there was none."""
+        if self.ctype + "_message" not in declared.functions:
+            return ""
+        return ffi.string(getattr(lib, self.ctype + "_message")(self.pointer)).decode()
+
+
+class Interrupt:
+    """What the library asks now and then, whether to go on. Python looks for signals whenever it
+    runs code of its own, so that Ctrl-C raises here; the exception is kept, and raised again when
+    the library has come back."""
+
+    def __init__(self):
+        self.stop = None    # a function without arguments; true: stop
+        self.caught = None
+
+        def ask(_argument):
+            return 1 if self.stop is not None and self.stop() else 0
+
+        def keep(_kind, value, _traceback):
+            self.caught = value
+
+        self.callback = ffi.callback("int(void *)", ask, error=1, onerror=keep)
+
+
+def make(kind, function, *arguments):
+    """The handle that a function gives by its last argument, `pendres_... **out`."""
+    out = ffi.new(kind.ctype + " **")
+    function(*arguments, out)
+    return kind(out[0])
+
+
+# ---- Functions ---------------------------------------------------------------------------------
+
+
+class Function:
+    """A public function of the library. Arrays of the right type go in as they are, without a
+    copy; None is NULL; a status that is not PENDRES_OK is raised as an exception."""
+
+    def __init__(self, name):
+        self.constant, self.declaration, words = declared.functions[name]
+        self.__name__ = self.__qualname__ = name
+        self.__doc__ = f"{self.declaration}\n\n{words}"
+        self._call = getattr(lib, name)
+        kind = ffi.typeof(self._call)
+        self._status = kind.result is ffi.typeof("pendres_status")
+        self._count = len(kind.args)
+        self._converters = [(i, self._converter(a, constant)) for i, (a, constant) in
+                            enumerate(zip(kind.args, self.constant)) if a.kind == "pointer"]
+
+    def __repr__(self):
+        return f"<{self.declaration}>"
+
+    def __call__(self, *arguments):
+        if len(arguments) != self._count:
+            raise TypeError(f"{self.__name__} takes {self._count} arguments, not "
+                            f"{len(arguments)}: {self.declaration}")
+        converted = list(arguments)
+        for i, convert in self._converters:
+            converted[i] = convert(converted[i])
+        result = self._call(*converted)
+        handle = arguments[0] if arguments and isinstance(arguments[0], Handle) else None
+        if handle is not None and handle.interrupt is not None and handle.interrupt.caught:
+            why, handle.interrupt.caught = handle.interrupt.caught, None
+            raise why
+        if not self._status:
+            return result
+        if result:
+            words = handle.message() if handle is not None else ""
+            raise errors[result](words or ffi.string(lib.pendres_status_message(result)).decode())
+        return None
+
+    def _converter(self, ctype, constant):
+        item = ctype.item
+        if item.kind == "primitive" and item.cname == "char" and constant:
+            return _text
+        if item.kind == "void":
+            return lambda a: ffi.from_buffer(a) if isinstance(a, np.ndarray) else _pointer(a)
+        if item.kind in ("primitive", "enum") or (item.kind == "struct" and item.fields):
+            return self._array_converter(item, dtype(item), constant)
+        return _pointer
+
+    def _array_converter(self, item, wanted, constant):
+        many = ffi.typeof(ffi.getctype(item, "[]"))
+
+        def convert(a):
+            if isinstance(a, np.generic):
+                a = np.asarray(a)
+            elif not isinstance(a, np.ndarray):
+                return _pointer(a)
+            if a.dtype != wanted:
+                raise TypeError(f"{self.__name__}: an array of {item.cname} is wanted, not of "
+                                f"{a.dtype}")
+            return ffi.from_buffer(many, a, not constant)
+        return convert
+
+
+def _text(a):
+    return ffi.NULL if a is None else ffi.new("char[]", os.fspath(a).encode()) \
+        if isinstance(a, (str, os.PathLike)) else a
+
+
+def _pointer(a):
+    return ffi.NULL if a is None else a.pointer if isinstance(a, Handle) else a
+
+
+class Functions:
+    """All public functions, by their names without `pendres_`: `c.strobe_advance`."""
+
+    def __dir__(self):
+        return [name[len("pendres_"):] for name in declared.functions]
+
+    def __getattr__(self, name):
+        if "pendres_" + name not in declared.functions:
+            raise AttributeError(f"libpendres has no function pendres_{name}")
+        setattr(self, name, Function("pendres_" + name))
+        return getattr(self, name)
+
+
+c = Functions()
+

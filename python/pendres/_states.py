@@ -1,0 +1,124 @@
+"""What pendulums settle on: attractors, responses, resonances, phase diagrams, basins."""
+import numpy as np
+
+from ._handles import (as_pendulums, default_context, ensemble as make_ensemble, one_pendulum,
+                       record, spread)
+from ._library import Handle, array, c, dtype, ffi, make, stacked
+
+
+class Attractors(Handle):
+    """Attractors of a parameter set, as attractors() finds them. `table` has a row for each: label
+    (pendres.Label), orbit, trap, lyapunov, ... (see pendres_attractor in attractor.h)."""
+
+    ctype = "pendres_attractors"
+
+    def __len__(self):
+        return int(c.attractors_count(self))
+
+    @property
+    def table(self):
+        """All of them, numbered by amplitude; a copy."""
+        return stacked("pendres_attractor", [c.attractors_get(self, i) for i in range(len(self))])
+
+    def settle(self, x, v, *, context=None):
+        """What pendulums at x (rad), v settle on, of these attractors alone: an array of
+        label, attractor (its row, -1: unresolved), well, settling_periods, certain."""
+        xs, vs = np.broadcast_arrays(np.asarray(x, float), np.asarray(v, float))
+        outcome = array("pendres_outcome", xs.shape)
+        c.attractors_settle(default_context(context), self, xs.size, np.ascontiguousarray(xs),
+                            np.ascontiguousarray(vs), outcome)
+        return record(outcome)
+
+
+def attractors(p, x=None, v=None, *, context=None):
+    """The attractors of one pendulum's parameters that scouts x (rad), v at drive phase 0 lead to;
+    without scouts, those that a built-in set of them finds."""
+    xs, vs = (None, None) if x is None else (np.ascontiguousarray(a, float) for a in
+                                             np.broadcast_arrays(x, 0.0 if v is None else v))
+    return make(Attractors, c.attractors_find, default_context(context), one_pendulum(p),
+                0 if xs is None else xs.size, xs, vs)
+
+
+def settle(p, x, v, *, context=None):
+    """What each of many pendulums settles on, whatever their parameters: (outcome, attractors).
+
+    outcome has label (pendres.Label), attractor (row of the second result, -1: unresolved), well,
+    settling_periods (drive periods) and certain. Pendulums of equal parameters should be
+    neighbours: they share what is found out.
+    """
+    shape, (pendulums, xs, vs) = spread(p, x, v)
+    outcome = array("pendres_outcome", xs.shape)
+    found = make(Attractors, c.settle, default_context(context), xs.size, pendulums, xs, vs,
+                 outcome)
+    return record(outcome.reshape(shape)), found.table
+
+
+def response(p, ensemble=None, *, context=None):
+    """The mean response of an ensemble at each parameter set: mean_loop_area (of m g l),
+    mean_loop_amplitude, mean_amplitude (rad), phase_lag (rad), mean_power, sa_fraction,
+    la_fraction, each with its error, unresolved, uncertain, state[...] (see pendres_response)."""
+    pendulums = as_pendulums(p)
+    out = array("pendres_response", pendulums.shape)
+    c.response_compute(default_context(context), pendulums.size, np.ascontiguousarray(pendulums),
+                       make_ensemble() if ensemble is None else ensemble, out)
+    return record(out)
+
+
+def resonance(p, lowest=0.5, highest=1.2, ensemble=None, *, context=None):
+    """The drive frequency between two at which an ensemble of pendulums, of p's damping and drive
+    amplitude, dissipates most in a cycle: frequency, frequency_error, loop_area, loop_area_error,
+    peak (pendres.Peak), response (everything else there), complete, ...
+
+    Frequencies are in units of that of small oscillations. pendres.NotFound: the area is largest
+    at an end of the range.
+    """
+    out = array("pendres_resonance")
+    c.resonance_find_ensemble(default_context(context), one_pendulum(p), lowest, highest,
+                              make_ensemble() if ensemble is None else ensemble, out)
+    return record(out)
+
+
+def phase_line(p, ensemble=None, *, spacing=0.0, context=None):
+    """Which states exist along a line of drive frequencies, ascending, at one damping and drive
+    amplitude: (points, branches). points have regime (pendres.Regime, by the ensemble), exact (by
+    the branches), sa_fraction, ...; branches as of branches()."""
+    from ._curves import Branches
+    pendulums = np.ascontiguousarray(as_pendulums(p))
+    out = array("pendres_phase_point", pendulums.shape)
+    found = make(Branches, c.phase_line, default_context(context), pendulums.size, pendulums,
+                 make_ensemble() if ensemble is None else ensemble, spacing, out)
+    return record(out), found.list()
+
+
+class Basins:
+    """Basins of attraction over a grid. state[i, j] began at x[i], v[j], with label
+    (pendres.Label), attractor (row of `attractors.table`), well, settling_periods and how;
+    fraction and fraction_error are shares of the area; statistics is pendres_basin_statistics."""
+
+    def __init__(self, x, v, found, state):
+        self.x, self.v, self.attractors, self.state = x, v, found, state
+        self.fraction, self.fraction_error = np.empty(len(found)), np.empty(len(found))
+        self.statistics = array("pendres_basin_statistics")
+        sums = ffi.new("pendres_basin_sums **")
+        c.basin_sums_create(_grid(x, v), len(found), sums)
+        kept = ffi.gc(sums[0], c.basin_sums_free)
+        c.basin_sums_add(kept, x.size, state)
+        c.basin_sums_result(kept, self.statistics, self.fraction, self.fraction_error)
+
+
+def _grid(x, v):
+    """A grid on arrays of the caller's, which it keeps alive."""
+    grid = np.zeros(1, dtype("pendres_basin_grid"))
+    grid["nx"], grid["nv"], grid["x"], grid["v"] = x.size, v.size, x.ctypes.data, v.ctypes.data
+    return grid
+
+
+def basins(p, x, v, *, context=None):
+    """What each state (x[i], v[j]) of a grid settles on, x in rad, both ascending: a Basins."""
+    ctx, one = default_context(context), one_pendulum(p)
+    xs, vs = np.ascontiguousarray(x, float), np.ascontiguousarray(v, float)
+    grid = _grid(xs, vs)
+    found = make(Attractors, c.basin_attractors, ctx, one, grid)
+    state = array("pendres_basin_state", (xs.size, vs.size))
+    c.basin_compute(ctx, found, grid, state)
+    return Basins(xs, vs, found, state)
