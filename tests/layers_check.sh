@@ -25,7 +25,6 @@ drivers_doors='terminal/progress.h terminal/safe_text.h terminal/signals.h farm/
 # Circles that are still there, each named by the include that should go. None is to be added.
 known_circles='engine/flow_naive engine/strobe_run
 engine/flow_single engine/strobe_run
-engine/lanes_tape engine/lanes
 orbits/catalogue orbits/chaos
 orbits/trap_ring orbits/trap
 questions/resonance_search questions/resonance_refine'

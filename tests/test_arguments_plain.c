@@ -75,6 +75,8 @@ static void nothing(void **state)
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));
   assert_int_equal(pendres_branches_skipped(NULL), 0);
+  pendres_branches_pack(NULL, NULL);
+  assert_true(pendres_branches_packed_size(NULL) > 0);
   pendres_curve_free(NULL);
   (void)pendres_curve_kind(NULL);
   assert_int_equal(pendres_curve_count(NULL), 0);
@@ -94,6 +96,10 @@ static void no_handles(void **state)
   int wrong = 0;
   (void)state;
   INVALID(pendres_context_create(NULL, NULL));
+  pendres_branches *branches = NULL;
+  INVALID(pendres_branches_unpack(64, NULL, &branches));
+  INVALID(pendres_branches_unpack(0, &wrong, &branches));
+  INVALID(pendres_branches_unpack(sizeof wrong, &wrong, NULL));
   pendres_context_free(NULL);
   assert_non_null(pendres_context_message(NULL));
   assert_null(pendres_context_options(NULL));

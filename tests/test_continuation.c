@@ -334,6 +334,31 @@ static void symmetry_breaks_and_period_doubles(void **state)
   pendres_context_free(ctx);
 }
 
+/* Packed and unpacked a set of branches is the same: packed again, the same bytes. Bytes of another
+   length are refused. */
+static void check_packing(const pendres_branches *set)
+{
+  const size_t size = pendres_branches_packed_size(set);
+  char *bytes = malloc(size + 1), *again = malloc(size);
+  pendres_branches *copy = NULL;
+  assert_true(bytes != NULL && again != NULL);
+  bytes[size] = 0;
+  pendres_branches_pack(set, bytes);
+  check_ok(pendres_branches_unpack(size, bytes, &copy));
+  assert_int_equal(pendres_branches_packed_size(copy), size);
+  assert_int_equal(pendres_branches_count(copy), pendres_branches_count(set));
+  pendres_branches_pack(copy, again);
+  assert_memory_equal(bytes, again, size);
+  pendres_branches_free(copy);
+  for (size_t wrong = 0; wrong <= size + 1; wrong += wrong < size - 1 ? size / 7 + 1 : 1) {
+    if (wrong == size) continue;
+    assert_int_equal(pendres_branches_unpack(wrong, bytes, &copy), PENDRES_INVALID_ARGUMENT);
+    assert_null(copy);
+  }
+  free(bytes);
+  free(again);
+}
+
 /* A running orbit exists between two folds and nowhere else: an isola, found to be closed. */
 static void running_orbits_make_an_isola(void **state)
 {
@@ -381,6 +406,7 @@ static void running_orbits_make_an_isola(void **state)
     const double omega = pendres_branch_get(b, i)->orbit.pendulum.drive_frequency;
     assert_true(omega >= low - 1e-9 && omega <= high + 1e-9);
   }
+  check_packing(set);
   pendres_branches_free(set);
   pendres_attractors_free(found);
   pendres_context_free(ctx);

@@ -1,10 +1,12 @@
 /*
  * test_farm.c -- tasks on threads: each once, collected in order, stopped at the first failure,
- * by a signal, and costs added up. No tolerances: all counts and sums of integers.
+ * by a signal, costs added up, and nothing handed over but the records. No tolerances: all counts
+ * and sums of integers.
  */
 #include "check.h"
 
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -27,6 +29,7 @@ typedef struct scene {
   int deaf;                    /* tasks never look whether to go on */
   size_t endless;              /* a task that would take hours */
   double result[TASKS];
+  int sized;                   /* records of sizes of their own */
 } scene;
 
 static scene *new_scene(void)
@@ -37,9 +40,9 @@ static scene *new_scene(void)
   return s;
 }
 
-static pendres_status task(void *arg, size_t i, pendres_context *ctx)
+static pendres_status task(const void *arg, size_t i, pendres_context *ctx, farm_record *out)
 {
-  scene *s = arg;
+  scene *s = (scene *)(uintptr_t)arg; /* a scene proper writes to its record alone */
   const pendres_pendulum p = { 0.12, 0.2, 0.6 + 0.001 * (double)i, 0.0 };
   const pendres_pendulum bad = { -1.0, 0.2, 1.0, 0.0 };
   double x = 1.0, v = 0.0;
@@ -57,14 +60,20 @@ static pendres_status task(void *arg, size_t i, pendres_context *ctx)
                                   two, 1, NULL);
   }
   const pendres_status status = pendres_strobe_advance(ctx, 1, &p, &x, &v, 3, NULL);
-  s->result[i] = x;
+  double *to = s->sized ? farm_record_resize(out, (i + 1) * sizeof x) : out->data;
+  assert_non_null(to);
+  for (size_t k = 0; k < out->size / sizeof x; k++) assert_true(to[k] == 0.0);
+  to[out->size / sizeof x - 1] = x;
   return status;
 }
 
-static pendres_status collect(void *arg, size_t i)
+static pendres_status collect(void *arg, size_t i, const farm_record *in)
 {
   scene *s = arg;
+  const double *from = in->data;
   if (i == s->refused) return PENDRES_IO;
+  assert_int_equal(in->size, s->sized ? (i + 1) * sizeof *from : sizeof *from);
+  s->result[i] = from[in->size / sizeof *from - 1];
   s->collected[s->count++] = i;
   return PENDRES_OK;
 }
@@ -83,6 +92,13 @@ static farm *new_farm(int threads, scene *s)
   return f;
 }
 
+static pendres_status run(farm *f, size_t tasks, farm_collect *collector, scene *s)
+{
+  return farm_run(f, &(farm_stage){ .what = "tasks", .tasks = tasks, .task = task,
+                                    .record_size = s->sized ? 0 : sizeof(double),
+                                    .collect = collector, .arg = s });
+}
+
 static void check_collected(const scene *s, size_t count)
 {
   assert_int_equal(s->count, count);
@@ -97,17 +113,23 @@ static void test_all(void **state)
     scene *s = new_scene();
     farm *f = new_farm(threads, s);
     pendres_cost cost;
-    check_ok(farm_run(f, "tasks", TASKS, task, collect, s));
+    s->sized = threads == 3;
+    check_ok(run(f, TASKS, collect, s));
     check_collected(s, TASKS);
     for (size_t i = 0; i < TASKS; i++) assert_int_equal(atomic_load(&s->runs[i]), 1);
     if (threads == 1) memcpy(first, s->result, sizeof first);
     assert_memory_equal(first, s->result, sizeof first);
     farm_cost(f, &cost);
     assert_true(cost.pendulum_periods >= 3.0 * TASKS);
+    /* By task and by context are the same sum, of whole numbers, whoever did what. */
+    check_ok(run(f, TASKS, NULL, s));
+    pendres_cost twice;
+    farm_cost(f, &twice);
+    assert_true(twice.pendulum_periods > cost.pendulum_periods);
     assert_string_equal(farm_message(f), "");
     /* Again with the same farm, and without a collector. */
-    check_ok(farm_run(f, "tasks", 3, task, NULL, s));
-    check_ok(farm_run(f, "tasks", 0, task, NULL, s));
+    check_ok(run(f, 3, NULL, s));
+    check_ok(run(f, 0, NULL, s));
     farm_free(f);
     free(s);
   }
@@ -128,8 +150,8 @@ static void test_few_threads(void **state)
 #endif
   assert_int_equal(getrlimit(RLIMIT_AS, &space), 0);
   assert_int_equal(setrlimit(RLIMIT_AS, &(struct rlimit){ room, space.rlim_max }), 0);
-  const pendres_status status = farm_run(f, "tasks", TASKS, task, collect, s);
-  const pendres_status again = farm_run(f, "tasks", TASKS, task, NULL, s);
+  const pendres_status status = run(f, TASKS, collect, s);
+  const pendres_status again = run(f, TASKS, NULL, s);
   assert_int_equal(setrlimit(RLIMIT_AS, &space), 0);
   check_ok(status);
   check_ok(again);
@@ -148,7 +170,7 @@ static void test_failure(void **state)
     farm *f = new_farm(threads, s);
     s->failing = 20;
     s->failing_too = 21;
-    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(run(f, TASKS, collect, s), PENDRES_INVALID_ARGUMENT);
     assert_non_null(strstr(farm_message(f), "pendulum 1"));
     check_collected(s, 20);
     int taken = 0;
@@ -157,7 +179,7 @@ static void test_failure(void **state)
     /* The farm can be used further. */
     s->failing = s->failing_too = TASKS;
     s->count = 0;
-    check_ok(farm_run(f, "tasks", TASKS, task, collect, s));
+    check_ok(run(f, TASKS, collect, s));
     check_collected(s, TASKS);
     farm_free(f);
     free(s);
@@ -173,7 +195,7 @@ static void test_failure_ends_others(void **state)
   s->failing = 3;
   s->failing_too = 5; /* makes task 3 wait a little */
   s->endless = 4;
-  assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(run(f, TASKS, collect, s), PENDRES_INVALID_ARGUMENT);
   assert_non_null(strstr(farm_message(f), "pendulum 1"));
   check_collected(s, 3);
   farm_free(f);
@@ -187,7 +209,7 @@ static void test_collector_refuses(void **state)
     scene *s = new_scene();
     farm *f = new_farm(threads, s);
     s->refused = 7;
-    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_IO);
+    assert_int_equal(run(f, TASKS, collect, s), PENDRES_IO);
     check_collected(s, 7);
     farm_free(f);
     free(s);
@@ -203,14 +225,14 @@ static void test_stop(void **state)
     farm *f = new_farm(threads, s);
     s->stop_at = 50;
     s->deaf = threads > 3;
-    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INTERRUPTED);
+    assert_int_equal(run(f, TASKS, collect, s), PENDRES_INTERRUPTED);
     assert_true(s->count <= 50 + (size_t)threads);
     check_collected(s, s->count);
     int taken = 0;
     for (size_t i = 0; i < TASKS; i++) taken += atomic_load(&s->runs[i]);
     assert_true(taken <= 50 + threads);
     /* Once stopped nothing starts. */
-    assert_int_equal(farm_run(f, "tasks", TASKS, task, collect, s), PENDRES_INTERRUPTED);
+    assert_int_equal(run(f, TASKS, collect, s), PENDRES_INTERRUPTED);
     farm_free(f);
     free(s);
   }

@@ -44,10 +44,13 @@ static void reasons_of_statuses(void **state)
     assert_int_equal(scene_failure_of((pendres_status)s) == SCENE_FAILURE_NONE, ends_the_run);
   }
   scene_failures f;
+  scene_verdict v = { 0 };
   check_ok(scene_failures_create(2, &f));
-  assert_int_equal(scene_failures_note(&f, 0, PENDRES_INTERRUPTED, "x"), PENDRES_INTERRUPTED);
+  assert_int_equal(scene_verdict_note(&v, PENDRES_INTERRUPTED, "x"), PENDRES_INTERRUPTED);
+  scene_failures_take(&f, 0, &v);
   assert_int_equal(f.reason[0], SCENE_FAILURE_NONE);
-  check_ok(scene_failures_note(&f, 1, PENDRES_NOT_FOUND, "nothing there"));
+  check_ok(scene_verdict_note(&v, PENDRES_NOT_FOUND, "nothing there"));
+  scene_failures_take(&f, 1, &v);
   assert_int_equal(f.reason[1], SCENE_FAILURE_NOT_FOUND);
   assert_string_equal(f.words[1], "nothing there");
   scene_failures_free(&f);

@@ -15,24 +15,30 @@ struct farm {
   farm_options options;
   int threads;
   int short_of;              /* threads that could be had, when there were fewer; else 0 */
+  pthread_mutex_t lock;      /* of `spent` */
+  pendres_cost spent;        /* but for what the contexts have in their own books */
   pendres_context **context; /* one a thread, made at its first task */
   char message[512];
 };
 
+/* A record that waits for its turn to be collected. */
+typedef struct kept {
+  void *data;
+  size_t size;
+} kept;
+
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
   farm *farm;
+  const farm_stage *stage;
   int hired;            /* threads that work; those with higher numbers go home */
   pthread_mutex_t lock;
-  size_t tasks;
-  farm_task *task;
-  farm_collect *collect;
-  void *arg;
   size_t next;          /* not yet taken */
   size_t finished;
   size_t collected;     /* tasks 0 .. collected-1 */
   int collecting;       /* a thread is at it */
   char *done;
+  kept *record;         /* of tasks that are done and not yet collected */
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
 } crew;
@@ -77,7 +83,8 @@ pendres_status farm_create(const farm_options *options, farm **out)
   f->options = *options;
   f->threads = options->threads > 0 ? options->threads : processors();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
-  if (f->context == NULL) {
+  if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
+    free(f->context);
     free(f);
     return PENDRES_OUT_OF_MEMORY;
   }
@@ -90,6 +97,7 @@ void farm_free(farm *f)
   if (f == NULL) return;
   for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
   free(f->context);
+  (void)pthread_mutex_destroy(&f->lock);
   free(f);
 }
 
@@ -102,6 +110,45 @@ static pendres_status context_of(farm *f, int thread, pendres_context **out)
   *out = f->context[thread];
   return status;
 }
+
+/* ---- costs and records --------------------------------------------------------------------- */
+
+static void add_cost(pendres_cost *sum, const pendres_cost *one)
+{
+  sum->pendulum_periods += one->pendulum_periods;
+  sum->rhs_evaluations += one->rhs_evaluations;
+  sum->steps += one->steps;
+  sum->newton_steps += one->newton_steps;
+  sum->settled_pendulums += one->settled_pendulums;
+}
+
+static void spend(farm *f, const pendres_cost *cost)
+{
+  pthread_mutex_lock(&f->lock);
+  add_cost(&f->spent, cost);
+  pthread_mutex_unlock(&f->lock);
+}
+
+/* What a context has spent outside of tasks goes to the farm's sum: the next is a task's. */
+static void settle_books(farm *f, pendres_context *ctx)
+{
+  pendres_cost cost;
+  pendres_context_cost(ctx, &cost);
+  pendres_context_cost_reset(ctx);
+  spend(f, &cost);
+}
+
+void *farm_record_resize(farm_record *record, size_t size)
+{
+  char *data = realloc(record->data, size + 1); /* one more, so that none is no failure */
+  if (data == NULL) return NULL;
+  if (size > record->size) memset(data + record->size, 0, size - record->size);
+  record->data = data;
+  record->size = size;
+  return data;
+}
+
+/* ---- a stage ------------------------------------------------------------------------------- */
 
 static void fail(crew *c, size_t task, pendres_status status, const char *message)
 {
@@ -127,22 +174,35 @@ static int may_collect(const crew *c)
   return c->collected < atomic_load(&c->limit) && c->done[c->collected];
 }
 
+/* Hand the next record over, without the lock: others go on with their tasks meanwhile. */
+static pendres_status collect_next(crew *c)
+{
+  kept *k = &c->record[c->collected];
+  farm_record record = { .data = k->data, .size = k->size };
+  pendres_status status = PENDRES_OK;
+  if (c->stage->collect != NULL) status = c->stage->collect(c->stage->arg, c->collected, &record);
+  free(k->data);
+  *k = (kept){ 0 };
+  return status;
+}
+
 /* Note a task's end, and collect what has become ready while nobody else does. */
-static void finish(crew *c, size_t task, pendres_status status, const char *message)
+static void finish(crew *c, size_t task, pendres_status status, farm_record *record)
 {
   pthread_mutex_lock(&c->lock);
   if (status != PENDRES_OK) {
-    fail(c, task, status, message);
+    fail(c, task, status, record->message);
   } else {
+    c->record[task] = (kept){ record->data, record->size };
+    record->data = NULL;
     c->done[task] = 1;
     progress_step(c->farm->options.progress, ++c->finished);
   }
   const int mine = !c->collecting && may_collect(c);
   if (mine) c->collecting = 1;
   while (mine && c->collecting) {
-    pthread_mutex_unlock(&c->lock); /* others go on with their tasks meanwhile */
-    const pendres_status collected =
-      c->collect != NULL ? c->collect(c->arg, c->collected) : PENDRES_OK;
+    pthread_mutex_unlock(&c->lock);
+    const pendres_status collected = collect_next(c);
     pthread_mutex_lock(&c->lock);
     if (collected != PENDRES_OK) fail(c, c->collected, collected, "");
     else c->collected++;
@@ -151,17 +211,32 @@ static void finish(crew *c, size_t task, pendres_status status, const char *mess
   pthread_mutex_unlock(&c->lock);
 }
 
+/* Run a task; its record then holds what it has cost, and why it failed. */
+static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_record *record)
+{
+  *record = (farm_record){ 0 };
+  if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
+  settle_books(c->farm, ctx);
+  pendres_context_set_interrupt(ctx, worker_stop, w);
+  const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
+  pendres_context_cost(ctx, &record->cost);
+  pendres_context_cost_reset(ctx);
+  spend(c->farm, &record->cost);
+  if (status != PENDRES_OK && record->message[0] == '\0')
+    snprintf(record->message, sizeof record->message, "%s", pendres_context_message(ctx));
+  return status;
+}
+
 static void work(crew *c, int thread)
 {
   pendres_context *ctx = NULL;
   worker w = { .crew = c };
   while (take(c, &w.task)) {
+    farm_record record = { 0 };
     pendres_status status = context_of(c->farm, thread, &ctx);
-    if (status == PENDRES_OK) {
-      pendres_context_set_interrupt(ctx, worker_stop, &w);
-      status = c->task(c->arg, w.task, ctx);
-    }
-    finish(c, w.task, status, pendres_context_message(ctx));
+    if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
+    finish(c, w.task, status, &record);
+    free(record.data);
   }
   if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
 }
@@ -242,34 +317,58 @@ int farm_errand(int (*run)(void *arg), void *arg)
   return e.result;
 }
 
-pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,
-                        farm_collect *collect, void *arg)
+/* Room for the records of a stage; free it in any case. */
+static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage)
 {
-  crew c = { .farm = f, .tasks = tasks, .task = task, .collect = collect, .arg = arg };
+  *c = (crew){ .farm = f, .stage = stage };
+  atomic_init(&c->limit, stage->tasks);
+  c->done = calloc(stage->tasks, 1);
+  c->record = calloc(stage->tasks, sizeof *c->record);
+  if (c->done != NULL && c->record != NULL && pthread_mutex_init(&c->lock, NULL) == 0)
+    return PENDRES_OK;
+  free(c->done);
+  free(c->record);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+static void crew_free(crew *c)
+{
+  for (size_t i = c->collected; i < c->stage->tasks; i++) free(c->record[i].data);
+  free(c->record);
+  free(c->done);
+  (void)pthread_mutex_destroy(&c->lock);
+}
+
+/* As many threads as are of use to a stage. */
+static int threads_for(const farm *f, const farm_stage *stage)
+{
   const int most = f->short_of > 0 ? f->short_of : f->threads;
-  const int threads = tasks < (size_t)most ? (int)tasks : most;
+  if (stage->timed) return 1;
+  return stage->tasks < (size_t)most ? (int)stage->tasks : most;
+}
+
+pendres_status farm_run(farm *f, const farm_stage *stage)
+{
+  crew c;
+  const int threads = threads_for(f, stage);
   f->message[0] = '\0';
-  if (tasks == 0) return PENDRES_OK;
-  atomic_init(&c.limit, tasks);
-  c.done = calloc(tasks, 1);
+  if (stage->tasks == 0) return PENDRES_OK;
   hand *hands = calloc((size_t)threads, sizeof *hands);
-  if (c.done == NULL || hands == NULL || pthread_mutex_init(&c.lock, NULL) != 0) {
-    free(c.done);
+  if (hands == NULL || crew_create(&c, f, stage) != PENDRES_OK) {
     free(hands);
-    snprintf(f->message, sizeof f->message, "out of memory for %zu %s", tasks, what);
+    snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;
   }
-  progress_start(f->options.progress, what, tasks);
+  progress_start(f->options.progress, stage->what, stage->tasks);
   work_together(&c, threads, hands);
   progress_end(f->options.progress);
-  (void)pthread_mutex_destroy(&c.lock);
-  free(c.done);
-  free(hands);
-  if (c.status == PENDRES_OK && c.collected < tasks) {
-    snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c.collected, tasks,
-             what);
+  if (c.status == PENDRES_OK && c.collected < stage->tasks) {
+    snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c.collected,
+             stage->tasks, stage->what);
     c.status = PENDRES_INTERRUPTED;
   }
+  crew_free(&c);
+  free(hands);
   return c.status;
 }
 
@@ -291,18 +390,9 @@ int farm_threads(const farm *f)
   return f->threads;
 }
 
-static void add_cost(pendres_cost *sum, const pendres_cost *one)
-{
-  sum->pendulum_periods += one->pendulum_periods;
-  sum->rhs_evaluations += one->rhs_evaluations;
-  sum->steps += one->steps;
-  sum->newton_steps += one->newton_steps;
-  sum->settled_pendulums += one->settled_pendulums;
-}
-
 void farm_cost(const farm *f, pendres_cost *cost)
 {
-  *cost = (pendres_cost){ 0 };
+  *cost = f->spent;
   for (int i = 0; i < f->threads; i++) {
     pendres_cost one = { 0 };
     if (f->context[i] == NULL) continue;

@@ -1,9 +1,11 @@
 /*
  * farm.h -- tasks on threads, each thread with its own context of the library.
  *
- * Owns: threads, contexts, progress and stopping. A task's result may depend on its number
- * alone, never on its thread or on other tasks: then results are the same bytes for any
- * number of threads.
+ * Owns: threads, contexts, records, progress and stopping. A task fills a record: plain bytes that
+ * depend on its number, the deck and the code alone, never on its thread or on other tasks. Records
+ * are collected in the order of tasks, and what is collected is a function of the records: then
+ * results are the same bytes for any number of threads, and a record may as well come from
+ * somewhere else.
  */
 #ifndef FARM_H
 #define FARM_H
@@ -34,21 +36,43 @@ pendres_status farm_create(const farm_options *options, farm **out);
 /* NULL is allowed. */
 void farm_free(farm *f);
 
-/* Compute task number `task` with this thread's context; results go to places of its own. */
-typedef pendres_status farm_task(void *arg, size_t task, pendres_context *ctx);
+/* What a task hands over. */
+typedef struct farm_record {
+  void *data;        /* zero at first; the farm's */
+  size_t size;       /* bytes: as the stage says, unless the task has asked for another size */
+  pendres_cost cost; /* of the task, as its context tells: the farm's to fill in */
+  char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
+} farm_record;
 
-/* Take over a finished task's results: called for tasks 0, 1, 2, ... in this order, by one thread
-   at a time (so it may write to a store). */
-typedef pendres_status farm_collect(void *arg, size_t task);
+/* A size of its own for a record; new bytes are zero. Returns data, NULL: out of memory. */
+void *farm_record_resize(farm_record *record, size_t size);
+
+/* Compute task number `task` with this thread's context, and fill its record: nothing else is to be
+   written to, since several threads share arg. */
+typedef pendres_status farm_task(const void *arg, size_t task, pendres_context *ctx,
+                                 farm_record *record);
+
+/* Take over a finished task's record, which lasts until this returns: called for tasks 0, 1, 2, ...
+   in this order, by one thread at a time (so it may write to a store). It may not change what
+   other tasks read. */
+typedef pendres_status farm_collect(void *arg, size_t task, const farm_record *record);
+
+/* Tasks of one kind. */
+typedef struct farm_stage {
+  const char *what;      /* names the tasks in the progress line, e.g. "dampings" */
+  size_t tasks;
+  size_t record_size;    /* bytes */
+  int timed;             /* tasks look at the clock: one at a time, so that each is alone */
+  farm_task *task;
+  farm_collect *collect; /* may be NULL */
+  void *arg;             /* of both */
+} farm_stage;
 
 /*
- * Run all tasks; idle threads take the next one. The first failure (in the order of tasks) stops
- * the farm and is returned, its message kept; PENDRES_INTERRUPTED after a signal. collect may be
- * NULL.
- * `what` names the tasks in the progress line, e.g. "dampings".
+ * Run all tasks of a stage; idle threads take the next one. The first failure (in the order of
+ * tasks) stops the farm and is returned, its message kept; PENDRES_INTERRUPTED after a signal.
  */
-pendres_status farm_run(farm *f, const char *what, size_t tasks, farm_task *task,
-                        farm_collect *collect, void *arg);
+pendres_status farm_run(farm *f, const farm_stage *stage);
 
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there
@@ -66,7 +90,7 @@ int farm_threads(const farm *f);
 /* Is the run to stop? For what a task does without its context: `farm` is a farm. */
 int farm_stopped(void *farm);
 
-/* What all contexts have spent so far. */
+/* What all tasks have spent, and the contexts outside of tasks. */
 void farm_cost(const farm *f, pendres_cost *cost);
 
 #endif

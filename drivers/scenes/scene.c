@@ -70,9 +70,10 @@ pendres_status scene_store_failed(scene_run *run, pendres_status status)
   return scene_fail(run, status, "%s", pendres_store_message(run->store));
 }
 
-pendres_status scene_farm_failed(scene_run *run, pendres_status status)
+pendres_status scene_compute(scene_run *run, const farm_stage *stage)
 {
-  return scene_fail(run, status, "%s", farm_message(run->farm));
+  const pendres_status status = farm_run(run->farm, stage);
+  return status == PENDRES_OK ? status : scene_fail(run, status, "%s", farm_message(run->farm));
 }
 
 /* ---- axes, fixed parameters and ensembles -------------------------------------------------- */

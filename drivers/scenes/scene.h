@@ -54,8 +54,8 @@ pendres_status scene_fail(scene_run *run, pendres_status status, const char *for
 /* The same with the store's own words. */
 pendres_status scene_store_failed(scene_run *run, pendres_status status);
 
-/* The same with the farm's words, after a farm_run that failed. */
-pendres_status scene_farm_failed(scene_run *run, pendres_status status);
+/* Run a stage on the run's farm; on failure the run has the farm's words. */
+pendres_status scene_compute(scene_run *run, const farm_stage *stage);
 
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);

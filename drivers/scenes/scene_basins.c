@@ -8,6 +8,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scenes/scene_basins.h"
 #include "scenes/scene_basins_noise.h"
@@ -39,15 +40,15 @@ static void plan(const deck *d, FILE *out)
 
 /* ---- whole grids ---- */
 
+/* What a task finds: this, then the states of its rows. */
 typedef struct part {
-  pendres_basin_state *state; /* of its rows; NULL when written */
   size_t lost, lost_index[LOST_A_TASK]; /* unresolved: how many, and some of them */
 } part;
 
 typedef struct sweep {
   basins *b;
-  size_t rows; /* a task */
-  part *parts;
+  size_t rows;         /* a task */
+  size_t lost, *index; /* unresolved states that tasks remember */
 } sweep;
 
 static size_t rows_of(const sweep *s, size_t task)
@@ -74,38 +75,38 @@ done:
   return status;
 }
 
-static pendres_status compute_rows(void *arg, size_t task, pendres_context *ctx)
+static pendres_status compute_rows(const void *arg, size_t task, pendres_context *ctx,
+                                   farm_record *out)
 {
   const sweep *s = arg;
   const basins *b = s->b;
-  part *p = &s->parts[task];
   const size_t first = task * s->rows, rows = rows_of(s, task), n = rows * b->grid.nv;
   size_t deferred = 0;
-  p->lost = 0;
-  p->state = malloc(n * sizeof *p->state);
-  if (p->state == NULL) return PENDRES_OUT_OF_MEMORY;
+  part *p = farm_record_resize(out, sizeof *p + n * sizeof(pendres_basin_state));
+  if (p == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_basin_state *state = (pendres_basin_state *)(p + 1);
   pendres_status status =
-    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, p->state, &deferred);
+    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, state, &deferred);
   if (status == PENDRES_OK && deferred > 0)
-    status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, p->state);
+    status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, state);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (p->state[i].attractor >= 0) continue;
+    if (state[i].attractor >= 0) continue;
     if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = first * b->grid.nv + i;
     p->lost++;
   }
   return status;
 }
 
-static pendres_status collect_rows(void *arg, size_t task)
+static pendres_status collect_rows(void *arg, size_t task, const farm_record *in)
 {
-  const sweep *s = arg;
-  part *p = &s->parts[task];
+  sweep *s = arg;
+  const part *p = in->data;
+  const pendres_basin_state *state = (const pendres_basin_state *)(p + 1);
   const size_t rows = rows_of(s, task);
-  pendres_status status = basins_write_rows(s->b, task * s->rows, rows, p->state);
-  if (status == PENDRES_OK) status = pendres_basin_sums_add(s->b->sums, rows, p->state);
+  pendres_status status = basins_write_rows(s->b, task * s->rows, rows, state);
+  if (status == PENDRES_OK) status = pendres_basin_sums_add(s->b->sums, rows, state);
   s->b->unresolved += p->lost;
-  free(p->state);
-  p->state = NULL;
+  for (size_t k = 0; k < p->lost && k < LOST_A_TASK; k++) s->index[s->lost++] = p->lost_index[k];
   return status;
 }
 
@@ -136,29 +137,17 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
 {
   sweep s = {.b = b, .rows = 1 + STATES_A_TASK / b->grid.nv};
   const size_t tasks = (b->grid.nx + s.rows - 1) / s.rows;
-  size_t *index = NULL, n = 0;
   pendres_status status = restart(b);
   *grown = 0;
   if (status != PENDRES_OK) return status;
-  s.parts = calloc(tasks, sizeof *s.parts);
-  index = malloc(tasks * LOST_A_TASK * sizeof *index);
-  if (s.parts == NULL || index == NULL) {
-    status = scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", tasks);
-    goto done;
-  }
-  status = farm_run(b->run->farm, "groups of rows", tasks, compute_rows, collect_rows, &s);
-  if (status != PENDRES_OK) {
-    (void)scene_farm_failed(b->run, status);
-    goto done;
-  }
-  for (size_t t = 0; t < tasks; t++)
-    for (size_t k = 0; k < s.parts[t].lost && k < LOST_A_TASK; k++)
-      index[n++] = s.parts[t].lost_index[k];
-  if (!last) status = extend(b, n, index, grown);
-done:
-  for (size_t t = 0; s.parts != NULL && t < tasks; t++) free(s.parts[t].state);
-  free(s.parts);
-  free(index);
+  s.index = malloc(tasks * LOST_A_TASK * sizeof *s.index);
+  if (s.index == NULL)
+    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", tasks);
+  status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
+                                                .task = compute_rows, .collect = collect_rows,
+                                                .arg = &s });
+  if (status == PENDRES_OK && !last) status = extend(b, s.lost, s.index, grown);
+  free(s.index);
   return status;
 }
 
@@ -171,29 +160,44 @@ typedef struct slices {
   pendres_basin_state *state;
 } slices;
 
-static pendres_status compute_slice(void *arg, size_t task, pendres_context *ctx)
+static size_t slice_of(const slices *s, size_t task)
+{
+  const size_t left = s->n - task * SLICE;
+  return left < SLICE ? left : SLICE;
+}
+
+static pendres_status compute_slice(const void *arg, size_t task, pendres_context *ctx,
+                                    farm_record *out)
 {
   const slices *s = arg;
-  const size_t first = task * SLICE, n = s->n - first < SLICE ? s->n - first : SLICE;
-  return pendres_basin_states(ctx, s->b->set, &s->b->grid, n, s->index + first, s->state + first);
+  const size_t n = slice_of(s, task);
+  pendres_basin_state *state = farm_record_resize(out, n * sizeof *state);
+  if (state == NULL) return PENDRES_OUT_OF_MEMORY;
+  return pendres_basin_states(ctx, s->b->set, &s->b->grid, n, s->index + task * SLICE, state);
+}
+
+static pendres_status collect_slice(void *arg, size_t task, const farm_record *in)
+{
+  const slices *s = arg;
+  memcpy(s->state + task * SLICE, in->data, slice_of(s, task) * sizeof *s->state);
+  return PENDRES_OK;
 }
 
 /* Integrate states by number, on all threads if they are many. */
 static pendres_status integrate(basins *b, size_t n, const size_t *index,
                                 pendres_basin_state **state)
 {
-  pendres_status status = PENDRES_OK;
   *state = malloc((n + 1) * sizeof **state);
   if (*state == NULL)
     return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
   slices s = {.b = b, .n = n, .index = index, .state = *state};
-  if (n > SMALL) {
-    status = farm_run(b->run->farm, "slices", (n + SLICE - 1) / SLICE, compute_slice, NULL, &s);
-    return status == PENDRES_OK ? status : scene_farm_failed(b->run, status);
-  }
+  if (n > SMALL)
+    return scene_compute(b->run, &(farm_stage){ .what = "slices", .tasks = (n + SLICE - 1) / SLICE,
+                                                .task = compute_slice, .collect = collect_slice,
+                                                .arg = &s });
   pendres_context *ctx = farm_context(b->run->farm);
   if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  status = pendres_basin_states(ctx, b->set, &b->grid, n, index, *state);
+  const pendres_status status = pendres_basin_states(ctx, b->set, &b->grid, n, index, *state);
   return status == PENDRES_OK ? status
                               : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
 }

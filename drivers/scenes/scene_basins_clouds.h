@@ -26,7 +26,6 @@ typedef struct cloud {
 
 typedef struct cloud_work {
   const deck *d;
-  farm *farm;
   const pendres_attractors *set;
   size_t temperatures, attractors;
   size_t strobes;      /* written of each cloud */
@@ -36,7 +35,7 @@ typedef struct cloud_work {
   pendres_langevin_cloud *parts;  /* [temperature][attractor][chunk] */
   double *x, *v;                  /* [temperature][attractor][strobe] */
   scene_failures failed;          /* [temperature][attractor] */
-  scene_failures tasks;           /* [temperature][attractor][chunk] */
+  scene_failures parts_failed;    /* the same: the first failure of its parts */
 } cloud_work;
 
 static inline double temperature_of(const cloud_work *w, size_t cloud_number)

@@ -57,23 +57,46 @@ static void still_statistics(const pendres_orbit *o, size_t q, const double *x, 
   out[PENDRES_LANGEVIN_COV_VV] = (pendres_langevin_estimate){ vv, 2.0 * sqrt(vv) * o->v_error };
 }
 
+/* What the choice of a cloud's steps finds: this, and for a cloud that is not followed its strobe
+   points after it, x and then v. */
+typedef struct choice {
+  cloud cloud;
+  scene_verdict verdict;
+  size_t strobes; /* that follow */
+} choice;
+
+/* What is measured of a chunk: this, then its strobe points, x and then v. */
+typedef struct chunk {
+  pendres_langevin_cloud part;
+  scene_verdict verdict;
+  size_t strobes;
+} chunk;
+
 /* Without noise, or with less than rounding: the orbit's own points. */
-static pendres_status still_cloud(cloud_work *w, size_t number, pendres_context *ctx)
+static pendres_status still_cloud(const cloud_work *w, size_t number, pendres_context *ctx,
+                                  farm_record *out)
 {
   const pendres_orbit *o = &attractor_of(w, number)->orbit;
-  cloud *c = &w->clouds[number];
-  const size_t q = (size_t)o->period;
+  const size_t q = (size_t)o->period, n = w->strobes;
+  choice *c = farm_record_resize(out, sizeof *c + 2 * n * sizeof(double));
   double *points = malloc(2 * q * sizeof *points);
-  if (points == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (c == NULL || points == NULL) {
+    free(points);
+    return PENDRES_OUT_OF_MEMORY;
+  }
   pendres_status status = pendres_orbit_sample(ctx, o, 1, points, points + q);
+  double *x = (double *)(c + 1), *v = x + n;
   /* The Poincare point itself: to the last digit. */
   points[0] = o->x;
   points[q] = o->v;
-  for (size_t k = 0; k < w->strobes && status == PENDRES_OK; k++) {
-    w->x[number * w->strobes + k] = points[k % q];
-    w->v[number * w->strobes + k] = points[q + k % q];
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    x[k] = points[k % q];
+    v[k] = points[q + k % q];
   }
-  if (status == PENDRES_OK) still_statistics(o, q, points, points + q, c->measured.statistics);
+  if (status == PENDRES_OK) {
+    c->strobes = n;
+    still_statistics(o, q, points, points + q, c->cloud.measured.statistics);
+  }
   free(points);
   return status;
 }
@@ -98,47 +121,57 @@ static void ask_theory(const pendres_langevin_request *request, const pendres_or
   c->narrow = status == PENDRES_OK && !(c->linear.covariance.xx > least_variance);
 }
 
-static pendres_status choose(void *arg, size_t number, pendres_context *ctx)
+/* A cloud that nothing is followed of. */
+static pendres_status rest(const cloud_work *w, size_t number, pendres_context *ctx,
+                           farm_record *out)
+{
+  const pendres_status status = still_cloud(w, number, ctx, out);
+  choice *c = out->data;
+  if (status == PENDRES_OK && c->cloud.narrow && c->cloud.compared) linear_cloud(&c->cloud);
+  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
+}
+
+static pendres_status choose(const void *arg, size_t number, pendres_context *ctx,
+                             farm_record *out)
 {
   enum { TRAJECTORIES = 384, RECORD = 60 };
-  cloud_work *w = arg;
-  cloud *c = &w->clouds[number];
+  const cloud_work *w = arg;
+  choice *c = out->data;
   const pendres_attractor *a = attractor_of(w, number);
   pendres_switching_home home;
   if (!has_cloud(a)) return PENDRES_OK;
   if (!(temperature_of(w, number) > 0.0)) {
-    c->compared = 1;
-    return scene_failures_note(&w->failed, number, still_cloud(w, number, ctx),
-                               pendres_context_message(ctx));
+    c->cloud.compared = 1;
+    return rest(w, number, ctx, out);
   }
   pendres_langevin_request request = request_of(w, number, &home);
-  ask_theory(&request, &a->orbit, c);
-  if (c->narrow) {
-    const pendres_status status = still_cloud(w, number, ctx);
-    if (status == PENDRES_OK && c->compared) linear_cloud(c);
-    return scene_failures_note(&w->failed, number, status, pendres_context_message(ctx));
-  }
+  ask_theory(&request, &a->orbit, &c->cloud);
+  if (c->cloud.narrow) return rest(w, number, ctx, out);
   request.trajectories = TRAJECTORIES;
   request.record = RECORD;
-  const pendres_status status =
-    scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD, CLOUD_BIAS_WANTED, &c->bias);
-  return scene_failures_note(&w->failed, number, status, pendres_context_message(ctx));
+  const pendres_status status = scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD,
+                                                         CLOUD_BIAS_WANTED, &c->cloud.bias);
+  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
 }
 
-/* Strobes of a chunk into their place among those of the cloud, as many as are written. */
-static void keep_strobes(cloud_work *w, size_t number, size_t first, size_t count, const double *x,
-                         const double *v)
-{
-  const size_t begin = first * (size_t)w->record;
-  for (size_t k = 0; k < count * (size_t)w->record && begin + k < w->strobes; k++) {
-    w->x[number * w->strobes + begin + k] = x[k];
-    w->v[number * w->strobes + begin + k] = v[k];
-  }
-}
-
-static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
+static pendres_status collect_choice(void *arg, size_t number, const farm_record *in)
 {
   cloud_work *w = arg;
+  const choice *c = in->data;
+  const double *x = (const double *)(c + 1);
+  w->clouds[number] = c->cloud;
+  if (c->strobes > 0) {
+    memcpy(w->x + number * w->strobes, x, c->strobes * sizeof *x);
+    memcpy(w->v + number * w->strobes, x + c->strobes, c->strobes * sizeof *x);
+  }
+  scene_failures_take(&w->failed, number, &c->verdict);
+  return PENDRES_OK;
+}
+
+static pendres_status measure(const void *arg, size_t task, pendres_context *ctx,
+                              farm_record *out)
+{
+  const cloud_work *w = arg;
   const size_t number = task / w->chunks;
   size_t first, count;
   pendres_switching_home home;
@@ -148,16 +181,36 @@ static pendres_status measure(void *arg, size_t task, pendres_context *ctx)
   request.first_id += first;
   request.trajectories = count;
   const size_t n = count * (size_t)w->record;
+  chunk *c = farm_record_resize(out, sizeof *c + 2 * n * sizeof(double));
+  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
+  double *x = (double *)(c + 1);
   request.steps_per_period = w->clouds[number].bias.steps_per_period;
-  double *points = malloc(2 * n * sizeof *points);
-  if (points == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status =
-    pendres_langevin_measure(ctx, &request, &w->parts[task], points, points + n);
+  pendres_status status = pendres_langevin_measure(ctx, &request, &c->part, x, x + n);
   if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* all have left: an empty part */
-  if (status == PENDRES_OK) keep_strobes(w, number, first, count, points, points + n);
-  status = scene_failures_note(&w->tasks, task, status, pendres_context_message(ctx));
-  free(points);
-  return status;
+  if (status == PENDRES_OK) c->strobes = n;
+  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
+}
+
+/* The strobes of a chunk have their place among those of the cloud, as many as are written; a cloud
+   of which a part fails has its first failure. */
+static pendres_status collect_chunk(void *arg, size_t task, const farm_record *in)
+{
+  cloud_work *w = arg;
+  const chunk *c = in->data;
+  const size_t number = task / w->chunks;
+  size_t first, count;
+  if (in->size == 0) return PENDRES_OK;
+  scene_noise_chunk(w->trajectories, task % w->chunks, &first, &count);
+  const double *x = (const double *)(c + 1), *v = x + c->strobes;
+  const size_t begin = first * (size_t)w->record;
+  w->parts[task] = c->part;
+  for (size_t k = 0; k < c->strobes && begin + k < w->strobes; k++) {
+    w->x[number * w->strobes + begin + k] = x[k];
+    w->v[number * w->strobes + begin + k] = v[k];
+  }
+  if (w->parts_failed.reason[number] == SCENE_FAILURE_NONE)
+    scene_failures_take(&w->parts_failed, number, &c->verdict);
+  return PENDRES_OK;
 }
 
 /* Nothing is left of a cloud that is broken, but the reason why. */
@@ -165,10 +218,9 @@ static void empty_broken(cloud_work *w, size_t number)
 {
   cloud *c = &w->clouds[number];
   const pendres_langevin_estimate none = { NAN, NAN };
-  for (size_t k = number * w->chunks; k < (number + 1) * w->chunks && !is_broken(w, number); k++)
-    if (w->tasks.reason[k] != SCENE_FAILURE_NONE)
-      scene_failures_mark(&w->failed, number, (scene_failure)w->tasks.reason[k],
-                          w->tasks.words[k]);
+  if (w->parts_failed.reason[number] != SCENE_FAILURE_NONE)
+    scene_failures_mark(&w->failed, number, (scene_failure)w->parts_failed.reason[number],
+                        w->parts_failed.words[number]);
   if (!is_broken(w, number)) return;
   c->compared = c->narrow = 0;
   c->bias.steps_per_period = 0;
@@ -189,13 +241,18 @@ static pendres_status compute(scene_run *run, cloud_work *w)
   w->v = malloc(n * w->strobes * sizeof *w->v);
   if (w->clouds == NULL || w->parts == NULL || w->x == NULL || w->v == NULL ||
       scene_failures_create(n, &w->failed) != PENDRES_OK ||
-      scene_failures_create(n * w->chunks, &w->tasks) != PENDRES_OK)
+      scene_failures_create(n, &w->parts_failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
   for (size_t i = 0; i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
-  pendres_status status = farm_run(run->farm, "choices of steps", n, choose, NULL, w);
+  pendres_status status =
+    scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = n, .task = choose,
+                                      .record_size = sizeof(choice), .collect = collect_choice,
+                                      .arg = w });
   if (status == PENDRES_OK)
-    status = farm_run(run->farm, "chunks of clouds", n * w->chunks, measure, NULL, w);
-  if (status != PENDRES_OK) return scene_farm_failed(run, status);
+    status = scene_compute(run, &(farm_stage){ .what = "chunks of clouds", .tasks = n * w->chunks,
+                                               .task = measure, .collect = collect_chunk,
+                                               .arg = w });
+  if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < n; i++) empty_broken(w, i);
   for (size_t i = 0; i < n; i++)
     if (is_followed(w, i))
@@ -206,7 +263,7 @@ static pendres_status compute(scene_run *run, cloud_work *w)
 pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractors *set)
 {
   const deck *d = run->deck;
-  cloud_work w = { .d = d, .farm = run->farm, .set = set,
+  cloud_work w = { .d = d, .set = set,
              .temperatures = d->axis[DECK_AXIS_TEMPERATURE].count,
              .attractors = pendres_attractors_count(set), .strobes = (size_t)d->basins.strobes,
              .trajectories = (size_t)d->basins.trajectories };
@@ -221,7 +278,7 @@ pendres_status scene_basins_write_clouds(scene_run *run, const pendres_attractor
   if (status == PENDRES_OK) status = scene_basins_clouds_write(run, &w);
   if (status == PENDRES_OK && run->table != NULL) scene_basins_clouds_print(run->table, &w);
   scene_failures_free(&w.failed);
-  scene_failures_free(&w.tasks);
+  scene_failures_free(&w.parts_failed);
   free(w.clouds);
   free(w.parts);
   free(w.x);

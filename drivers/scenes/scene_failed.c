@@ -70,12 +70,23 @@ void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, 
   f->reason[point] = (int8_t)reason;
 }
 
-pendres_status scene_failures_note(scene_failures *f, size_t point, pendres_status status,
-                                   const char *words)
+void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v)
+{
+  if (v->reason != SCENE_FAILURE_NONE)
+    scene_failures_mark(f, point, (scene_failure)v->reason, v->words);
+}
+
+void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words)
+{
+  v->reason = (int32_t)reason;
+  snprintf(v->words, sizeof v->words, "%s", words != NULL ? words : "");
+}
+
+pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words)
 {
   const scene_failure reason = scene_failure_of(status);
   if (reason == SCENE_FAILURE_NONE) return status;
-  scene_failures_mark(f, point, reason, words);
+  scene_verdict_mark(v, reason, words);
   return PENDRES_OK;
 }
 

@@ -44,6 +44,19 @@ scene_failure scene_failure_of(pendres_status status);
  */
 int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
 
+/* What became of a point, for the record of a task; zero: nothing failed. */
+typedef struct scene_verdict {
+  int32_t reason;         /* a scene_failure */
+  char words[SCENE_TOLD]; /* the library's own; "": those of the list */
+} scene_verdict;
+
+/* Say why a point has no whole result; words NULL: those of the list. The last mark counts. */
+void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words);
+
+/* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
+   it is. words: the message of the context that failed. */
+pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words);
+
 /* The reasons of n points; all SCENE_FAILURE_NONE at first. */
 typedef struct scene_failures {
   size_t n;
@@ -55,14 +68,11 @@ typedef struct scene_failures {
 pendres_status scene_failures_create(size_t n, scene_failures *out);
 void scene_failures_free(scene_failures *f);
 
-/* Mark a point; the last mark counts. words are copied; NULL: those of the list. Several threads
-   may mark different points at a time. */
+/* Mark a point; the last mark counts. words are copied; NULL: those of the list. */
 void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words);
 
-/* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
-   it is. words: the message of the context that failed. */
-pendres_status scene_failures_note(scene_failures *f, size_t point, pendres_status status,
-                                   const char *words);
+/* Take over what a record says of a point; what does not fail changes nothing. */
+void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v);
 
 /*
  * Write the variable `name` over `axes` axes of the deck, slowest first, whose dimensions exist;

@@ -18,24 +18,50 @@ typedef struct work {
   scene_failures failed;
 } work;
 
-static pendres_status integrate(void *arg, size_t task, pendres_context *ctx)
+/* What a task finds. */
+typedef struct record {
+  double frequency[CHUNK], error[CHUNK];
+  scene_verdict verdict[CHUNK];
+} record;
+
+static size_t count_of(const work *w, size_t task)
 {
-  work *w = arg;
-  const size_t first = task * CHUNK;
-  const size_t n = w->count - first < CHUNK ? w->count - first : CHUNK;
-  pendres_status status = pendres_free_frequency_integrate(
-    ctx, n, w->amplitude + first, w->frequency + first, w->error + first);
+  const size_t left = w->count - task * CHUNK;
+  return left < CHUNK ? left : CHUNK;
+}
+
+static pendres_status integrate(const void *arg, size_t task, pendres_context *ctx,
+                                farm_record *out)
+{
+  const work *w = arg;
+  record *r = out->data;
+  const double *amplitude = w->amplitude + task * CHUNK;
+  const size_t n = count_of(w, task);
+  pendres_status status =
+    pendres_free_frequency_integrate(ctx, n, amplitude, r->frequency, r->error);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
   /* What cannot be had of several at a time is had, or not, of each. */
   status = PENDRES_OK;
-  for (size_t i = first; i < first + n && status == PENDRES_OK; i++) {
-    status = pendres_free_frequency_integrate(ctx, 1, &w->amplitude[i], &w->frequency[i],
-                                              &w->error[i]);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    status =
+      pendres_free_frequency_integrate(ctx, 1, &amplitude[i], &r->frequency[i], &r->error[i]);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
-    w->frequency[i] = w->error[i] = NAN;
-    status = scene_failures_note(&w->failed, i, status, pendres_context_message(ctx));
+    r->frequency[i] = r->error[i] = NAN;
+    status = scene_verdict_note(&r->verdict[i], status, pendres_context_message(ctx));
   }
   return status;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const record *r = in->data;
+  for (size_t i = 0; i < count_of(w, task); i++) {
+    w->frequency[task * CHUNK + i] = r->frequency[i];
+    w->error[task * CHUNK + i] = r->error[i];
+    scene_failures_take(&w->failed, task * CHUNK + i, &r->verdict[i]);
+  }
+  return PENDRES_OK;
 }
 
 /*
@@ -112,8 +138,10 @@ static pendres_status run(scene_run *r)
     return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
   }
 
-  status = farm_run(r->farm, "blocks of amplitudes", (n + CHUNK - 1) / CHUNK, integrate, NULL, &w);
-  if (status != PENDRES_OK) (void)scene_farm_failed(r, status);
+  status = scene_compute(r, &(farm_stage){ .what = "blocks of amplitudes",
+                                           .tasks = (n + CHUNK - 1) / CHUNK, .task = integrate,
+                                           .record_size = sizeof(record), .collect = collect,
+                                           .arg = &w });
   if (status == PENDRES_OK) status = put_formulas(r, &w, memory + 2 * n, memory + 3 * n);
   if (status == PENDRES_OK)
     status = put(r, "frequency_integrated", "frequency by integration of the equation of motion",

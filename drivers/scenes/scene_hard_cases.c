@@ -9,45 +9,67 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "validation/hard_cases.h"
 
 typedef struct work {
+  farm *farm;
   const hard_case **chosen;
-  hard_sheet *sheet; /* one for each */
-  size_t count, rows;
+  size_t count;  /* of these */
+  hard_row *row; /* of all of them, in order */
+  size_t rows;
 } work;
 
 /* ---- computing ----------------------------------------------------------------------------- */
 
-static pendres_status run_case(void *arg, size_t task, pendres_context *ctx)
+/* A task's record: the rows of its case. */
+static pendres_status run_case(const void *arg, size_t task, pendres_context *ctx,
+                               farm_record *out)
 {
-  work *w = arg;
-  hard_sheet *sheet = &w->sheet[task];
-  const char *name = w->chosen[task]->name;
-  char quantity[sizeof sheet->row->quantity];
+  const work *w = arg;
+  hard_sheet sheet = { .scale = 1.0, .stop = farm_stopped, .stop_arg = w->farm };
+  char quantity[sizeof sheet.row->quantity];
   (void)ctx; /* each case has contexts of its own */
-  const pendres_status status = w->chosen[task]->run(sheet);
-  if (status == PENDRES_OK || status == PENDRES_INTERRUPTED || status == PENDRES_OUT_OF_MEMORY)
-    return status;
-  (void)snprintf(quantity, sizeof quantity, "gave up: %.140s", sheet->message);
-  return hard_sheet_add(sheet, name, quantity, NAN, NAN, NAN);
+  pendres_status status = w->chosen[task]->run(&sheet);
+  if (status != PENDRES_OK && status != PENDRES_INTERRUPTED && status != PENDRES_OUT_OF_MEMORY) {
+    (void)snprintf(quantity, sizeof quantity, "gave up: %.140s", sheet.message);
+    status = hard_sheet_add(&sheet, w->chosen[task]->name, quantity, NAN, NAN, NAN);
+  }
+  hard_row *row = NULL;
+  if (status == PENDRES_OK) {
+    row = farm_record_resize(out, sheet.count * sizeof *row);
+    if (row == NULL) status = PENDRES_OUT_OF_MEMORY;
+  }
+  if (row != NULL && sheet.count > 0) memcpy(row, sheet.row, sheet.count * sizeof *row);
+  hard_sheet_clear(&sheet);
+  return status;
 }
 
-static pendres_status choose(const deck *d, farm *f, work *w)
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const size_t n = in->size / sizeof *w->row;
+  (void)task;
+  if (n == 0) return PENDRES_OK;
+  hard_row *row = realloc(w->row, (w->rows + n) * sizeof *row);
+  if (row == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(row + w->rows, in->data, in->size);
+  w->row = row;
+  w->rows += n;
+  return PENDRES_OK;
+}
+
+static pendres_status choose(const deck *d, work *w)
 {
   size_t all = 0;
   while (hard_case_at(all) != NULL) all++;
   w->count = d->cases.count > 0 ? d->cases.count : all;
   w->chosen = calloc(w->count, sizeof *w->chosen);
-  w->sheet = calloc(w->count, sizeof *w->sheet);
-  if (w->chosen == NULL || w->sheet == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (w->chosen == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < w->count; i++) {
     w->chosen[i] = d->cases.count > 0 ? hard_case_find(d->cases.name[i]) : hard_case_at(i);
     if (w->chosen[i] == NULL) return PENDRES_INTERNAL; /* the deck reader knows the same names */
-    w->sheet[i].scale = 1.0;
-    w->sheet[i].stop = farm_stopped;
-    w->sheet[i].stop_arg = f;
   }
   return PENDRES_OK;
 }
@@ -71,23 +93,21 @@ static void columns_free(columns *c)
 static pendres_status columns_make(const work *w, columns *c)
 {
   const size_t n = w->rows;
-  size_t k = 0;
   c->name = malloc(2 * n * sizeof *c->name);
   c->bound = malloc(3 * n * sizeof *c->bound);
   c->holds = malloc(n);
   if (c->name == NULL || c->bound == NULL || c->holds == NULL) return PENDRES_OUT_OF_MEMORY;
   c->quantity = c->name + n;
   c->figure = c->bound + n, c->naive = c->figure + n;
-  for (size_t i = 0; i < w->count; i++)
-    for (size_t r = 0; r < w->sheet[i].count; r++, k++) {
-      const hard_row *row = &w->sheet[i].row[r];
-      c->name[k] = row->name;
-      c->quantity[k] = row->quantity;
-      c->bound[k] = row->bound;
-      c->figure[k] = row->figure;
-      c->naive[k] = row->naive;
-      c->holds[k] = (int8_t)hard_row_holds(row);
-    }
+  for (size_t k = 0; k < n; k++) {
+    const hard_row *row = &w->row[k];
+    c->name[k] = row->name;
+    c->quantity[k] = row->quantity;
+    c->bound[k] = row->bound;
+    c->figure[k] = row->figure;
+    c->naive[k] = row->naive;
+    c->holds[k] = (int8_t)hard_row_holds(row);
+  }
   return PENDRES_OK;
 }
 
@@ -118,12 +138,11 @@ static void print_table(FILE *out, const work *w)
 {
   fprintf(out, "%-26s %9s %9s %5s %9s  %s\n", "case", "bound", "figure", "holds", "naive",
           "quantity");
-  for (size_t i = 0; i < w->count; i++)
-    for (size_t r = 0; r < w->sheet[i].count; r++) {
-      const hard_row *row = &w->sheet[i].row[r];
-      fprintf(out, "%-26s %9.2e %9.2e %5s %9.2e  %s\n", row->name, row->bound, row->figure,
-              hard_row_holds(row) ? "yes" : "NO", row->naive, row->quantity);
-    }
+  for (size_t k = 0; k < w->rows; k++) {
+    const hard_row *row = &w->row[k];
+    fprintf(out, "%-26s %9.2e %9.2e %5s %9.2e  %s\n", row->name, row->bound, row->figure,
+            hard_row_holds(row) ? "yes" : "NO", row->naive, row->quantity);
+  }
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -131,11 +150,7 @@ static void print_table(FILE *out, const work *w)
 static pendres_status report(scene_run *run, work *w)
 {
   columns c = { 0 };
-  for (size_t i = 0; i < w->count; i++) {
-    w->rows += w->sheet[i].count;
-    for (size_t r = 0; r < w->sheet[i].count; r++)
-      run->failed_points += !hard_row_holds(&w->sheet[i].row[r]);
-  }
+  for (size_t k = 0; k < w->rows; k++) run->failed_points += !hard_row_holds(&w->row[k]);
   pendres_status status = columns_make(w, &c);
   if (status != PENDRES_OK)
     (void)scene_fail(run, status, "out of memory for %zu rows", w->rows);
@@ -148,18 +163,15 @@ static pendres_status report(scene_run *run, work *w)
 
 static pendres_status run_scene(scene_run *run)
 {
-  work w = { 0 };
-  pendres_status status = choose(run->deck, run->farm, &w);
-  if (status != PENDRES_OK) {
+  work w = { .farm = run->farm };
+  pendres_status status = choose(run->deck, &w);
+  if (status != PENDRES_OK)
     (void)scene_fail(run, status, "%s", pendres_status_message(status));
-    goto done;
-  }
-  status = farm_run(run->farm, "cases", w.count, run_case, NULL, &w);
-  if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
-  else status = report(run, &w);
-done:
-  for (size_t i = 0; w.sheet != NULL && i < w.count; i++) hard_sheet_clear(&w.sheet[i]);
-  free(w.sheet);
+  else
+    status = scene_compute(run, &(farm_stage){ .what = "cases", .tasks = w.count,
+                                               .task = run_case, .collect = collect, .arg = &w });
+  if (status == PENDRES_OK) status = report(run, &w);
+  free(w.row);
   free(w.chosen);
   return status;
 }

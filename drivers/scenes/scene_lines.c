@@ -13,116 +13,212 @@ enum {
 
 /* ---- a line -------------------------------------------------------------------------------- */
 
+/* A line in the making. */
+typedef struct draft {
+  scene_line line;
+  pendres_pendulum *pendulum; /* [drive] */
+  scene_verdict *verdict;     /* [drive] */
+} draft;
+
+static pendres_status draft_create(const scene_lines *l, draft *d)
+{
+  *d = (draft){ .pendulum = calloc(l->drives, sizeof *d->pendulum),
+                .verdict = calloc(l->drives, sizeof *d->verdict) };
+  d->line.points = calloc(l->drives, sizeof *d->line.points);
+  d->line.place = calloc(l->drives, sizeof *d->line.place);
+  const int good = d->pendulum != NULL && d->verdict != NULL && d->line.points != NULL &&
+                   d->line.place != NULL;
+  return good ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
+}
+
+static void line_free(scene_line *line)
+{
+  free(line->points);
+  free(line->place);
+  pendres_branches_free(line->branches);
+  *line = (scene_line){ 0 };
+}
+
+static void draft_free(draft *d)
+{
+  line_free(&d->line);
+  free(d->pendulum);
+  free(d->verdict);
+}
+
 /* Which of a line's drives can be computed at all: the others are marked. Costly, and done only
    where a line has failed. */
-static pendres_status find_good(scene_lines *l, size_t task, pendres_context *ctx,
-                                const pendres_pendulum *p)
+static pendres_status find_good(const scene_lines *l, pendres_context *ctx, draft *d)
 {
-  scene_line *line = &l->line[task];
+  scene_line *line = &d->line;
   line->count = 0;
   for (size_t k = 0; k < l->drives; k++) {
     pendres_response r;
     char words[120];
-    if (scene_failure_too_long(&p[k], RUNS_A_POINT, words, sizeof words)) {
-      scene_failures_mark(&l->failed, task * l->drives + k, SCENE_FAILURE_TOO_LONG, words);
+    if (scene_failure_too_long(&d->pendulum[k], RUNS_A_POINT, words, sizeof words)) {
+      scene_verdict_mark(&d->verdict[k], SCENE_FAILURE_TOO_LONG, words);
       line->place[k] = SIZE_MAX;
       continue;
     }
-    const pendres_status status = pendres_response_compute(ctx, 1, &p[k], &l->ensemble, &r);
+    const pendres_status status =
+      pendres_response_compute(ctx, 1, &d->pendulum[k], &l->ensemble, &r);
     line->place[k] = status == PENDRES_OK ? line->count++ : SIZE_MAX;
-    const pendres_status rest = scene_failures_note(&l->failed, task * l->drives + k, status,
-                                                    pendres_context_message(ctx));
+    const pendres_status rest =
+      scene_verdict_note(&d->verdict[k], status, pendres_context_message(ctx));
     if (rest != PENDRES_OK) return rest;
   }
   return PENDRES_OK;
 }
 
 /* Mark all points of a line; those computed before keep their values. */
-static pendres_status note_line(scene_lines *l, size_t task, pendres_status status,
+static pendres_status note_line(const scene_lines *l, draft *d, pendres_status status,
                                 const char *words)
 {
   pendres_status rest = status;
   for (size_t k = 0; k < l->drives; k++)
-    if (l->line[task].place[k] != SIZE_MAX)
-      rest = scene_failures_note(&l->failed, task * l->drives + k, status, words);
+    if (d->line.place[k] != SIZE_MAX) rest = scene_verdict_note(&d->verdict[k], status, words);
   return rest;
 }
 
-static pendres_status compute_good(scene_lines *l, size_t task, pendres_context *ctx,
-                                   pendres_pendulum *p)
+static pendres_status compute_good(const scene_lines *l, pendres_context *ctx, draft *d)
 {
-  scene_line *line = &l->line[task];
+  scene_line *line = &d->line;
   for (size_t k = 0; k < l->drives; k++)
-    if (line->place[k] != SIZE_MAX) p[line->place[k]] = p[k];
-  pendres_status status = pendres_phase_line(ctx, line->count, p, &l->ensemble, l->spacing,
-                                             line->points, &line->branches);
+    if (line->place[k] != SIZE_MAX) d->pendulum[line->place[k]] = d->pendulum[k];
+  pendres_status status = pendres_phase_line(ctx, line->count, d->pendulum, &l->ensemble,
+                                             l->spacing, line->points, &line->branches);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
-  status = note_line(l, task, status, pendres_context_message(ctx));
+  status = note_line(l, d, status, pendres_context_message(ctx));
   for (size_t k = 0; k < l->drives; k++) line->place[k] = SIZE_MAX;
   line->count = 0;
   return status;
 }
 
-static void judge_line(scene_lines *l, size_t task)
+static void judge_line(const scene_lines *l, draft *d)
 {
-  const scene_line *line = &l->line[task];
+  const scene_line *line = &d->line;
   for (size_t k = 0; k < l->drives; k++) {
     char words[80];
     if (line->place[k] == SIZE_MAX || line->points[line->place[k]].unresolved == 0) continue;
     snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
              "do", line->points[line->place[k]].unresolved, l->ensemble.members);
-    scene_failures_mark(&l->failed, task * l->drives + k, SCENE_FAILURE_UNRESOLVED, words);
+    scene_verdict_mark(&d->verdict[k], SCENE_FAILURE_UNRESOLVED, words);
   }
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+/* The record of a line: these counts, the place of each drive, the points, the branches, and what
+   became of each drive. */
+typedef struct line_head {
+  size_t count, branches; /* points; bytes */
+} line_head;
+
+static pendres_status pack_line(const scene_lines *l, const draft *d, farm_record *out)
+{
+  const scene_line *line = &d->line;
+  const line_head head = { line->count, pendres_branches_packed_size(line->branches) };
+  const size_t sizes[] = { l->drives * sizeof *line->place, head.count * sizeof *line->points,
+                           head.branches, l->drives * sizeof *d->verdict };
+  char *to = farm_record_resize(out, sizeof head + sizes[0] + sizes[1] + sizes[2] + sizes[3]);
+  if (to == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(to, &head, sizeof head), to += sizeof head;
+  memcpy(to, line->place, sizes[0]), to += sizes[0];
+  memcpy(to, line->points, sizes[1]), to += sizes[1];
+  pendres_branches_pack(line->branches, to), to += sizes[2];
+  memcpy(to, d->verdict, sizes[3]);
+  return PENDRES_OK;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   scene_lines *l = arg;
-  scene_line *line = &l->line[task];
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_pendulum *p = calloc(l->drives, sizeof *p);
-  line->points = calloc(l->drives, sizeof *line->points);
-  line->place = calloc(l->drives, sizeof *line->place);
-  if (p == NULL || line->points == NULL || line->place == NULL) goto done;
+  line_head head;
+  draft d;
+  pendres_status status = draft_create(l, &d);
+  const char *from = in->data;
+  if (status != PENDRES_OK) goto done;
+  memcpy(&head, from, sizeof head), from += sizeof head;
+  d.line.count = head.count;
+  memcpy(d.line.place, from, l->drives * sizeof *d.line.place);
+  from += l->drives * sizeof *d.line.place;
+  memcpy(d.line.points, from, head.count * sizeof *d.line.points);
+  from += head.count * sizeof *d.line.points;
+  status = pendres_branches_unpack(head.branches, from, &d.line.branches);
+  if (status != PENDRES_OK) goto done;
+  memcpy(d.verdict, from + head.branches, l->drives * sizeof *d.verdict);
+  for (size_t k = 0; k < l->drives; k++)
+    scene_failures_take(&l->failed, task * l->drives + k, &d.verdict[k]);
+  line_free(&l->line[task]);
+  l->line[task] = d.line;
+  d.line = (scene_line){ 0 };
+done:
+  draft_free(&d);
+  return status;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const scene_lines *l = arg;
   int too_long = 0;
+  draft d;
+  pendres_status status = draft_create(l, &d);
+  if (status != PENDRES_OK) goto done;
   for (size_t k = 0; k < l->drives; k++) {
     char words[120];
-    p[k] = pendres_sweep_pendulum(&l->sweep, task * l->drives + k, NULL, NULL);
-    line->place[k] = k;
-    too_long |= scene_failure_too_long(&p[k], RUNS_A_POINT, words, sizeof words);
+    d.pendulum[k] = pendres_sweep_pendulum(&l->sweep, task * l->drives + k, NULL, NULL);
+    d.line.place[k] = k;
+    too_long |= scene_failure_too_long(&d.pendulum[k], RUNS_A_POINT, words, sizeof words);
   }
-  line->count = l->drives;
+  d.line.count = l->drives;
   status = too_long ? PENDRES_NOT_CONVERGED
-                    : pendres_phase_line(ctx, l->drives, p, &l->ensemble, l->spacing,
-                                         line->points, &line->branches);
+                    : pendres_phase_line(ctx, l->drives, d.pendulum, &l->ensemble, l->spacing,
+                                         d.line.points, &d.line.branches);
   if (scene_failure_of(status) != SCENE_FAILURE_NONE) {
-    status = find_good(l, task, ctx, p);
-    if (status == PENDRES_OK) status = compute_good(l, task, ctx, p);
+    status = find_good(l, ctx, &d);
+    if (status == PENDRES_OK) status = compute_good(l, ctx, &d);
   }
-  if (status == PENDRES_OK) judge_line(l, task);
+  if (status == PENDRES_OK) judge_line(l, &d);
+  if (status == PENDRES_OK) status = pack_line(l, &d, out);
 done:
-  free(p);
+  draft_free(&d);
+  return status;
+}
+
+/* The branches once more: those of all lines are not to be changed by a task. */
+static pendres_status copy_branches(const pendres_branches *from, pendres_branches **to)
+{
+  const size_t size = pendres_branches_packed_size(from);
+  void *bytes = malloc(size);
+  if (bytes == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_branches_pack(from, bytes);
+  const pendres_status status = pendres_branches_unpack(size, bytes, to);
+  free(bytes);
   return status;
 }
 
 /* What the curves tell, if it can be had; the line stays as it was if not. */
-static pendres_status complete(void *arg, size_t task, pendres_context *ctx)
+static pendres_status complete(const void *arg, size_t task, pendres_context *ctx,
+                               farm_record *out)
 {
-  scene_lines *l = arg;
-  scene_line *line = &l->line[task];
-  if (line->count == 0) return PENDRES_OK;
+  const scene_lines *l = arg;
+  const scene_line *line = &l->line[task];
   const size_t size = line->count * sizeof *line->points;
-  pendres_phase_point *before = malloc(size);
-  if (before == NULL) return PENDRES_OUT_OF_MEMORY;
-  memcpy(before, line->points, size);
-  pendres_status status =
-    pendres_phase_line_complete(ctx, line->count, l->curves.curves, &l->ensemble, l->spacing,
-                                line->points, line->branches);
+  draft d;
+  pendres_status status = draft_create(l, &d);
+  if (status == PENDRES_OK) status = copy_branches(line->branches, &d.line.branches);
+  if (status != PENDRES_OK) goto done;
+  d.line.count = line->count;
+  memcpy(d.line.place, line->place, l->drives * sizeof *line->place);
+  memcpy(d.line.points, line->points, size);
+  if (line->count > 0)
+    status = pendres_phase_line_complete(ctx, line->count, l->curves.curves, &l->ensemble,
+                                         l->spacing, d.line.points, d.line.branches);
   if (scene_failure_of(status) != SCENE_FAILURE_NONE) {
-    memcpy(line->points, before, size);
-    status = note_line(l, task, status, pendres_context_message(ctx));
+    memcpy(d.line.points, line->points, size);
+    status = note_line(l, &d, status, pendres_context_message(ctx));
   }
-  free(before);
+  if (status == PENDRES_OK) status = pack_line(l, &d, out);
+done:
+  draft_free(&d);
   return status;
 }
 
@@ -177,9 +273,10 @@ static pendres_status follow_curves(scene_lines *l)
     before = l->curves.count;
     status = scene_curves_follow(l->run, &l->curves);
     if (status != PENDRES_OK) return status;
-    status = farm_run(l->run->farm, "lines", l->dampings, complete, NULL, l);
-    if (status != PENDRES_OK) return scene_farm_failed(l->run, status);
-    status = gather(l);
+    status = scene_compute(l->run, &(farm_stage){ .what = "lines", .tasks = l->dampings,
+                                                  .task = complete, .collect = collect,
+                                                  .arg = l });
+    if (status == PENDRES_OK) status = gather(l);
   }
   return status;
 }
@@ -202,18 +299,15 @@ pendres_status scene_lines_compute(scene_run *run, scene_lines *l)
   l->line = calloc(l->dampings, sizeof *l->line);
   if (l->line == NULL || scene_failures_create(l->dampings * l->drives, &l->failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lines", l->dampings);
-  pendres_status status = farm_run(run->farm, "dampings", l->dampings, compute, NULL, l);
-  if (status != PENDRES_OK) return scene_farm_failed(run, status);
-  return follow_curves(l);
+  const pendres_status status =
+    scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = l->dampings, .task = compute,
+                                      .collect = collect, .arg = l });
+  return status == PENDRES_OK ? follow_curves(l) : status;
 }
 
 void scene_lines_free(scene_lines *l)
 {
-  for (size_t i = 0; i < l->dampings && l->line != NULL; i++) {
-    free(l->line[i].points);
-    free(l->line[i].place);
-    pendres_branches_free(l->line[i].branches);
-  }
+  for (size_t i = 0; i < l->dampings && l->line != NULL; i++) line_free(&l->line[i]);
   free(l->line);
   scene_curves_free(&l->curves);
   scene_failures_free(&l->failed);

@@ -21,34 +21,47 @@ enum {
   WANDERING = 100 /* periods before a chaotic orbit is recorded */
 };
 
-typedef struct work {
-  const deck *d;
-  pendres_pendulum pendulum;
-  int transient;
-  size_t points;                 /* periods * samples */
-  double *x, *v, *x_error, *v_error; /* points + 1 each */
+/* What the task finds of the pendulum; in its record, the samples follow it: x, v and their errors,
+   `room` of each. */
+typedef struct found {
   pendres_label label;
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
   double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
-  char message[256];             /* why there is no such attractor; "" */
+} found;
+
+typedef struct work {
+  const deck *d;
+  pendres_pendulum pendulum;
+  int transient;
+  size_t points, room;               /* periods * samples, and one more */
+  found found;
+  double *x, *v, *x_error, *v_error; /* [room] */
 } work;
+
+static void place_samples(work *w, double *memory)
+{
+  w->x = memory;
+  w->v = w->x + w->room;
+  w->x_error = w->v + w->room;
+  w->v_error = w->x_error + w->room;
+}
 
 /* ---- what the pendulum settles on ---------------------------------------------------------- */
 
 static void keep_orbit(work *w, const pendres_attractor *a)
 {
-  w->label = a->label;
-  w->closed = a->label != PENDRES_LABEL_CHAOTIC;
-  w->orbit = a->orbit;
-  w->lyapunov = a->lyapunov;
-  w->lyapunov_error = a->lyapunov_error;
-  w->drift = a->drift;
-  w->drift_error = a->drift_error;
-  w->watched_periods = a->watched_periods;
-  w->escape_rate_bound = a->escape_rate_bound;
+  w->found.label = a->label;
+  w->found.closed = a->label != PENDRES_LABEL_CHAOTIC;
+  w->found.orbit = a->orbit;
+  w->found.lyapunov = a->lyapunov;
+  w->found.lyapunov_error = a->lyapunov_error;
+  w->found.drift = a->drift;
+  w->found.drift_error = a->drift_error;
+  w->found.watched_periods = a->watched_periods;
+  w->found.escape_rate_bound = a->escape_rate_bound;
 }
 
 /* "sa, la": what there is instead. */
@@ -60,7 +73,7 @@ static void list_labels(const pendres_attractors *set, char *text, size_t size)
              pendres_label_name(pendres_attractors_get(set, i)->label));
 }
 
-static pendres_status find_named(work *w, pendres_context *ctx)
+static pendres_status find_named(work *w, pendres_context *ctx, farm_record *out)
 {
   pendres_attractors *set = NULL;
   pendres_status status = pendres_attractors_find(ctx, &w->pendulum, 0, NULL, NULL, &set);
@@ -78,7 +91,7 @@ static pendres_status find_named(work *w, pendres_context *ctx)
   if (status != PENDRES_OK) {
     char list[100];
     list_labels(set, list, sizeof list);
-    snprintf(w->message, sizeof w->message,
+    snprintf(out->message, sizeof out->message,
              "there is no attractor '%s' at these parameters; found: %s", w->d->orbit.start,
              list[0] != '\0' ? list : "none");
   }
@@ -90,15 +103,15 @@ static pendres_status find_from_start(work *w, pendres_context *ctx)
 {
   pendres_attractors *set = NULL;
   pendres_outcome outcome = { .label = PENDRES_LABEL_UNRESOLVED, .settling_periods = -1 };
-  w->label = PENDRES_LABEL_UNRESOLVED;
+  w->found.label = PENDRES_LABEL_UNRESOLVED;
   if (w->pendulum.damping == 0.0) return PENDRES_OK; /* nothing attracts without friction */
   const pendres_status status = pendres_settle(ctx, 1, &w->pendulum, &w->d->orbit.x,
                                                &w->d->orbit.v, &outcome, &set);
   if (status == PENDRES_OK && outcome.attractor >= 0) {
     const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
     if (a != NULL) keep_orbit(w, a);
-    w->well = outcome.well;
-    w->settling_periods = outcome.settling_periods;
+    w->found.well = outcome.well;
+    w->found.settling_periods = outcome.settling_periods;
   }
   pendres_attractors_free(set);
   return status;
@@ -112,19 +125,19 @@ static pendres_status find_from_start(work *w, pendres_context *ctx)
  */
 static pendres_status sample_orbit(work *w, pendres_context *ctx)
 {
-  const size_t count = (size_t)w->d->orbit.samples, n = count * (size_t)w->orbit.period;
-  const double point = 2.0 * (w->orbit.x_error + w->orbit.v_error);
-  pendres_orbit finer = w->orbit;
+  const size_t count = (size_t)w->d->orbit.samples, n = count * (size_t)w->found.orbit.period;
+  const double point = 2.0 * (w->found.orbit.x_error + w->found.orbit.v_error);
+  pendres_orbit finer = w->found.orbit;
   double *memory = malloc(4 * n * sizeof *memory);
   if (memory == NULL) return PENDRES_OUT_OF_MEMORY;
   double *x = memory, *v = x + n, *x2 = v + n, *v2 = x2 + n;
   finer.steps = (7 * finer.steps + 4) / 5;
 
-  pendres_status status = pendres_orbit_sample(ctx, &w->orbit, (int)count, x, v);
+  pendres_status status = pendres_orbit_sample(ctx, &w->found.orbit, (int)count, x, v);
   if (status == PENDRES_OK) status = pendres_orbit_sample(ctx, &finer, (int)count, x2, v2);
   for (size_t k = 0; k < w->points && status == PENDRES_OK; k++) {
     const size_t i = k % n;
-    const double turns = (double)w->well + (double)w->orbit.winding * (double)(k / n);
+    const double turns = (double)w->found.well + (double)w->found.orbit.winding * (double)(k / n);
     w->x[k] = x2[i] + two_pi * turns;
     w->v[k] = v2[i];
     w->x_error[k] = fabs(x[i] - x2[i]) + point + eps * fabs(w->x[k]);
@@ -153,16 +166,33 @@ static void no_samples(work *w)
     w->x[k] = w->v[k] = w->x_error[k] = w->v_error[k] = NAN;
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+static pendres_status sample(work *w, pendres_context *ctx)
+{
+  if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) return sample_trajectory(w, ctx);
+  if (w->found.closed) return sample_orbit(w, ctx);
+  no_samples(w);
+  return PENDRES_OK;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  work w = *(const work *)arg;
+  (void)task;
+  const int named = w.d->orbit.start[0] != '\0';
+  place_samples(&w, (double *)((found *)out->data + 1));
+  pendres_status status = named ? find_named(&w, ctx, out) : find_from_start(&w, ctx);
+  if (status == PENDRES_OK) status = sample(&w, ctx);
+  *(found *)out->data = w.found;
+  return status;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
+  const found *f = in->data;
   (void)task;
-  const int named = w->d->orbit.start[0] != '\0';
-  pendres_status status = named ? find_named(w, ctx) : find_from_start(w, ctx);
-  if (status != PENDRES_OK) return status;
-  if (w->transient || w->label == PENDRES_LABEL_CHAOTIC) return sample_trajectory(w, ctx);
-  if (w->closed) return sample_orbit(w, ctx);
-  no_samples(w);
+  w->found = *f;
+  memcpy(w->x, f + 1, 4 * w->room * sizeof *w->x);
   return PENDRES_OK;
 }
 
@@ -213,8 +243,9 @@ static pendres_status put_samples(scene_run *run, const work *w)
 
 static pendres_status put_scalars(scene_run *run, const work *w)
 {
-  const pendres_orbit *o = &w->orbit;
-  const double waited = w->settling_periods >= 0 ? (double)w->settling_periods : NAN;
+  const found *f = &w->found;
+  const pendres_orbit *o = &f->orbit;
+  const double waited = f->settling_periods >= 0 ? (double)f->settling_periods : NAN;
   const struct {
     const char *name, *long_name, *units;
     double value, error;
@@ -234,22 +265,24 @@ static pendres_status put_scalars(scene_run *run, const work *w)
       CHAOTIC },
     { "period", "drive periods until the orbit closes", "1", o->period, 0.0, CLOSED },
     { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, CLOSED },
-    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)w->well : NAN, 0.0,
+    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)f->well : NAN, 0.0,
       CLOSED },
     { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
       ALWAYS },
-    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", w->lyapunov,
-      w->lyapunov_error, ALWAYS },
-    { "drift", "mean whole turns a drive period, of chaos", "1", w->drift, w->drift_error, CHAOTIC },
-    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers", "1",
-      w->watched_periods, 0.0, CHAOTIC },
+    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", f->lyapunov,
+      f->lyapunov_error, ALWAYS },
+    { "drift", "mean whole turns a drive period, of chaos", "1", f->drift, f->drift_error,
+      CHAOTIC },
+    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers",
+      "1",
+      f->watched_periods, 0.0, CHAOTIC },
     { "escape_rate_bound", "largest rate of ending, a drive period, that is not excluded at 95 %",
-      "1", w->escape_rate_bound, 0.0, CHAOTIC },
+      "1", f->escape_rate_bound, 0.0, CHAOTIC },
   };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
-    const int there = w->closed || scalars[i].of == ALWAYS ||
-                      (scalars[i].of == CHAOTIC && w->label == PENDRES_LABEL_CHAOTIC);
+    const int there = f->closed || scalars[i].of == ALWAYS ||
+                      (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
     const double value = there ? scalars[i].value : NAN;
     const double error = isnan(value) ? NAN : scalars[i].error;
     status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value,
@@ -260,14 +293,15 @@ static pendres_status put_scalars(scene_run *run, const work *w)
 
 static pendres_status put_label(scene_run *run, const work *w)
 {
+  const found *f = &w->found;
   const char *meanings[PENDRES_LABEL_COUNT];
-  const int8_t label = (int8_t)w->label;
+  const int8_t label = (int8_t)f->label;
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
     meanings[i] = pendres_label_name((pendres_label)i);
   const pendres_store_spec spec = { .name = "label", .type = PENDRES_STORE_INT8,
                                     .long_name = "kind of attractor",
                                     .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings };
-  const int lost = w->label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const int lost = f->label == PENDRES_LABEL_UNRESOLVED && !w->transient;
   const int8_t failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
   pendres_store_spec mark = { .name = "failed", .long_name = "why there is no orbit" };
   scene_failure_flags(&mark);
@@ -280,38 +314,40 @@ static pendres_status put_label(scene_run *run, const work *w)
 
 static pendres_status put_multipliers(scene_run *run, const work *w)
 {
+  const found *f = &w->found;
   const double nan[MULTIPLIERS] = { NAN, NAN };
-  const double error[MULTIPLIERS] = { w->orbit.multiplier_error, w->orbit.multiplier_error };
+  const double error[MULTIPLIERS] = { f->orbit.multiplier_error, f->orbit.multiplier_error };
   pendres_status status = pendres_store_dimension(run->store, NULL, "multiplier", MULTIPLIERS, NULL,
                                                   "number of the Floquet multiplier", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   status = put(run, "multiplier_re", "multiplier", "Floquet multiplier, real part", "1",
-               w->closed ? w->orbit.multiplier_re : nan, w->closed ? error : nan, MULTIPLIERS);
+               f->closed ? f->orbit.multiplier_re : nan, f->closed ? error : nan, MULTIPLIERS);
   if (status == PENDRES_OK)
     status = put(run, "multiplier_im", "multiplier", "Floquet multiplier, imaginary part", "1",
-                 w->closed ? w->orbit.multiplier_im : nan, w->closed ? error : nan, MULTIPLIERS);
+                 f->closed ? f->orbit.multiplier_im : nan, f->closed ? error : nan, MULTIPLIERS);
   return status;
 }
 
 static void tabulate(FILE *out, const work *w)
 {
-  const pendres_orbit *o = &w->orbit;
+  const found *f = &w->found;
+  const pendres_orbit *o = &f->orbit;
   if (out == NULL) return;
-  fprintf(out, "%-26s %s\n", "label", pendres_label_name(w->label));
-  if (w->settling_periods >= 0)
-    fprintf(out, "%-26s %ld\n", "settling periods", w->settling_periods);
-  if (isfinite(w->lyapunov))
-    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", w->closed ? 12 : 6, w->lyapunov,
-            w->lyapunov_error);
-  if (w->label == PENDRES_LABEL_CHAOTIC)
+  fprintf(out, "%-26s %s\n", "label", pendres_label_name(f->label));
+  if (f->settling_periods >= 0)
+    fprintf(out, "%-26s %ld\n", "settling periods", f->settling_periods);
+  if (isfinite(f->lyapunov))
+    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", f->closed ? 12 : 6, f->lyapunov,
+            f->lyapunov_error);
+  if (f->label == PENDRES_LABEL_CHAOTIC)
     fprintf(out, "%-26s %.4g drive periods; ends at less than %.1g a period, if at all\n"
                  "%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n",
-            "watched for", w->watched_periods, w->escape_rate_bound, "drift", w->drift,
-            w->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
+            "watched for", f->watched_periods, f->escape_rate_bound, "drift", f->drift,
+            f->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
             "mean amplitude", o->amplitude, o->amplitude_error);
-  if (!w->closed) return;
+  if (!f->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
-  if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", w->well);
+  if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", f->well);
   const struct { const char *name; double value, error; } rows[] = {
     { "amplitude", o->amplitude, o->amplitude_error },
     { "first harmonic amplitude", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error },
@@ -340,25 +376,24 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   work w = { .d = d, .points = (size_t)(d->orbit.periods * d->orbit.samples),
-             .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
-             .drift = NAN, .drift_error = NAN, .watched_periods = NAN, .escape_rate_bound = NAN,
+             .found = { .settling_periods = -1, .lyapunov = NAN, .lyapunov_error = NAN,
+                        .drift = NAN, .drift_error = NAN, .watched_periods = NAN,
+                        .escape_rate_bound = NAN },
              /* On a named attractor there is no transient. */
              .transient = d->orbit.transient && d->orbit.start[0] == '\0',
              .pendulum = { .damping = d->pendulum.damping,
                            .drive_amplitude = d->pendulum.drive_amplitude,
                            .drive_frequency = d->pendulum.drive_frequency } };
-  const size_t n = w.points + 1;
-  double *memory = malloc(4 * n * sizeof *memory);
+  w.room = w.points + 1;
+  const size_t bytes = 4 * w.room * sizeof *w.x;
+  double *memory = malloc(bytes);
   if (memory == NULL)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", w.points);
-  w.x = memory;
-  w.v = w.x + n;
-  w.x_error = w.v + n;
-  w.v_error = w.x_error + n;
-
-  pendres_status status = farm_run(run->farm, "orbits", 1, compute, NULL, &w);
-  if (status != PENDRES_OK && w.message[0] != '\0') (void)scene_fail(run, status, "%s", w.message);
-  else if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
+  place_samples(&w, memory);
+  pendres_status status =
+    scene_compute(run, &(farm_stage){ .what = "orbits", .tasks = 1, .task = compute,
+                                      .record_size = sizeof(found) + bytes, .collect = collect,
+                                      .arg = &w });
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);
   free(memory);

@@ -29,17 +29,35 @@ static void plan(const deck *d, FILE *out)
           d->pendulum.drive_amplitude, (long long)d->ensemble.members, d->search[0], d->search[1]);
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+/* What a task finds of its damping. */
+typedef struct record {
+  pendres_status outcome;
+  pendres_resonance point;
+  scene_verdict verdict;
+} record;
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
-  curve *c = arg;
+  const curve *c = arg;
+  record *r = out->data;
   pendres_pendulum p = pendres_sweep_pendulum(&c->sweep, task, NULL, NULL);
   p.drive_frequency = c->d->search[0];
-  c->outcome[task] = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
-                                                     &c->ensemble, &c->points[task]);
-  if (c->outcome[task] == PENDRES_OK && !c->points[task].complete)
-    scene_failures_mark(&c->failed, task, SCENE_FAILURE_BUDGET, NULL);
+  r->outcome = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
+                                               &c->ensemble, &r->point);
+  if (r->outcome == PENDRES_OK && !r->point.complete)
+    scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
   /* A damping whose area has no peak in the range is a point without a result, not a failure. */
-  return scene_failures_note(&c->failed, task, c->outcome[task], pendres_context_message(ctx));
+  return scene_verdict_note(&r->verdict, r->outcome, pendres_context_message(ctx));
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  curve *c = arg;
+  const record *r = in->data;
+  c->outcome[task] = r->outcome;
+  c->points[task] = r->point;
+  scene_failures_take(&c->failed, task, &r->verdict);
+  return PENDRES_OK;
 }
 
 /* ---- results ---- */
@@ -343,12 +361,10 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu dampings", n);
     goto done;
   }
-  status = farm_run(run->farm, "dampings", n, compute, NULL, &c);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(run, status, "%s", farm_message(run->farm));
-    goto done;
-  }
-  status = write_results(run, &c);
+  status = scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = n, .task = compute,
+                                             .record_size = sizeof(record), .collect = collect,
+                                             .arg = &c });
+  if (status == PENDRES_OK) status = write_results(run, &c);
   if (status == PENDRES_OK) status = write_paper(run, &c);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &c);
 done:

@@ -52,22 +52,34 @@ static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
   return pendres_sweep_pendulum(&g->sweep, damping * g->drives + drive, NULL, NULL);
 }
 
-static pendres_status compute_peak(grid *g, size_t i, pendres_context *ctx)
+/* What a task finds: a handful of points, or, of the tasks after these, a resonance. */
+typedef struct point_record {
+  pendres_response point[CHUNK];
+  scene_verdict verdict[CHUNK];
+} point_record;
+
+typedef struct peak_record {
+  pendres_status outcome;
+  pendres_resonance peak;
+  scene_verdict verdict;
+} peak_record;
+
+static pendres_status compute_peak(const grid *g, size_t i, pendres_context *ctx, peak_record *r)
 {
   enum { FREQUENCIES = 50 /* of a search, about */ };
   char words[120];
   pendres_pendulum p = pendulum_at(g, i, 0);
   p.drive_frequency = g->d->search[0];
   if (scene_failure_too_long(&p, FREQUENCIES, words, sizeof words)) {
-    scene_failures_mark(&g->peak_failed, i, SCENE_FAILURE_TOO_LONG, words);
-    g->outcome[i] = PENDRES_NOT_CONVERGED;
+    scene_verdict_mark(&r->verdict, SCENE_FAILURE_TOO_LONG, words);
+    r->outcome = PENDRES_NOT_CONVERGED;
     return PENDRES_OK;
   }
-  g->outcome[i] = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
-                                                  &g->ensemble, &g->peaks[i]);
-  if (g->outcome[i] == PENDRES_OK && !g->peaks[i].complete)
-    scene_failures_mark(&g->peak_failed, i, SCENE_FAILURE_BUDGET, NULL);
-  return scene_failures_note(&g->peak_failed, i, g->outcome[i], pendres_context_message(ctx));
+  r->outcome = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
+                                               &g->ensemble, &r->peak);
+  if (r->outcome == PENDRES_OK && !r->peak.complete)
+    scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
+  return scene_verdict_note(&r->verdict, r->outcome, pendres_context_message(ctx));
 }
 
 /* A point without a response: nothing is known of any member. */
@@ -79,74 +91,112 @@ static pendres_response no_response(const pendres_pendulum *p, size_t members)
 }
 
 /* What cannot be had of several points at a time is had, or not, of each. */
-static pendres_status compute_points(grid *g, size_t first, size_t n,
-                                     const pendres_pendulum *pendulums, pendres_context *ctx)
+static pendres_status compute_points(const grid *g, size_t n, const pendres_pendulum *pendulums,
+                                     pendres_context *ctx, point_record *r)
 {
-  pendres_response *out = g->points + first;
   pendres_status status = PENDRES_OK;
   char words[120];
   int too_long = 0;
   for (size_t i = 0; i < n; i++)
     too_long |= scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words);
   if (!too_long) {
-    status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, out);
+    status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, r->point);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
   }
   status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words)) {
-      out[i] = no_response(&pendulums[i], g->ensemble.members);
-      scene_failures_mark(&g->failed, first + i, SCENE_FAILURE_TOO_LONG, words);
+      r->point[i] = no_response(&pendulums[i], g->ensemble.members);
+      scene_verdict_mark(&r->verdict[i], SCENE_FAILURE_TOO_LONG, words);
       continue;
     }
-    status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &out[i]);
+    status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &r->point[i]);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
-    out[i] = no_response(&pendulums[i], g->ensemble.members);
-    status = scene_failures_note(&g->failed, first + i, status, pendres_context_message(ctx));
+    r->point[i] = no_response(&pendulums[i], g->ensemble.members);
+    status = scene_verdict_note(&r->verdict[i], status, pendres_context_message(ctx));
   }
   return status;
 }
 
-/* Points that were computed, but not wholly. */
-static void judge_points(grid *g, size_t first, size_t n)
+/* A point that was computed, but not wholly. */
+static void judge_point(const grid *g, const pendres_response *p, scene_verdict *verdict)
 {
-  for (size_t i = first; i < first + n; i++) {
-    const pendres_response *r = &g->points[i];
-    if (g->failed.reason[i] != SCENE_FAILURE_NONE) continue;
-    if (r->unresolved > 0) {
-      char words[80];
-      snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
-               "do", r->unresolved, g->ensemble.members);
-      scene_failures_mark(&g->failed, i, SCENE_FAILURE_UNRESOLVED, words);
-    } else if (isnan(r->mean_loop_area)) {
-      scene_failures_mark(&g->failed, i, SCENE_FAILURE_NO_MEAN, NULL);
-    }
+  if (verdict->reason != SCENE_FAILURE_NONE) return;
+  if (p->unresolved > 0) {
+    char words[80];
+    snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
+             "do", p->unresolved, g->ensemble.members);
+    scene_verdict_mark(verdict, SCENE_FAILURE_UNRESOLVED, words);
+  } else if (isnan(p->mean_loop_area)) {
+    scene_verdict_mark(verdict, SCENE_FAILURE_NO_MEAN, NULL);
   }
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+/* The points of a task: *n of them from the first on. */
+static size_t first_of(const grid *g, size_t task, size_t *n)
 {
-  grid *g = arg;
-  if (task >= g->dampings * g->chunks)
-    return compute_peak(g, task - g->dampings * g->chunks, ctx);
-  const size_t damping = task / g->chunks, drive = task % g->chunks * CHUNK;
-  const size_t n = g->drives - drive < CHUNK ? g->drives - drive : CHUNK;
-  const size_t first = damping * g->drives + drive;
+  const size_t drive = task % g->chunks * CHUNK;
+  *n = g->drives - drive < CHUNK ? g->drives - drive : CHUNK;
+  return task / g->chunks * g->drives + drive;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const grid *g = arg;
   pendres_pendulum pendulums[CHUNK] = { 0 };
-  for (size_t k = 0; k < n; k++) pendulums[k] = pendulum_at(g, damping, drive + k);
-  const pendres_status status = compute_points(g, first, n, pendulums, ctx);
-  if (status == PENDRES_OK) judge_points(g, first, n);
+  size_t n;
+  if (task >= g->dampings * g->chunks) {
+    peak_record *peak = farm_record_resize(out, sizeof *peak);
+    return peak == NULL ? PENDRES_OUT_OF_MEMORY
+                        : compute_peak(g, task - g->dampings * g->chunks, ctx, peak);
+  }
+  point_record *r = farm_record_resize(out, sizeof *r);
+  if (r == NULL) return PENDRES_OUT_OF_MEMORY;
+  const size_t first = first_of(g, task, &n);
+  for (size_t k = 0; k < n; k++)
+    pendulums[k] = pendres_sweep_pendulum(&g->sweep, first + k, NULL, NULL);
+  const pendres_status status = compute_points(g, n, pendulums, ctx, r);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    judge_point(g, &r->point[k], &r->verdict[k]);
   return status;
 }
 
-/* States that are alone at a point have their names from the others of its damping. */
-static pendres_status name_states(void *arg, size_t task, pendres_context *ctx)
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
-  return pendres_response_name(ctx, g->drives, g->points + task * g->drives);
+  size_t n;
+  if (task >= g->dampings * g->chunks) {
+    const peak_record *r = in->data;
+    const size_t i = task - g->dampings * g->chunks;
+    g->outcome[i] = r->outcome;
+    g->peaks[i] = r->peak;
+    scene_failures_take(&g->peak_failed, i, &r->verdict);
+    return PENDRES_OK;
+  }
+  const point_record *r = in->data;
+  const size_t first = first_of(g, task, &n);
+  memcpy(g->points + first, r->point, n * sizeof *r->point);
+  for (size_t k = 0; k < n; k++) scene_failures_take(&g->failed, first + k, &r->verdict[k]);
+  return PENDRES_OK;
 }
 
-/* Results of a point: a value and its error by their offsets in pendres_response. */
+/* States that are alone at a point have their names from the others of its damping: the record is
+   the damping's points anew. */
+static pendres_status name_states(const void *arg, size_t task, pendres_context *ctx,
+                                  farm_record *out)
+{
+  const grid *g = arg;
+  memcpy(out->data, g->points + task * g->drives, out->size);
+  return pendres_response_name(ctx, g->drives, out->data);
+}
+
+static pendres_status collect_names(void *arg, size_t task, const farm_record *in)
+{
+  grid *g = arg;
+  memcpy(g->points + task * g->drives, in->data, in->size);
+  return PENDRES_OK;
+}
+
 #define FIELD(name, text, unit)                                                              \
   {#name, text, unit, offsetof(pendres_response, name), offsetof(pendres_response, name##_error)}
 
@@ -341,14 +391,15 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu points", g.dampings * g.drives);
     goto done;
   }
-  status = farm_run(run->farm, "chunks", g.dampings * (g.chunks + 1), compute, NULL, &g);
+  status = scene_compute(run, &(farm_stage){ .what = "chunks", .task = compute,
+                                             .tasks = g.dampings * (g.chunks + 1),
+                                             .collect = collect, .arg = &g });
   if (status == PENDRES_OK)
-    status = farm_run(run->farm, "dampings", g.dampings, name_states, NULL, &g);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(run, status, "%s", farm_message(run->farm));
-    goto done;
-  }
-  status = write_results(run, &g);
+    status = scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = g.dampings,
+                                               .task = name_states, .collect = collect_names,
+                                               .record_size = g.drives * sizeof *g.points,
+                                               .arg = &g });
+  if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK) status = write_paper(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
 done:

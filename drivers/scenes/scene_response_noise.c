@@ -33,7 +33,6 @@ typedef struct point {
 
 typedef struct work {
   const deck *d;
-  farm *farm;
   const scene_response_grid *grid;
   size_t temperatures;
   point *points;         /* [temperature][damping][drive] */
@@ -60,10 +59,26 @@ static void count_members(const pendres_response *r, double *all, double *loops)
   }
 }
 
+/* What a task finds. */
+typedef struct record {
+  point point;
+  scene_verdict verdict;
+} record;
+
+/* As many as the state has members in proportion. */
+static size_t trajectories_of(const work *w, const pendres_response *r, size_t state)
+{
+  double all, loops;
+  count_members(r, &all, &loops);
+  const double n =
+    ceil((double)r->state_members[state] / all * (double)w->d->noise.trajectories);
+  return n > 2.0 ? (size_t)n : 2;
+}
+
 /* Choose steps and make the cloud of trajectories that start on one state. */
-static pendres_status measure_state(const work *w, pendres_context *ctx,
-                                    const pendres_response *r, size_t state, double temperature, size_t trajectories,
-                                    pendres_langevin_cloud *cloud, pendres_langevin_bias *bias)
+static pendres_status measure_state(const work *w, pendres_context *ctx, const pendres_response *r,
+                                    size_t state, double temperature, pendres_langevin_cloud *cloud,
+                                    pendres_langevin_bias *bias)
 {
   enum { TRAJECTORIES = 192, RECORD = 60 };
   const pendres_orbit *o = &r->state[state].orbit;
@@ -74,7 +89,7 @@ static pendres_status measure_state(const work *w, pendres_context *ctx,
   request.first_id = scene_noise_first_id(&request.pendulum, state);
   pendres_status status =
     scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
-  request.trajectories = trajectories;
+  request.trajectories = trajectories_of(w, r, state);
   request.record = (long)w->d->noise.periods;
   request.steps_per_period = bias->steps_per_period;
   if (status == PENDRES_OK) status = pendres_langevin_measure(ctx, &request, cloud, NULL, NULL);
@@ -151,20 +166,21 @@ static void still_point(const pendres_response *r, point *p)
 }
 
 /* Nothing but the reason why. */
-static pendres_status note_point(work *w, size_t task, pendres_status status, const char *why)
+static pendres_status note_point(record *q, pendres_status status, const char *why)
 {
   const quantity none = { NAN, NAN, NAN, NAN };
-  w->points[task] = (point){ .area = none, .power = none, .amplitude = none, .lag = none };
-  return scene_failures_note(&w->failed, task, status, why);
+  q->point = (point){ .area = none, .power = none, .amplitude = none, .lag = none };
+  return scene_verdict_note(&q->verdict, status, why);
 }
 
-static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
-  work *w = arg;
+  const work *w = arg;
   const size_t plane = w->grid->dampings * w->grid->drives;
   const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / plane];
   const pendres_response *r = &w->grid->points[task % plane];
-  point *p = &w->points[task];
+  record *q = out->data;
+  point *p = &q->point;
   harmonic h = { 0 };
   double all, loops;
   count_members(r, &all, &loops);
@@ -177,11 +193,8 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
     pendres_langevin_bias bias;
     const double members = (double)r->state_members[i];
     if (!isfinite(r->state[i].orbit.x)) continue;
-    const double n = ceil(members / all * (double)w->d->noise.trajectories);
-    const pendres_status status =
-      measure_state(w, ctx, r, i, temperature, n > 2.0 ? (size_t)n : 2, &cloud, &bias);
-    if (status != PENDRES_OK)
-      return note_point(w, task, status, pendres_context_message(ctx));
+    const pendres_status status = measure_state(w, ctx, r, i, temperature, &cloud, &bias);
+    if (status != PENDRES_OK) return note_point(q, status, pendres_context_message(ctx));
     add_area(&p->area, members / all, &cloud, &bias);
     if (r->state[i].orbit.winding == 0) add_harmonic(&h, members / loops, &cloud, &bias);
     if (bias.steps_per_period > p->steps) p->steps = bias.steps_per_period;
@@ -193,6 +206,15 @@ static pendres_status compute(void *arg, size_t task, pendres_context *ctx)
                          f * p->area.bias_error };
   if (loops > 0.0) polar(&h, p);
   else p->lag = p->amplitude = none;
+  return PENDRES_OK;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const record *r = in->data;
+  w->points[task] = r->point;
+  scene_failures_take(&w->failed, task, &r->verdict);
   return PENDRES_OK;
 }
 
@@ -332,7 +354,7 @@ static pendres_status write_failed(scene_run *run, const work *w)
 
 pendres_status scene_response_write_noise(scene_run *run, const scene_response_grid *grid)
 {
-  work w = { .d = run->deck, .farm = run->farm, .grid = grid,
+  work w = { .d = run->deck, .grid = grid,
              .temperatures = run->deck->axis[DECK_AXIS_TEMPERATURE].count };
   const size_t n = w.temperatures * grid->dampings * grid->drives;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -341,8 +363,9 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
     free(w.points);
     return scene_fail(run, status, "out of memory for %zu points", n);
   }
-  status = farm_run(run->farm, "points with noise", n, compute, NULL, &w);
-  if (status != PENDRES_OK) (void)scene_farm_failed(run, status);
+  status = scene_compute(run, &(farm_stage){ .what = "points with noise", .tasks = n,
+                                             .task = compute, .record_size = sizeof(record),
+                                             .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK) status = write_failed(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);

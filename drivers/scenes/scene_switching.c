@@ -24,19 +24,16 @@ enum { SA, LA, STARTS, WELLS = 2, KINDS = 4 };
 
 typedef struct work {
   const deck *d;
-  farm *farm;
   pendres_pendulum pendulum;
   pendres_attractors *set;
   int index[STARTS];      /* of the states in the set, those that the deck numbers or SA and LA;
                              -1: there is none */
   size_t temperatures, chunks;
   int steps[STARTS];      /* a drive period; 0 where there is no such state */
-  pendres_switching_tally *tallies; /* [temperature][start][chunk] */
   pendres_switching_tally *sums;    /* [temperature] */
   pendres_switching_rate *rates;    /* [kind][temperature] */
   pendres_switching_activation fit[KINDS];
   scene_failures choices; /* [start] of the steps */
-  scene_failures tasks;   /* [temperature][start][chunk] */
   scene_failures failed;  /* [temperature] */
   char name[STARTS][24], state[STARTS][40];   /* of the states: "sa", "the small-amplitude state" */
   char suffix[KINDS][56], words[KINDS][120];  /* of the kinds of transitions */
@@ -98,10 +95,24 @@ static pendres_pendulum pendulum_at(const work *w, size_t temperature)
   return p;
 }
 
-static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
+/* What the choice of a state's steps finds. */
+typedef struct choice {
+  int steps;
+  scene_verdict verdict;
+} choice;
+
+/* What is counted of a chunk. */
+typedef struct chunk {
+  pendres_switching_tally tally;
+  scene_verdict verdict;
+} chunk;
+
+static pendres_status choose(const void *arg, size_t task, pendres_context *ctx,
+                             farm_record *out)
 {
   enum { TRAJECTORIES = 192, RECORD = 60 };
-  work *w = arg;
+  const work *w = arg;
+  choice *c = out->data;
   if (w->index[task] < 0) return PENDRES_OK;
   const pendres_attractor *a = pendres_attractors_get(w->set, (size_t)w->index[task]);
   pendres_pendulum p = w->pendulum;
@@ -115,8 +126,17 @@ static pendres_status choose(void *arg, size_t task, pendres_context *ctx)
     .leave = pendres_switching_leave, .arg = &home };
   const pendres_status status =
     scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
-  if (status == PENDRES_OK) w->steps[task] = 2 * bias.steps_per_period;
-  return scene_failures_note(&w->choices, task, status, pendres_context_message(ctx));
+  if (status == PENDRES_OK) c->steps = 2 * bias.steps_per_period;
+  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
+}
+
+static pendres_status collect_choice(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const choice *c = in->data;
+  w->steps[task] = c->steps;
+  scene_failures_take(&w->choices, task, &c->verdict);
+  return PENDRES_OK;
 }
 
 /* The larger of the states' steps: trajectories visit both. */
@@ -134,25 +154,38 @@ static size_t share(const work *w, int start)
   return start == SA ? all - all / 2 : all / 2;
 }
 
-static pendres_status count(void *arg, size_t task, pendres_context *ctx)
+static pendres_status count(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
-  work *w = arg;
-  const size_t chunk = task % w->chunks, temperature = task / w->chunks / STARTS;
+  const work *w = arg;
+  chunk *c = out->data;
+  const size_t number = task % w->chunks, temperature = task / w->chunks / STARTS;
   const int start = (int)(task / w->chunks % STARTS);
   const size_t all = share(w, start);
   size_t first, n;
-  if (chunk >= scene_noise_chunks(all)) return PENDRES_OK;
+  if (number >= scene_noise_chunks(all)) return PENDRES_OK;
   for (int s = 0; s < STARTS; s++)
     if (w->choices.reason[s] != SCENE_FAILURE_NONE) return PENDRES_OK;
-  scene_noise_chunk(all, chunk, &first, &n);
+  scene_noise_chunk(all, number, &first, &n);
   const pendres_pendulum p = pendulum_at(w, temperature);
   const size_t from = (size_t)w->index[start];
   const pendres_switching_request request = {
     .pendulum = p, .set = w->set, .from = from, .trajectories = n,
     .periods = (long)w->d->noise.periods, .steps_per_period = steps_of(w),
     .first_id = scene_noise_first_id(&p, from) + first };
-  const pendres_status status = pendres_switching_count(ctx, &request, &w->tallies[task]);
-  return scene_failures_note(&w->tasks, task, status, pendres_context_message(ctx));
+  const pendres_status status = pendres_switching_count(ctx, &request, &c->tally);
+  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
+}
+
+/* A temperature of which a chunk fails has its first failure. */
+static pendres_status collect_chunk(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const chunk *c = in->data;
+  const size_t temperature = task / w->chunks / STARTS;
+  if (c->tally.states > 0) pendres_switching_add(&w->sums[temperature], &c->tally);
+  if (w->failed.reason[temperature] == SCENE_FAILURE_NONE)
+    scene_failures_take(&w->failed, temperature, &c->verdict);
+  return PENDRES_OK;
 }
 
 /* The states that the deck asks for by number: in the order of amplitude, from 1 on. */
@@ -191,28 +224,21 @@ static pendres_status find_states(scene_run *run, work *w)
   return PENDRES_OK;
 }
 
-/* The first failure of a list from `first` on, if there is one, is that of a temperature. */
-static void mark_first(work *w, size_t temperature, const scene_failures *of, size_t first,
-                       size_t count)
-{
-  for (size_t i = first; i < first + count; i++) {
-    if (of->reason[i] == SCENE_FAILURE_NONE) continue;
-    scene_failures_mark(&w->failed, temperature, (scene_failure)of->reason[i], of->words[i]);
-    return;
-  }
-}
-
-/* Where one state alone exists there is nothing to switch to, and that is said. */
+/*
+ * Temperatures have the failures of their chunks already. Where one state alone exists there is
+ * nothing to switch to, and that is said; a choice of steps that failed is the failure of all.
+ */
 static void mark_failed(work *w)
 {
-  const size_t tasks = STARTS * w->chunks;
+  const int start = w->choices.reason[SA] != SCENE_FAILURE_NONE ? SA : LA;
   for (size_t i = 0; i < w->temperatures; i++) {
-    if (w->index[SA] < 0 || w->index[LA] < 0)
+    if (w->failed.reason[i] == SCENE_FAILURE_NONE && (w->index[SA] < 0 || w->index[LA] < 0))
       scene_failures_mark(&w->failed, i, SCENE_FAILURE_NOT_FOUND,
                           w->index[SA] < 0 ? "there is no small-amplitude state"
                                            : "there is no large-amplitude state");
-    mark_first(w, i, &w->tasks, i * tasks, tasks);
-    mark_first(w, i, &w->choices, 0, STARTS);
+    if (w->choices.reason[start] != SCENE_FAILURE_NONE)
+      scene_failures_mark(&w->failed, i, (scene_failure)w->choices.reason[start],
+                          w->choices.words[start]);
   }
 }
 
@@ -227,9 +253,6 @@ static pendres_status sum_up(work *w)
 {
   const deck_axis *t = &w->d->axis[DECK_AXIS_TEMPERATURE];
   pendres_status status = PENDRES_OK;
-  for (size_t task = 0; task < w->temperatures * STARTS * w->chunks; task++)
-    if (w->tallies[task].states > 0)
-      pendres_switching_add(&w->sums[task / w->chunks / STARTS], &w->tallies[task]);
   for (int k = 0; k < KINDS; k++) {
     const int from = w->index[kinds[k].from];
     const int to = kinds[k].to == WELLS ? PENDRES_SWITCHING_WELL : w->index[kinds[k].to];
@@ -443,18 +466,21 @@ static pendres_status compute(scene_run *run, work *w)
   const size_t n = w->temperatures * STARTS;
   const size_t sa = scene_noise_chunks(share(w, SA)), la = scene_noise_chunks(share(w, LA));
   w->chunks = sa > la ? sa : la;
-  w->tallies = calloc(n * w->chunks, sizeof *w->tallies);
   w->sums = calloc(w->temperatures, sizeof *w->sums);
   w->rates = calloc(KINDS * w->temperatures, sizeof *w->rates);
-  if (w->tallies == NULL || w->sums == NULL || w->rates == NULL ||
+  if (w->sums == NULL || w->rates == NULL ||
       scene_failures_create(STARTS, &w->choices) != PENDRES_OK ||
-      scene_failures_create(n * w->chunks, &w->tasks) != PENDRES_OK ||
       scene_failures_create(w->temperatures, &w->failed) != PENDRES_OK)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", n * w->chunks);
-  pendres_status status = farm_run(run->farm, "choices of steps", STARTS, choose, NULL, w);
+  pendres_status status =
+    scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = STARTS, .task = choose,
+                                      .record_size = sizeof(choice), .collect = collect_choice,
+                                      .arg = w });
   if (status == PENDRES_OK)
-    status = farm_run(run->farm, "chunks", n * w->chunks, count, NULL, w);
-  if (status != PENDRES_OK) return scene_farm_failed(run, status);
+    status = scene_compute(run, &(farm_stage){ .what = "chunks", .tasks = n * w->chunks,
+                                               .task = count, .record_size = sizeof(chunk),
+                                               .collect = collect_chunk, .arg = w });
+  if (status != PENDRES_OK) return status;
   mark_failed(w);
   status = sum_up(w);
   if (status != PENDRES_OK) return scene_fail(run, status, "rates cannot be computed");
@@ -464,7 +490,7 @@ static pendres_status compute(scene_run *run, work *w)
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  work w = { .d = d, .farm = run->farm,
+  work w = { .d = d,
              .pendulum = { .damping = d->pendulum.damping,
                            .drive_amplitude = d->pendulum.drive_amplitude,
                            .drive_frequency = d->pendulum.drive_frequency },
@@ -476,9 +502,7 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
   pendres_attractors_free(w.set);
   scene_failures_free(&w.choices);
-  scene_failures_free(&w.tasks);
   scene_failures_free(&w.failed);
-  free(w.tallies);
   free(w.sums);
   free(w.rates);
   return status;

@@ -3,11 +3,11 @@
  *
  * Every method and tolerance advances the same pendulums by 100 drive periods; how far they are off
  * then is known from extended precision (work_unit.h). contest.h says how each is run and timed;
- * they take turns, so that whoever is timed is alone.
+ * one after another, so that whoever is timed is alone.
  */
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "validation/contest.h"
 #include "scenes/scene.h"
@@ -33,15 +33,19 @@ static const struct {
 typedef struct work {
   const deck *d;
   farm *farm;
-  pthread_mutex_t turn;
   work_unit unit;
   size_t methods, tolerances;
   contest *contest; /* [method][tolerance] */
   double settled[3], settled_error[3]; /* periods, seconds a pendulum; share that is resolved */
 } work;
 
-/* What a pendulum costs that is only asked what it settles on, with the deck's own tolerance. */
-static pendres_status settle(work *w, pendres_context *ctx)
+/* What a pendulum costs that is only asked what it settles on. */
+typedef struct settling {
+  double value[3]; /* periods, seconds a pendulum; share that is resolved */
+} settling;
+
+/* With the deck's own tolerance. */
+static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
 {
   const size_t n = w->unit.n;
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
@@ -56,31 +60,36 @@ static pendres_status settle(work *w, pendres_context *ctx)
   if (status != PENDRES_OK) goto done;
   pendres_context_cost(ctx, &cost);
   for (size_t i = 0; i < n; i++) resolved += outcome[i].attractor >= 0;
-  w->settled[0] = cost.pendulum_periods / (double)n;
-  w->settled[1] = took / (double)n;
-  w->settled[2] = resolved / (double)n;
+  out->value[0] = cost.pendulum_periods / (double)n;
+  out->value[1] = took / (double)n;
+  out->value[2] = resolved / (double)n;
 done:
   free(outcome);
   free(v);
   return status;
 }
 
-static pendres_status contend(work *w, size_t task)
+/* A contest; the last task is settling. */
+static pendres_status measure(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
+  const work *w = arg;
+  if (task == w->methods * w->tolerances) {
+    settling *s = farm_record_resize(out, sizeof *s);
+    return s != NULL ? settle(w, ctx, s) : PENDRES_OUT_OF_MEMORY;
+  }
+  contest *c = farm_record_resize(out, sizeof *c);
+  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
   return contest_run(&w->unit, w->d->methods.name[task / w->tolerances],
                      w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
-                     (int)w->d->precision.block_lanes, farm_stopped, w->farm, &w->contest[task]);
+                     (int)w->d->precision.block_lanes, farm_stopped, w->farm, c);
 }
 
-/* Threads take turns: whoever is timed is alone. The last task is settling. */
-static pendres_status take_turn(void *arg, size_t task, pendres_context *ctx)
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  pthread_mutex_lock(&w->turn);
-  const pendres_status status =
-    task < w->methods * w->tolerances ? contend(w, task) : settle(w, ctx);
-  pthread_mutex_unlock(&w->turn);
-  return status;
+  if (task == w->methods * w->tolerances) memcpy(w->settled, in->data, sizeof w->settled);
+  else w->contest[task] = *(const contest *)in->data;
+  return PENDRES_OK;
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */
@@ -329,7 +338,7 @@ static void plan(const deck *d, FILE *out)
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  work w = { .d = d, .farm = run->farm, .turn = PTHREAD_MUTEX_INITIALIZER,
+  work w = { .d = d, .farm = run->farm,
              .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count,
              .settled = { NAN, NAN, NAN }, .settled_error = { 0.0, NAN, 0.0 } };
   const size_t n = w.methods * w.tolerances;
@@ -343,11 +352,13 @@ static pendres_status run_scene(scene_run *run)
     goto done;
   }
   status = work_unit_refer(&w.unit, run->farm);
-  if (status == PENDRES_OK) status = farm_run(run->farm, "runs", n + 1, take_turn, NULL, &w);
   if (status != PENDRES_OK) {
-    (void)scene_farm_failed(run, status);
+    (void)scene_fail(run, status, "%s", farm_message(run->farm));
     goto done;
   }
+  status = scene_compute(run, &(farm_stage){ .what = "runs", .tasks = n + 1, .task = measure,
+                                             .timed = 1, .collect = collect, .arg = &w });
+  if (status != PENDRES_OK) goto done;
   for (size_t i = 0; i < n; i++) run->failed_points += w.contest[i].failure[0] != '\0';
   status = write_results(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);

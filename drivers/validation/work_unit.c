@@ -63,8 +63,14 @@ void work_unit_free(work_unit *w)
   memset(w, 0, sizeof *w);
 }
 
+/* Where a pendulum is at each mark. */
+typedef struct marks {
+  long double angle[WORK_UNIT_MARKS], velocity[WORK_UNIT_MARKS];
+  double growth[WORK_UNIT_MARKS];
+} marks;
+
 /* From mark to mark, with the product of the derivatives. */
-static pendres_status refer_one(work_unit *w, size_t i)
+static pendres_status refer_one(const work_unit *w, size_t i, marks *out)
 {
   long double y = (long double)w->x[i] - pi / 2.0L, v = 0.0L;
   long double growth[2][2] = { { 1.0L, 0.0L }, { 0.0L, 1.0L } };
@@ -82,27 +88,44 @@ static pendres_status refer_one(work_unit *w, size_t i)
       }
     memcpy(growth, product, sizeof growth);
     y = to.y, v = to.v, turns += to.turns, done = work_unit_periods[m];
-    w->angle[m][i] = y + 2.0L * pi * (long double)turns;
-    w->velocity[m][i] = v;
-    w->growth[m][i] = (double)largest;
+    out->angle[m] = y + 2.0L * pi * (long double)turns;
+    out->velocity[m] = v;
+    out->growth[m] = (double)largest;
   }
   return PENDRES_OK;
 }
 
-static pendres_status refer_chunk(void *arg, size_t task, pendres_context *ctx)
+static pendres_status refer_chunk(const void *arg, size_t task, pendres_context *ctx,
+                                  farm_record *out)
 {
-  work_unit *w = arg;
+  const work_unit *w = arg;
+  marks *m = out->data;
   (void)ctx;
   for (size_t i = task * CHUNK; i < w->n && i < (task + 1) * CHUNK; i++) {
-    const pendres_status status = refer_one(w, i);
+    const pendres_status status = refer_one(w, i, &m[i - task * CHUNK]);
     if (status != PENDRES_OK) return status;
   }
   return PENDRES_OK;
 }
 
+static pendres_status keep_chunk(void *arg, size_t task, const farm_record *in)
+{
+  work_unit *w = arg;
+  const marks *of = in->data;
+  for (size_t i = task * CHUNK; i < w->n && i < (task + 1) * CHUNK; i++, of++)
+    for (int m = 0; m < WORK_UNIT_MARKS; m++) {
+      w->angle[m][i] = of->angle[m];
+      w->velocity[m][i] = of->velocity[m];
+      w->growth[m][i] = of->growth[m];
+    }
+  return PENDRES_OK;
+}
+
 pendres_status work_unit_refer(work_unit *w, farm *f)
 {
-  return farm_run(f, "reference", (w->n + CHUNK - 1) / CHUNK, refer_chunk, NULL, w);
+  return farm_run(f, &(farm_stage){ .what = "reference", .tasks = (w->n + CHUNK - 1) / CHUNK,
+                                    .record_size = CHUNK * sizeof(marks), .task = refer_chunk,
+                                    .collect = keep_chunk, .arg = w });
 }
 
 size_t work_unit_pick(const work_unit *w, size_t some, size_t k)

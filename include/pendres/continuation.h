@@ -188,6 +188,20 @@ const pendres_branch *pendres_branches_get(const pendres_branches *branches, siz
 size_t pendres_branches_skipped(const pendres_branches *branches);
 
 /**
+ * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
+ * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
+ * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
+ * kind of machine, and nothing in them tells whether they were damaged: who keeps them adds a checksum.
+ * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
+ * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
+ */
+size_t pendres_branches_packed_size(const pendres_branches *branches);
+/** See pendres_branches_packed_size(). bytes NULL: nothing is done. */
+void pendres_branches_pack(const pendres_branches *branches, void *bytes);
+/** See pendres_branches_packed_size(). */
+pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_branches **out);
+
+/**
  * The backbone of a damped pendulum: the drive frequency at which its orbit of period one lags
  * pi/2 behind the drive (in the first harmonic), where the drive works best against friction. For
  * each of n pendulums, whose drive_frequency is not read: damping and drive amplitude above 0.

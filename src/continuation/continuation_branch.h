@@ -19,6 +19,11 @@ struct pendres_branch {
   pendres_branch_end end[2];
 };
 
+struct pendres_branches {
+  size_t count, capacity, skipped;
+  pendres_branch **branch;
+};
+
 /* How orbits like this one are followed, and the place of this one. */
 pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
                                  double spacing, double u[PENDRES_U_COUNT]);

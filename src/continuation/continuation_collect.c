@@ -13,11 +13,6 @@
  */
 static const double alike = 5e-3;
 
-struct pendres_branches {
-  size_t count, capacity, skipped;
-  pendres_branch **branch;
-};
-
 struct pendres_curves {
   size_t count, capacity;
   pendres_curve **curve;

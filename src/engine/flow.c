@@ -11,6 +11,8 @@
 #include "engine/compat.h"
 #include "engine/flow_table.h"
 #include "engine/lanes.h"
+#include "engine/lanes_replay.h"
+#include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -37,6 +39,7 @@ struct pendres_flow {
   double *coefficient[4]; /* stiffness, drive, friction, inverse */
   double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
   drive_memo memo;
+  pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
   int (*stop)(void *arg); /* asked now and then within a period; NULL: nobody is */
@@ -83,6 +86,16 @@ static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *
   return 0;
 }
 
+/* Steps have been taken; nonzero: somebody wants the block to stop. */
+static int count_steps(pendres_flow *flow, int steps)
+{
+  flow->steps_taken += (double)steps * (double)flow->lanes;
+  if (flow->steps_taken < flow->next_asked) return 0;
+  flow->next_asked = flow->steps_taken + steps_between;
+  flow->stopped = flow->stop != NULL && flow->stop(flow->stop_arg) != 0;
+  return flow->stopped ? -1 : 0;
+}
+
 /*
  * ERKStep before SUNDIALS 6.7 takes every table whose last node is 1 as
  * first-same-as-last and reuses a wrong stage. A step-postprocess function makes
@@ -93,11 +106,7 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
   pendres_flow *flow = arg;
   (void)theta;
   if (flow->shape.off.yy != NULL) pendres_lanes_carry(y, two_pi / flow->steps);
-  flow->steps_taken += (double)flow->lanes;
-  if (flow->steps_taken < flow->next_asked) return 0;
-  flow->next_asked = flow->steps_taken + steps_between;
-  flow->stopped = flow->stop != NULL && flow->stop(flow->stop_arg) != 0;
-  return flow->stopped ? -1 : 0;
+  return count_steps(flow, 1);
 }
 
 /* With fixed steps nobody reads the weights: leave them at one. */
@@ -191,6 +200,8 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   flow->shape.coefficients =
     (pendres_coefficients){.stiffness = flow->coefficient[0], .drive = flow->coefficient[1],
                            .friction = flow->coefficient[2], .inverse = flow->coefficient[3]};
+  flow->replays = pendres_lanes_replays_create();
+  if (flow->replays == NULL) goto fail;
   flow->state = pendres_lanes_create(&flow->shape, sun);
   flow->rows = pendres_lanes_allocate(flow->shape.rows * flow->shape.capacity);
   if (flow->state == NULL || flow->rows == NULL) goto fail;
@@ -209,6 +220,7 @@ void pendres_flow_free(pendres_flow *flow)
   if (flow->arkode != NULL) ERKStepFree(&flow->arkode);
   if (flow->state != NULL) N_VDestroy(flow->state);
   pendres_lanes_close(&flow->shape);
+  pendres_lanes_replays_free(flow->replays);
   free(flow->rows);
   for (int i = 0; i < COEFFICIENTS; i++) free(flow->coefficient[i]);
   for (int i = 0; i < CARRIED; i++) free(flow->off[i]);
@@ -355,25 +367,79 @@ static pendres_status failed(const pendres_flow *flow)
   return flow->stopped ? PENDRES_INTERRUPTED : PENDRES_INTEGRATION_FAILED;
 }
 
-static pendres_status advance_to(pendres_flow *flow, double end)
+/* What a block is asked for: a period, half of one, or a period step by step. */
+enum { SPAN_PERIOD, SPAN_HALF, SPAN_SAMPLED };
+
+static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
+{
+  return (pendres_lanes_replay_kind){
+    .steps = flow->steps, .span = span, .carried = flow->shape.off.yy != NULL};
+}
+
+/* What is known of such a period. In wide blocks nothing would be gained, and nobody be asked
+   whether to stop. */
+static const pendres_lanes_replay *known(pendres_flow *flow, int span)
+{
+  if (flow->steps == 0 || (double)flow->lanes * flow->steps > steps_between) return NULL;
+  const pendres_lanes_replay_kind kind = kind_of(flow, span);
+  const pendres_lanes_replay *p = pendres_lanes_replays_find(flow->replays, &kind);
+  if (p != NULL) return p;
+  pendres_lanes_replays_begin(flow->replays);
+  pendres_lanes_tape_record(&flow->shape, flow->replays);
+  return NULL;
+}
+
+/* The end of a period that ARKODE was asked for. */
+static void learn(pendres_flow *flow, int span)
+{
+  const pendres_lanes_replay_kind kind = kind_of(flow, span);
+  pendres_lanes_tape_record(&flow->shape, NULL);
+  pendres_lanes_replays_end(flow->replays, &kind, flow->failure >= 0);
+}
+
+/* A period without ARKODE; sample may be NULL. */
+static pendres_status replay(pendres_flow *flow, const pendres_lanes_replay *p, int steps,
+                             pendres_flow_sample *sample, void *arg)
+{
+  size_t done = 0;
+  flow->stopped = 0;
+  pendres_lanes_write(flow->state, flow->rows);
+  for (size_t k = 0; k < p->parts; k++) {
+    pendres_lanes_shape_run(&flow->shape, p->operation + done, p->end[k] - done);
+    done = p->end[k];
+    if (sample == NULL && k + 1 < p->parts) continue;
+    pendres_lanes_read(flow->state, flow->rows);
+    const pendres_rows rows = pendres_flow_rows(flow);
+    if (sample != NULL) sample(arg, (int)k + 1, &rows);
+  }
+  flow->evaluations += (double)p->slopes * (double)flow->lanes;
+  return count_steps(flow, steps) == 0 ? PENDRES_OK : PENDRES_INTERRUPTED;
+}
+
+static pendres_status advance_to(pendres_flow *flow, int span, double end)
 {
   sunrealtype reached = 0.0;
+  const pendres_lanes_replay *p = known(flow, span);
+  if (p != NULL)
+    return replay(flow, p, span == SPAN_HALF ? flow->steps / 2 : flow->steps, NULL, NULL);
   const pendres_status status = start_period(flow, end);
+  if (status == PENDRES_OK)
+    flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
+  if (status == PENDRES_OK) pendres_lanes_read(flow->state, flow->rows);
+  learn(flow, span);
   if (status != PENDRES_OK) return status;
-  flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
-  pendres_lanes_read(flow->state, flow->rows);
   return flow->failure < 0 ? failed(flow) : PENDRES_OK;
 }
 
 pendres_status pendres_flow_period(pendres_flow *flow)
 {
-  return advance_to(flow, flow->steps > 0 ? flow->end : two_pi);
+  return advance_to(flow, SPAN_PERIOD, flow->steps > 0 ? flow->end : two_pi);
 }
 
 pendres_status pendres_flow_half_period(pendres_flow *flow)
 {
   if (flow->steps < 1 || flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
-  return advance_to(flow, flow->half);
+  return advance_to(flow, SPAN_HALF, flow->half);
 }
 
 pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_sample *sample,
@@ -381,16 +447,22 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
 {
   sunrealtype reached = 0.0;
   if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
-  const pendres_status status = start_period(flow, flow->end);
-  if (status != PENDRES_OK) return status;
-  for (int step = 1; step <= flow->steps; step++) {
+  const pendres_lanes_replay *p = known(flow, SPAN_SAMPLED);
+  if (p != NULL && p->parts == (size_t)flow->steps)
+    return replay(flow, p, flow->steps, sample, arg);
+  pendres_status status = start_period(flow, flow->end);
+  for (int step = 1; step <= flow->steps && status == PENDRES_OK; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
-    if (flow->failure < 0) return failed(flow);
+    if (flow->failure < 0) {
+      status = failed(flow);
+      break;
+    }
     pendres_lanes_read(flow->state, flow->rows);
     const pendres_rows rows = pendres_flow_rows(flow);
     sample(arg, step, &rows);
   }
-  return PENDRES_OK;
+  learn(flow, SPAN_SAMPLED);
+  return status;
 }
 
 double pendres_flow_evaluations(const pendres_flow *flow)

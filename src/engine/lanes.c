@@ -12,16 +12,6 @@ typedef pendres_lanes_shape shape;
 /* Strips lie side by side modulo this, or the vectors would push each other out of a cache. */
 enum { CACHE_PERIOD = 4096, STRIP_BYTES = 1280 };
 
-/*
- * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
- * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
- * cost a few per cent.
- */
-static size_t most_lanes(size_t rows)
-{
-  return rows <= PENDRES_ROWS_STATE ? 80 : rows <= PENDRES_ROWS_VARIATIONAL ? 48 : 24;
-}
-
 static const pendres_lanes_content *of(N_Vector v)
 {
   return pendres_lanes_of(v);
@@ -71,12 +61,7 @@ void pendres_lanes_close(shape *s)
 void pendres_lanes_resize(shape *s, size_t lanes)
 {
   pendres_lanes_tape_run(s);
-  s->stride = rounded_up(lanes, PENDRES_LANES_MULTIPLE);
-  /* As few strips as can be, and as equal. */
-  const size_t most = most_lanes(s->rows), unit = PENDRES_LANES_MULTIPLE;
-  const size_t strips = s->stride > 0 ? (s->stride + most - 1) / most : 1;
-  s->strip = s->stride / unit / strips * unit;
-  s->wider = s->stride / unit % strips * (s->strip + unit);
+  pendres_lanes_shape_cut(s, lanes);
 }
 
 static void destroy(N_Vector v)

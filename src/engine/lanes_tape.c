@@ -26,6 +26,7 @@ struct pendres_lanes_tape {
   const request *latest[PENDRES_KERNELS_TERMS + 1]; /* by the number of terms */
   pendres_operation operation[MOST_OPERATIONS];
   pendres_sum sum[MOST_SUMS];
+  pendres_lanes_replays *record; /* not owned; NULL: nobody keeps what is done */
   request request[MOST_SUMS];
 };
 
@@ -48,21 +49,16 @@ void pendres_lanes_tape_run(pendres_lanes_shape *s)
 {
   pendres_lanes_tape *t = s->tape;
   if (t->operations == 0) return;
-  for (size_t lane = 0, lanes; lane < s->stride; lane += lanes) {
-    const pendres_coefficients *k = &s->coefficients;
-    lanes = pendres_lanes_strip(s, lane);
-    const pendres_carried *off = &s->off;
-    pendres_strip strip = {
-      .lanes = lanes,
-      .at = s->rows * lane,
-      .k = {k->stiffness + lane, k->drive + lane, k->friction + lane, k->inverse + lane}};
-    if (off->yy != NULL)
-      strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,
-                                    off->added + lane, off->keep + lane, off->kick + lane};
-    s->kernels->run(s->rows, &strip, t->operation, t->operations);
-  }
+  pendres_lanes_shape_run(s, t->operation, t->operations);
+  if (t->record != NULL) pendres_lanes_replays_add(t->record, t->operation, t->operations);
   t->operations = 0;
   t->unread = 0;
+}
+
+void pendres_lanes_tape_record(pendres_lanes_shape *s, pendres_lanes_replays *record)
+{
+  pendres_lanes_tape_run(s);
+  s->tape->record = record;
 }
 
 void pendres_lanes_tape_forget(pendres_lanes_shape *s)

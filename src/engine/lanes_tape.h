@@ -22,7 +22,8 @@
 
 #include <sundials/sundials_nvector.h>
 
-#include "engine/lanes.h"
+#include "engine/lanes_replay.h"
+#include "engine/lanes_shape.h"
 
 typedef struct pendres_lanes_tape pendres_lanes_tape;
 
@@ -55,6 +56,9 @@ void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step);
 
 /* Do all that was put off: before anybody looks at a number or changes one. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);
+
+/* From now on add what is done to this record, which is not owned; NULL: no longer. */
+void pendres_lanes_tape_record(pendres_lanes_shape *s, pendres_lanes_replays *record);
 
 /* Forget all sums known: before the memory of a vector is given back. */
 void pendres_lanes_tape_forget(pendres_lanes_shape *s);

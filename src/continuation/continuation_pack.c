@@ -1,0 +1,135 @@
+/*
+ * continuation_pack.c -- branches as plain bytes and back; see continuation.h.
+ *
+ * The bytes are a head, then of each branch a head, its points and its bifurcations, as they stand
+ * in memory.
+ */
+#include <pendres/continuation.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "continuation/continuation_branch.h"
+
+typedef struct set_head {
+  size_t count, skipped;
+} set_head;
+
+typedef struct branch_head {
+  pendres_parameter parameter;
+  pendres_continuation_map map;
+  pendres_branch_end end[2];
+  size_t count, bifurcations;
+} branch_head;
+
+size_t pendres_branches_packed_size(const pendres_branches *branches)
+{
+  size_t size = sizeof(set_head);
+  for (size_t i = 0; branches != NULL && i < branches->count; i++) {
+    const pendres_branch *b = branches->branch[i];
+    size += sizeof(branch_head) + b->count * sizeof *b->point +
+            b->bifurcations * sizeof *b->bifurcation;
+  }
+  return size;
+}
+
+static char *put(char *to, const void *from, size_t size)
+{
+  if (size > 0) memcpy(to, from, size);
+  return to + size;
+}
+
+void pendres_branches_pack(const pendres_branches *branches, void *bytes)
+{
+  set_head head = { 0, 0 };
+  char *to = bytes;
+  if (bytes == NULL) return;
+  if (branches != NULL) head = (set_head){ branches->count, branches->skipped };
+  to = put(to, &head, sizeof head);
+  for (size_t i = 0; i < head.count; i++) {
+    const pendres_branch *b = branches->branch[i];
+    branch_head h;
+    memset(&h, 0, sizeof h); /* the same bytes for the same branches, padding included */
+    h.parameter = b->parameter;
+    h.map = b->map;
+    h.end[0] = b->end[0], h.end[1] = b->end[1];
+    h.count = b->count;
+    h.bifurcations = b->bifurcations;
+    to = put(to, &h, sizeof h);
+    to = put(to, b->point, b->count * sizeof *b->point);
+    to = put(to, b->bifurcation, b->bifurcations * sizeof *b->bifurcation);
+  }
+}
+
+/* Bytes that are still to be read. */
+typedef struct source {
+  const char *at;
+  size_t left;
+} source;
+
+static int get(source *s, void *to, size_t size)
+{
+  if (size > s->left) return 0;
+  if (size > 0) memcpy(to, s->at, size);
+  s->at += size;
+  s->left -= size;
+  return 1;
+}
+
+/* An array of n elements; NULL and *status if there are not so many, or no memory. */
+static void *get_array(source *s, size_t n, size_t size, pendres_status *status)
+{
+  void *array = NULL;
+  if (*status != PENDRES_OK) return NULL;
+  if (n > s->left / size) {
+    *status = PENDRES_INVALID_ARGUMENT;
+    return NULL;
+  }
+  array = malloc(n * size + 1);
+  if (array == NULL) *status = PENDRES_OUT_OF_MEMORY;
+  else (void)get(s, array, n * size);
+  return array;
+}
+
+static pendres_status get_branch(source *s, pendres_branch **out)
+{
+  branch_head h;
+  pendres_status status = PENDRES_OK;
+  *out = NULL;
+  if (!get(s, &h, sizeof h)) return PENDRES_INVALID_ARGUMENT;
+  pendres_branch *b = calloc(1, sizeof *b);
+  if (b == NULL) return PENDRES_OUT_OF_MEMORY;
+  b->parameter = h.parameter;
+  b->map = h.map;
+  b->end[0] = h.end[0], b->end[1] = h.end[1];
+  b->count = h.count;
+  b->bifurcations = h.bifurcations;
+  b->point = get_array(s, h.count, sizeof *b->point, &status);
+  b->bifurcation = get_array(s, h.bifurcations, sizeof *b->bifurcation, &status);
+  if (status == PENDRES_OK) *out = b;
+  else pendres_branch_free(b);
+  return status;
+}
+
+pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_branches **out)
+{
+  source s = { .at = bytes, .left = size };
+  set_head head;
+  pendres_status status = PENDRES_OK;
+  if (out == NULL) return PENDRES_INVALID_ARGUMENT;
+  *out = NULL;
+  if (bytes == NULL || !get(&s, &head, sizeof head) || head.count > s.left / sizeof(branch_head))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_branches *set = calloc(1, sizeof *set);
+  if (set == NULL) return PENDRES_OUT_OF_MEMORY;
+  set->skipped = head.skipped;
+  set->capacity = head.count;
+  set->branch = calloc(head.count + 1, sizeof(pendres_branch *));
+  if (set->branch == NULL) status = PENDRES_OUT_OF_MEMORY;
+  for (; set->count < head.count && status == PENDRES_OK; set->count += status == PENDRES_OK)
+    status = get_branch(&s, &set->branch[set->count]);
+  if (status == PENDRES_OK && s.left > 0) status = PENDRES_INVALID_ARGUMENT;
+  if (status == PENDRES_OK) *out = set;
+  else pendres_branches_free(set);
+  return status;
+}

@@ -1,0 +1,40 @@
+/* lanes_shape.c -- how a block is cut, and what is done strip by strip; see lanes_shape.h. */
+#include "engine/lanes_shape.h"
+
+/*
+ * Lanes of a strip: few enough for the 14 vectors of an order-8 step to share 32 KB, and no more
+ * vectors of a state than the kernels keep in registers at once. Measured; twice or half as many
+ * cost a few per cent.
+ */
+static size_t most_lanes(size_t rows)
+{
+  return rows <= PENDRES_ROWS_STATE ? 80 : rows <= PENDRES_ROWS_VARIATIONAL ? 48 : 24;
+}
+
+void pendres_lanes_shape_cut(pendres_lanes_shape *s, size_t lanes)
+{
+  const size_t most = most_lanes(s->rows), unit = PENDRES_LANES_MULTIPLE;
+  s->stride = (lanes + unit - 1) / unit * unit;
+  /* As few strips as can be, and as equal. */
+  const size_t strips = s->stride > 0 ? (s->stride + most - 1) / most : 1;
+  s->strip = s->stride / unit / strips * unit;
+  s->wider = s->stride / unit % strips * (s->strip + unit);
+}
+
+void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operation *operations,
+                             size_t n)
+{
+  for (size_t lane = 0, lanes; lane < s->stride; lane += lanes) {
+    const pendres_coefficients *k = &s->coefficients;
+    lanes = pendres_lanes_strip(s, lane);
+    const pendres_carried *off = &s->off;
+    pendres_strip strip = {
+      .lanes = lanes,
+      .at = s->rows * lane,
+      .k = {k->stiffness + lane, k->drive + lane, k->friction + lane, k->inverse + lane}};
+    if (off->yy != NULL)
+      strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,
+                                    off->added + lane, off->keep + lane, off->kick + lane};
+    s->kernels->run(s->rows, &strip, operations, n);
+  }
+}

@@ -1,0 +1,51 @@
+/*
+ * lanes_shape.h -- how many pendulums a block holds, and how its memory is cut.
+ *
+ * Owns: the shape that all vectors of a block share. A vector has `rows` rows (kernels.h) of
+ * `stride` lanes; stride is the number of lanes in use, rounded up to a multiple of 8, and may
+ * change between two integrations.
+ *
+ * Lanes never mix, so the block is cut into strips of lanes, and what can be is put off
+ * (lanes_tape.h) and then done strip by strip: all vectors of a strip fit the nearest cache,
+ * however many lanes the block has.
+ */
+#ifndef PENDRES_LANES_SHAPE_H
+#define PENDRES_LANES_SHAPE_H
+
+#include <stddef.h>
+
+#include "engine/kernels.h"
+
+enum { PENDRES_LANES_ALIGN = 64, PENDRES_LANES_MULTIPLE = 8 };
+
+struct pendres_lanes_tape;
+
+/* Shared by all clones; owned by whoever made the first vector. */
+typedef struct pendres_lanes_shape {
+  size_t rows;
+  size_t capacity; /* lanes that memory was taken for, a multiple of 8 */
+  size_t stride;   /* lanes in use, rounded up to a multiple of 8 */
+  size_t strip;    /* lanes of a strip, a multiple of 8, ... */
+  size_t wider;    /* ... and of those below this lane 8 more */
+  int norm_unused; /* fixed steps: nobody reads the norm, so do not compute it */
+  const pendres_kernels *kernels;
+  pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */
+  pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
+  size_t vectors;                    /* made so far, for their place in the cache */
+  struct pendres_lanes_tape *tape;   /* what was put off */
+} pendres_lanes_shape;
+
+/* How many lanes the strip has that starts with this lane. */
+static inline size_t pendres_lanes_strip(const pendres_lanes_shape *shape, size_t lane)
+{
+  return shape->strip + (lane < shape->wider ? PENDRES_LANES_MULTIPLE : 0);
+}
+
+/* From now on this many lanes, at most the capacity; nothing may have been put off. */
+void pendres_lanes_shape_cut(pendres_lanes_shape *shape, size_t lanes);
+
+/* Do operations one after the other, on all lanes, strip by strip. */
+void pendres_lanes_shape_run(const pendres_lanes_shape *shape,
+                             const pendres_operation *operations, size_t n);
+
+#endif
