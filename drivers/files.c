@@ -81,3 +81,69 @@ int files_writable(const deck *d, progress *p)
   progress_error(p, "nothing can be written to the folder '%s': %s", folder, strerror(errno));
   return 1;
 }
+
+/* ---- what is replaced ---------------------------------------------------------------------- */
+
+/* Does the file hold the results of this deck? Then nothing is lost with it. */
+static int same_deck(const char *path, const deck *d)
+{
+  pendres_store *store = NULL;
+  char *text = NULL, *resolved = NULL;
+  pendres_status status = pendres_store_open(path, &store);
+  if (status == PENDRES_OK)
+    status = pendres_store_read_text(store, "provenance", "deck_resolved", 0, &text);
+  if (status == PENDRES_OK) status = deck_resolved(d, &resolved);
+  const int same = status == PENDRES_OK && strcmp(text, resolved) == 0;
+  free(text);
+  free(resolved);
+  pendres_store_free(store);
+  return same;
+}
+
+/* A second name for the file; not over another one. */
+static int name_again(const char *path, const char *name)
+{
+  if (link(path, name) == 0) return 0;
+  if (errno == EEXIST || access(name, F_OK) == 0) return EEXIST;
+  return rename(path, name) == 0 ? 0 : errno; /* a file system without links */
+}
+
+int files_keep(const deck *d, files_kept *kept, progress *p)
+{
+  struct stat info;
+  int why = ENOMEM;
+  *kept = (files_kept){ 0 };
+  if (pendres_store_target(d->output, &kept->target, NULL, 0) != PENDRES_OK)
+    return 0; /* the store tells */
+  if (stat(kept->target, &info) != 0 || info.st_size == 0 || same_deck(kept->target, d)) {
+    files_keep_end(kept, 1, p);
+    return 0;
+  }
+  const size_t size = strlen(kept->target) + 16;
+  kept->name = malloc(size);
+  for (int n = 1; n < 1000 && kept->name != NULL; n++) {
+    snprintf(kept->name, size, "%s.~%d~", kept->target, n);
+    why = name_again(kept->target, kept->name);
+    if (why != EEXIST) break;
+  }
+  if (why == 0) return 0;
+  free(kept->name);
+  kept->name = NULL;
+  files_keep_end(kept, 1, p);
+  progress_error(p, "%s cannot be kept under another name: %s; --force replaces it", d->output,
+                 strerror(why));
+  return 1;
+}
+
+void files_keep_end(files_kept *kept, int replaced, progress *p)
+{
+  if (kept->name != NULL && replaced) {
+    progress_note(p, "what was there before is kept as %s", kept->name);
+  } else if (kept->name != NULL) {
+    if (access(kept->target, F_OK) == 0) (void)unlink(kept->name);
+    else (void)rename(kept->name, kept->target);
+  }
+  free(kept->name);
+  free(kept->target);
+  *kept = (files_kept){ 0 };
+}

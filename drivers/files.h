@@ -20,4 +20,18 @@ int files_check(const deck *d, const char *log, progress *p);
    without making a file there. */
 int files_writable(const deck *d, progress *p);
 
+/* A file that is about to be replaced, and the name under which it is kept; all zero: none. */
+typedef struct files_kept {
+  char *target, *name;
+} files_kept;
+
+/*
+ * If the output is there and holds anything but results of this very deck (as resolved, so that the
+ * same results would be computed again), give it the name OUTPUT.~1~, or the next one that is free.
+ * To be called just before the output is replaced, and files_keep_end after that: `replaced` tells
+ * whether it was. 0, or 1 after an error: then it must not be replaced.
+ */
+int files_keep(const deck *d, files_kept *kept, progress *p);
+void files_keep_end(files_kept *kept, int replaced, progress *p);
+
 #endif

@@ -26,6 +26,10 @@ enum { DONE = 0, FAILED = 1, BAD_USAGE = 2, SOME_POINTS_FAILED = 3, STOPPED = 75
 typedef struct job {
   options options;
   progress progress;
+  deck *decks;     /* as many as there are names; those that had their turn are empty */
+  int watched;     /* nonzero: ending_watch() was called */
+
+  /* Of the deck whose turn it is. */
   provenance provenance;
   deck deck;
   const scene_kind *scene;
@@ -49,23 +53,25 @@ static int hold_streams(void)
 }
 
 /* --output takes the place of the deck's. */
-static int override_output(job *j)
+static int override_output(job *j, deck *d)
 {
   const char *name = j->options.output;
   if (name == NULL) return DONE;
-  if (strlen(name) >= sizeof j->deck.output) {
+  if (strlen(name) >= sizeof d->output) {
     progress_error(&j->progress, "the name of the output is too long");
     return BAD_USAGE;
   }
-  strcpy(j->deck.output, name);
+  strcpy(d->output, name);
   return DONE;
 }
 
-static int read_deck(job *j)
+static int read_deck(job *j, const char *name, deck *d)
 {
   namelist_errors errors = { 0 };
+  pendres_options precision;
   const char *why = NULL;
-  const pendres_status status = deck_read(j->options.deck, &j->deck, &errors);
+  const pendres_status status = deck_read_set(name, (const char *const *)j->options.setting,
+                                              j->options.setting_count, d, &errors);
   namelist_errors_print(&errors, stderr);
   namelist_errors_free(&errors);
   if (status == PENDRES_OUT_OF_MEMORY) {
@@ -73,13 +79,37 @@ static int read_deck(job *j)
     return FAILED;
   }
   if (status != PENDRES_OK) return BAD_USAGE;
-  if (override_output(j) != DONE || files_check(&j->deck, j->options.log, &j->progress) != DONE)
+  if (override_output(j, d) != DONE || files_check(d, j->options.log, &j->progress) != DONE)
     return BAD_USAGE;
-  if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) {
-    progress_error(&j->progress, "%s: &precision: %s", j->deck.name, why);
+  if (scene_precision(d, &precision, &why) != PENDRES_OK) {
+    progress_error(&j->progress, "%s: &precision: %s", d->name, why);
     return BAD_USAGE;
   }
   return DONE;
+}
+
+/* All of them, so that nothing is computed if one is bad. */
+static int read_decks(job *j)
+{
+  const size_t count = j->options.deck_count;
+  int code = DONE;
+  j->decks = calloc(count, sizeof *j->decks);
+  if (j->decks == NULL) {
+    progress_error(&j->progress, "out of memory for the decks");
+    return FAILED;
+  }
+  for (size_t i = 0; i < count; i++) {
+    const int one = read_deck(j, j->options.deck[i], &j->decks[i]);
+    if (one == FAILED) return FAILED;
+    if (one != DONE) code = one;
+    for (size_t k = 0; k < i && one == DONE && j->options.action == OPTIONS_RUN; k++) {
+      if (j->decks[k].name == NULL || !files_same(j->decks[k].output, j->decks[i].output)) continue;
+      progress_error(&j->progress, "the decks %s and %s both write %s", j->decks[k].name,
+                     j->decks[i].name, j->decks[i].output);
+      code = BAD_USAGE;
+    }
+  }
+  return code;
 }
 
 static int find_scene(job *j)
@@ -127,7 +157,7 @@ static int dry_run(job *j)
 
 static int open_log(job *j)
 {
-  if (j->options.log == NULL) return DONE;
+  if (j->options.log == NULL || j->progress.log != NULL) return DONE;
   j->progress.log = fopen(j->options.log, "a");
   if (j->progress.log != NULL) return DONE;
   progress_error(&j->progress, "%s: %s", j->options.log, strerror(errno));
@@ -136,6 +166,8 @@ static int open_log(job *j)
 
 static int start_farm(job *j)
 {
+  const char *why = NULL; /* it was told when the deck was read */
+  if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) return BAD_USAGE;
   const farm_options options = { .library = j->precision,
                                  .threads = j->options.threads,
                                  .stop = signals_stop,
@@ -148,20 +180,21 @@ static int start_farm(job *j)
 /* The output is found unwritable before anything is computed. */
 static int open_output(job *j)
 {
-  char title[DECK_TITLE + 32], history[DECK_PATH + 64], source[64];
+  char title[DECK_TITLE + 32], history[4 * DECK_PATH], source[64];
   const deck *d = &j->deck;
   const char *slash = strrchr(d->name, '/');
   snprintf(title, sizeof title, "%s", d->title[0] != '\0' ? d->title : deck_kind_name(d->kind));
-  snprintf(history, sizeof history, "computed by resonance from the deck %.900s",
-           slash != NULL ? slash + 1 : d->name);
+  snprintf(history, sizeof history, "resonance %.900s%s%.3000s",
+           slash != NULL ? slash + 1 : d->name, d->settings[0] != '\0' ? " " : "", d->settings);
   snprintf(source, sizeof source, "resonance, libpendres %s", pendres_version());
   const pendres_store_options options = { .title = title, .history = history, .source = source,
                                           .references = j->scene->references };
   j->run = (scene_run){ .deck = d, .farm = j->farm };
-  if (ending_watch(&j->run.store) != 0) {
+  if (!j->watched && ending_watch(&j->run.store) != 0) {
     progress_error(&j->progress, "the system refuses handlers of exits and faults");
     return FAILED;
   }
+  j->watched = 1;
   if (pendres_store_create(d->output, &options, &j->run.store) != PENDRES_OK) {
     progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
     return FAILED;
@@ -207,7 +240,12 @@ static int finish_output(job *j)
   pendres_store *store = j->run.store;
   pendres_status status =
     provenance_write(&j->provenance, &j->deck, j->farm, j->run.failed_points, store);
+  files_kept kept = { 0 };
+  if (status == PENDRES_OK && !j->options.force &&
+      files_keep(&j->deck, &kept, &j->progress) != DONE)
+    return FAILED;
   if (status == PENDRES_OK) status = pendres_store_close(store);
+  files_keep_end(&kept, status == PENDRES_OK, &j->progress);
   if (status == PENDRES_OK) return DONE;
   progress_error(&j->progress, "%s", pendres_store_message(store));
   return FAILED;
@@ -218,6 +256,10 @@ static int report(job *j)
   if (fflush(j->run.table) != 0 || ferror(j->run.table)) {
     progress_error(&j->progress, "out of memory for the table of results");
     return FAILED;
+  }
+  if (j->options.deck_count > 1) {
+    safe_text_write(stdout, j->deck.name);
+    puts(":");
   }
   if (j->table_size > 0) (void)fwrite(j->table, 1, j->table_size, stdout);
   progress_note(&j->progress, "%s written after %.2f s", j->deck.output,
@@ -257,19 +299,30 @@ static void let_go(job *j)
   pendres_store_free(j->run.store);
   j->run.store = NULL;
   if (j->run.table != NULL) (void)fclose(j->run.table);
+  j->run.table = NULL;
   free(j->table);
+  j->table = NULL;
+  j->table_size = 0;
   farm_free(j->farm);
+  j->farm = NULL;
   deck_free(&j->deck);
+}
+
+static void let_go_all(job *j)
+{
+  let_go(j);
+  for (size_t i = 0; i < j->options.deck_count && j->decks != NULL; i++) deck_free(&j->decks[i]);
+  free(j->decks);
   if (j->progress.log != NULL) (void)fclose(j->progress.log);
 }
 
-/* The steps of a run, on a thread of its own. */
-static int run_job(void *arg)
+/* The steps of a run. */
+static int run_deck(job *j)
 {
-  job *j = arg;
-  int code = read_deck(j);                                           /* 2 the deck */
-  if (code == DONE && j->options.action == OPTIONS_DUMP_NAMELIST) return dump(j);
-  if (code == DONE) code = find_scene(j);                            /* 3 its scene */
+  int code = DONE;
+  if (j->options.action == OPTIONS_DUMP_NAMELIST) return dump(j);
+  provenance_start(&j->provenance);
+  code = find_scene(j);                                              /* 3 its scene */
   if (code == DONE) code = start_farm(j);                            /* 4 threads */
   if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return dry_run(j);
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
@@ -278,6 +331,31 @@ static int run_job(void *arg)
   if (code == DONE) code = compute(j);                               /* 8 all the work */
   if (code == DONE) code = finish_output(j);                         /* 9 whole, in its place */
   if (code == DONE) code = report(j);                                /* 10 the table */
+  return code;
+}
+
+/* What is told of several decks: the worst. A failure is worse than points that failed. */
+static int worse(int one, int other)
+{
+  static const int order[] = { DONE, SOME_POINTS_FAILED, FAILED, BAD_USAGE, STOPPED };
+  int code = DONE;
+  for (size_t i = 0; i < sizeof order / sizeof *order; i++)
+    if (one == order[i] || other == order[i]) code = order[i];
+  return code;
+}
+
+/* One deck after another, on a thread of its own. One that fails leaves the others their turn. */
+static int run_decks(void *arg)
+{
+  job *j = arg;
+  int code = read_decks(j);                                          /* 2 the decks */
+  if (code != DONE) return code;
+  for (size_t i = 0; i < j->options.deck_count && code != STOPPED; i++) {
+    if (i > 0) let_go(j);
+    j->deck = j->decks[i];
+    j->decks[i] = (deck){ 0 };
+    code = worse(code, run_deck(j));
+  }
   return code;
 }
 
@@ -290,11 +368,10 @@ int main(int argc, char **argv)
   if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);
   if (j.options.action == OPTIONS_VERSION) return options_print_version(stdout);
   if (j.options.action >= OPTIONS_LIST) return answer(&j.options);
-  provenance_start(&j.provenance);
   progress_init(&j.progress, stderr, j.options.quiet);
-  code = farm_errand(run_job, &j);
+  code = farm_errand(run_decks, &j);
   ending_told(code);
-  let_go(&j);
+  let_go_all(&j);
   ending_done();
   return code;
 }

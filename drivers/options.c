@@ -6,26 +6,31 @@
 #include <getopt.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <pendres/pendres.h>
 
+#include "deck/deck.h"
 #include "farm/farm.h"
 
 enum { MOST_THREADS = FARM_MOST_THREADS };
 
 static const char help[] =
-  "Usage: resonance [OPTION]... DECK\n"
+  "Usage: resonance [OPTION]... DECK... [GROUP.KEY=VALUE]...\n"
   "Compute the scene that a deck describes, a file in Fortran namelist syntax, for driven, damped\n"
   "and noisy pendulums, and write its results to an HDF5 file (default: the deck's name with .h5,\n"
   "in the working directory). A short table goes to standard output, all else to standard error.\n"
+  "DECK - is standard input. Several decks are computed one after another, each into its own\n"
+  "file. Keys set behind them take the place of what the decks say of the same quantity.\n"
   "\n"
   "      --list            kinds of scenes, a line each\n"
-  "      --explain=WORD    meaning, unit, default and range of a key, or of all of a kind or group\n"
+  "      --explain=WORD    meaning, unit, default, range of a key, or of all of a kind or group\n"
   "      --init=KIND       print a deck of that kind to start from, with comments\n"
   "      --reference       print all that --explain knows as a page (docs/decks.md)\n"
   "  -n, --dry-run         check the deck and say what would be computed\n"
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
+  "  -f, --force           do not keep a file that is replaced (see below)\n"
   "  -t, --threads=N       use N threads (default: OMP_NUM_THREADS, or all cores)\n"
   "  -q, --quiet           no progress and no notes; errors are still reported\n"
   "      --log=FILE        append progress, notes and errors to FILE, with the time\n"
@@ -35,9 +40,12 @@ static const char help[] =
   "Exit status: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they\n"
   "are marked in the file); 75 stopped by TERM, INT, HUP, USR1, USR2 or XCPU.\n"
   "A file of results is whole or absent: it is written as FILE.part and renamed at the end. If\n"
-  "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are not.\n"
+  "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are\n"
+  "not. A FILE that is there already and holds anything but results of the same deck is kept, as\n"
+  "FILE.~1~, FILE.~2~ and so on.\n"
   "\n"
-  "Example: resonance input/f02.nml\n";
+  "Examples: resonance input/f02.nml\n"
+  "          resonance input/f02.nml pendulum.drive_amplitude=0.15 sweep.damping=0.2,0.3\n";
 
 static int complain(const char *name)
 {
@@ -95,6 +103,9 @@ static int apply(int option, const char *value, const char *name, options *out)
     if (*value != '\0') return 0;
     fprintf(stderr, "%s: --output needs the name of a file\n", name);
     return complain(name);
+  case 'f':
+    out->force = 1;
+    return 0;
   case 'l':
     out->log = value;
     return 0;
@@ -128,6 +139,36 @@ static int threads_of_environment(options *out, const char *name)
   return complain(name);
 }
 
+/* Decks first, then the keys that are set, both in their order. */
+static int take_operands(int argc, char **argv, const char *name, options *out)
+{
+  char **operand = argv + optind;
+  const size_t count = (size_t)(argc - optind);
+  for (size_t i = 0; i < count; i++) {
+    char *one = operand[i];
+    if (deck_is_setting(one)) continue;
+    if (strchr(one, '=') != NULL && access(one, F_OK) != 0) {
+      fprintf(stderr, "%s: '%s' is no deck, and sets no key: that is written GROUP.KEY=VALUE, as "
+              "in pendulum.damping=0.13\n", name, one);
+      return complain(name);
+    }
+    memmove(&operand[out->deck_count + 1], &operand[out->deck_count],
+            (i - out->deck_count) * sizeof *operand);
+    operand[out->deck_count++] = one;
+  }
+  out->deck = operand;
+  out->setting = operand + out->deck_count;
+  out->setting_count = count - out->deck_count;
+  if (out->deck_count > 1 && out->output != NULL) {
+    fprintf(stderr, "%s: --output names one file, and there are %zu decks\n", name,
+            out->deck_count);
+    return complain(name);
+  }
+  if (out->deck_count > 0) return 0;
+  fprintf(stderr, "%s: no deck was given\n", name);
+  return complain(name);
+}
+
 int options_parse(int argc, char **argv, options *out)
 {
   static const struct option table[] = {
@@ -137,28 +178,20 @@ int options_parse(int argc, char **argv, options *out)
     { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
     { "list", no_argument, NULL, 'L' },          { "explain", required_argument, NULL, 'E' },
     { "init", required_argument, NULL, 'I' },    { "reference", no_argument, NULL, 'R' },
-    { NULL, 0, NULL, 0 },
+    { "force", no_argument, NULL, 'f' },         { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
   int option = 0;
 
   *out = (options){ .action = OPTIONS_RUN };
   optind = 0; /* start anew, also the second time */
-  while ((option = getopt_long(argc, argv, "no:t:qhV", table, NULL)) != -1) {
+  while ((option = getopt_long(argc, argv, "no:ft:qhV", table, NULL)) != -1) {
     const int code = apply(option, optarg, name, out);
     if (code != 0) return code;
   }
   if (out->action >= OPTIONS_LIST) return 0;
-  if (optind >= argc) {
-    fprintf(stderr, "%s: no deck was given\n", name);
-    return complain(name);
-  }
-  if (optind + 1 < argc) {
-    fprintf(stderr, "%s: one deck at a time, please: '%s' comes after '%s'\n", name,
-            argv[optind + 1], argv[optind]);
-    return complain(name);
-  }
-  out->deck = argv[optind];
+  const int code = take_operands(argc, argv, name, out);
+  if (code != 0) return code;
   return threads_of_environment(out, name);
 }
 

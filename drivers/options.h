@@ -1,8 +1,8 @@
 /*
  * options.h -- the command line.
  *
- * Owns: names and checks of options. What is computed stands in the deck alone; options say how,
- * and where the result goes.
+ * Owns: names and checks of options. What is computed stands in the deck and in the keys set beside
+ * it; options say how, and where the result goes.
  */
 #ifndef OPTIONS_H
 #define OPTIONS_H
@@ -24,15 +24,19 @@ typedef enum options_action {
 /* Texts are argv's own. */
 typedef struct options {
   options_action action;
-  const char *deck;   /* NULL for help and version */
+  char **deck;        /* names of decks; "-": standard input */
+  size_t deck_count;  /* 0 for help, version and the like */
+  char **setting;     /* keys set behind the decks, for all of them */
+  size_t setting_count;
   const char *output; /* instead of the deck's; NULL: not given */
+  int force;          /* nonzero: an output that is there is not kept */
   const char *log;    /* NULL: none */
   const char *word;   /* of --explain and --init */
   int threads;        /* of --threads or OMP_NUM_THREADS; 0: all cores */
   int quiet;
 } options;
 
-/* 0, or 2 after a message on stderr. Not thread safe (getopt). */
+/* 0, or 2 after a message on stderr. Puts argv into order. Not thread safe (getopt). */
 int options_parse(int argc, char **argv, options *out);
 
 /* 0 if all that went to the stream arrived, or 1 after a message. */

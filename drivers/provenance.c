@@ -40,26 +40,17 @@ double provenance_wall(const provenance *p)
   return wall_clock() - p->wall;
 }
 
-/* The resolved deck as text, to be freed. */
-static pendres_status resolved(const deck *d, char **text)
-{
-  size_t size = 0;
-  FILE *out = open_memstream(text, &size);
-  if (out == NULL) return PENDRES_OUT_OF_MEMORY;
-  const pendres_status status = deck_dump(d, out);
-  if (fclose(out) == 0) return status;
-  return PENDRES_OUT_OF_MEMORY;
-}
-
 static pendres_status write_deck(const deck *d, pendres_store *store)
 {
   char *text = NULL;
-  pendres_status status = resolved(d, &text);
+  pendres_status status = deck_resolved(d, &text);
   if (status == PENDRES_OK) {
     const pendres_store_entry entries[] = {
       { .key = "deck_name", .text = d->name, .long_name = "file that the deck was read from" },
       { .key = "deck", .text = d->text, .long_name = "the deck, verbatim" },
-      { .key = "deck_resolved", .text = text, .long_name = "the deck with all defaults" },
+      { .key = "settings", .text = d->settings,
+        .long_name = "keys set on the command line, in the place of the deck's" },
+      { .key = "deck_resolved", .text = text, .long_name = "the deck with settings and defaults" },
     };
     status = pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);
   }

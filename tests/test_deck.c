@@ -416,7 +416,7 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='free_oscillation' /\n&sweep apmlitdue=1 /", { "2:8 did you mean 'amplitude'?" } },
   { CURVE "&sweep damping_rnge=0.1,1,5 /", { "3:8 did you mean 'damping_range'?" } },
   { CURVE "&sweep damping=0.1 /\n&precision members=3 /", { "4:12 'members' is not a key of &precision (it belongs in &ensemble)" } },
-  { CURVE "&sweep damping=0.1 /\n&ensemble qwertz=3 /", { "4:11 'qwertz' is not a key of &ensemble\n" } },
+  { CURVE "&sweep damping=0.1 /\n&ensemble qwertz=3 /", { "4:11 'qwertz' is not a key of &ensemble; scene 'resonance_curve' takes members, x_first, x_last, v\n" } },
   { CURVE "&sweep damping=0.1 /\n&precision method='blok_fixed' table='tp9' /",
     { "4:19 did you mean 'block_fixed'?", "4:38 did you mean 'tp8'?" } },
   { CURVE "&sweep damping=0.1 /\n&precision method='' /", { "4:19 knows no ''; it takes" } },

@@ -20,7 +20,6 @@ static void test_usage(void **state)
   check_says(err, "--nonsense");
   check_code(run_list((const char *const[]){ NULL }), 2);
   check_says(err, "no deck");
-  check_code(RUN("small.nml", "orbit.nml"), 2);
   static const char *const bad_threads[] = { "0", "-1", "two", "1.5", "", "99999999999999999999" };
   for (size_t i = 0; i < sizeof bad_threads / sizeof *bad_threads; i++) {
     check_code(RUN("--threads", bad_threads[i], "small.nml"), 2);

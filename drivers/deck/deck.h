@@ -100,6 +100,7 @@ typedef struct deck {
   char *name;         /* the file it came from */
   char *text;         /* verbatim */
   size_t text_length;
+  char *settings;     /* keys set outside of it, as they were written, with blanks between them */
 
   deck_kind kind;
   char title[DECK_TITLE];
@@ -165,12 +166,24 @@ typedef struct deck {
 } deck;
 
 /**
- * Read and check a deck. On success *out is complete and the caller frees it with deck_free; after
+ * Read and check a deck, a file or, as "-", standard input. On success *out is complete and the
+ * caller frees it with deck_free; after
  * any error *out is all zero and errors holds every mistake in the order of the text.
  * Returns PENDRES_OK, PENDRES_INVALID_ARGUMENT (a bad deck), PENDRES_IO (no deck there) or
  * PENDRES_OUT_OF_MEMORY.
  */
 pendres_status deck_read(const char *path, deck *out, namelist_errors *errors);
+
+/**
+ * The same with keys set outside of the deck, `count` texts such as "pendulum.damping=0.13": each
+ * takes the place of all that the deck says of the same quantity (of an axis, its list, its range
+ * and its single value; of the drive, frequency and period). Their errors name the command line.
+ */
+pendres_status deck_read_set(const char *path, const char *const *settings, size_t count,
+                             deck *out, namelist_errors *errors);
+
+/** Has it the form of a key set outside of a deck, GROUP.KEY=VALUES? */
+int deck_is_setting(const char *argument);
 
 /** The same from memory; `name` stands in messages and gives the output its default name. */
 pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
@@ -184,6 +197,9 @@ void deck_free(deck *d);
  * that deck_read turns into the same deck. PENDRES_IO if the stream reports an error.
  */
 pendres_status deck_dump(const deck *d, FILE *stream);
+
+/** The same as a text, to be freed by free(); NULL on failure. */
+pendres_status deck_resolved(const deck *d, char **text);
 
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);

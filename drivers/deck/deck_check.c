@@ -14,7 +14,18 @@ static const double two_pi = 6.28318530717958647693;
 
 static void complain(deck_builder *b, const deck_given *at, const char *name, const char *message)
 {
-  namelist_error_at(b->nl, at->line, at->column, (int)strlen(name), b->errors, "%s", message);
+  namelist_error_at(at->nl != NULL ? at->nl : b->nl, at->line, at->column, (int)strlen(name),
+                    b->errors, "%s", message);
+}
+
+/* Of a group as a whole or, where the deck has none, of the kind that makes it needed. */
+static void complain_of_group(deck_builder *b, const namelist_group *g, const char *message)
+{
+  if (g != NULL)
+    namelist_error_at(b->nl, g->line, g->column, (int)strlen(g->name) + 1, b->errors, "%s",
+                      message);
+  else
+    namelist_error_at(b->kind_nl, b->kind_line, b->kind_column, 1, b->errors, "%s", message);
 }
 
 /* The state of a key in this scene; never NULL, so that callers need not ask. */
@@ -56,7 +67,7 @@ static int was_tried(const deck_builder *b, size_t row)
 static void report_missing_group(deck_builder *b, size_t row)
 {
   const char *group = deck_table[row].group;
-  char list[300] = "";
+  char list[300] = "", message[500];
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if (strcmp(key->group, group) != 0 || (key->needed & b->scene) == 0 || was_tried(b, i))
@@ -65,9 +76,9 @@ static void report_missing_group(deck_builder *b, size_t row)
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'", list[0] == '\0' ? "" : ", ",
              key->name);
   }
-  namelist_error_at(b->nl, b->kind_line, b->kind_column, 1, b->errors,
-                    "scene '%s' needs a group &%s with %s", deck_kind_name(b->d->kind), group,
-                    list);
+  snprintf(message, sizeof message, "scene '%s' needs a group &%s with %s",
+           deck_kind_name(b->d->kind), group, list);
+  complain_of_group(b, NULL, message);
 }
 
 static void check_missing(deck_builder *b)
@@ -79,12 +90,13 @@ static void check_missing(deck_builder *b)
     if (group == NULL) {
       report_missing_group(b, i);
     } else if (!group->broken) {
-      const int has_range = key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
-      const char *or_range = has_range ? "_range" : "";
-      namelist_error_at(b->nl, group->line, group->column, (int)strlen(group->name) + 1, b->errors,
-                        *or_range ? "scene '%s' needs '%s' or '%s%s' in &%s"
-                                  : "scene '%s' needs '%s'%.0s%s in &%s",
-                        deck_kind_name(b->d->kind), key->name, key->name, or_range, key->group);
+      char message[300];
+      const int has_range = deck_table_has_range(key);
+      snprintf(message, sizeof message,
+               has_range ? "scene '%s' needs '%s' or '%s_range' in &%s"
+                         : "scene '%s' needs '%s'%.0s in &%s",
+               deck_kind_name(b->d->kind), key->name, key->name, key->group);
+      complain_of_group(b, group, message);
     }
   }
 }
@@ -110,11 +122,10 @@ static void check_drive(deck_builder *b, const char *group)
     complain(b, later, later == period ? "drive_period" : "drive_frequency",
              "give either 'drive_frequency' or 'drive_period', not both");
   } else if (!have_frequency && !have_period && (place == NULL || !place->broken)) {
-    namelist_error_at(b->nl, place != NULL ? place->line : b->kind_line,
-                      place != NULL ? place->column : b->kind_column,
-                      place != NULL ? (int)strlen(place->name) + 1 : 1, b->errors,
-                      "scene '%s' needs 'drive_frequency' or 'drive_period' in &%s",
-                      deck_kind_name(b->d->kind), group);
+    char message[200];
+    snprintf(message, sizeof message, "scene '%s' needs 'drive_frequency' or 'drive_period' in &%s",
+             deck_kind_name(b->d->kind), group);
+    complain_of_group(b, place, message);
   }
 }
 
@@ -140,7 +151,7 @@ static void check_axis_sources(deck_builder *b)
     if (key->type != DECK_SWEEP_VALUE || (key->scenes & b->scene) == 0) continue;
     const deck_given *sweep = given(b, "sweep", key->name);
     if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
-    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+    namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
                       b->errors, "'%s' is given in &sweep too (line %d)", key->name, sweep->line);
   }
 }
@@ -161,18 +172,14 @@ static void check_idle_keys(deck_builder *b)
     if (key->when == DECK_WITH_NOISE && given(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
     if (deck_key_applies(key, b->d)) continue;
-    namelist_error_at(b->nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+    namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
                       b->errors, "'%s' is not used: %s", key->name, why[key->when]);
   }
   if (in_scene(b, "orbit", "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
       !x->given && !x->broken &&
-      (x->group == NULL || !x->group->broken)) {
-    const int line = x->group != NULL ? x->group->line : b->kind_line;
-    const int column = x->group != NULL ? x->group->column : b->kind_column;
-    namelist_error_at(b->nl, line, column, 1, b->errors,
-                      "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in "
-                      "&orbit");
-  }
+      (x->group == NULL || !x->group->broken))
+    complain_of_group(b, x->group, "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' "
+                                   "(and 'v') in &orbit");
 }
 
 /* ---- axes ---------------------------------------------------------------------------------- */
@@ -208,7 +215,7 @@ static void check_size(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++)
     if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
   if (points > 0x1p32 && !d->basins.refine)
-    namelist_error_at(b->nl, b->kind_line, b->kind_column, 1, b->errors,
+    namelist_error_at(b->kind_nl, b->kind_line, b->kind_column, 1, b->errors,
                       "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
                       with_members ? " and members" : "", points,
                       b->scene == 1u << DECK_BASINS ? " without refine = .true." : "");

@@ -3,11 +3,12 @@
  * reals as the shortest decimals that come back to the last bit.
  */
 #ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* uselocale */
+#define _POSIX_C_SOURCE 200809L /* uselocale, open_memstream */
 #endif
 #include "deck/deck_table.h"
 
 #include <locale.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { LINE = 80 };
@@ -145,4 +146,18 @@ pendres_status deck_dump(const deck *d, FILE *stream)
   uselocale(before);
   freelocale(c);
   return ferror(stream) ? PENDRES_IO : PENDRES_OK;
+}
+
+pendres_status deck_resolved(const deck *d, char **text)
+{
+  size_t size = 0;
+  *text = NULL;
+  FILE *out = open_memstream(text, &size);
+  if (out == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = deck_dump(d, out);
+  if (fclose(out) != 0) status = PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) return status;
+  free(*text);
+  *text = NULL;
+  return status;
 }

@@ -101,6 +101,7 @@ static int apply_choice(deck_builder *b, const deck_key *key, const namelist_val
     /* The nearest kind, so that the rest of the deck can be checked too. */
     b->scene = i < 0 ? 0 : 1u << i;
     if (i >= 0) b->d->kind = (deck_kind)i;
+    b->kind_nl = b->nl;
     b->kind_line = v->line;
     b->kind_column = v->column;
   } else if (i >= 0) {
@@ -300,6 +301,7 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
   snprintf(name, sizeof name, "%s%s", key->name, range ? "_range" : "");
   if (good && array->count == 0) return; /* nothing but null values */
   if (!given->given) {
+    given->nl = b->nl;
     given->line = array->line;
     given->column = array->column;
   }

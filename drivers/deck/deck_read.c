@@ -4,116 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- names --------------------------------------------------------------------------------- */
-
-static const char *known_group(const char *name)
-{
-  for (size_t i = 0; i < deck_table_size; i++)
-    if (strcmp(deck_table[i].group, name) == 0) return deck_table[i].group;
-  return NULL;
-}
-
-static int group_has_scene(const char *group, unsigned scene)
-{
-  for (size_t i = 0; i < deck_table_size; i++)
-    if (strcmp(deck_table[i].group, group) == 0 && (deck_table[i].scenes & scene) != 0) return 1;
-  return 0;
-}
-
-/* The known group that is meant, after a message if it is misspelt; NULL if none is near. */
-static const char *resolve_group(deck_builder *b, const namelist_group *g)
-{
-  const char *known = known_group(g->name);
-  deck_suggestion s = { .word = g->name };
-  char hint[100];
-  if (known != NULL) return known;
-  for (size_t i = 0; i < deck_table_size; i++)
-    if (namelist_group_find(b->nl, deck_table[i].group) == NULL)
-      deck_suggest(&s, deck_table[i].group);
-  namelist_error_at(b->nl, g->line, g->column, (int)strlen(g->name) + 1, b->errors,
-                    "&%s is not a group of decks%s", g->name,
-                    deck_suggestion_text(&s, hint, sizeof hint));
-  return s.best;
-}
-
-/* "free_oscillation, response": where a key or group is at home. */
-static void list_scenes(unsigned scenes, char *text, size_t size)
-{
-  text[0] = '\0';
-  for (int k = 0; k < DECK_KIND_COUNT; k++)
-    if ((scenes & (1u << k)) != 0)
-      snprintf(text + strlen(text), size - strlen(text), "%s%s", text[0] == '\0' ? "" : ", ",
-               deck_kind_name((deck_kind)k));
-}
-
-static unsigned scenes_of(const char *group, const char *name)
-{
-  unsigned scenes = 0;
-  for (int k = 0; k < DECK_KIND_COUNT; k++) {
-    int range = 0;
-    if (name == NULL ? group_has_scene(group, 1u << k)
-                     : deck_table_find(group, name, 1u << k, &range) < deck_table_size)
-      scenes |= 1u << k;
-  }
-  return scenes;
-}
-
-/* ---- keys ---------------------------------------------------------------------------------- */
-
-static void offer(deck_suggestion *s, const deck_key *key, char (*names)[2 * DECK_NAME], size_t row)
-{
-  deck_suggest(s, key->name);
-  if (key->type != DECK_SWEEP) return;
-  snprintf(names[row], sizeof names[row], "%s_range", key->name);
-  deck_suggest(s, names[row]);
-}
-
-/* A name that the group does not know: the nearest one that the scene takes, if any. */
-static void report_unknown_key(deck_builder *b, const namelist_assignment *a, const char *group)
-{
-  const char *synonym = deck_synonym(a->name);
-  deck_suggestion s = { .word = a->name };
-  char names[DECK_MAX_KEYS][2 * DECK_NAME], hint[3 * DECK_NAME], text[300];
-  int range = 0;
-  size_t row = deck_table_size;
-
-  for (size_t i = 0; i < deck_table_size; i++)
-    if (strcmp(deck_table[i].group, group) == 0 &&
-        (b->scene == 0 || (deck_table[i].scenes & b->scene)))
-      offer(&s, &deck_table[i], names, i);
-  if (synonym != NULL && deck_table_find(group, synonym, b->scene, &range) < deck_table_size)
-    s.best = synonym;
-  deck_suggestion_text(&s, hint, sizeof hint);
-  if (s.best != NULL) row = deck_table_find(group, s.best, b->scene, &range);
-  if (row < deck_table_size) b->given[row].broken = 1; /* do not call it missing too */
-  else
-    for (size_t i = 0; i < deck_table_size && hint[0] == '\0'; i++) { /* perhaps of another group */
-      if (deck_table_find(deck_table[i].group, a->name, b->scene, &range) != i) continue;
-      snprintf(hint, sizeof hint, " (it belongs in &%s)", deck_table[i].group);
-      b->given[i].broken = 1;
-    }
-  snprintf(text, sizeof text, "'%s' is not a key of &%s%s", a->name, group, hint);
-  namelist_error_at(b->nl, a->line, a->column, (int)strlen(a->name), b->errors, "%s", text);
-}
-
-static void report_idle_key(deck_builder *b, const namelist_assignment *a, const char *group)
-{
-  char list[300];
-  list_scenes(scenes_of(group, a->name), list, sizeof list);
-  namelist_error_at(b->nl, a->line, a->column, (int)strlen(a->name), b->errors,
-                    "'%s' in &%s is not used by scene '%s' (only by: %s)", a->name, group,
-                    deck_kind_name(b->d->kind), list[0] == '\0' ? "none" : list);
-}
-
 static void read_key(deck_builder *b, const namelist_group *g, const namelist_assignment *a,
                      const char *group)
 {
   namelist_array array = { 0 };
   int range = 0;
   const size_t row = deck_table_find(group, a->name, b->scene, &range);
+  if (b->nl->order == 0 && row < deck_table_size && deck_is_set(b, row)) return;
   if (row == deck_table_size) {
-    if (deck_table_find(group, a->name, 0, &range) < deck_table_size) report_idle_key(b, a, group);
-    else report_unknown_key(b, a, group);
+    if (deck_table_find(group, a->name, 0, &range) < deck_table_size)
+      deck_report_idle_key(b, a, group);
+    else
+      deck_report_unknown_key(b, a, group);
     return;
   }
   /* Types and ranges depend on the scene; without one only the names can be checked. */
@@ -134,23 +36,57 @@ static int came_before(const deck_builder *b, const namelist_group *g, size_t i)
   return 0;
 }
 
-static void read_group(deck_builder *b, const namelist_group *g, const char *group)
+/* The keys of a group of the deck, or the one of a setting. */
+static void read_keys(deck_builder *b, const namelist_group *g, const char *group)
 {
-  for (size_t i = 0; i < deck_table_size; i++)
-    if (strcmp(deck_table[i].group, group) == 0) b->given[i].group = g;
-  if (b->scene != 0 && !group_has_scene(group, b->scene)) {
-    char list[300];
-    list_scenes(scenes_of(group, NULL), list, sizeof list);
-    namelist_error_at(b->nl, g->line, g->column, (int)strlen(g->name) + 1, b->errors,
-                      "&%s is not used by scene '%s' (only by: %s)", group,
-                      deck_kind_name(b->d->kind), list);
+  if (b->scene != 0 && !deck_group_has_scene(group, b->scene)) {
+    deck_report_idle_group(b, g, group);
     return;
   }
   for (size_t i = 0; i < g->count; i++)
     if (!came_before(b, g, i)) read_key(b, g, &b->nl->assignment[g->begin + i], group);
 }
 
+static void read_group(deck_builder *b, const namelist_group *g, const char *group)
+{
+  for (size_t i = 0; i < deck_table_size; i++)
+    if (strcmp(deck_table[i].group, group) == 0) b->given[i].group = g;
+  read_keys(b, g, group);
+}
+
+static int is_scene(const char *group)
+{
+  return strcmp(group, "scene") == 0;
+}
+
+/* Settings of &scene, or all others. */
+static void read_settings(deck_builder *b, int scene)
+{
+  const namelist *text = b->nl;
+  for (size_t i = 0; i < b->setting_count; i++) {
+    b->nl = &b->settings[i];
+    if (b->nl->groups == 0 || b->nl->assignments == 0) continue; /* not understood, and reported */
+    const namelist_group *g = &b->nl->group[0];
+    if (is_scene(g->name) != scene) continue;
+    const char *group = deck_resolve_group(b, g);
+    if (group != NULL && !deck_is_set_before(b, i)) read_keys(b, g, group);
+  }
+  b->nl = text;
+}
+
 /* ---- the whole deck ------------------------------------------------------------------------ */
+
+static void check_kind(deck_builder *b, int found)
+{
+  int range = 0;
+  const namelist *nl = b->nl;
+  const deck_given *kind = &b->given[deck_table_find("scene", "kind", 0, &range)];
+  if (kind->given || kind->broken) return;
+  if (!found && (nl->groups > 0 || b->errors->count == 0))
+    namelist_error_at(nl, 1, 1, 1, b->errors, "the deck has no group &scene with a 'kind'");
+  else if (found && !kind->group->broken)
+    namelist_error_at(nl, b->kind_line, b->kind_column, 6, b->errors, "&scene needs a 'kind'");
+}
 
 /* &scene first, wherever it stands: all else depends on the kind. */
 static void read_groups(deck_builder *b)
@@ -159,10 +95,10 @@ static void read_groups(deck_builder *b)
   const namelist *nl = b->nl;
   int found = 0;
   for (size_t i = 0; i < nl->groups; i++)
-    if (!nl->group[i].repeated) name[i] = resolve_group(b, &nl->group[i]);
+    if (!nl->group[i].repeated) name[i] = deck_resolve_group(b, &nl->group[i]);
   for (int scene = 1; scene >= 0; scene--) {
     for (size_t i = 0; i < nl->groups; i++) {
-      if (name[i] == NULL || (strcmp(name[i], "scene") == 0) != scene) continue;
+      if (name[i] == NULL || is_scene(name[i]) != scene) continue;
       if (scene) {
         b->kind_line = nl->group[i].line;
         b->kind_column = nl->group[i].column;
@@ -170,13 +106,8 @@ static void read_groups(deck_builder *b)
       }
       read_group(b, &nl->group[i], name[i]);
     }
-    int range = 0;
-    const deck_given *kind = &b->given[deck_table_find("scene", "kind", 0, &range)];
-    if (!scene || kind->given || kind->broken) continue;
-    if (!found && (nl->groups > 0 || b->errors->count == 0))
-      namelist_error_at(nl, 1, 1, 1, b->errors, "the deck has no group &scene with a 'kind'");
-    else if (found && !kind->group->broken)
-      namelist_error_at(nl, b->kind_line, b->kind_column, 6, b->errors, "&scene needs a 'kind'");
+    read_settings(b, scene);
+    if (scene) check_kind(b, found);
   }
 }
 
@@ -195,22 +126,31 @@ static void default_output(deck *d, const char *name)
   snprintf(d->output, sizeof d->output, "%.*s.h5", (int)n, base);
 }
 
-static pendres_status keep_text(deck *d, const namelist *nl)
+static pendres_status keep_text(deck *d, const namelist *nl, const namelist *settings, size_t count)
 {
+  size_t size = 1, used = 0;
+  for (size_t i = 0; i < count; i++) size += settings[i].length + 1;
   d->name = malloc(strlen(nl->name) + 1);
   d->text = malloc(nl->length + 1);
-  if (d->name == NULL || d->text == NULL) return PENDRES_OUT_OF_MEMORY;
+  d->settings = malloc(size);
+  if (d->name == NULL || d->text == NULL || d->settings == NULL) return PENDRES_OUT_OF_MEMORY;
   strcpy(d->name, nl->name);
   memcpy(d->text, nl->text, nl->length + 1);
   d->text_length = nl->length;
+  d->settings[0] = '\0';
+  for (size_t i = 0; i < count; i++)
+    used += (size_t)snprintf(d->settings + used, size - used, "%s%s", i > 0 ? " " : "",
+                             settings[i].text);
   return PENDRES_OK;
 }
 
 /* nl may hold the remains of a text with errors: the rest of them is found here. */
-static pendres_status build(const namelist *nl, deck *out, namelist_errors *errors)
+static pendres_status build(const namelist *nl, const namelist *settings, size_t count, deck *out,
+                            namelist_errors *errors)
 {
   deck d = { 0 };
-  deck_builder b = { .nl = nl, .errors = errors, .d = &d, .kind_line = 1, .kind_column = 1 };
+  deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
+                     .d = &d, .kind_nl = nl, .kind_line = 1, .kind_column = 1 };
 
   deck_key_defaults(&d);
   default_output(&d, nl->name);
@@ -222,7 +162,7 @@ static pendres_status build(const namelist *nl, deck *out, namelist_errors *erro
     deck_free(&d);
     return PENDRES_INVALID_ARGUMENT;
   }
-  if (keep_text(&d, nl) != PENDRES_OK) goto no_memory;
+  if (keep_text(&d, nl, settings, count) != PENDRES_OK) goto no_memory;
   *out = d;
   return PENDRES_OK;
 no_memory:
@@ -231,22 +171,32 @@ no_memory:
   return PENDRES_OUT_OF_MEMORY;
 }
 
-static pendres_status finish(pendres_status parsed, namelist *nl, deck *out,
-                             namelist_errors *errors)
+static pendres_status finish(pendres_status parsed, namelist *nl, const char *const *settings,
+                             size_t count, deck *out, namelist_errors *errors)
 {
   pendres_status status = parsed;
   *out = (deck){ 0 };
-  if (parsed == PENDRES_OK || (parsed == PENDRES_INVALID_ARGUMENT && nl->length > 0))
-    status = build(nl, out, errors);
+  if (parsed == PENDRES_OK || (parsed == PENDRES_INVALID_ARGUMENT && nl->length > 0)) {
+    namelist *set = NULL;
+    status = deck_settings_parse(settings, count, &set, errors);
+    if (status != PENDRES_OUT_OF_MEMORY) status = build(nl, set, count, out, errors);
+    deck_settings_free(set, count);
+  }
   namelist_free(nl);
   return status;
 }
 
-pendres_status deck_read(const char *path, deck *out, namelist_errors *errors)
+pendres_status deck_read_set(const char *path, const char *const *settings, size_t count,
+                             deck *out, namelist_errors *errors)
 {
   namelist nl = { 0 };
   const pendres_status status = namelist_read(path, &nl, errors);
-  return finish(status, &nl, out, errors);
+  return finish(status, &nl, settings, count, out, errors);
+}
+
+pendres_status deck_read(const char *path, deck *out, namelist_errors *errors)
+{
+  return deck_read_set(path, NULL, 0, out, errors);
 }
 
 pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
@@ -254,7 +204,7 @@ pendres_status deck_read_memory(const char *name, const char *text, size_t lengt
 {
   namelist nl = { 0 };
   const pendres_status status = namelist_parse(name, text, length, &nl, errors);
-  return finish(status, &nl, out, errors);
+  return finish(status, &nl, NULL, 0, out, errors);
 }
 
 void deck_free(deck *d)
@@ -262,6 +212,7 @@ void deck_free(deck *d)
   if (d == NULL) return;
   free(d->name);
   free(d->text);
+  free(d->settings);
   for (int i = 0; i < DECK_AXIS_COUNT; i++) {
     free(d->axis[i].value);
     free(d->axis[i].listed);

@@ -73,20 +73,42 @@ const deck_key *deck_table_words(const deck_key *key);
 typedef struct deck_given {
   int given;  /* with a value */
   int broken; /* in vain: errors were reported */
+  const namelist *nl; /* the text that gives it: the deck or a setting */
   int line, column;
   const namelist_group *group; /* the group of the key, if the deck has it */
 } deck_given;
 
 /* A deck in the making. */
 typedef struct deck_builder {
-  const namelist *nl;
+  const namelist *nl;        /* the text being read: the deck, or for a while a setting */
+  const namelist *settings;  /* keys set outside of the deck, one each */
+  size_t setting_count;
   namelist_errors *errors;
   deck *d;
   unsigned scene;            /* the bit of its kind; 0 if that is unknown */
-  int kind_line, kind_column; /* for what concerns the whole deck */
+  const namelist *kind_nl;   /* for what concerns the whole deck: where its kind is given */
+  int kind_line, kind_column;
   deck_given given[DECK_MAX_KEYS];
   int out_of_memory;
 } deck_builder;
+
+/* deck_setting.c: */
+/* Parse all settings into an array of so many, in any case to be freed by deck_settings_free.
+   Returns as namelist_parse does. */
+pendres_status deck_settings_parse(const char *const *text, size_t count, namelist **settings,
+                                   namelist_errors *errors);
+void deck_settings_free(namelist *settings, size_t count);
+/* Is what that row gives set outside of the deck? */
+int deck_is_set(const deck_builder *b, size_t row);
+/* Is the setting the second one of its key? Reports it. */
+int deck_is_set_before(deck_builder *b, size_t index);
+
+/* deck_unknown.c: what to say of names that mean nothing, or nothing here. */
+const char *deck_resolve_group(deck_builder *b, const namelist_group *g);
+int deck_group_has_scene(const char *group, unsigned scene);
+void deck_report_idle_group(deck_builder *b, const namelist_group *g, const char *group);
+void deck_report_idle_key(deck_builder *b, const namelist_assignment *a, const char *group);
+void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, const char *group);
 
 /* deck_key.c: take the values of one key over into the deck; range: it came as NAME_range. */
 void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, int range);

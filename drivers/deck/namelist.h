@@ -39,6 +39,7 @@ enum {
 
 /** One error: `text` is the whole message with position, source line and caret. */
 typedef struct namelist_error {
+  int order; /* of the text that it is in */
   int line, column;
   char *text;
 } namelist_error;
@@ -83,6 +84,7 @@ typedef struct namelist_group {
 } namelist_group;
 
 typedef struct namelist {
+  int order;     /* 0: a deck; above: the number of a setting, whose strings need no quotes */
   char *name;    /* of the file, for messages */
   char *text;    /* verbatim, ends with a 0 byte that is not counted */
   size_t length;
@@ -113,7 +115,17 @@ typedef struct namelist_array {
 pendres_status namelist_parse(const char *name, const char *text, size_t length, namelist *out,
                               namelist_errors *errors);
 
-/** The same from a file; PENDRES_IO if it cannot be read, which is reported in errors too. */
+/**
+ * Parse a setting, a key given outside of the deck: `pendulum.damping=0.13`, as a tree with one
+ * group and one assignment; the caller has seen that it has this form. order counts settings from
+ * 1 on. whole: the value is a string, all that stands behind the equals sign unless that starts
+ * with a quote. Returns as namelist_parse does.
+ */
+pendres_status namelist_parse_setting(const char *argument, int order, int whole, namelist *out,
+                                      namelist_errors *errors);
+
+/** The same as namelist_parse from a file, "-" being standard input; PENDRES_IO if it cannot be
+ *  read, which is reported in errors too. */
 pendres_status namelist_read(const char *path, namelist *out, namelist_errors *errors);
 
 /** Free what a parse filled in; all zero is allowed. */
@@ -154,7 +166,7 @@ void namelist_error_at(const namelist *nl, int line, int column, int width, name
 #endif
     ;
 
-/** Put the errors into the order of the text. */
+/** Put the errors into the order of the texts and of places in them. */
 void namelist_errors_sort(namelist_errors *errors);
 /** Write all errors, and how many were left out. */
 void namelist_errors_print(const namelist_errors *errors, FILE *stream);

@@ -109,7 +109,15 @@ void namelist_error_at(const namelist *nl, int line, int column, int width, name
     errors->out_of_memory = 1;
     return;
   }
-  errors->item[errors->count++] = (namelist_error){ line, column, text };
+  errors->item[errors->count++] = (namelist_error){ nl->order, line, column, text };
+}
+
+/* Does a stand behind b? */
+static int is_later(const namelist_error *a, const namelist_error *b)
+{
+  if (a->order != b->order) return a->order > b->order;
+  if (a->line != b->line) return a->line > b->line;
+  return a->column > b->column;
 }
 
 void namelist_errors_sort(namelist_errors *errors)
@@ -118,12 +126,7 @@ void namelist_errors_sort(namelist_errors *errors)
   for (size_t i = 1; i < errors->count; i++) {
     const namelist_error e = errors->item[i];
     size_t j = i;
-    while (j > 0 && (errors->item[j - 1].line > e.line ||
-                     (errors->item[j - 1].line == e.line &&
-                      errors->item[j - 1].column > e.column))) {
-      errors->item[j] = errors->item[j - 1];
-      j--;
-    }
+    for (; j > 0 && is_later(&errors->item[j - 1], &e); j--) errors->item[j] = errors->item[j - 1];
     errors->item[j] = e;
   }
 }

@@ -1,6 +1,6 @@
 /*
  * namelist_lex.h -- the characters of a namelist: position, character classes, looking ahead.
- * Internal to the reader (namelist_parse.c).
+ * Internal to the reader (namelist_parse.c, namelist_text.c).
  */
 #ifndef NAMELIST_LEX_H
 #define NAMELIST_LEX_H
@@ -20,6 +20,10 @@ typedef struct reader {
   int overfull;          /* a bound was exceeded and reported: stop */
   size_t group_capacity, assignment_capacity, value_capacity;
 } reader;
+
+/* namelist_parse.c: the groups of a deck; or a setting, `group.key=values`. */
+void namelist_read_groups(reader *r);
+void namelist_read_setting(reader *r, int whole);
 
 /* ---- characters ---------------------------------------------------------------------------- */
 

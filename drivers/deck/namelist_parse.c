@@ -1,11 +1,11 @@
 /*
  * namelist_parse.c -- text to tree: groups, assignments, values. See namelist.h.
  *
- * A recursive-descent reader without look-behind. What may follow a value is decided by looking
- * ahead: `name =`, also with a subscript, starts the next assignment; everything else that is not
- * a separator is one more value. After an error the reader goes on where the next name, group
- * or line plausibly starts, and marks what it skipped as broken, so that nobody complains about
- * the absence of what merely could not be read.
+ * A recursive-descent reader without look-behind; namelist_text.c hands it the text. What may
+ * follow a value is decided by looking ahead: `name =`, also with a subscript, starts the next
+ * assignment; everything else that is not a separator is one more value. After an error the reader
+ * goes on where the next name, group or line plausibly starts, and marks what it skipped as broken,
+ * so that nobody complains about the absence of what merely could not be read.
  */
 #include "deck/namelist_lex.h"
 
@@ -293,12 +293,23 @@ static void skip_part(reader *r)
   while (lex_is_name(lex_peek(r)) || lex_peek(r) == '%') lex_advance(r);
 }
 
-/* `name`, optional subscript, `=`; lex_assignment_starts() has said yes. */
-static void read_assignment(reader *r)
+/* A name that came before in the group, without subscripts at either place: one of them is lost. */
+static void check_repeated(reader *r, namelist_assignment *a)
+{
+  for (size_t i = 0; !a->subscripted && i < r->group->count; i++) {
+    const namelist_assignment *other = &r->nl->assignment[r->group->begin + i];
+    if (other->subscripted || strcmp(other->name, a->name) != 0) continue;
+    namelist_error_at(r->nl, a->line, a->column, (int)strlen(a->name), r->errors,
+                      "'%s' is given twice (first on line %d)", a->name, other->line);
+    a->broken = 1;
+    return;
+  }
+}
+
+/* `name`, optional subscript, `=`; lex_assignment_starts() has said yes. NULL: out of room. */
+static namelist_assignment *read_target(reader *r)
 {
   namelist_assignment a = { .line = r->line, .column = r->column, .first = 1, .step = 1 };
-  namelist_assignment *kept = NULL;
-
   read_name(r, a.name);
   if (lex_peek(r) == '%') {
     complain(r, r->line, r->column, 1, "components of derived types do not occur in decks");
@@ -314,16 +325,14 @@ static void read_assignment(reader *r)
   lex_skip_blanks(r);
   if (lex_peek(r) == '=') lex_advance(r);
   a.begin = r->nl->values;
-  for (size_t i = 0; !a.subscripted && i < r->group->count; i++) {
-    const namelist_assignment *other = &r->nl->assignment[r->group->begin + i];
-    if (other->subscripted || strcmp(other->name, a.name) != 0) continue;
-    namelist_error_at(r->nl, a.line, a.column, (int)strlen(a.name), r->errors,
-                      "'%s' is given twice (first on line %d)", a.name, other->line);
-    a.broken = 1;
-    break;
-  }
-  kept = add_assignment(r, &a);
-  if (kept != NULL) read_values(r, kept);
+  check_repeated(r, &a);
+  return add_assignment(r, &a);
+}
+
+static void read_assignment(reader *r)
+{
+  namelist_assignment *a = read_target(r);
+  if (a != NULL) read_values(r, a);
 }
 
 /* No assignment starts where one should: report it and go to where the next thing starts. */
@@ -436,7 +445,7 @@ static void skip_outside_text(reader *r, const char *message)
   }
 }
 
-static void read_all(reader *r)
+void namelist_read_groups(reader *r)
 {
   for (;;) {
     lex_skip_blanks(r);
@@ -455,76 +464,29 @@ static void read_all(reader *r)
   }
 }
 
-/* ---- the whole text ------------------------------------------------------------------------ */
+/* ---- a key set outside of a deck ----------------------------------------------------------- */
 
-static int index_lines(namelist *nl)
+/* The rest of the text as it is: a string whose quotes a shell has taken away. */
+static void read_rest(reader *r, namelist_assignment *a)
 {
-  size_t lines = 1, n = 0;
-  for (size_t i = 0; i < nl->length; i++) lines += nl->text[i] == '\n';
-  nl->line = malloc(lines * sizeof *nl->line);
-  if (nl->line == NULL) return 0;
-  nl->line[n++] = 0;
-  for (size_t i = 0; i < nl->length; i++)
-    if (nl->text[i] == '\n') nl->line[n++] = i + 1;
-  nl->lines = (int)lines;
-  return 1;
+  const namelist_value v = { .form = NAMELIST_BARE, .repeat = 1, .line = r->line,
+                             .column = r->column, .begin = r->at,
+                             .length = r->nl->length - r->at };
+  lex_advance_to(r, r->nl->length);
+  add_value(r, a, v);
 }
 
-/* Copy the text and index it; nl must be all zero. */
-static pendres_status take_text(namelist *nl, const char *name, const char *text, size_t length)
+void namelist_read_setting(reader *r, int whole)
 {
-  nl->name = malloc(strlen(name) + 1);
-  nl->text = malloc(length + 1);
-  if (nl->name == NULL || nl->text == NULL) return PENDRES_OUT_OF_MEMORY;
-  strcpy(nl->name, name);
-  if (length > 0) memcpy(nl->text, text, length);
-  nl->text[length] = '\0';
-  nl->length = length;
-  return index_lines(nl) ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
-}
-
-pendres_status namelist_parse(const char *name, const char *text, size_t length, namelist *out,
-                              namelist_errors *errors)
-{
-  const size_t errors_before = errors->count + errors->dropped;
-  reader r = { .nl = out, .errors = errors, .line = 1, .column = 1 };
-
-  *out = (namelist){ 0 };
-  if (take_text(out, name, text, length <= NAMELIST_MAX_BYTES ? length : 0) != PENDRES_OK)
-    goto no_memory;
-  if (length > NAMELIST_MAX_BYTES) {
-    namelist_error_at(out, 0, 0, 0, errors, "the deck is larger than 1 MiB");
-    return PENDRES_INVALID_ARGUMENT;
-  }
-  if (length >= 2 &&
-      (memcmp(out->text, "\xFF\xFE", 2) == 0 || memcmp(out->text, "\xFE\xFF", 2) == 0)) {
-    namelist_error_at(out, 0, 0, 0, errors, "the deck is UTF-16; save it as UTF-8");
-    return PENDRES_INVALID_ARGUMENT;
-  }
-  if (length >= 3 && memcmp(out->text, "\xEF\xBB\xBF", 3) == 0) out->line[0] = r.at = 3; /* BOM */
-  if (lex_check_bytes(&r)) read_all(&r);
-  if (r.out_of_memory || errors->out_of_memory) goto no_memory;
-  return errors->count + errors->dropped > errors_before ? PENDRES_INVALID_ARGUMENT : PENDRES_OK;
-no_memory:
-  errors->out_of_memory = 1;
-  return PENDRES_OUT_OF_MEMORY;
-}
-
-const namelist_group *namelist_group_find(const namelist *nl, const char *name)
-{
-  for (size_t i = 0; i < nl->groups; i++)
-    if (strcmp(nl->group[i].name, name) == 0) return &nl->group[i];
-  return NULL;
-}
-
-void namelist_free(namelist *nl)
-{
-  if (nl == NULL) return;
-  free(nl->name);
-  free(nl->text);
-  free(nl->line);
-  free(nl->group);
-  free(nl->assignment);
-  free(nl->value);
-  *nl = (namelist){ 0 };
+  namelist_group g = { .line = r->line, .column = r->column };
+  namelist_assignment *a = NULL;
+  read_name(r, g.name);
+  lex_advance(r); /* the point */
+  if (add_group(r, &g)) a = read_target(r);
+  if (a == NULL) return;
+  lex_skip_blanks(r);
+  if (whole && !lex_is_quote(lex_peek(r)) && lex_peek(r) != LEX_END) read_rest(r, a);
+  else read_values(r, a);
+  if (lex_peek(r) != LEX_END)
+    complain(r, r->line, r->column, 1, "an argument sets one key; what stands here is too much");
 }

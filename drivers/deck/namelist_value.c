@@ -218,10 +218,15 @@ int namelist_value_string(const namelist *nl, const namelist_value *value, const
                           char *text, size_t size, namelist_errors *errors)
 {
   const char *t = nl->text + value->begin;
-  size_t used = 0;
-  if (value->form != NAMELIST_STRING)
+  size_t used = 0, first = 1, end = value->length - 1;
+  const int bare = value->form == NAMELIST_BARE && nl->order > 0;
+  if (value->form != NAMELIST_STRING && !bare)
     return refuse(nl, value, key, "a string in quotes", errors);
-  for (size_t i = 1; i + 1 < value->length; i++) {
+  if (bare) {
+    first = 0;
+    end = value->length;
+  }
+  for (size_t i = first; i < end; i++) {
     if (t[i] == '\n' || (t[i] == '\r' && t[i + 1] == '\n')) continue; /* record ends vanish */
     if (used + 1 >= size) {
       namelist_error_at(nl, value->line, value->column, width_of(value), errors,
@@ -229,7 +234,7 @@ int namelist_value_string(const namelist *nl, const namelist_value *value, const
       return 0;
     }
     text[used++] = t[i];
-    if (t[i] == t[0]) i++; /* of a doubled quote the second is skipped */
+    if (!bare && t[i] == t[0]) i++; /* of a doubled quote the second is skipped */
   }
   text[used] = '\0';
   return 1;
@@ -307,50 +312,4 @@ void namelist_array_free(namelist_array *array)
   if (array == NULL) return;
   free(array->item);
   *array = (namelist_array){ 0 };
-}
-
-/* ---- from a file --------------------------------------------------------------------------- */
-
-/* At most one byte more than allowed, so that the parser can tell. */
-static size_t read_bytes(FILE *file, char *text, size_t size)
-{
-  size_t used = 0, got = 1;
-  while (used < size && got > 0) {
-    got = fread(text + used, 1, size - used, file);
-    used += got;
-  }
-  return used;
-}
-
-pendres_status namelist_read(const char *path, namelist *out, namelist_errors *errors)
-{
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  const size_t size = (size_t)NAMELIST_MAX_BYTES + 1;
-  char *text = malloc(size);
-  FILE *file = NULL;
-  size_t length = 0;
-  int bad = 0;
-
-  *out = (namelist){ 0 };
-  if (text == NULL) goto done;
-  errno = 0;
-  file = fopen(path, "rb");
-  if (file != NULL) length = read_bytes(file, text, size);
-  bad = file == NULL || ferror(file);
-  if (bad) {
-    namelist named = { 0 };
-    const char *why = strerror(errno);
-    const pendres_status parsed = namelist_parse(path, "", 0, &named, errors);
-    if (parsed == PENDRES_OK)
-      namelist_error_at(&named, 0, 0, 0, errors, "cannot read the deck: %s", why);
-    *out = named;
-    status = parsed == PENDRES_OK ? PENDRES_IO : parsed;
-    goto done;
-  }
-  status = namelist_parse(path, text, length, out, errors);
-done:
-  if (status == PENDRES_OUT_OF_MEMORY) errors->out_of_memory = 1;
-  if (file != NULL) fclose(file);
-  free(text);
-  return status;
 }

@@ -1,0 +1,158 @@
+/*
+ * test_driver_settings.c -- the command line beside the deck: keys that are set there, several
+ * decks, a deck from standard input, and results of another deck that stay when replaced.
+ */
+#include "driver_run.h"
+
+#include <pendres/store.h>
+
+static char *text_of(const char *file, const char *group, const char *name)
+{
+  pendres_store *store = NULL;
+  char *text = NULL;
+  assert_int_equal(pendres_store_open(file, &store), PENDRES_OK);
+  if (group != NULL)
+    assert_int_equal(pendres_store_read_text(store, group, name, 0, &text), PENDRES_OK);
+  else
+    assert_int_equal(pendres_store_read_attribute_text(store, "", NULL, name, &text), PENDRES_OK);
+  pendres_store_free(store);
+  return text;
+}
+
+static void check_text(const char *file, const char *group, const char *name, const char *words)
+{
+  char *text = text_of(file, group, name);
+  check_says(text, words);
+  free(text);
+}
+
+/* A key that is set takes the place of all that the deck says of the quantity, in any form. */
+static void test_settings(void **state)
+{
+  static const char sweep[] = "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+                              "&sweep damping = 0.1, 0.2, damping_range = 0.3, 0.5, 3\n"
+                              "       drive_period_range = 5, 10, 6 /\n";
+  (void)state;
+  write_text("sweep.nml", sweep);
+  check_code(RUN("--dump-namelist", "sweep.nml", "sweep.damping_range=0.6,0.8,2",
+                 "pendulum.drive_amplitude=.25", "sweep.drive_frequency=0.7, 0.9"), DONE);
+  check_says(out, "damping_range = 0.6, 0.8, 2\n");
+  check_says(out, "drive_amplitude = 0.25\n");
+  check_says(out, "drive_frequency = 0.7, 0.9\n");
+  assert_null(strstr(out, "damping ="));
+  assert_null(strstr(out, "drive_period"));
+  check_code(RUN("--dump-namelist", "sweep.nml", "pendulum.damping=0.4"), DONE);
+  check_says(out, "damping = 0.4\n");
+  assert_null(strstr(out, "damping_range"));
+  /* Strings come without the quotes that a shell has taken away, or with them. */
+  check_code(RUN("--dump-namelist", "orbit.nml", "orbit.start=sa", "scene.title=it's 1, or 2",
+                 "scene.output='a b.h5'", "pendulum.drive_frequency=0.8"), DONE);
+  check_says(out, "start = 'sa'\n");
+  check_says(out, "title = 'it''s 1, or 2'\n");
+  check_says(out, "output = 'a b.h5'\n");
+  assert_null(strstr(out, "drive_period"));
+  check_code(RUN("-q", "orbit.nml", "pendulum.damping=0.13", "orbit.periods=1"), DONE);
+  check_text("orbit.h5", "provenance", "deck_resolved", "damping = 0.13\n");
+  check_text("orbit.h5", "provenance", "settings", "pendulum.damping=0.13 orbit.periods=1");
+  check_text("orbit.h5", NULL, "history",
+             "resonance orbit.nml pendulum.damping=0.13 orbit.periods=1");
+  check_text("orbit.h5", "provenance", "deck", "damping = 0.12");
+}
+
+/* The words of the deck's own errors, with the argument where its line stands. */
+static void test_bad_settings(void **state)
+{
+  static const struct { const char *setting, *says; } bad[] = {
+    { "pendulum.dampng=0.13", ":10: error: 'dampng' is not a key of &pendulum (did you mean "
+                              "'damping'?)\n  pendulum.dampng=0.13\n           ^~~~~~" },
+    { "pendulum.damping=-1", "line:1:18: error: 'damping' must not be negative" },
+    { "pendulm.damping=1", "did you mean 'pendulum'" },
+    { "orbit.qwertz=1", "scene 'orbit' takes start, x, v, periods, samples, transient" },
+    { "sweep.x=1", "&sweep is not used by scene 'orbit'" },
+    { "orbit.start=ma", "'start' knows no 'ma'" },
+    { "pendulum.damping=0.1 drive_period=8", "sets one key" },
+    { "pendulum.damping=0.1,0.2", "takes one value" },
+    { "pendulum.damping=0.1 /", "too much" },
+    { "damping=0.1", "GROUP.KEY=VALUE" },
+    { "pendulum.damping=\x1b[31m", "control byte" },
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    check_code(RUN("orbit.nml", bad[i].setting), 2);
+    check_says(err, bad[i].says);
+  }
+  check_code(RUN("orbit.nml", "pendulum.damping=0.1", "pendulum.damping=0.2"), 2);
+  check_says(err, "'pendulum.damping' is set twice");
+  assert_int_equal(count_names(".h5"), 0);
+}
+
+static void test_several_decks(void **state)
+{
+  (void)state;
+  check_code(RUN("small.nml", "orbit.nml", "precision.tolerance=1e-6"), DONE);
+  check_says(out, "small.nml");
+  check_says(out, "orbit.nml");
+  check_text("small.h5", "provenance", "deck_resolved", "tolerance = 1e-06\n");
+  check_text("orbit.h5", "provenance", "deck_resolved", "tolerance = 1e-06\n");
+  check_code(RUN("-o", "one.h5", "small.nml", "orbit.nml"), 2);
+  check_says(err, "--output names one file");
+  check_code(RUN("small.nml", "orbit.nml", "scene.output=one.h5"), 2);
+  check_says(err, "both write one.h5");
+  /* One that is bad stops all, before anything is computed; one that fails, only itself. */
+  write_text("bad.nml", "&scene kind = 'orbit' /\n");
+  write_text("lost.nml", "&scene kind = 'free_oscillation', output = 'absent/a.h5' /\n"
+                         "&sweep amplitude = 1 /\n");
+  assert_int_equal(remove("small.h5"), 0);
+  check_code(RUN("small.nml", "bad.nml"), 2);
+  assert_false(exists("small.h5"));
+  check_code(RUN("lost.nml", "small.nml"), 1);
+  assert_true(exists("small.h5"));
+}
+
+static void test_standard_input(void **state)
+{
+  (void)state;
+  const int kept = dup(0), in = open("orbit.nml", O_RDONLY);
+  assert_true(kept >= 0 && in >= 0 && dup2(in, 0) == 0);
+  const int code = RUN("-q", "-o", "piped.h5", "-", "pendulum.damping=0.11");
+  assert_int_equal(dup2(kept, 0), 0);
+  assert_int_equal(close(in) | close(kept), 0);
+  check_code(code, DONE);
+  check_text("piped.h5", "provenance", "deck", "kind = 'orbit'");
+  check_text("piped.h5", "provenance", "deck_resolved", "damping = 0.11\n");
+}
+
+/* Replaced are results of the same deck, which can be had again; all else keeps a name. */
+static void test_results_are_kept(void **state)
+{
+  char text[20];
+  (void)state;
+  check_code(RUN("orbit.nml"), DONE);
+  check_code(RUN("orbit.nml"), DONE);
+  assert_int_equal(count_names(".h5"), 1);
+  check_code(RUN("orbit.nml", "pendulum.damping=0.11"), DONE);
+  check_says(err, "kept as ");
+  check_text("orbit.h5.~1~", "provenance", "deck_resolved", "damping = 0.12\n");
+  check_text("orbit.h5", "provenance", "deck_resolved", "damping = 0.11\n");
+  write_text("orbit.h5", "precious");
+  check_code(RUN("orbit.nml"), DONE);
+  read_text("orbit.h5.~2~", text, sizeof text);
+  assert_string_equal(text, "precious");
+  assert_int_equal(count_names(".h5"), 3);
+  check_code(RUN("--force", "small.nml", "scene.output=orbit.h5"), DONE);
+  assert_int_equal(count_names(".h5"), 3);
+  /* Nothing is renamed for results that do not come. */
+  write_text("kept.h5", "precious");
+  const char *const arguments[] = { "-o", "kept.h5", "orbit.nml", NULL };
+  check_code(finish(start("stdout.txt", 2048, arguments)), 1);
+  assert_int_equal(count_names("kept"), 1);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    TEST(test_settings),       TEST(test_bad_settings),     TEST(test_several_decks),
+    TEST(test_standard_input), TEST(test_results_are_kept),
+  };
+  return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
+}
