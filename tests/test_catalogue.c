@@ -78,8 +78,43 @@ static void chaos_last(void **state)
   assert_memory_equal(order, ((int[4]){3, 1, 2, 0}), sizeof order);
 }
 
+/*
+ * Two mirror images whose multipliers and loop areas differ by more than their errors: both errors
+ * are at least the difference. What agrees, and an orbit which is nobody's image, stay as they are.
+ */
+static void images_compared(void **state)
+{
+  pendres_orbit o = {.period = 9, .winding = 0, .amplitude = 1.5, .multiplier_re = {0.76, 0.1},
+                     .multiplier_error = 1e-11, .loop_area = 0.5, .loop_area_error = 1e-12,
+                     .phase_lag = 0.7, .phase_lag_error = 1e-10,
+                     .cosine = {1.0, 0.2, 0.1, 0.05, 0.02}, .sine = {0.5, 0.1, 0.05, 0.02, 0.01}};
+  pendres_attractor found[3] = {{.orbit = o, .label = PENDRES_LABEL_PERIODIC}};
+  (void)state;
+  found[1] = found[2] = found[0];
+  for (int k = 0; k < 2; k++) {
+    const int even = 2 * k + 1; /* of harmonics 2 and 4 */
+    found[1].orbit.cosine[even] = -o.cosine[even];
+    found[1].orbit.sine[even] = -o.sine[even];
+  }
+  found[1].orbit.multiplier_re[0] += 1e-9;
+  found[1].orbit.loop_area += 1e-10;
+  found[1].orbit.phase_lag += 1e-10;
+  found[2].orbit.multiplier_re[0] += 1e-9; /* its even harmonics are not turned */
+  pendres_catalogue c = {.count = 3, .attractors = found};
+  pendres_catalogue_compare_images(&c);
+  for (int i = 0; i < 2; i++) {
+    /* Rounding of numbers of order one. */
+    check_near(found[i].orbit.multiplier_error, 1e-9, 1e-15);
+    check_near(found[i].orbit.loop_area_error, 1e-10, 1e-15);
+    check_near(found[i].orbit.phase_lag_error, 1e-10, 0.0);
+  }
+  check_near(found[2].orbit.multiplier_error, 1e-11, 0.0);
+  check_near(found[2].orbit.loop_area_error, 1e-12, 0.0);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(chaos_last)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(chaos_last),
+                                    cmocka_unit_test(images_compared)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,6 +88,7 @@ pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *
   for (size_t i = 0; i < c->covers; i++) c->cover[i]->attractor = moved[c->cover[i]->attractor];
   if (rank != NULL) memcpy(rank, moved, c->count * sizeof *rank);
   label_all(c);
+  pendres_catalogue_compare_images(c);
 done:
   free(old);
   free(order);

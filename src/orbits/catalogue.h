@@ -66,6 +66,13 @@ int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
    many as there are (rank may be NULL). */
 pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);
 
+/*
+ * Measures and multipliers of an orbit and of its mirror image are exactly the same. Where those
+ * of two differ by more than their errors, at least one of the errors is too small, and both are
+ * raised to the difference.
+ */
+void pendres_catalogue_compare_images(pendres_catalogue *c);
+
 /* The trap that a lane is in: its attractor and well; -1 if in none. */
 int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_lane *lane,
                              long *well);

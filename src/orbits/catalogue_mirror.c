@@ -1,0 +1,72 @@
+/*
+ * catalogue_mirror.c -- orbits that are each other's mirror image check each other's errors; see
+ * catalogue.h.
+ */
+#include "orbits/catalogue.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* Harmonics of mirror images agree to this; those of other orbits of one pendulum do not. */
+static const double same_harmonics = 1e-6;
+enum { HARMONICS = 5 /* that are looked at */ };
+
+/* What an orbit and its mirror image have in common, and its error. */
+#define MEASURE(name) {offsetof(pendres_attractor, name), offsetof(pendres_attractor, name##_error)}
+static const struct {
+  size_t value, error;
+} common[] = {
+  MEASURE(orbit.loop_area), MEASURE(orbit.dissipation), MEASURE(orbit.mean_power),
+  MEASURE(orbit.amplitude), MEASURE(orbit.first_harmonic_amplitude), MEASURE(orbit.phase_lag),
+  MEASURE(lyapunov)};
+
+static double *at(pendres_attractor *a, size_t offset)
+{
+  return (double *)(void *)((char *)a + offset);
+}
+
+/* y(t) -> -y(t + half a drive period) turns the sign of the mean and of even harmonics. */
+static int are_images(const pendres_orbit *a, const pendres_orbit *b)
+{
+  if (a->period != b->period || a->winding != -b->winding) return 0;
+  if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
+  for (int m = 1; m <= HARMONICS; m++) {
+    const double sign = m % 2 == 0 ? -1.0 : 1.0;
+    if (!(hypot(a->cosine[m - 1] - sign * b->cosine[m - 1],
+                a->sine[m - 1] - sign * b->sine[m - 1]) <= same_harmonics))
+      return 0;
+  }
+  return 1;
+}
+
+static void raise_to(double difference, double *a, double *b)
+{
+  if (*a < difference) *a = difference;
+  if (*b < difference) *b = difference;
+}
+
+static void compare(pendres_attractor *a, pendres_attractor *b)
+{
+  pendres_orbit *o = &a->orbit, *p = &b->orbit;
+  double apart = 0.0;
+  for (int k = 0; k < 2; k++)
+    apart = fmax(apart, hypot(o->multiplier_re[k] - p->multiplier_re[k],
+                              fabs(o->multiplier_im[k]) - fabs(p->multiplier_im[k])));
+  if (apart > o->multiplier_error + p->multiplier_error)
+    raise_to(apart, &o->multiplier_error, &p->multiplier_error);
+  for (size_t k = 0; k < sizeof common / sizeof *common; k++) {
+    const double difference = fabs(*at(a, common[k].value) - *at(b, common[k].value));
+    double *error = at(a, common[k].error), *other = at(b, common[k].error);
+    if (difference > *error + *other) raise_to(difference, error, other);
+  }
+}
+
+void pendres_catalogue_compare_images(pendres_catalogue *c)
+{
+  for (size_t i = 0; i < c->count; i++)
+    for (size_t j = i + 1; j < c->count; j++) {
+      pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
+      if (a->label == PENDRES_LABEL_CHAOTIC || b->label == PENDRES_LABEL_CHAOTIC) continue;
+      if (are_images(&a->orbit, &b->orbit)) compare(a, b);
+    }
+}
