@@ -117,6 +117,7 @@ static void record(pendres_lanes_replays *r, const pendres_lanes_replay_kind *ki
     {0}, {.sum = &sum, .to = data, .slope = data, .cos_theta = cos_theta, .keep = 1}};
   pendres_lanes_replays_begin(r);
   pendres_lanes_replays_add(r, o, 2);
+  pendres_lanes_replays_part(r);
   pendres_lanes_replays_end(r, kind, whole);
 }
 

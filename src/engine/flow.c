@@ -389,6 +389,13 @@ static const pendres_lanes_replay *known(pendres_flow *flow, int span)
   return NULL;
 }
 
+/* The numbers as they are now, for everybody else: a part of the period is over. */
+static void show(pendres_flow *flow)
+{
+  pendres_lanes_read(flow->state, flow->rows);
+  pendres_lanes_replays_part(flow->replays);
+}
+
 /* The end of a period that ARKODE was asked for. */
 static void learn(pendres_flow *flow, int span)
 {
@@ -407,7 +414,6 @@ static pendres_status replay(pendres_flow *flow, const pendres_lanes_replay *p, 
   for (size_t k = 0; k < p->parts; k++) {
     pendres_lanes_shape_run(&flow->shape, p->operation + done, p->end[k] - done);
     done = p->end[k];
-    if (sample == NULL && k + 1 < p->parts) continue;
     pendres_lanes_read(flow->state, flow->rows);
     const pendres_rows rows = pendres_flow_rows(flow);
     if (sample != NULL) sample(arg, (int)k + 1, &rows);
@@ -425,7 +431,7 @@ static pendres_status advance_to(pendres_flow *flow, int span, double end)
   const pendres_status status = start_period(flow, end);
   if (status == PENDRES_OK)
     flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
-  if (status == PENDRES_OK) pendres_lanes_read(flow->state, flow->rows);
+  if (status == PENDRES_OK) show(flow);
   learn(flow, span);
   if (status != PENDRES_OK) return status;
   return flow->failure < 0 ? failed(flow) : PENDRES_OK;
@@ -448,8 +454,7 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
   sunrealtype reached = 0.0;
   if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
   const pendres_lanes_replay *p = known(flow, SPAN_SAMPLED);
-  if (p != NULL && p->parts == (size_t)flow->steps)
-    return replay(flow, p, flow->steps, sample, arg);
+  if (p != NULL) return replay(flow, p, flow->steps, sample, arg);
   pendres_status status = start_period(flow, flow->end);
   for (int step = 1; step <= flow->steps && status == PENDRES_OK; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
@@ -457,7 +462,7 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
       status = failed(flow);
       break;
     }
-    pendres_lanes_read(flow->state, flow->rows);
+    show(flow);
     const pendres_rows rows = pendres_flow_rows(flow);
     sample(arg, step, &rows);
   }

@@ -129,7 +129,13 @@ void pendres_lanes_replays_add(pendres_lanes_replays *r, const pendres_operation
     p->slopes += o.slope != NULL;
     p->operation[p->operations++] = o;
   }
-  if (p->operations > 0) p->end[p->parts++] = p->operations;
+}
+
+void pendres_lanes_replays_part(pendres_lanes_replays *r)
+{
+  if (!r->recording) return;
+  r->recording = r->record.parts < MOST_OPERATIONS;
+  if (r->recording) r->record.end[r->record.parts++] = r->record.operations;
 }
 
 /* ---- what was recorded ---- */

@@ -11,7 +11,7 @@
 
 #include "engine/lanes_shape.h"
 
-/* Operations in their order, in parts: each ends where somebody wanted to see the numbers. */
+/* Operations in their order, in parts: each ends where the numbers are to be seen. */
 typedef struct pendres_lanes_replay {
   size_t operations, sums, parts;
   size_t slopes; /* right-hand sides among the operations */
@@ -38,10 +38,11 @@ void pendres_lanes_replays_free(pendres_lanes_replays *r);
 const pendres_lanes_replay *pendres_lanes_replays_find(pendres_lanes_replays *r,
                                                        const pendres_lanes_replay_kind *kind);
 
-/* Record from now on, and add what is done: n operations, up to where numbers are looked at. */
+/* Record from now on, and add what is done: n operations; a part of the period ends here. */
 void pendres_lanes_replays_begin(pendres_lanes_replays *r);
 void pendres_lanes_replays_add(pendres_lanes_replays *r, const pendres_operation *operations,
                                size_t n);
+void pendres_lanes_replays_part(pendres_lanes_replays *r);
 /* The period is over. `whole`: it has come to its end as periods of this kind should. */
 void pendres_lanes_replays_end(pendres_lanes_replays *r, const pendres_lanes_replay_kind *kind,
                                int whole);
