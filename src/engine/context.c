@@ -8,31 +8,16 @@
 
 #include "engine/compat.h"
 #include "engine/flow.h"
-#include "engine/steps.h"
+#include "engine/steps_memo.h"
 #include "engine/tables.h"
 
 enum { DEFAULT_LANES = 512, MOST_LANES = 4096, MOST_STEPS = 1000000 };
-
-const char *pendres_method_name(pendres_method method)
-{
-  static const char *const names[PENDRES_METHOD_COUNT] = {
-    "block_fixed", "block_adaptive", "single", "cvode_adams", "cvode_bdf", "naive"};
-  return (unsigned)method < PENDRES_METHOD_COUNT ? names[method] : NULL;
-}
 
 const char *pendres_table_name(pendres_table table)
 {
   if (table == PENDRES_TABLE_DP5) return "dp5";
   const pendres_tables_method *m = pendres_tables_get(table);
   return m != NULL ? m->name : NULL;
-}
-
-pendres_method pendres_method_named(const char *name)
-{
-  int i = 0;
-  if (name == NULL) return PENDRES_METHOD_COUNT;
-  while (i < PENDRES_METHOD_COUNT && strcmp(name, pendres_method_name((pendres_method)i)) != 0) i++;
-  return (pendres_method)i;
 }
 
 pendres_table pendres_table_named(const char *name)
@@ -85,7 +70,7 @@ pendres_status pendres_context_create(const pendres_options *options, pendres_co
   SUNContext sun = NULL;
   if (pendres_compat_context_create(&sun) != 0) goto fail;
   ctx->sun = sun;
-  status = pendres_steps_create(&ctx->steps);
+  status = pendres_steps_memo_create(&ctx->steps);
   if (status != PENDRES_OK) goto fail;
   *out = ctx;
   return PENDRES_OK;
@@ -105,7 +90,7 @@ void pendres_context_free(pendres_context *ctx)
 {
   if (ctx == NULL || pendres_guard_busy(&ctx->guard)) return;
   for (int i = 0; i < PENDRES_FLOW_KINDS; i++) pendres_flow_free(ctx->flows[i]);
-  pendres_steps_free(ctx->steps);
+  pendres_steps_memo_free(ctx->steps);
   SUNContext sun = ctx->sun;
   if (sun != NULL) SUNContext_Free(&sun);
   free(ctx);

@@ -8,45 +8,17 @@
 #include "engine/context_internal.h"
 #include "engine/flow.h"
 #include "engine/passage.h"
+#include "engine/steps_memo.h"
 
 enum {
   PROBES = 16,          /* initial states a cell is probed with, two vectors of eight */
   FEWEST_STEPS = 8,
   MOST_STEPS = 1000000,
-  FIRST_SIZE = 64,      /* of the memo, doubled as it fills */
   POINTS = 65           /* of a period at which probes are compared */
 };
 
 /* Growth of an error of the start beyond which a probe is not followed. */
 static const double wild = 100.0;
-
-/* A cell of the lattice: indices of damping, frequency, drive, speed and tolerance. */
-typedef struct cell {
-  int damping, frequency, drive, speed, tolerance;
-} cell;
-
-typedef struct entry {
-  cell key;
-  int steps;
-} entry;
-
-struct pendres_steps_memo {
-  entry *entries;
-  size_t used, size;
-};
-
-pendres_status pendres_steps_create(pendres_steps_memo **out)
-{
-  *out = calloc(1, sizeof **out);
-  return *out != NULL ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
-}
-
-void pendres_steps_free(pendres_steps_memo *memo)
-{
-  if (memo == NULL) return;
-  free(memo->entries);
-  free(memo);
-}
 
 int pendres_steps_rung(int n)
 {
@@ -77,9 +49,9 @@ static const double frequency_least = 1e-4, frequency_ratio = 1.06;
 static const double drive_least = 0.25, drive_ratio = 1.25;
 static const double speed_least = 2.0, speed_ratio = 1.5;
 
-static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
+static pendres_steps_cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 {
-  return (cell){.damping = lattice(p->damping, damping_least, damping_ratio),
+  return (pendres_steps_cell){.damping = lattice(p->damping, damping_least, damping_ratio),
                 .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
                 .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
                 .speed = lattice(speed, speed_least, speed_ratio),
@@ -87,7 +59,7 @@ static cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 }
 
 /* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
-static void worst_of(const cell *c, pendres_pendulum *p, double *speed, double *tolerance)
+static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *speed, double *tolerance)
 {
   *p = (pendres_pendulum){
     .damping = lattice_upper(c->damping, damping_least, damping_ratio),
@@ -222,7 +194,7 @@ static int shaken(const pendres_pendulum *p)
 }
 
 /* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
-static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
+static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, int *steps)
 {
   pendres_pendulum p;
   double speed, tolerance;
@@ -254,29 +226,8 @@ static pendres_status probe(pendres_context *ctx, const cell *c, int *steps)
   return PENDRES_TOLERANCE_UNREACHABLE;
 }
 
-static int same_cell(const cell *a, const cell *b)
-{
-  return a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
-         a->speed == b->speed && a->tolerance == b->tolerance;
-}
-
-static pendres_status remember(pendres_context *ctx, const cell *key, int steps)
-{
-  pendres_steps_memo *m = ctx->steps;
-  if (m->used == m->size) {
-    const size_t size = m->size > 0 ? 2 * m->size : FIRST_SIZE;
-    entry *entries = realloc(m->entries, size * sizeof *entries);
-    if (entries == NULL)
-      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for the step memo");
-    m->entries = entries;
-    m->size = size;
-  }
-  m->entries[m->used++] = (entry){.key = *key, .steps = steps};
-  return PENDRES_OK;
-}
-
 /* Why a pendulum needs too many steps: the friction's stability, a fast start, or the drive. */
-static pendres_status too_many(pendres_context *ctx, const cell *c, const pendres_pendulum *p,
+static pendres_status too_many(pendres_context *ctx, const pendres_steps_cell *c, const pendres_pendulum *p,
                                double speed)
 {
   pendres_pendulum worst;
@@ -302,18 +253,18 @@ pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum
     *steps = ctx->options.steps_per_period;
     return PENDRES_OK;
   }
-  const cell key = cell_of(p, speed, tolerance);
-  const pendres_steps_memo *m = ctx->steps;
-  /* The latest cells first: neighbours in a list of pendulums share a cell. */
-  for (size_t i = m->used; i-- > 0;)
-    if (same_cell(&m->entries[i].key, &key)) {
-      *steps = m->entries[i].steps;
-      return PENDRES_OK;
-    }
-  int chosen = 0;
+  const pendres_steps_cell key = cell_of(p, speed, tolerance);
+  int chosen = pendres_steps_memo_find(ctx->steps, &key);
+  if (chosen > 0) {
+    *steps = chosen;
+    return PENDRES_OK;
+  }
   pendres_status status = probe(ctx, &key, &chosen);
   if (status == PENDRES_TOLERANCE_UNREACHABLE) return too_many(ctx, &key, p, speed);
-  if (status == PENDRES_OK) status = remember(ctx, &key, chosen);
-  if (status == PENDRES_OK) *steps = chosen;
+  if (status != PENDRES_OK) return status;
+  status = pendres_steps_memo_add(ctx->steps, &key, chosen);
+  if (status != PENDRES_OK)
+    return pendres_context_fail(ctx, status, "out of memory for the step memo");
+  *steps = chosen;
   return status;
 }

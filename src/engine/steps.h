@@ -12,11 +12,6 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-typedef struct pendres_steps_memo pendres_steps_memo;
-
-pendres_status pendres_steps_create(pendres_steps_memo **out);
-void pendres_steps_free(pendres_steps_memo *memo);
-
 /* The steps a period that can be chosen from are a ladder, 1.12 apart: the rung at or above n. */
 int pendres_steps_rung(int n);
 

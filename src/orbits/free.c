@@ -66,7 +66,7 @@ static void judge(const pendres_context *ctx, swing *s)
   const double order = pendres_table_order(ctx->options.table);
   const double floor = rounding(s), clock = s->pendulum.drive_frequency;
   double wanted = 2.0 * s->steps;
-  if (ctx->options.method != PENDRES_BLOCK_FIXED) {
+  if (!pendres_method_of(ctx)->fixed_steps) {
     s->error = floor; /* its caller knows more */
     return;
   }
@@ -201,7 +201,7 @@ static pendres_status find_all(pendres_context *ctx, size_t n, const double *amp
   for (size_t i = 0; i < n; i++)
     s[i] = (swing){ .amplitude = amplitude[i], .steps = asked > 0 ? asked : FIRST_STEPS,
                     .pendulum.drive_frequency = 4.0 * guess(amplitude[i]), .error = NAN };
-  if (ctx->options.method != PENDRES_BLOCK_FIXED)
+  if (!pendres_method_of(ctx)->fixed_steps)
     status = find_adaptively(ctx, n, s, lane, which);
   else
     while (left > 0 && status == PENDRES_OK) status = turn(ctx, n, s, lane, which, &left);

@@ -44,7 +44,7 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalo
 
 int pendres_settle_carries(const pendres_context *ctx)
 {
-  return ctx->options.method == PENDRES_BLOCK_FIXED && ctx->options.steps_per_period == 0;
+  return pendres_method_of(ctx)->fixed_steps && ctx->options.steps_per_period == 0;
 }
 
 double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps)

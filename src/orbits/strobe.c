@@ -58,7 +58,7 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
   for (size_t i = 0; i < n; i++) {
     pendres_strobe_lane *l = &lanes[i];
     *l = pendres_strobe_lane_at(&p[i], x[i], v[i]);
-    if (ctx->options.method != PENDRES_BLOCK_FIXED) continue;
+    if (!pendres_method_of(ctx)->fixed_steps) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], fabs(v[i]),
                            ctx->options.tolerance / periods_that_count(&p[i], periods), &l->steps);
@@ -87,7 +87,7 @@ static pendres_status run_tighter(pendres_context *ctx, size_t n, pendres_strobe
  */
 static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p, long periods)
 {
-  if (ctx->options.method == PENDRES_BLOCK_ADAPTIVE) return 0.0;
+  if (!pendres_method_of(ctx)->running_clock) return 0.0;
   const double step = 1.1e-16 * two_pi * (double)periods;
   return step * sqrt(100.0 * periods_that_count(p, periods));
 }
@@ -102,7 +102,7 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
 {
   const pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
   if (status != PENDRES_OK) return status;
-  if (ctx->options.method == PENDRES_BLOCK_FIXED)
+  if (pendres_method_of(ctx)->fixed_steps)
     return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
   for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, &p[i], periods);
   return run_tighter(ctx, n, finer, periods, 0.1 * ctx->options.tolerance);
@@ -142,7 +142,7 @@ static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_
 {
   const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
   const double third = fmin(1e-6, 0.01 * ctx->options.tolerance);
-  const int fixed = ctx->options.method == PENDRES_BLOCK_FIXED;
+  const int fixed = pendres_method_of(ctx)->fixed_steps;
   size_t some = 0;
   for (size_t i = 0; i < n; i++) {
     if (fixed && !(noise[i] > grown)) continue;

@@ -6,6 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/passage.h"
+#include "engine/rank.h"
 #include "engine/tables.h"
 
 /*
@@ -41,7 +42,7 @@ typedef struct covariance {
 } covariance;
 
 /* One period of a block of n lanes of equal steps. */
-static pendres_status turn(pendres_block *b, const pendres_strobe_rank *rank,
+static pendres_status turn(pendres_block *b, const pendres_rank *rank,
                            pendres_strobe_lane *lanes, covariance *noise)
 {
   for (size_t i = 0; i < b->lanes; i++) {
@@ -69,15 +70,15 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
                                         pendres_strobe_lane *lanes, long periods, double *noise)
 {
   pendres_status status = PENDRES_OK;
-  pendres_strobe_rank *rank = malloc((n + 1) * sizeof *rank);
+  pendres_rank *rank = malloc((n + 1) * sizeof *rank);
   covariance *sum = calloc(n + 1, sizeof *sum);
   if (rank == NULL || sum == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    rank[i] = (pendres_strobe_rank){.steps = lanes[i].steps, .index = i};
-  pendres_strobe_order(n, rank);
+    rank[i] = (pendres_rank){.steps = lanes[i].steps, .index = i};
+  pendres_rank_order(n, rank);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     pendres_block b;
     last = first + 1;

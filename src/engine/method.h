@@ -1,0 +1,57 @@
+/*
+ * method.h -- how lanes are advanced: each method is a constant struct of functions in a file of
+ * its own, method_NAME.c, and a line of the list below.
+ *
+ * Owns: lanes under way, and the list.
+ */
+#ifndef PENDRES_METHOD_H
+#define PENDRES_METHOD_H
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#include "engine/kernels.h"
+
+/* One pendulum under way. y is kept within half a turn of zero; whole turns are counted. */
+typedef struct pendres_strobe_lane {
+  const pendres_pendulum *pendulum; /* not owned */
+  double y, w;                      /* angle, dy/dtheta at the latest strobe */
+  long turns;                       /* whole turns taken out of y */
+  long period;                      /* strobes so far */
+  int steps;                        /* a period; unused by adaptive methods */
+  double added;                     /* variance that a step adds to y's error (flow.h); 0: errors
+                                       are not carried. Fixed steps only */
+  pendres_flow_error off;           /* what y and w are off by */
+  double worst;                     /* largest variance at a strobe so far, of y and w together */
+} pendres_strobe_lane;
+
+/* Look at lane number `index` after one more period; nonzero: it is done. */
+typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_lane *lane);
+
+typedef struct pendres_method_functions {
+  const char *name;    /* in decks and messages */
+  int fixed_steps;     /* as many as a lane says; others choose their own by the tolerance */
+  int running_clock;   /* not put back at a period's end, so that its rounding adds up */
+  /* Run n > 0 lanes until visit() has declared each of them done; they keep their final state. */
+  pendres_status (*run)(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                        pendres_strobe_visit *visit, void *arg);
+} pendres_method_functions;
+
+/* The list: a method's value in the enum of context.h, and its struct, pendres_method_NAME. */
+#define PENDRES_METHODS(EACH)                  \
+  EACH(PENDRES_BLOCK_FIXED, block_fixed)       \
+  EACH(PENDRES_BLOCK_ADAPTIVE, block_adaptive) \
+  EACH(PENDRES_SINGLE, single)                 \
+  EACH(PENDRES_CVODE_ADAMS, cvode_adams)       \
+  EACH(PENDRES_CVODE_BDF, cvode_bdf)           \
+  EACH(PENDRES_NAIVE, naive)
+
+#define PENDRES_METHOD_DECLARE(value, name) \
+  extern const pendres_method_functions pendres_method_##name;
+PENDRES_METHODS(PENDRES_METHOD_DECLARE)
+#undef PENDRES_METHOD_DECLARE
+
+/* A context's method. */
+const pendres_method_functions *pendres_method_of(const pendres_context *ctx);
+
+#endif

@@ -1,0 +1,123 @@
+/* method_block.c -- lanes of a block, retired and refilled at the strobe; see method_block.h. */
+#include "engine/method_block.h"
+
+#include <stdlib.h>
+
+#include "engine/flow.h"
+#include "engine/passage.h"
+#include "engine/rank.h"
+
+typedef struct block {
+  pendres_context *ctx;
+  pendres_flow *flow;
+  pendres_strobe_lane *lanes;
+  size_t *slot; /* which lane sits in a slot of the block */
+  size_t filled;
+  int carry; /* errors */
+  pendres_strobe_visit *visit;
+  void *arg;
+} block;
+
+static void put(block *b, size_t slot, size_t index)
+{
+  const pendres_strobe_lane *l = &b->lanes[index];
+  b->slot[slot] = index;
+  pendres_flow_set_lane(b->flow, slot, l->pendulum, l->y, l->w);
+  if (b->carry) pendres_flow_set_error(b->flow, slot, &l->off, l->added);
+}
+
+/* Take the states over from the block after a period; returns whether the lane is done. */
+static int look(block *b, size_t slot)
+{
+  pendres_strobe_lane *l = &b->lanes[b->slot[slot]];
+  const pendres_rows rows = pendres_flow_rows(b->flow);
+  l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, slot);
+  l->w = pendres_rows_get(&rows, PENDRES_ROW_W, slot);
+  l->period++;
+  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  pendres_flow_put_state(b->flow, slot, l->y, l->w);
+  if (b->carry) {
+    l->off = pendres_flow_get_error(b->flow, slot);
+    const double off = l->off.yy + l->off.ww;
+    if (!(off <= l->worst)) l->worst = off; /* no number is no error to live with */
+  }
+  return b->visit(b->arg, b->slot[slot], l);
+}
+
+/* Run all lanes of one class of steps, queue[0..n). */
+static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
+{
+  size_t next = 0;
+  const size_t capacity = pendres_flow_capacity(b->flow);
+  pendres_status status = PENDRES_OK;
+  if (queue[0].steps > 0) status = pendres_flow_set_steps(b->flow, queue[0].steps);
+  if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+
+  b->filled = n < capacity ? n : capacity;
+  pendres_flow_resize(b->flow, b->filled);
+  while (next < b->filled) {
+    put(b, next, queue[next].index);
+    next++;
+  }
+  while (b->filled > 0) {
+    status = pendres_context_poll(b->ctx);
+    if (status != PENDRES_OK) return status;
+    status = pendres_flow_period(b->flow);
+    if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
+    b->ctx->cost.pendulum_periods += (double)b->filled;
+
+    for (size_t slot = 0; slot < b->filled;) {
+      if (!look(b, slot)) {
+        slot++;
+      } else if (next < n) {
+        put(b, slot++, queue[next++].index);
+      } else {
+        /* Nobody waits: close the gap with the last lane, which is yet to be looked at. */
+        b->filled--;
+        if (slot < b->filled) {
+          b->slot[slot] = b->slot[b->filled];
+          pendres_flow_move_lane(b->flow, b->filled, slot);
+        }
+      }
+    }
+    if (b->filled > 0) pendres_flow_resize(b->flow, b->filled);
+  }
+  return PENDRES_OK;
+}
+
+pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind kind, size_t n,
+                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                        void *arg)
+{
+  block b = {.ctx = ctx, .lanes = lanes, .visit = visit, .arg = arg};
+  pendres_rank *queue = NULL;
+  const int adaptive = kind == PENDRES_FLOW_ADAPTIVE;
+  pendres_status status = pendres_context_flow(ctx, kind, &b.flow);
+  if (status != PENDRES_OK) return status;
+
+  queue = malloc(n * sizeof *queue);
+  b.slot = malloc(pendres_flow_capacity(b.flow) * sizeof *b.slot);
+  if (queue == NULL || b.slot == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++)
+    queue[i] = (pendres_rank){.steps = adaptive ? 0 : lanes[i].steps, .index = i};
+  pendres_rank_order(n, queue);
+
+  b.carry = !adaptive && lanes[0].added > 0.0;
+  if (b.carry) status = pendres_flow_carry(b.flow, 1);
+  if (status != PENDRES_OK)
+    (void)pendres_context_fail(ctx, status, "out of memory for the errors of %zu lanes", n);
+  for (size_t first = 0; first < n && status == PENDRES_OK;) {
+    size_t last = first;
+    while (last < n && queue[last].steps == queue[first].steps) last++;
+    status = run_class(&b, queue + first, last - first);
+    first = last;
+  }
+  if (b.carry) (void)pendres_flow_carry(b.flow, 0);
+done:
+  free(queue);
+  free(b.slot);
+  return status;
+}

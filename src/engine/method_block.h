@@ -1,0 +1,19 @@
+/*
+ * method_block.h -- lanes of a block, retired and refilled at the strobe.
+ */
+#ifndef PENDRES_METHOD_BLOCK_H
+#define PENDRES_METHOD_BLOCK_H
+
+#include "engine/context_internal.h"
+#include "engine/method.h"
+
+/*
+ * Run lanes as pendres_method_functions says, in the context's block of states: with each lane's
+ * own steps, or adaptive ones. Lanes with the same steps a period share blocks; retired lanes are
+ * replaced at once. Errors are carried along if steps are fixed and the first lane says so.
+ */
+pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind kind, size_t n,
+                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                        void *arg);
+
+#endif

@@ -1,0 +1,114 @@
+/* method_one.c -- one ARKODE or CVODE problem a pendulum; see method_one.h. */
+#include "engine/method_one.h"
+
+#include <math.h>
+
+#include <nvector/nvector_serial.h>
+
+#include "engine/passage.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Between two questions whether to go on: some hundredths of a second. */
+enum { EVALUATIONS_BETWEEN = 300000 };
+
+int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)
+{
+  pendres_one *b = one;
+  const double *s = N_VGetArrayPointer(state), omega = b->p->drive_frequency;
+  double *d = N_VGetArrayPointer(out);
+  b->ctx->cost.rhs_evaluations += 1.0;
+  if (++b->evaluations % EVALUATIONS_BETWEEN == 0 && !b->stopped)
+    b->stopped = pendres_context_stops(b->ctx);
+  if (b->stopped) return -1;
+  d[0] = s[1];
+  d[1] = (b->p->drive_amplitude * cos(theta) - sin(s[0])) / (omega * omega) -
+         b->p->damping / omega * s[1];
+  return 0;
+}
+
+/*
+ * Relative and absolute tolerance alike, but whole turns of the angle do not loosen it, except to
+ * what their digits allow.
+ */
+int pendres_one_weights(N_Vector state, N_Vector out, void *one)
+{
+  const pendres_one *b = one;
+  const double *s = N_VGetArrayPointer(state), tolerance = b->ctx->options.tolerance;
+  double *w = N_VGetArrayPointer(out);
+  const double asked = tolerance * (1.0 + fmin(fabs(s[0]), 3.14159265358979323846));
+  w[0] = 1.0 / fmax(asked, 2e-15 * fabs(s[0]));
+  w[1] = 1.0 / (tolerance * (1.0 + fabs(s[1])));
+  return 0;
+}
+
+void pendres_one_read(const pendres_one *b, double *y, double *w)
+{
+  *y = N_VGetArrayPointer(b->state)[0];
+  *w = N_VGetArrayPointer(b->state)[1];
+}
+
+static pendres_status open_problem(pendres_one *b, const pendres_one_solver *solver,
+                                   const pendres_strobe_lane *lane)
+{
+  b->p = lane->pendulum;
+  b->state = N_VNew_Serial(2, b->ctx->sun);
+  if (b->state == NULL)
+    return pendres_context_fail(b->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a pendulum");
+  N_VGetArrayPointer(b->state)[0] = lane->y;
+  N_VGetArrayPointer(b->state)[1] = lane->w;
+  if (solver->open(b) != 0)
+    return pendres_context_fail(b->ctx, PENDRES_INTEGRATION_FAILED,
+                                "method %s could not be set up", pendres_method_of(b->ctx)->name);
+  return PENDRES_OK;
+}
+
+/* On to the end of drive period number `period` of this run, counted from 1. */
+static pendres_status advance(pendres_one *b, const pendres_one_solver *solver, long period)
+{
+  pendres_status status = pendres_context_poll(b->ctx);
+  if (status != PENDRES_OK) return status;
+  const int code = solver->advance(b, two_pi * (double)period);
+  b->ctx->cost.pendulum_periods += 1.0;
+  if (b->stopped)
+    return pendres_context_fail(b->ctx, PENDRES_INTERRUPTED, "interrupted on request");
+  if (code < 0)
+    return pendres_context_fail(b->ctx, PENDRES_INTEGRATION_FAILED,
+                                "method %s gave up in drive period %ld (code %d)",
+                                pendres_method_of(b->ctx)->name, period, code);
+  return PENDRES_OK;
+}
+
+static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver, size_t index,
+                              pendres_strobe_lane *lane, pendres_strobe_visit *visit, void *arg)
+{
+  /* The clock starts now, however many periods the lane has behind it. */
+  const long turns = lane->turns, first = lane->period;
+  pendres_status status = open_problem(b, solver, lane);
+  for (int done = 0; status == PENDRES_OK && !done;) {
+    status = advance(b, solver, lane->period + 1 - first);
+    if (status != PENDRES_OK) break;
+    lane->period++;
+    lane->turns = turns;
+    solver->read(b, &lane->y, &lane->w);
+    pendres_passage_wrap(&lane->y, &lane->turns);
+    done = visit(arg, index, lane);
+  }
+  return status;
+}
+
+pendres_status pendres_one_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                               pendres_strobe_visit *visit, void *arg,
+                               const pendres_one_solver *solver)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_one b = {.ctx = ctx};
+    long steps = 0;
+    status = run_one(&b, solver, i, &lanes[i], visit, arg);
+    if (b.memory != NULL && solver->steps(&b, &steps) == 0) ctx->cost.steps += (double)steps;
+    solver->close(&b);
+    if (b.state != NULL) N_VDestroy(b.state);
+  }
+  return status;
+}

@@ -1,0 +1,48 @@
+/*
+ * method_one.h -- the methods to compare with: one ARKODE or CVODE problem a pendulum.
+ *
+ * Independent of the blocks on purpose: the plain serial vector, libm's sine, adaptive steps, a
+ * clock that runs on. Slow, and a second opinion.
+ */
+#ifndef PENDRES_METHOD_ONE_H
+#define PENDRES_METHOD_ONE_H
+
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_nvector.h>
+#include <sundials/sundials_types.h>
+
+#include "engine/context_internal.h"
+#include "engine/method.h"
+
+/* One pendulum's problem. */
+typedef struct pendres_one {
+  pendres_context *ctx;
+  const pendres_pendulum *p;
+  N_Vector state; /* y and w over drive phase, unless the solver says otherwise */
+  void *memory;   /* the solver's */
+  int stopped;
+  long evaluations;
+} pendres_one;
+
+/* What solves it; everything returns nonzero on failure, SUNDIALS' code where there is one. */
+typedef struct pendres_one_solver {
+  int (*open)(pendres_one *b); /* from the state at phase 0 on, y and w */
+  int (*advance)(pendres_one *b, double theta);
+  void (*read)(const pendres_one *b, double *y, double *w);
+  int (*steps)(const pendres_one *b, long *steps); /* so far */
+  void (*close)(pendres_one *b); /* after open has failed, too */
+} pendres_one_solver;
+
+/* As the `run` of a method's functions, by a solver. */
+pendres_status pendres_one_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                               pendres_strobe_visit *visit, void *arg,
+                               const pendres_one_solver *solver);
+
+/* For solvers over drive phase: the right-hand side, which asks now and then whether to go on ... */
+int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one);
+/* ... error weights by the context's tolerance ... */
+int pendres_one_weights(N_Vector state, N_Vector out, void *one);
+/* ... and the state as it is. */
+void pendres_one_read(const pendres_one *b, double *y, double *w);
+
+#endif
