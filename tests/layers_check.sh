@@ -19,7 +19,8 @@ src_doors='base/guard.h base/student.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_sample.h orbits/settle.h
-  continuation/continuation_map.h continuation/continuation_walk.h'
+  continuation/continuation_map.h continuation/continuation_parameter.h
+  continuation/continuation_walk.h'
 drivers_doors='terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h
   deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h validation/hard_cases.h'
 

@@ -354,6 +354,30 @@ static void branches(void **state)
   assert_int_equal(f->wrong, 0);
 }
 
+static void hysteresis(void **state)
+{
+  fixture *f = *state;
+  f->wrong = 0;
+  const double value[] = { 0.7, 0.75 }, none[] = { 0.7, NAN };
+  const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
+  pendres_hysteresis *h = NULL;
+  REFUSED(pendres_hysteresis_follow(f->ctx, NULL, along, 1.0, 0.0, 2, value, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, NULL, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, value, NULL));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, none, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, PENDRES_DAMPING, 1.0, 0.0, 2,
+                                    (const double[]){ 0.1, 0.0 }, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, (pendres_parameter)-1, 1.0, 0.0, 2, value, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, PENDRES_PARAMETER_COUNT, 1.0, 0.0, 2, value,
+                                    &h));
+  for (size_t i = 0; i < COUNT(bad_numbers); i++) {
+    REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, bad_numbers[i], 0.0, 2, value, &h));
+    REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, bad_numbers[i], 2, value, &h));
+  }
+  assert_null(h);
+  assert_int_equal(f->wrong, 0);
+}
+
 static void curves(void **state)
 {
   fixture *f = *state;
@@ -469,7 +493,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(strobes),  cmocka_unit_test(settling),   cmocka_unit_test(orbits),
     cmocka_unit_test(basins),   cmocka_unit_test(boundaries), cmocka_unit_test(branches),
-    cmocka_unit_test(curves),   cmocka_unit_test(ensembles),
+    cmocka_unit_test(hysteresis), cmocka_unit_test(curves),   cmocka_unit_test(ensembles),
   };
   return cmocka_run_group_tests_name("arguments", tests, make, clear);
 }

@@ -72,6 +72,12 @@ static void nothing(void **state)
   assert_null(pendres_branch_bifurcation(NULL, 0));
   (void)pendres_branch_end_of(NULL, 7);
   pendres_branches_free(NULL);
+  pendres_hysteresis_free(NULL);
+  assert_int_equal(pendres_hysteresis_count(NULL), 0);
+  assert_null(pendres_hysteresis_get(NULL, 0));
+  assert_int_equal(pendres_hysteresis_jumps(NULL), 0);
+  assert_null(pendres_hysteresis_jump(NULL, 0));
+  assert_null(pendres_jump_kind_name(PENDRES_JUMP_COUNT));
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));
   assert_int_equal(pendres_branches_skipped(NULL), 0);

@@ -8,27 +8,14 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "continuation/continuation_parameter.h"
 #include "orbits/orbit_newton.h"
 
 /* ---- one value of the parameter ---- */
 
 double pendres_branch_value(const pendres_branch *b, size_t i)
 {
-  const pendres_pendulum *p = &b->point[i].orbit.pendulum;
-  switch (b->parameter) {
-  case PENDRES_DAMPING: return p->damping;
-  case PENDRES_DRIVE_AMPLITUDE: return p->drive_amplitude;
-  default: return p->drive_frequency;
-  }
-}
-
-static void set_value(pendres_parameter parameter, double value, pendres_pendulum *p)
-{
-  switch (parameter) {
-  case PENDRES_DAMPING: p->damping = value; break;
-  case PENDRES_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
-  default: p->drive_frequency = value;
-  }
+  return pendres_parameter_value(&b->point[i].orbit.pendulum, b->parameter);
 }
 
 /* The Poincaré point on the chord; the well of x may differ by whole turns from end to end. */
@@ -44,7 +31,7 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
                            .v = p->v + part * (q->v - p->v),
                            .period = p->period,
                            .winding = p->winding};
-  set_value(b->parameter, value, &g.pendulum);
+  *pendres_parameter_of(&g.pendulum, b->parameter) = value;
   return g;
 }
 
@@ -129,7 +116,11 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
                      ? (pendres_continuation_map){.period = one.map.period}
                      : (pendres_continuation_map){.period = 2 * one.map.period,
                                                   .winding = 2 * one.map.winding};
-  for (double away = 0.02; away < 0.5; away *= 2.0) {
+  /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
+  const double reach = 0.02 * pow(one.map.period, -1.3);
+  static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
+  for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
+    const double away = reach * tries[k];
     pendres_walk_point point = {.tangent = {v[0], v[1], 0.0, 0.0}};
     pendres_continuation_pair pair;
     double error[1][2];
@@ -139,8 +130,14 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     twice.point = &point;
     status = pendres_trail_polish(ctx, &twice, &pair, error);
     if (status != PENDRES_OK) return status;
-    /* Not the branch that it came from, which the plane does not meet except far away. */
     if (error[0][0] > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - point.u[PENDRES_U_Y]) > away) continue;
+    /* Not the branch that it came from, which the plane meets as well: the other one's orbits are
+       on the far side after one map, twice as far away. */
+    status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])pair.fine, &image);
+    if (status != PENDRES_OK) return status;
+    const double apart = hypot(image.f[0], image.f[1]);
+    if (!(apart > away && apart < 4.0 * away)) continue;
     return pendres_continuation_orbit_measure(ctx, 1, &pair, out);
   }
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");

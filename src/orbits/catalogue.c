@@ -371,8 +371,7 @@ pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *ca
   return status;
 }
 
-/* Nothing is known of an orbit that does not close: NaN, not 0. */
-static pendres_orbit no_orbit(const pendres_pendulum *p)
+pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
 {
   pendres_orbit o = {.pendulum = *p};
   double *const numbers[] = {
@@ -392,7 +391,7 @@ static pendres_orbit no_orbit(const pendres_pendulum *p)
 static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_measures *m)
 {
   const double cycles = p->drive_frequency / two_pi;
-  pendres_orbit o = no_orbit(p);
+  pendres_orbit o = pendres_orbit_none(p);
   o.loop_area = m->work.value;
   o.loop_area_error = m->work.error;
   o.mean_power = cycles * m->work.value;

@@ -50,6 +50,9 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
 pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
                                      const pendres_scout *guesses);
 
+/* Nothing is known of an orbit that does not close: NaN, not 0. */
+pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
+
 /* Add a chaotic attractor; the cover becomes the catalogue's. */
 pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalogue *c,
                                            const pendres_chaos_measures *m, pendres_cover *cover);

@@ -1,0 +1,112 @@
+/*
+ * hysteresis.h -- a pendulum whose parameter is moved so slowly that it always settles.
+ *
+ * Owns: following the state that a pendulum is in along any path of a parameter, as an experimenter
+ * does who sweeps a frequency up and down; where the state ends, and what the pendulum goes to then.
+ *
+ * While the state is a stable periodic orbit it is followed by continuation, so that the value at
+ * which it ends is a bifurcation's, located to the tolerance, and not that of the next step. At a
+ * period doubling or a loss of mirror symmetry beyond which a stable orbit is born, the pendulum
+ * goes over to that orbit without a jump. Everywhere else it leaves: TRIALS pendulums start from
+ * the orbit that ends, with the parameter beyond the bifurcation by a ten-thousandth or a
+ * hundred-thousandth of its scale (0.3 for the drive frequency, 0.1 for others), and it goes to
+ * where most of them go. How long a pendulum stays near a fold depends on how far beyond it the
+ * parameter is; these distances differ by enough for the trials to leave at every phase of a
+ * period. Where they do not all go to the same state, what happens depends on distances that no
+ * experiment and no rounding controls, and the jump is marked as uncertain.
+ *
+ * While the state is chaotic, the pendulum is settled anew at each value, from where it was.
+ *
+ * Source: Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; Thompson and Soliman,
+ * Proceedings of the Royal Society A 432 (1991) 101, for jumps whose outcome is uncertain.
+ */
+#ifndef PENDRES_HYSTERESIS_H
+#define PENDRES_HYSTERESIS_H
+
+#include <pendres/attractor.h>
+#include <pendres/continuation.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+enum {
+  PENDRES_HYSTERESIS_TRIALS = 16, /**< pendulums that tell where a jump leads */
+  PENDRES_HYSTERESIS_PERIOD = 64  /**< orbits of longer periods are not followed by continuation */
+};
+
+/** The state at one value of the path. */
+typedef struct pendres_hysteresis_point {
+  double value;                /**< of the parameter */
+  pendres_attractor attractor; /**< its label is UNRESOLVED, and its numbers NaN, where it could not
+                                    be found; its trap is not determined (NaN) on stretches that
+                                    were followed */
+  double mean_velocity, mean_velocity_error; /**< of x; exact for closed orbits, else with an error
+                                                  that holds with a confidence of 99.9 % */
+} pendres_hysteresis_point;
+
+/** How a state ends. */
+typedef enum pendres_jump_kind {
+  PENDRES_JUMP_FOLD = 0,
+  PENDRES_JUMP_FLIP,     /**< period doubling */
+  PENDRES_JUMP_SYMMETRY, /**< loss of mirror symmetry */
+  PENDRES_JUMP_OTHER,    /**< chaos that ends, or a branch that could not be followed */
+  PENDRES_JUMP_COUNT
+} pendres_jump_kind;
+
+/** "fold", "flip", "symmetry", "other"; NULL if out of range. */
+const char *pendres_jump_kind_name(pendres_jump_kind kind);
+
+/** The end of a state. */
+typedef struct pendres_jump {
+  size_t step;               /**< between point step - 1 and point step of the path */
+  int direction;             /**< 1: the parameter grows, -1: it falls */
+  pendres_jump_kind kind;
+  double value, value_error; /**< of the parameter. For OTHER, unless a bifurcation was found to be
+                                  the end, the middle between two steps and half their distance */
+  pendres_label from, to;
+  int to_period;             /**< drive periods of the orbit that it goes to; 0: none that closes */
+  int gradual;               /**< 1: goes over to the orbit born there, which grows from nothing. At
+                                  a loss of symmetry two orbits that are mirror images are born;
+                                  chance decides between them, and one is taken */
+  double share;              /**< of the trials that went there; 1 if gradual; NaN if not tried */
+  int certain;               /**< 1: all of them did, mirror images not being told apart */
+} pendres_jump;
+
+/** Opaque: what was met on a path. */
+typedef struct pendres_hysteresis pendres_hysteresis;
+
+/**
+ * Follow the state that pendulum `p` settles on from position x and velocity v at drive phase 0,
+ * along the values value[n] of a parameter, in their order: each value is approached from the one
+ * before, slowly and monotonically. A sweep up and down is a list that ascends and then descends.
+ * p's own value of the parameter is not read.
+ *
+ * Orbits of one drive period are named SA and LA where two of them are met at the same value of the
+ * path, by amplitude, and keep their names along the whole stretch that is followed; elsewhere they
+ * are named as pendres_label says.
+ *
+ * p and value are read. *out is to be freed by pendres_hysteresis_free; NULL on failure.
+ * Errors: PENDRES_INVALID_ARGUMENT (the message says which), PENDRES_OUT_OF_MEMORY,
+ * PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some points are unresolved.
+ * Thread safety: as for the context.
+ */
+pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
+                                         pendres_parameter parameter, double x, double v, size_t n,
+                                         const double *value, pendres_hysteresis **out);
+void pendres_hysteresis_free(pendres_hysteresis *h);
+
+/** As many points as the path has values. */
+size_t pendres_hysteresis_count(const pendres_hysteresis *h);
+/** Point number i, owned by h; NULL out of range. */
+const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis *h, size_t i);
+size_t pendres_hysteresis_jumps(const pendres_hysteresis *h);
+/** Jump number i in the order of the path, owned by h; NULL out of range. */
+const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

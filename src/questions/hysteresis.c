@@ -1,0 +1,464 @@
+/* hysteresis.c -- the state of a pendulum along a path of a parameter; see hysteresis.h. */
+#include <pendres/hysteresis.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "continuation/continuation_parameter.h"
+#include "engine/context_internal.h"
+#include "orbits/label.h"
+#include "questions/hysteresis_jump.h"
+#include "questions/stretch.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { MOST_JUMPS = 256 /* between two values of the path */ };
+
+struct pendres_hysteresis {
+  size_t count, jumps, jump_room;
+  pendres_hysteresis_point *point;
+  pendres_jump *jump;
+  /* For names: which of the stretches followed a point belongs to, and a jump comes from and leads
+     to. */
+  size_t stretches;
+  size_t *stretch, *jump_from, *jump_to;
+};
+
+const char *pendres_jump_kind_name(pendres_jump_kind kind)
+{
+  static const char *const names[PENDRES_JUMP_COUNT] = {"fold", "flip", "symmetry", "other"};
+  return (unsigned)kind < PENDRES_JUMP_COUNT ? names[kind] : NULL;
+}
+
+void pendres_hysteresis_free(pendres_hysteresis *h)
+{
+  if (h == NULL) return;
+  free(h->point);
+  free(h->jump);
+  free(h->stretch);
+  free(h->jump_from);
+  free(h->jump_to);
+  free(h);
+}
+
+size_t pendres_hysteresis_count(const pendres_hysteresis *h)
+{
+  return h != NULL ? h->count : 0;
+}
+
+const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis *h, size_t i)
+{
+  return h != NULL && i < h->count ? &h->point[i] : NULL;
+}
+
+size_t pendres_hysteresis_jumps(const pendres_hysteresis *h)
+{
+  return h != NULL ? h->jumps : 0;
+}
+
+const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i)
+{
+  return h != NULL && i < h->jumps ? &h->jump[i] : NULL;
+}
+
+/* ---- the walk along the path ---- */
+
+typedef struct path {
+  pendres_context *ctx;
+  pendres_pendulum pendulum; /* but for the parameter */
+  pendres_parameter parameter;
+  size_t n;
+  const double *value;
+  pendres_hysteresis *h;
+  double at;               /* where the parameter is now */
+  pendres_settled state;   /* what the pendulum is on there */
+  pendres_stretch stretch; /* that it is followed along; none: not yet, or not closed */
+} path;
+
+static pendres_pendulum pendulum_at(const path *w, double value)
+{
+  pendres_pendulum p = w->pendulum;
+  *pendres_parameter_of(&p, w->parameter) = value;
+  return p;
+}
+
+static pendres_attractor closed_one(const pendres_orbit *o)
+{
+  pendres_attractor a = pendres_settled_nothing(&o->pendulum);
+  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  a.orbit = *o;
+  a.label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC;
+  a.lyapunov = log(modulus) / time;
+  a.lyapunov_error = o->multiplier_error / (modulus * time);
+  return a;
+}
+
+static void put(path *w, size_t i, const pendres_attractor *a)
+{
+  pendres_hysteresis_point *p = &w->h->point[i];
+  const double omega = pendulum_at(w, w->value[i]).drive_frequency;
+  const int closed = pendres_settled_closed(a);
+  p->value = w->value[i];
+  p->attractor = *a;
+  w->h->stretch[i] = w->h->stretches;
+  if (closed) {
+    const double turns = (double)a->orbit.winding / a->orbit.period;
+    p->mean_velocity = omega * turns;
+    p->mean_velocity_error = 2.2e-16 * fabs(p->mean_velocity);
+  } else {
+    p->mean_velocity = omega * a->drift;
+    p->mean_velocity_error = omega * a->drift_error;
+  }
+}
+
+static void leave_stretch(path *w)
+{
+  pendres_stretch_free(&w->stretch);
+  w->h->stretches++;
+}
+
+static pendres_status note_jump(path *w, const pendres_jump *j)
+{
+  pendres_hysteresis *h = w->h;
+  if (h->jumps == h->jump_room) {
+    const size_t room = 2 * h->jump_room + 8;
+    pendres_jump *jump = realloc(h->jump, room * sizeof *jump);
+    if (jump != NULL) h->jump = jump;
+    size_t *from = realloc(h->jump_from, room * sizeof *from);
+    if (from != NULL) h->jump_from = from;
+    size_t *to = realloc(h->jump_to, room * sizeof *to);
+    if (to != NULL) h->jump_to = to;
+    if (jump == NULL || from == NULL || to == NULL)
+      return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for jumps");
+    h->jump_room = room;
+  }
+  h->jump[h->jumps] = *j;
+  h->jump_from[h->jumps] = h->stretches;
+  h->jump_to[h->jumps++] = h->stretches + 1;
+  return PENDRES_OK;
+}
+
+/* Whether a stretch ends at one of the later doublings of a cascade. */
+static int cascades(const pendres_stretch *s)
+{
+  return s->end == PENDRES_STRETCH_BIFURCATION &&
+         s->bifurcation.kind == PENDRES_PERIOD_DOUBLING &&
+         2 * s->period > PENDRES_HYSTERESIS_PERIOD;
+}
+
+/* The stretch that a pendulum goes over to without a jump: of what is born at the end of the one
+   that it is on, or of what that one was born from. PENDRES_NOT_FOUND: it jumps. */
+static pendres_status go_over(path *w, const pendres_bifurcation *end, double limit,
+                              pendres_stretch *next)
+{
+  const int doubled = end->kind == PENDRES_PERIOD_DOUBLING ? 2 : 1;
+  if (end->kind != PENDRES_PERIOD_DOUBLING && end->kind != PENDRES_SYMMETRY_BREAKING)
+    return PENDRES_NOT_FOUND;
+  if (w->stretch.end != PENDRES_STRETCH_BIRTH)
+    return doubled * end->orbit.period <= PENDRES_HYSTERESIS_PERIOD
+             ? pendres_stretch_born(w->ctx, end, limit, next)
+             : PENDRES_NOT_FOUND;
+  const pendres_status status =
+    pendres_stretch_from(w->ctx, &end->orbit, w->parameter, limit, next);
+  if (status != PENDRES_OK || next->points > 1) return status;
+  pendres_stretch_free(next);
+  return PENDRES_NOT_FOUND;
+}
+
+/* The end of the stretch: what it is, and what the pendulum goes to. */
+static pendres_status end_stretch(path *w, size_t step, double limit)
+{
+  static const pendres_jump_kind kinds[] = {
+    [PENDRES_REGULAR] = PENDRES_JUMP_OTHER, [PENDRES_FOLD] = PENDRES_JUMP_FOLD,
+    [PENDRES_PERIOD_DOUBLING] = PENDRES_JUMP_FLIP,
+    [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY};
+  const pendres_stretch *s = &w->stretch;
+  pendres_bifurcation end = s->bifurcation;
+  if (s->end == PENDRES_STRETCH_LOST)
+    end = (pendres_bifurcation){.kind = PENDRES_REGULAR, .parameter = w->parameter,
+                                .value = s->end_value, .value_error = s->end_error,
+                                .orbit = pendres_stretch_last(s)->orbit};
+  pendres_jump j = {.step = step, .direction = s->direction, .kind = kinds[end.kind],
+                    .value = end.value, .value_error = end.value_error,
+                    .from = w->state.attractor.label, .share = NAN};
+  pendres_stretch next = pendres_stretch_none;
+  pendres_status status = go_over(w, &end, limit, &next);
+  if (status == PENDRES_OK) {
+    w->state.attractor = closed_one(&pendres_stretch_last(&next)->orbit);
+    w->at = end.value;
+    j.gradual = j.certain = 1;
+    j.share = 1.0;
+    j.to = w->state.attractor.label;
+    j.to_period = next.period;
+  } else if (status == PENDRES_NOT_FOUND && cascades(&w->stretch)) {
+    /* What it comes to is seen at the next value. */
+    w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
+    w->state.x = end.orbit.x;
+    w->state.v = end.orbit.v;
+    w->at = end.value;
+    j.to = PENDRES_LABEL_UNRESOLVED;
+    status = PENDRES_OK;
+  } else if (status == PENDRES_NOT_FOUND) {
+    status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
+    w->at = pendres_parameter_value(&w->state.pendulum, w->parameter);
+  }
+  if (status == PENDRES_OK) status = note_jump(w, &j);
+  leave_stretch(w);
+  w->stretch = next;
+  return status;
+}
+
+/* The values from number i on that the stretch holds: the number after the last of them. */
+static size_t held(const path *w, size_t i)
+{
+  const int direction = w->stretch.direction;
+  double last = w->at;
+  for (; i < w->n && pendres_stretch_holds(&w->stretch, w->value[i]); i++) {
+    if ((w->value[i] - last) * direction < 0.0) break;
+    last = w->value[i];
+  }
+  return i;
+}
+
+static pendres_status put_stretch(path *w, size_t first, size_t last)
+{
+  const size_t n = last - first;
+  pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
+  int *found = calloc(n + 1, sizeof *found);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (orbit == NULL || found == NULL)
+    (void)pendres_context_fail(w->ctx, status, "out of memory for %zu orbits", n);
+  else
+    status = pendres_stretch_orbits(w->ctx, &w->stretch, n, w->value + first, orbit, found);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum p = pendulum_at(w, w->value[first + i]);
+    const pendres_attractor a = found[i] ? closed_one(&orbit[i]) : pendres_settled_nothing(&p);
+    put(w, first + i, &a);
+    if (!found[i]) continue;
+    w->state = (pendres_settled){
+      .pendulum = p, .attractor = a, .x = orbit[i].x, .v = orbit[i].v};
+    w->at = w->value[first + i];
+  }
+  free(orbit);
+  free(found);
+  return status;
+}
+
+/* The last value that the path reaches from number i on before it turns round. */
+static double turning_point(const path *w, size_t i)
+{
+  const int up = w->value[i] > w->at;
+  while (i + 1 < w->n && (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i])) i++;
+  return w->value[i];
+}
+
+/* A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. */
+static pendres_status follow_closed(path *w, size_t *i)
+{
+  const size_t start = *i;
+  for (int ends = 0; ends < MOST_JUMPS && *i == start; ends++) {
+    const double limit = turning_point(w, *i);
+    const int direction = w->value[*i] >= w->at ? 1 : -1;
+    pendres_status status = PENDRES_OK;
+    if (w->stretch.branch != NULL && w->stretch.direction != direction)
+      pendres_stretch_free(&w->stretch);
+    if (w->stretch.branch == NULL)
+      status = pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,
+                                    &w->stretch);
+    if (status != PENDRES_OK) return status;
+    const size_t last = held(w, *i);
+    if (last > *i) {
+      status = put_stretch(w, *i, last);
+      *i = last;
+    } else {
+      status = end_stretch(w, *i, limit);
+    }
+    if (status != PENDRES_OK || !pendres_settled_closed(&w->state.attractor)) return status;
+  }
+  return PENDRES_OK;
+}
+
+/*
+ * Chaos has ended between the last value and this one, at which the pendulum is on an orbit. If
+ * that is born between them, and the pendulum goes to it just beyond and does not just before, that
+ * is where chaos ends.
+ */
+static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
+{
+  const double to = w->value[step], from = w->at;
+  const int direction = to > from ? 1 : -1;
+  const double small = 1e-4 * pendres_parameter_scale(w->parameter);
+  pendres_settled before, behind;
+  pendres_stretch s = pendres_stretch_none;
+  pendres_jump j = {.step = step, .direction = direction, .kind = PENDRES_JUMP_OTHER,
+                    .value = 0.5 * (from + to), .value_error = 0.5 * fabs(to - from),
+                    .from = old->attractor.label, .to = w->state.attractor.label,
+                    .to_period = w->state.attractor.orbit.period, .share = NAN};
+  pendres_status status =
+    pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, from, &s);
+  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
+      fabs(to - s.end_value) > small && fabs(from - s.end_value) > small) {
+    const pendres_pendulum p = pendulum_at(w, s.end_value - direction * small);
+    const pendres_pendulum q = pendulum_at(w, s.end_value + direction * small);
+    status = pendres_settled_find(w->ctx, &p, old->x, old->v, &before);
+    if (status == PENDRES_OK)
+      status = pendres_settled_find(w->ctx, &q, old->x, old->v, &behind);
+    const pendres_orbit *born = &pendres_stretch_last(&s)->orbit;
+    if (status == PENDRES_OK && !pendres_settled_closed(&before.attractor) &&
+        pendres_settled_closed(&behind.attractor) &&
+        behind.attractor.orbit.period == born->period) {
+      j.value = s.end_value;
+      j.value_error = s.end_error;
+      j.certain = 1;
+      j.share = 1.0;
+    }
+  }
+  pendres_stretch_free(&s);
+  return status == PENDRES_OK ? note_jump(w, &j) : status;
+}
+
+/* What the pendulum settles on at a value, from where it is. */
+static pendres_status settle_at(path *w, size_t i)
+{
+  const pendres_pendulum p = pendulum_at(w, w->value[i]);
+  const pendres_settled old = w->state;
+  pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
+  if (status == PENDRES_OK && i > 0 && pendres_settled_closed(&w->state.attractor)) {
+    status = end_chaos(w, i, &old);
+    leave_stretch(w);
+  }
+  if (status == PENDRES_OK) put(w, i, &w->state.attractor);
+  w->at = w->value[i];
+  return status;
+}
+
+static pendres_status walk(path *w)
+{
+  pendres_status status = settle_at(w, 0);
+  for (size_t i = 1; i < w->n && status == PENDRES_OK;) {
+    const size_t before = i;
+    status = pendres_context_poll(w->ctx);
+    if (status != PENDRES_OK) break;
+    if (w->value[i] == w->value[i - 1]) {
+      put(w, i, &w->h->point[i - 1].attractor);
+      i++;
+      continue;
+    }
+    if (pendres_settled_closed(&w->state.attractor)) status = follow_closed(w, &i);
+    if (status == PENDRES_OK && i == before) status = settle_at(w, i++);
+  }
+  pendres_stretch_free(&w->stretch);
+  return status;
+}
+
+/* ---- names ---- */
+
+enum { UNNAMED = 0, SMALLER = 1, LARGER = 2 };
+
+/* Stretches on which there are orbits of one drive period, by what they meet at the same values. */
+static void compare(const pendres_hysteresis *h, unsigned char *met)
+{
+  for (size_t i = 0; i < h->count; i++)
+    for (size_t k = 0; k < i; k++) {
+      const pendres_attractor *a = &h->point[i].attractor, *b = &h->point[k].attractor;
+      if (h->point[i].value != h->point[k].value || h->stretch[i] == h->stretch[k]) continue;
+      if (!pendres_settled_closed(a) || !pendres_settled_closed(b)) continue;
+      if (!pendres_label_named(&a->orbit) || !pendres_label_named(&b->orbit)) continue;
+      pendres_label_states states = {.count = 0};
+      pendres_label_note(&states, &a->orbit);
+      pendres_label_note(&states, &b->orbit);
+      if (states.count < 2) continue;
+      const int less = a->orbit.amplitude < b->orbit.amplitude;
+      met[h->stretch[i]] |= less ? SMALLER : LARGER;
+      met[h->stretch[k]] |= less ? LARGER : SMALLER;
+    }
+}
+
+static pendres_label name_of(const pendres_attractor *a, unsigned met)
+{
+  const pendres_label_states alone = {.count = 0};
+  if (!pendres_settled_closed(a)) return a->label;
+  if (!pendres_label_named(&a->orbit)) return pendres_label_of(&alone, NULL, &a->orbit);
+  if (met == SMALLER) return PENDRES_LABEL_SA;
+  if (met == LARGER) return PENDRES_LABEL_LA;
+  return pendres_label_of(&alone, NULL, &a->orbit);
+}
+
+static pendres_status give_names(pendres_context *ctx, pendres_hysteresis *h)
+{
+  unsigned char *met = calloc(h->stretches + 2, 1);
+  if (met == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for names");
+  compare(h, met);
+  for (size_t i = 0; i < h->count; i++) {
+    pendres_attractor *a = &h->point[i].attractor;
+    a->label = name_of(a, met[h->stretch[i]]);
+  }
+  /* A jump comes from and leads to what its stretches are called. */
+  for (size_t k = 0; k < h->jumps; k++)
+    for (size_t i = 0; i < h->count; i++) {
+      if (h->stretch[i] == h->jump_from[k] && i < h->jump[k].step)
+        h->jump[k].from = h->point[i].attractor.label;
+      if (h->stretch[i] == h->jump_to[k] && i == h->jump[k].step)
+        h->jump[k].to = h->point[i].attractor.label;
+    }
+  free(met);
+  return PENDRES_OK;
+}
+
+/* ---- the call ---- */
+
+static pendres_hysteresis *create(size_t n)
+{
+  pendres_hysteresis *h = calloc(1, sizeof *h);
+  if (h == NULL) return NULL;
+  h->count = n;
+  h->point = calloc(n + 1, sizeof *h->point);
+  h->stretch = calloc(n + 1, sizeof *h->stretch);
+  if (h->point != NULL && h->stretch != NULL) return h;
+  pendres_hysteresis_free(h);
+  return NULL;
+}
+
+static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hysteresis **out)
+{
+  w->state = (pendres_settled){.x = x, .v = v};
+  for (size_t i = 0; i < w->n; i++) {
+    const char *why = NULL;
+    const pendres_pendulum p = pendulum_at(w, w->value[i]);
+    if (pendres_pendulum_check(&p, &why) == PENDRES_OK && p.damping == 0.0)
+      why = "without damping nothing settles";
+    if (why != NULL)
+      return pendres_context_fail(w->ctx, PENDRES_INVALID_ARGUMENT, "value %zu of the path: %s", i,
+                                  why);
+  }
+  w->h = create(w->n);
+  if (w->h == NULL)
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values", w->n);
+  pendres_status status = w->n > 0 ? walk(w) : PENDRES_OK;
+  if (status == PENDRES_OK) status = give_names(w->ctx, w->h);
+  if (status == PENDRES_OK) *out = w->h;
+  else pendres_hysteresis_free(w->h);
+  return status;
+}
+
+static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
+                              pendres_parameter parameter, double x, double v, size_t n,
+                              const double *value, pendres_hysteresis **out)
+{
+  if (p == NULL || out == NULL || (n > 0 && value == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, value and out");
+  *out = NULL;
+  if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown parameter");
+  path w = {.ctx = ctx, .pendulum = *p, .parameter = parameter, .n = n, .value = value};
+  return hysteresis_follow(&w, x, v, out);
+}
+
+pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
+                                         pendres_parameter parameter, double x, double v, size_t n,
+                                         const double *value, pendres_hysteresis **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, checked(ctx, p, parameter, x, v, n, value, out));
+}

@@ -1,0 +1,37 @@
+/*
+ * hysteresis_jump.h -- where a pendulum goes when the state that it is in ends.
+ *
+ * Owns: the trials that tell.
+ */
+#ifndef PENDRES_HYSTERESIS_JUMP_H
+#define PENDRES_HYSTERESIS_JUMP_H
+
+#include <pendres/hysteresis.h>
+
+/* What a pendulum settled on, and a state that it was in then. */
+typedef struct pendres_settled {
+  pendres_pendulum pendulum;
+  pendres_attractor attractor; /* label UNRESOLVED: nothing that is known */
+  double x, v;                 /* on it, or on the way to it */
+} pendres_settled;
+
+/* Whether an attractor is a closed orbit. */
+int pendres_settled_closed(const pendres_attractor *a);
+
+/* Whether two are the same state at parameters next to each other, or mirror images of it. */
+int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b);
+
+/* An attractor of which nothing is known. */
+pendres_attractor pendres_settled_nothing(const pendres_pendulum *p);
+
+/* Settle one pendulum. What does not close is taken some way along, so that it is on its
+   attractor. */
+pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                    double v, pendres_settled *out);
+
+/* Where most trials go from an orbit that ends at a bifurcation, or with `at` as it is where
+   nothing is known but the place: to, share and certain of the jump are set. */
+pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
+                                pendres_settled *to, pendres_jump *jump);
+
+#endif

@@ -1,0 +1,265 @@
+/* stretch.c -- the stable part of a branch, from a place on it; see stretch.h. */
+#include "questions/stretch.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "continuation/continuation_parameter.h"
+#include "engine/context_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+/* Where errors grow by more than this in a map, an orbit has long been unstable. */
+static const double wildest = 3000.0;
+/* The branch is followed beyond both ends by this share of the parameter's scale. */
+static const double margin = 0.003;
+
+/* Values that differ by less, in the parameter's scale, are those of one place. */
+static const double same_value = 1e-8;
+
+void pendres_stretch_free(pendres_stretch *s)
+{
+  pendres_branch_free(s->branch);
+  *s = pendres_stretch_none;
+}
+
+static double angle_between(double a, double b)
+{
+  const double d = a - b;
+  return d - two_pi * rint(d / two_pi);
+}
+
+/* Distance of a point of the branch from an orbit with a value of the parameter. */
+static double distance(const pendres_branch_point *p, pendres_parameter parameter, double value,
+                       const pendres_orbit *o)
+{
+  const double dp = (pendres_parameter_value(&p->orbit.pendulum, parameter) - value) /
+                    pendres_parameter_scale(parameter);
+  return hypot(hypot(angle_between(p->orbit.x, o->x), p->orbit.v - o->v), dp);
+}
+
+/* The point of a branch that is nearest to an orbit; of bifurcations alone, or of all. */
+static size_t nearest(const pendres_branch *b, pendres_parameter parameter, double value,
+                      const pendres_orbit *o, int bifurcations, double *how_near)
+{
+  size_t best = 0;
+  *how_near = INFINITY;
+  for (size_t i = 0; i < pendres_branch_count(b); i++) {
+    const pendres_branch_point *p = pendres_branch_get(b, i);
+    const double d = distance(p, parameter, value, o);
+    if ((bifurcations && p->bifurcation < 0) || !(d < *how_near)) continue;
+    *how_near = d;
+    best = i;
+  }
+  return best;
+}
+
+/* Point number k of the stretch; NULL where the branch ends before. */
+static const pendres_branch_point *point_of(const pendres_stretch *s, size_t k)
+{
+  const size_t count = pendres_branch_count(s->branch);
+  if (k >= count) return NULL;
+  if (pendres_branch_end_of(s->branch, 0) == PENDRES_END_CLOSED)
+    return pendres_branch_get(s->branch, (s->first + (s->step > 0 ? k : count - k)) % count);
+  if (s->step < 0) return k <= s->first ? pendres_branch_get(s->branch, s->first - k) : NULL;
+  return pendres_branch_get(s->branch, s->first + k);
+}
+
+static double value_of(const pendres_stretch *s, size_t k)
+{
+  return pendres_parameter_value(&point_of(s, k)->orbit.pendulum, s->parameter);
+}
+
+/* How far a value is ahead of another in the direction of the stretch. */
+static double ahead(const pendres_stretch *s, double value, double of)
+{
+  return (double)s->direction * (value - of);
+}
+
+/* From the place on as long as orbits are stable: sets points and the end. */
+static void walk_along(pendres_stretch *s, double limit)
+{
+  const pendres_branch_point *p = NULL;
+  const pendres_bifurcation *met = NULL; /* the latest, where it is not known yet what follows */
+  const double same = same_value * pendres_parameter_scale(s->parameter);
+  int turned = 0;
+  s->end = PENDRES_STRETCH_LOST;
+  s->points = 1;
+  for (size_t k = 1; (p = point_of(s, k)) != NULL; k++) {
+    if (p->bifurcation >= 0) {
+      met = pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
+      if (met->kind == PENDRES_FOLD) break;
+      continue;
+    }
+    /* Next to a bifurcation, where it begins or on its way, all is a matter of rounding. */
+    const double before = met != NULL ? met->value : value_of(s, s->points - 1);
+    if ((s->points == 1 || met != NULL) && fabs(value_of(s, k) - before) <= same) continue;
+    turned = ahead(s, value_of(s, k), before) < -same;
+    if (!p->orbit.stable || turned) break;
+    met = NULL;
+    s->points = k + 1;
+    s->period = p->orbit.period;
+    s->winding = p->orbit.winding;
+    if (ahead(s, value_of(s, k), limit) >= 0.0) {
+      s->end = PENDRES_STRETCH_LIMIT;
+      s->end_value = limit;
+      s->end_error = 0.0;
+      return;
+    }
+  }
+  s->end_value = value_of(s, s->points - 1);
+  s->end_error = margin * pendres_parameter_scale(s->parameter);
+  if (met == NULL) return;
+  s->end = turned ? PENDRES_STRETCH_BIRTH : PENDRES_STRETCH_BIFURCATION;
+  s->bifurcation = *met;
+  s->end_value = met->value;
+  s->end_error = met->value_error;
+  s->points++;
+}
+
+/* Which way along the branch the parameter goes in the direction, from the first point to the next
+   that is not at the same place: *step; 0 if neither does. */
+static int choose_way(pendres_stretch *s)
+{
+  const double same = same_value * pendres_parameter_scale(s->parameter);
+  for (s->step = 1; s->step >= -1; s->step -= 2)
+    for (size_t k = 1; point_of(s, k) != NULL; k++) {
+      const double beyond = ahead(s, value_of(s, k), value_of(s, 0));
+      if (fabs(beyond) <= same) continue;
+      if (beyond > 0.0) return 1;
+      break;
+    }
+  return 0;
+}
+
+static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
+                             pendres_parameter parameter, double from, double limit,
+                             pendres_branch **out)
+{
+  const double room = margin * pendres_parameter_scale(parameter);
+  const double here = pendres_parameter_value(&orbit->pendulum, parameter);
+  double low = fmin(fmin(from, limit), here) - room, high = fmax(fmax(from, limit), here) + room;
+  if (parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * fmin(here, fmin(from, limit)));
+  if (parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
+  const pendres_branch_options options = {
+    .parameter = parameter, .low = low, .high = high, .wildest = wildest};
+  return pendres_branch_follow(ctx, 1, orbit, &options, out);
+}
+
+pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *orbit,
+                                    pendres_parameter parameter, double limit,
+                                    pendres_stretch *out)
+{
+  const double from = pendres_parameter_value(&orbit->pendulum, parameter);
+  pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
+  double off = 0.0;
+  s.period = orbit->period;
+  s.winding = orbit->winding;
+  *out = pendres_stretch_none;
+  const pendres_status status = follow(ctx, orbit, parameter, from, limit, &s.branch);
+  if (status != PENDRES_OK) return status;
+  s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
+  if (choose_way(&s)) {
+    walk_along(&s, limit);
+  } else {
+    /* Right at its end, or nothing could be followed. */
+    s.points = 1;
+    s.end = PENDRES_STRETCH_LOST;
+    s.end_value = from;
+    s.end_error = margin * pendres_parameter_scale(parameter);
+  }
+  *out = s;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcation *at,
+                                    double limit, pendres_stretch *out)
+{
+  static const double near_birth = 1e-5;
+  pendres_stretch s = {.parameter = at->parameter, .direction = limit >= at->value ? 1 : -1};
+  pendres_orbit child;
+  double off = INFINITY;
+  *out = pendres_stretch_none;
+  pendres_status status = pendres_branch_switch(ctx, at, &child);
+  if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
+  if (status != PENDRES_OK) return status;
+  const double there = pendres_parameter_value(&child.pendulum, at->parameter);
+  if (!(ahead(&s, there, at->value) > 0.0)) return PENDRES_NOT_FOUND;
+  status = follow(ctx, &child, at->parameter, at->value, limit, &s.branch);
+  if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
+  if (status != PENDRES_OK) return status;
+  s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
+  if (off < near_birth && choose_way(&s)) walk_along(&s, limit);
+  if (s.points < 2) {
+    pendres_branch_free(s.branch);
+    return PENDRES_NOT_FOUND;
+  }
+  *out = s;
+  return PENDRES_OK;
+}
+
+const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s)
+{
+  for (size_t k = s->points; k-- > 0;)
+    if (point_of(s, k)->bifurcation < 0) return point_of(s, k);
+  return NULL;
+}
+
+int pendres_stretch_holds(const pendres_stretch *s, double value)
+{
+  return s->branch != NULL &&
+         (s->end == PENDRES_STRETCH_LIMIT || ahead(s, value, s->end_value) < 0.0);
+}
+
+/* ---- orbits at values ---- */
+
+/*
+ * Where to look for the orbit at a value between two points. Next to a fold the Poincaré point goes
+ * with the root of the distance from it, elsewhere, nearly, with the distance itself.
+ */
+static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_branch_point *q,
+                                   pendres_parameter parameter, double value)
+{
+  const double from = pendres_parameter_value(&p->orbit.pendulum, parameter);
+  const double to = pendres_parameter_value(&q->orbit.pendulum, parameter);
+  double part = to != from ? (value - from) / (to - from) : 0.0;
+  /* Not far beyond the first point, where a value may lie next to the place of a jump. */
+  part = fmin(fmax(part, -1.0), 1.0);
+  if (q->kind == PENDRES_FOLD) part = 1.0 - sqrt(1.0 - part);
+  pendres_orbit_guess g = {.pendulum = p->orbit.pendulum,
+                           .x = p->orbit.x + part * angle_between(q->orbit.x, p->orbit.x),
+                           .v = p->orbit.v + part * (q->orbit.v - p->orbit.v),
+                           .period = p->orbit.period,
+                           .winding = p->orbit.winding};
+  *pendres_parameter_of(&g.pendulum, parameter) = value;
+  return g;
+}
+
+pendres_status pendres_stretch_orbits(pendres_context *ctx, const pendres_stretch *s, size_t n,
+                                      const double *value, pendres_orbit *out, int *found)
+{
+  if (n == 0) return PENDRES_OK;
+  pendres_orbit_guess *guess = calloc(n, sizeof *guess);
+  pendres_status *outcome = calloc(n, sizeof *outcome);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (guess == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", n);
+    goto done;
+  }
+  for (size_t i = 0, k = 0; i < n; i++) {
+    while (k + 2 < s->points && ahead(s, value[i], value_of(s, k + 1)) > 0.0) k++;
+    const pendres_branch_point *p = point_of(s, k);
+    guess[i] = between(p, s->points > 1 ? point_of(s, k + 1) : p, s->parameter, value[i]);
+    /* Where it is born the orbit is still the other. */
+    guess[i].period = s->period;
+    guess[i].winding = s->winding;
+  }
+  status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, out, outcome);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    found[i] = outcome[i] != PENDRES_NOT_CONVERGED && out[i].stable &&
+               out[i].period == guess[i].period && out[i].winding == guess[i].winding;
+done:
+  free(guess);
+  free(outcome);
+  return status;
+}

@@ -1,0 +1,188 @@
+/*
+ * test_hysteresis.c -- sweeps up and down: where states end, and what the pendulum goes to.
+ *
+ * Jumps are compared with folds that are found from elsewhere, and with pendulums that are simply
+ * settled on either side; doublings with the multiplier of an orbit that Newton's method finds
+ * there.
+ */
+#include <stdlib.h>
+
+#include <pendres/hysteresis.h>
+#include <pendres/strobe.h>
+
+#include "check.h"
+
+static int create(void **state)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
+  *state = ctx;
+  return 0;
+}
+
+static int destroy(void **state)
+{
+  pendres_context_free(*state);
+  return 0;
+}
+
+/* Up and down between two values; the caller frees. */
+static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p,
+                                 pendres_parameter parameter, double low, double high, size_t n,
+                                 double x)
+{
+  pendres_hysteresis *h = NULL;
+  double *value = malloc(2 * n * sizeof *value);
+  assert_non_null(value);
+  for (size_t i = 0; i < n; i++)
+    value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
+  check_ok(pendres_hysteresis_follow(ctx, &p, parameter, x, 0.0, 2 * n, value, &h));
+  assert_int_equal(pendres_hysteresis_count(h), 2 * n);
+  for (size_t i = 0; i < 2 * n; i++)
+    assert_true(pendres_hysteresis_get(h, i)->value == value[i]);
+  free(value);
+  return h;
+}
+
+static pendres_attractor settled(pendres_context *ctx, pendres_pendulum p, double x, double v)
+{
+  pendres_outcome outcome;
+  pendres_attractors *found = NULL;
+  check_ok(pendres_settle(ctx, 1, &p, &x, &v, &outcome, &found));
+  assert_true(outcome.attractor >= 0);
+  const pendres_attractor a = *pendres_attractors_get(found, (size_t)outcome.attractor);
+  pendres_attractors_free(found);
+  return a;
+}
+
+/* Both ends of the loop are folds. */
+static void loop_of_the_drive_frequency(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2};
+  const double low = 0.65, high = 0.9;
+  pendres_hysteresis *h = sweep(ctx, p, PENDRES_DRIVE_FREQUENCY, low, high, 26, 1.6);
+  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  for (size_t k = 0; k < 2; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_hysteresis_point *before = pendres_hysteresis_get(h, j->step - 1);
+    const pendres_hysteresis_point *behind = pendres_hysteresis_get(h, j->step);
+    pendres_fold fold;
+    assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
+    assert_int_equal(j->direction, k == 0 ? 1 : -1);
+    assert_int_equal(j->from, k == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA);
+    assert_int_equal(j->to, k == 0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA);
+    assert_true(j->certain && !j->gradual && j->share == 1.0);
+    assert_true((before->value - j->value) * (behind->value - j->value) < 0.0);
+    /* Sought from the orbit before it, with another predictor and another way. */
+    check_ok(pendres_fold_find(ctx, &before->attractor.orbit, &fold));
+    check_near(j->value, fold.value, j->value_error + fold.value_error);
+    assert_true(j->value_error < 1e-10);
+    /* A pendulum that starts from the orbit that ends stays there before the fold, and goes to the
+       other behind it. */
+    pendres_pendulum q = p;
+    q.drive_frequency = fold.value + j->direction * 1e-5;
+    check_near(settled(ctx, q, fold.orbit.x, fold.orbit.v).orbit.amplitude,
+               behind->attractor.orbit.amplitude, 0.1);
+    assert_true(fabs(before->attractor.orbit.amplitude - behind->attractor.orbit.amplitude) > 0.3);
+  }
+  /* Every point is an orbit that a pendulum stays on: its own point closes after a period. */
+  for (size_t i = 0; i < pendres_hysteresis_count(h); i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    const pendres_orbit *o = &point->attractor.orbit;
+    double x = o->x, v = o->v, error = 0.0;
+    assert_true(o->stable && o->pendulum.drive_frequency == point->value);
+    check_ok(pendres_strobe_advance(ctx, 1, &o->pendulum, &x, &v, 1, &error));
+    check_near(x, o->x, error + 2.0 * (o->x_error + o->v_error));
+    assert_true(point->mean_velocity == 0.0 && point->attractor.lyapunov < 0.0);
+  }
+  pendres_hysteresis_free(h);
+}
+
+/* The multiplier at a doubling is -1: of the orbit that Newton's method finds there by itself. */
+static void check_doubling(pendres_context *ctx, const pendres_hysteresis *h, const pendres_jump *j)
+{
+  const pendres_orbit *near = &pendres_hysteresis_get(h, j->step - 1)->attractor.orbit;
+  const double off = 1e-6;
+  double multiplier[2];
+  pendres_orbit_guess g = {.pendulum = near->pendulum, .x = near->x, .v = near->v,
+                           .period = near->period};
+  for (int k = 0; k < 2; k++) {
+    pendres_orbit o;
+    pendres_status outcome;
+    g.pendulum.drive_amplitude = j->value + (k == 0 ? -off : off);
+    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    assert_int_equal(outcome, PENDRES_OK);
+    multiplier[k] = o.multiplier_re[0];
+  }
+  /* Straight but for the second derivative, which adds some off^2. */
+  const double slope = (multiplier[1] - multiplier[0]) / (2.0 * off);
+  check_near(0.5 * (multiplier[0] + multiplier[1]), -1.0, 1e-9 + fabs(slope) * j->value_error);
+}
+
+/*
+ * y'' + y'/2 + sin y = F cos(2t/3): the orbit loses its mirror symmetry, doubles its period twice,
+ * and goes back the same way without any hysteresis.
+ */
+static void forks(void **state)
+{
+  static const struct {
+    pendres_jump_kind kind;
+    int to_period;
+  } expected[6] = {{PENDRES_JUMP_SYMMETRY, 1}, {PENDRES_JUMP_FLIP, 2}, {PENDRES_JUMP_FLIP, 4},
+                   {PENDRES_JUMP_FLIP, 2},     {PENDRES_JUMP_FLIP, 1}, {PENDRES_JUMP_SYMMETRY, 1}};
+  pendres_context *ctx = *state;
+  const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
+  pendres_hysteresis *h = sweep(ctx, p, PENDRES_DRIVE_AMPLITUDE, 0.95, 1.081, 20, 1.6);
+  assert_int_equal(pendres_hysteresis_jumps(h), 6);
+  for (size_t k = 0; k < 6; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_jump *back = pendres_hysteresis_jump(h, 5 - k);
+    assert_int_equal(j->kind, expected[k].kind);
+    assert_int_equal(j->to_period, expected[k].to_period);
+    assert_true(j->gradual && j->certain);
+    check_near(j->value, back->value, j->value_error + back->value_error);
+    if (j->kind == PENDRES_JUMP_FLIP && j->direction > 0) check_doubling(ctx, h, j);
+  }
+  for (size_t i = 0; i < 20; i++) {
+    const pendres_attractor *up = &pendres_hysteresis_get(h, i)->attractor;
+    const pendres_attractor *down = &pendres_hysteresis_get(h, 39 - i)->attractor;
+    assert_int_equal(up->orbit.period, down->orbit.period);
+    check_near(up->orbit.amplitude, down->orbit.amplitude,
+               up->orbit.amplitude_error + down->orbit.amplitude_error);
+    check_near(up->lyapunov, down->lyapunov, 1e-9 + up->lyapunov_error + down->lyapunov_error);
+  }
+  pendres_hysteresis_free(h);
+}
+
+/* A running orbit moves on by whole turns. */
+static void running(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
+  const double value[2] = {1.40, 1.41};
+  pendres_hysteresis *h = NULL;
+  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 1.6, 0.0, 2, value, &h));
+  for (size_t i = 0; i < 2; i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    const pendres_orbit *o = &point->attractor.orbit;
+    double x = o->x, v = o->v;
+    assert_int_equal(point->attractor.label, PENDRES_LABEL_RUNNING);
+    check_ok(pendres_strobe_advance(ctx, 1, &o->pendulum, &x, &v, 10 * o->period, NULL));
+    /* Ten rounds, of which each closes to 1e-8. */
+    check_near((x - o->x) / (10.0 * o->period * 2.0 * 3.14159265358979323846 /
+                             o->pendulum.drive_frequency),
+               point->mean_velocity, 1e-7);
+  }
+  pendres_hysteresis_free(h);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(loop_of_the_drive_frequency, create, destroy),
+    cmocka_unit_test_setup_teardown(forks, create, destroy),
+    cmocka_unit_test_setup_teardown(running, create, destroy),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
