@@ -14,12 +14,12 @@ src_layers='base model engine orbits noise continuation questions reference stor
 drivers_layers='terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
-src_doors='base/guard.h base/student.h
+src_doors='base/guard.h base/mix.h base/student.h
   engine/context_internal.h engine/kernels_sine.h engine/passage.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_sample.h orbits/settle.h
-  continuation/continuation_map.h continuation/continuation_parameter.h
+  noise/noise_plan.h continuation/continuation_map.h continuation/continuation_parameter.h
   continuation/continuation_walk.h'
 drivers_doors='terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h
   deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h validation/hard_cases.h'

@@ -45,6 +45,8 @@ static void nothing(void **state)
     assert_null(pendres_label_name((pendres_label)i));
     assert_null(pendres_regime_name((pendres_regime)i));
     assert_null(pendres_method_name((pendres_method)i));
+    assert_null(pendres_cloud_verdict_name((pendres_cloud_verdict)i));
+    assert_null(pendres_switching_verdict_name((pendres_switching_verdict)i));
     assert_null(pendres_table_name((pendres_table)i));
     assert_int_equal(pendres_table_order((pendres_table)i), 0);
     assert_non_null(pendres_status_message((pendres_status)i));
@@ -367,6 +369,85 @@ static void noise(void **state)
   assert_int_equal(wrong, 0);
 }
 
+/* Surveys of two states without any attractors, or of nothing. */
+static void surveys(pendres_context *ctx, int *failed)
+{
+  int wrong = 0, steps, two[2] = { 7, 7 };
+  const double t = 0.01;
+  const pendres_switching_survey q = { .trajectories = 2, .periods = 1, .steps_per_period = 16 };
+  pendres_switching_tally tally = { 0 };
+  pendres_switching_rates rates;
+  pendres_switching_activation energy[PENDRES_SWITCHING_WAYS];
+  pendres_switching_states(NULL, two);
+  assert_true(two[0] == -1 && two[1] == -1);
+  pendres_switching_states(NULL, NULL);
+  for (int i = 0; i < 2; i++) {
+    const pendres_switching_survey *s = i == 0 ? NULL : &q;
+    INVALID(pendres_switching_measure(ctx, s, 1, &t, &rates, energy));
+    INVALID(pendres_switching_choose_steps(ctx, s, 0, &steps));
+    INVALID(pendres_switching_follow(ctx, s, t, 0, &tally));
+    INVALID(pendres_switching_conclude(s, t, &tally, &rates));
+    INVALID(pendres_switching_activate(s, 1, &rates, energy));
+  }
+  INVALID(pendres_switching_measure(NULL, &q, 1, &t, &rates, energy));
+  INVALID(pendres_switching_measure(ctx, &q, 1, NULL, &rates, energy));
+  INVALID(pendres_switching_measure(ctx, &q, 1, &t, NULL, energy));
+  INVALID(pendres_switching_measure(ctx, &q, 1, &t, &rates, NULL));
+  INVALID(pendres_switching_choose_steps(ctx, &q, 0, NULL));
+  INVALID(pendres_switching_choose_steps(ctx, &q, 2, &steps));
+  INVALID(pendres_switching_follow(ctx, &q, t, SIZE_MAX, &tally));
+  INVALID(pendres_switching_follow(ctx, &q, t, 0, NULL));
+  INVALID(pendres_switching_conclude(&q, t, &tally, NULL));
+  INVALID(pendres_switching_activate(&q, 1, NULL, energy));
+  INVALID(pendres_switching_activate(&q, 1, &rates, NULL));
+  assert_int_equal(pendres_switching_parts(NULL), 0);
+  *failed += wrong;
+}
+
+/* Clouds and responses of nothing. */
+static void clouds(void **state)
+{
+  int wrong = 0;
+  double x = 1.0;
+  size_t first = 7;
+  pendres_context *ctx = make(1, 16, 8);
+  const pendres_cloud_request q = { .temperature = 1e-3, .trajectories = 2, .record = 1,
+                                    .steps_per_period = 16 };
+  pendres_cloud cloud;
+  pendres_langevin_cloud part;
+  pendres_response still = { .pendulum = good };
+  pendres_response_noise noisy;
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    const pendres_cloud_request *r = i == 0 ? NULL : &q;
+    INVALID(pendres_cloud_measure(ctx, r, &cloud, NULL, NULL));
+    INVALID(pendres_cloud_prepare(ctx, r, &cloud, NULL, NULL));
+    INVALID(pendres_cloud_prepare(ctx, r, &cloud, &x, NULL));
+    INVALID(pendres_cloud_follow(ctx, r, 0, &part, NULL, NULL));
+    INVALID(pendres_cloud_conclude(r, 1, &part, &cloud));
+  }
+  INVALID(pendres_cloud_measure(NULL, &q, &cloud, NULL, NULL));
+  INVALID(pendres_cloud_measure(ctx, &q, NULL, NULL, NULL));
+  INVALID(pendres_cloud_prepare(ctx, &q, NULL, NULL, NULL));
+  INVALID(pendres_cloud_follow(ctx, &q, SIZE_MAX, &part, NULL, NULL));
+  INVALID(pendres_cloud_follow(ctx, &q, 0, NULL, NULL, NULL));
+  INVALID(pendres_cloud_conclude(&q, 1, &part, NULL));
+  assert_int_equal(pendres_cloud_parts(NULL), 0);
+  assert_int_equal(pendres_cloud_part(NULL, 0, &first), 0);
+  assert_int_equal(pendres_cloud_part(&q, SIZE_MAX, NULL), 0);
+  INVALID(pendres_response_add_noise(NULL, &still, 0.0, 2, 1, &noisy));
+  INVALID(pendres_response_add_noise(ctx, NULL, 0.0, 2, 1, &noisy));
+  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, 1, NULL));
+  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, -1, &noisy));
+  for (size_t i = 0; i < 3; i++)
+    INVALID(pendres_response_add_noise(ctx, &still, bad_numbers[i], 2, 1, &noisy));
+  still.states = SIZE_MAX;
+  INVALID(pendres_response_add_noise(ctx, &still, 0.0, 2, 1, &noisy));
+  assert_true(first == 0 && x == 1.0);
+  pendres_context_free(ctx);
+  assert_int_equal(wrong, 0);
+}
+
 static void switching(void **state)
 {
   int wrong = 0, attractor = 7;
@@ -409,6 +490,7 @@ static void switching(void **state)
     r[1] = kept;
   }
   pendres_switching_leave(NULL, NULL, NULL);
+  surveys(ctx, &wrong);
   pendres_context_free(ctx);
   assert_int_equal(wrong, 0);
 }
@@ -418,7 +500,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(nothing), cmocka_unit_test(no_handles), cmocka_unit_test(models),
     cmocka_unit_test(sweeps),  cmocka_unit_test(plans),      cmocka_unit_test(noise),
-    cmocka_unit_test(switching),
+    cmocka_unit_test(switching), cmocka_unit_test(clouds),
   };
   return cmocka_run_group_tests_name("arguments_plain", tests, NULL, NULL);
 }

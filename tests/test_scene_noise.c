@@ -8,7 +8,6 @@
 
 #include "scenes/scene_basins_noise.h"
 #include "scenes/scene_failed.h"
-#include "scenes/scene_noise.h"
 
 /* Clouds alone, as scene_basins.c asks for them. */
 static pendres_status run_clouds(scene_run *run)
@@ -348,26 +347,88 @@ static void bad_temperatures_are_deck_errors(void **state)
     }
 }
 
-/* Chunks cover all trajectories once, none of them alone. */
-static void chunks_cover_everything(void **state)
+/* ---- One call of the library does what a scene does, to the last bit ---- */
+
+static pendres_context *seeded(uint64_t seed)
 {
+  const pendres_options options = { .seed = seed, .block_lanes = 64 };
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&options, &ctx));
+  return ctx;
+}
+
+static void one_call_switches(void **state)
+{
+  static const char *const ways[PENDRES_SWITCHING_WAYS] = { "sa_la", "la_sa", "well_sa",
+                                                            "well_la" };
+  static const double temperature[2] = { 0.02, 0.03 };
+  const pendres_pendulum p = { .damping = 0.12, .drive_amplitude = 0.2,
+                               .drive_frequency = 6.28318530717958647693 / 7.7 };
+  pendres_context *ctx = seeded(5);
+  pendres_attractors *set = NULL;
+  pendres_switching_rates rates[2];
+  pendres_switching_activation activation[PENDRES_SWITCHING_WAYS];
   (void)state;
-  for (size_t n = 2; n < 2000; n += 7) {
-    size_t next = 0, first, count;
-    for (size_t c = 0; c < scene_noise_chunks(n); c++) {
-      scene_noise_chunk(n, c, &first, &count);
-      assert_int_equal(first, next);
-      assert_true(count >= 2 && count <= SCENE_NOISE_CHUNK);
-      next += count;
+  run_deck(switching_deck, 2, "scene");
+  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+  pendres_switching_survey survey = { .set = set, .trajectories = 600, .periods = 300 };
+  pendres_switching_states(set, survey.state);
+  check_ok(pendres_switching_measure(ctx, &survey, 2, temperature, rates, activation));
+  for (int k = 0; k < PENDRES_SWITCHING_WAYS; k++) {
+    char name[40];
+    double value[2], energy;
+    snprintf(name, sizeof name, "rate_%s", ways[k]);
+    get("scene", name, value, 2);
+    snprintf(name, sizeof name, "activation_energy_%s", ways[k]);
+    get("scene", name, &energy, 1);
+    for (int i = 0; i < 2; i++) {
+      const pendres_switching_rate *r = &rates[i].way[k];
+      check_near(r->value, value[i], 0.0);
+      if (r->events > 0.0) {
+        check_relative(r->mean_time, 1.0 / r->value, 1e-15);
+        check_relative(r->mean_time_error / r->mean_time, r->error / r->value, 1e-14);
+      }
     }
-    assert_int_equal(next, n);
+    if (isnan(energy)) assert_true(isnan(activation[k].energy));
+    else check_near(activation[k].energy, energy, 0.0);
   }
+  assert_int_equal(rates[0].status, PENDRES_OK);
+  check_near(rates[0].exposure[0] + rates[0].exposure[1], 600 * 300 * 7.7, 1e-8);
+  assert_int_equal(activation[0].verdict, PENDRES_SWITCHING_UNCHECKED);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+}
+
+static void one_call_makes_a_cloud(void **state)
+{
+  enum { S = 12000 }; /* of the large-amplitude state at the third temperature */
+  static double x[S], v[S], scene_x[6 * S];
+  const pendres_pendulum p = { .damping = 0.12, .drive_amplitude = 0.2,
+                               .drive_frequency = 6.28318530717958647693 / 8.0 };
+  double value[6], rate[6];
+  pendres_context *ctx = seeded(3);
+  pendres_attractors *set = NULL;
+  pendres_cloud cloud;
+  (void)state;
+  run_deck(basins_deck, 2, "scene");
+  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+  const pendres_cloud_request q = { .set = set, .attractor = 1, .temperature = 0.02,
+                                    .trajectories = 400, .record = 30 };
+  check_ok(pendres_cloud_measure(ctx, &q, &cloud, x, v));
+  get("scene", "strobe_cov_xv", value, 6);
+  get("scene", "escape_rate_upper", rate, 6);
+  get("scene", "strobe_x", scene_x, 6 * S);
+  check_near(cloud.measured.statistics[PENDRES_LANGEVIN_COV_XV].value, value[5], 0.0);
+  check_near(cloud.escape_rate.upper, rate[5], 0.0);
+  assert_memory_equal(x, scene_x + 5 * S, sizeof x); /* NaN where trajectories have left, too */
+  assert_int_equal(cloud.way, PENDRES_CLOUD_FOLLOWED);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(chunks_cover_everything),
     cmocka_unit_test(bad_temperatures_are_deck_errors),
     cmocka_unit_test(too_hot_points_are_marked),
     cmocka_unit_test(switching_counts_both_ways),
@@ -376,6 +437,8 @@ int main(void)
     cmocka_unit_test(coldest_clouds_are_those_of_theory),
     cmocka_unit_test(few_strobes_are_no_agreement),
     cmocka_unit_test(response_begins_at_the_deterministic_one),
+    cmocka_unit_test(one_call_switches),
+    cmocka_unit_test(one_call_makes_a_cloud),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -5,116 +5,58 @@
 #include "scenes/scene_basins_clouds.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
-
-static const double two_pi = 6.28318530717958647693;
-
-/* Why a cloud is, or is not, compared with linear theory. */
-enum { AGREES, TOO_HOT, NOT_COMPARED, UNCERTAIN, BELOW_ROUNDING, VERDICTS };
-
-static const struct {
-  const char *name, *words;
-} verdicts[VERDICTS] = {
-  [AGREES] = { "agrees", "yes" },
-  [TOO_HOT] = { "too_hot", "no, too hot" },
-  [NOT_COMPARED] = { "not_compared", "not compared" },
-  [UNCERTAIN] = { "uncertain", "uncertain" },
-  [BELOW_ROUNDING] = { "below_rounding", "not followed" },
-};
-
-typedef struct value {
-  double result, error;
-} value;
-
-static value statistic(const cloud *c, int which)
-{
-  return (value){ c->measured.statistics[which].value, c->measured.statistics[which].error };
-}
-
-static value bias(const cloud *c, int which)
-{
-  return (value){ c->bias.statistics[which].value, c->bias.statistics[which].error };
-}
-
-static value linear(const cloud *c, int which)
-{
-  const pendres_langevin_covariance *s = &c->linear.covariance;
-  const double of[3] = { s->xx, s->xv, s->vv };
-  if (!c->compared) return (value){ NAN, NAN };
-  return (value){ of[which - PENDRES_LANGEVIN_COV_XX], c->linear.error };
-}
-
-static const struct {
-  const char *name, *long_name;
-  value (*of)(const cloud *c, int which);
-  int which;
-} results[] = {
-  { "strobe_mean_x", "mean position of the cloud", statistic, PENDRES_LANGEVIN_MEAN_X },
-  { "strobe_mean_v", "mean velocity of the cloud", statistic, PENDRES_LANGEVIN_MEAN_V },
-  { "strobe_cov_xx", "variance of position in the cloud", statistic, PENDRES_LANGEVIN_COV_XX },
-  { "strobe_cov_xv", "covariance of position and velocity in the cloud", statistic,
-    PENDRES_LANGEVIN_COV_XV },
-  { "strobe_cov_vv", "variance of velocity in the cloud", statistic, PENDRES_LANGEVIN_COV_VV },
-  { "linear_cov_xx", "variance of position by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_XX },
-  { "linear_cov_xv", "covariance of position and velocity by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_XV },
-  { "linear_cov_vv", "variance of velocity by linear noise theory", linear,
-    PENDRES_LANGEVIN_COV_VV },
-  { "bias_mean_x", "bias of strobe_mean_x by finite steps", bias, PENDRES_LANGEVIN_MEAN_X },
-  { "bias_mean_v", "bias of strobe_mean_v by finite steps", bias, PENDRES_LANGEVIN_MEAN_V },
-  { "bias_cov_xx", "bias of strobe_cov_xx by finite steps", bias, PENDRES_LANGEVIN_COV_XX },
-  { "bias_cov_xv", "bias of strobe_cov_xv by finite steps", bias, PENDRES_LANGEVIN_COV_XV },
-  { "bias_cov_vv", "bias of strobe_cov_vv by finite steps", bias, PENDRES_LANGEVIN_COV_VV },
-};
-
-enum { RESULTS = sizeof results / sizeof results[0] };
-
-/*
- * Does the cloud agree with linear theory within three of all errors, bias among them? An error
- * as large as half the width in question agrees with anything: that is no verdict.
- */
-static int8_t verdict(const cloud *c)
-{
-  const pendres_langevin_covariance *width = &c->linear.covariance;
-  const double scale[3] = { width->xx, sqrt(width->xx * width->vv), width->vv };
-  int8_t verdict = AGREES;
-  if (c->narrow) return BELOW_ROUNDING;
-  if (!c->compared || !isfinite(c->measured.statistics[PENDRES_LANGEVIN_COV_XX].value))
-    return NOT_COMPARED;
-  for (int k = PENDRES_LANGEVIN_COV_XX; k <= PENDRES_LANGEVIN_COV_VV; k++) {
-    const value s = statistic(c, k), l = linear(c, k), b = bias(c, k);
-    /* A bias that could not be measured leaves its bound. */
-    const double off = isfinite(b.result) ? hypot(b.result, b.error)
-                                          : CLOUD_BIAS_WANTED * fabs(l.result);
-    const double error = sqrt(s.error * s.error + l.error * l.error + off * off);
-    if (!(fabs(s.result - l.result) <= 3.0 * error)) return TOO_HOT;
-    if (error > 0.5 * scale[k - PENDRES_LANGEVIN_COV_XX]) verdict = UNCERTAIN;
-  }
-  return verdict;
-}
-
-static pendres_langevin_interval escape_rate(const cloud_work *w, size_t number)
-{
-  const cloud *c = &w->clouds[number];
-  const double period = two_pi / attractor_of(w, number)->orbit.pendulum.drive_frequency;
-  if (!has_cloud(attractor_of(w, number)) || is_broken(w, number))
-    return (pendres_langevin_interval){ NAN, NAN, NAN, NAN };
-  if (!is_followed(w, number)) return (pendres_langevin_interval){ 0.0, 0.0, 0.0, 0.0 };
-  pendres_langevin_interval rate;
-  (void)pendres_langevin_rate((double)c->measured.left, c->measured.exposure * period, 0.95, &rate);
-  return rate;
-}
+#include <string.h>
 
 #define CLOUD_DIMENSIONS .dimensions = { "temperature", "attractor" }
 
-static pendres_status put(scene_run *run, const char *name, const char *long_name,
-                          const double *values, const double *errors, size_t n)
-{
-  const pendres_store_spec spec = { .name = name, CLOUD_DIMENSIONS, .long_name = long_name };
-  return errors != NULL ? pendres_store_put_result(run->store, &spec, values, errors, n)
-                        : pendres_store_put(run->store, &spec, values, n);
-}
+#define OF(field) offsetof(pendres_cloud, field)
+#define MEASURED(s) OF(measured.statistics[s].value), OF(measured.statistics[s].error)
+#define BIAS(s) OF(bias.statistics[s].value), OF(bias.statistics[s].error)
+enum { X = PENDRES_LANGEVIN_MEAN_X, V = PENDRES_LANGEVIN_MEAN_V, XX = PENDRES_LANGEVIN_COV_XX,
+       XV = PENDRES_LANGEVIN_COV_XV, VV = PENDRES_LANGEVIN_COV_VV };
+
+/* Numbers of a cloud and their errors; those without one say 0. */
+typedef struct result {
+  const char *name, *long_name;
+  size_t value, error;
+} result;
+
+static const result statistics[] = {
+  { "strobe_mean_x", "mean position of the cloud", MEASURED(X) },
+  { "strobe_mean_v", "mean velocity of the cloud", MEASURED(V) },
+  { "strobe_cov_xx", "variance of position in the cloud", MEASURED(XX) },
+  { "strobe_cov_xv", "covariance of position and velocity in the cloud", MEASURED(XV) },
+  { "strobe_cov_vv", "variance of velocity in the cloud", MEASURED(VV) },
+  { "linear_cov_xx", "variance of position by linear noise theory", OF(linear.xx),
+    OF(linear_error) },
+  { "linear_cov_xv", "covariance of position and velocity by linear noise theory", OF(linear.xv),
+    OF(linear_error) },
+  { "linear_cov_vv", "variance of velocity by linear noise theory", OF(linear.vv),
+    OF(linear_error) },
+  { "bias_mean_x", "bias of strobe_mean_x by finite steps", BIAS(X) },
+  { "bias_mean_v", "bias of strobe_mean_v by finite steps", BIAS(V) },
+  { "bias_cov_xx", "bias of strobe_cov_xx by finite steps", BIAS(XX) },
+  { "bias_cov_xv", "bias of strobe_cov_xv by finite steps", BIAS(XV) },
+  { "bias_cov_vv", "bias of strobe_cov_vv by finite steps", BIAS(VV) },
+};
+
+static const result escapes[] = {
+  { "escape_exposure", "time that trajectories were watched", OF(escape_exposure), 0 },
+  { "escape_rate", "escapes a unit time", OF(escape_rate.value), OF(escape_rate.error) },
+  { "escape_rate_lower", "lower end of its 95 % confidence interval", OF(escape_rate.lower), 0 },
+  { "escape_rate_upper", "upper end of its 95 % confidence interval", OF(escape_rate.upper), 0 },
+};
+
+/* What the table says of the verdicts. */
+static const char *const agree[PENDRES_CLOUD_VERDICTS] = {
+  [PENDRES_CLOUD_AGREES] = "yes",
+  [PENDRES_CLOUD_TOO_HOT] = "no, too hot",
+  [PENDRES_CLOUD_NOT_COMPARED] = "not compared",
+  [PENDRES_CLOUD_UNCERTAIN] = "uncertain",
+  [PENDRES_CLOUD_BELOW_ROUNDING] = "not followed",
+};
 
 static pendres_status write_strobes(scene_run *run, const cloud_work *w)
 {
@@ -135,19 +77,30 @@ static pendres_status write_strobes(scene_run *run, const cloud_work *w)
   return status;
 }
 
-static pendres_status write_statistics(scene_run *run, const cloud_work *w, double *a, double *b)
+/* A number of a cloud; NaN of one that is broken. */
+static double number_of(const cloud_work *w, size_t number, size_t offset)
+{
+  double value;
+  if (is_broken(w, number)) return NAN;
+  memcpy(&value, (const char *)&w->clouds[number] + offset, sizeof value);
+  return value;
+}
+
+static pendres_status write_numbers(scene_run *run, const cloud_work *w, size_t count,
+                                    const result *results, double *value, double *error)
 {
   const size_t n = w->temperatures * w->attractors;
   pendres_status status = PENDRES_OK;
-  for (int k = 0; k < RESULTS && status == PENDRES_OK; k++) {
+  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
+    const result *r = &results[k];
+    const pendres_store_spec spec = { .name = r->name, CLOUD_DIMENSIONS,
+                                      .long_name = r->long_name };
     for (size_t i = 0; i < n; i++) {
-      const value v = has_cloud(attractor_of(w, i))
-                        ? results[k].of(&w->clouds[i], results[k].which)
-                        : (value){ NAN, NAN };
-      a[i] = v.result;
-      b[i] = v.error;
+      value[i] = number_of(w, i, r->value);
+      error[i] = number_of(w, i, r->error);
     }
-    status = put(run, results[k].name, results[k].long_name, a, b, n);
+    status = r->error > 0 ? pendres_store_put_result(run->store, &spec, value, error, n)
+                          : pendres_store_put(run->store, &spec, value, n);
   }
   return status;
 }
@@ -155,38 +108,27 @@ static pendres_status write_statistics(scene_run *run, const cloud_work *w, doub
 static pendres_status write_escapes(scene_run *run, const cloud_work *w, double *a, double *b)
 {
   const size_t n = w->temperatures * w->attractors;
+  const pendres_store_spec spec = {
+    .name = "escapes", CLOUD_DIMENSIONS,
+    .long_name = "trajectories that left for another attractor or well" };
   for (size_t i = 0; i < n; i++)
     a[i] = is_broken(w, i) ? NAN : (double)w->clouds[i].measured.left;
-  pendres_status status =
-    put(run, "escapes", "trajectories that left for another attractor or well", a, NULL, n);
-  for (size_t i = 0; i < n; i++)
-    a[i] = is_broken(w, i) ? NAN
-                           : w->clouds[i].measured.exposure *
-                               (two_pi / attractor_of(w, i)->orbit.pendulum.drive_frequency);
-  if (status == PENDRES_OK)
-    status = put(run, "escape_exposure", "time that trajectories were watched", a, NULL, n);
-  for (size_t i = 0; i < n; i++) {
-    a[i] = escape_rate(w, i).value;
-    b[i] = escape_rate(w, i).error;
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate", "escapes a unit time", a, b, n);
-  for (size_t i = 0; i < n; i++) {
-    a[i] = escape_rate(w, i).lower;
-    b[i] = escape_rate(w, i).upper;
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate_lower", "lower end of its 95 % confidence interval", a, NULL, n);
-  if (status == PENDRES_OK)
-    status = put(run, "escape_rate_upper", "upper end of its 95 % confidence interval", b, NULL, n);
-  return status;
+  const pendres_status status = pendres_store_put(run->store, &spec, a, n);
+  if (status != PENDRES_OK) return status;
+  return write_numbers(run, w, sizeof escapes / sizeof *escapes, escapes, a, b);
+}
+
+static pendres_cloud_verdict verdict_of(const cloud_work *w, size_t number)
+{
+  return is_broken(w, number) ? PENDRES_CLOUD_NOT_COMPARED : w->clouds[number].verdict;
 }
 
 static pendres_status write_verdicts(scene_run *run, const cloud_work *w)
 {
-  const char *meanings[VERDICTS];
+  const char *meanings[PENDRES_CLOUD_VERDICTS];
   const size_t n = w->temperatures * w->attractors;
-  for (int k = 0; k < VERDICTS; k++) meanings[k] = verdicts[k].name;
+  for (int k = 0; k < PENDRES_CLOUD_VERDICTS; k++)
+    meanings[k] = pendres_cloud_verdict_name((pendres_cloud_verdict)k);
   const pendres_store_spec theory = {
     .name = "linear_theory", .type = PENDRES_STORE_INT8, CLOUD_DIMENSIONS,
     .long_name = "whether the cloud's covariance agrees with linear noise theory",
@@ -194,22 +136,22 @@ static pendres_status write_verdicts(scene_run *run, const cloud_work *w)
                "which include the bias by finite steps; uncertain: an error above half the "
                "width; below_rounding: so narrow that what linear theory leaves out is below "
                "rounding, so that nothing is followed and the covariance is that of theory",
-    .flag_count = VERDICTS, .flag_meanings = meanings };
+    .flag_count = PENDRES_CLOUD_VERDICTS, .flag_meanings = meanings };
   const pendres_store_spec steps = { .name = "noise_steps_per_period", .type = PENDRES_STORE_INT32,
                                      CLOUD_DIMENSIONS,
                                      .long_name = "steps a drive period of the noisy integrator" };
-  int8_t *verdict_of = malloc(n * sizeof *verdict_of);
+  int8_t *verdict = malloc(n * sizeof *verdict);
   int32_t *steps_of = malloc(n * sizeof *steps_of);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (verdict_of == NULL || steps_of == NULL) goto done;
+  if (verdict == NULL || steps_of == NULL) goto done;
   for (size_t i = 0; i < n; i++) {
-    verdict_of[i] = has_cloud(attractor_of(w, i)) ? verdict(&w->clouds[i]) : NOT_COMPARED;
-    steps_of[i] = w->clouds[i].bias.steps_per_period;
+    verdict[i] = (int8_t)verdict_of(w, i);
+    steps_of[i] = is_broken(w, i) ? 0 : w->clouds[i].bias.steps_per_period;
   }
-  status = pendres_store_put(run->store, &theory, verdict_of, n);
+  status = pendres_store_put(run->store, &theory, verdict, n);
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, steps_of, n);
 done:
-  free(verdict_of);
+  free(verdict);
   free(steps_of);
   return status;
 }
@@ -223,8 +165,8 @@ static pendres_status write_failed(scene_run *run, const cloud_work *w)
     if (!is_broken(w, i)) continue;
     run->failed_points++;
     scene_failure_tell(run, (scene_failure)w->failed.reason[i], w->failed.words[i],
-                       "noisy cloud at temperature %.10g, attractor %zu", temperature_of(w, i),
-                       i % w->attractors);
+                       "noisy cloud at temperature %.10g, attractor %zu",
+                       cloud_request(w, i).temperature, i % w->attractors);
   }
   return pendres_store_put(run->store, &spec, w->failed.reason, w->failed.n);
 }
@@ -236,7 +178,8 @@ pendres_status scene_basins_clouds_write(scene_run *run, const cloud_work *w)
   if (a == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
   pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
   if (status == PENDRES_OK) status = write_strobes(run, w);
-  if (status == PENDRES_OK) status = write_statistics(run, w, a, a + n);
+  if (status == PENDRES_OK)
+    status = write_numbers(run, w, sizeof statistics / sizeof *statistics, statistics, a, a + n);
   if (status == PENDRES_OK) status = write_verdicts(run, w);
   if (status == PENDRES_OK) status = write_escapes(run, w, a, a + n);
   if (status == PENDRES_OK) status = write_failed(run, w);
@@ -250,12 +193,15 @@ void scene_basins_clouds_print(FILE *out, const cloud_work *w)
   fprintf(out, "temperature  attractor   var x        linear       var v        linear       "
                "agree         escapes  rate\n");
   for (size_t i = 0; i < w->temperatures * w->attractors; i++) {
-    const cloud *c = &w->clouds[i];
-    if (!has_cloud(attractor_of(w, i))) continue;
+    const pendres_cloud *c = &w->clouds[i];
+    const size_t attractor = i % w->attractors;
+    if (c->way == PENDRES_CLOUD_NONE && !is_broken(w, i)) continue;
     fprintf(out, "%-12g %zu %-9s %-12.5g %-12.5g %-12.5g %-12.5g %-13s %-8zu %.3g\n",
-            temperature_of(w, i), i % w->attractors, pendres_label_name(attractor_of(w, i)->label),
-            statistic(c, PENDRES_LANGEVIN_COV_XX).result, linear(c, PENDRES_LANGEVIN_COV_XX).result,
-            statistic(c, PENDRES_LANGEVIN_COV_VV).result, linear(c, PENDRES_LANGEVIN_COV_VV).result,
-            verdicts[verdict(c)].words, c->measured.left, escape_rate(w, i).value);
+            cloud_request(w, i).temperature, attractor,
+            pendres_label_name(pendres_attractors_get(w->set, attractor)->label),
+            number_of(w, i, OF(measured.statistics[XX].value)), number_of(w, i, OF(linear.xx)),
+            number_of(w, i, OF(measured.statistics[VV].value)), number_of(w, i, OF(linear.vv)),
+            agree[verdict_of(w, i)], c->measured.left,
+            number_of(w, i, OF(escape_rate.value)));
   }
 }

@@ -1,220 +1,51 @@
 /*
  * scene_response_noise.c -- loop area, phase lag and amplitude against temperature.
  *
- * Every member of the ensemble starts on the attractor that it settles on without noise, and is
- * then followed wherever noise takes it: so trajectories start on the attractors in the members'
- * proportions, and means over them are weighted with the members' shares. Shares of members that
- * are chaotic or unresolved are left out, as without noise. One task a temperature, damping and
- * drive period.
+ * One task a temperature, damping and drive period: see pendres_response_add_noise.
  */
 #include "scenes/scene_response_noise.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scenes/scene_failed.h"
-#include "scenes/scene_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
 
-/* Of the loop area, and of the first harmonic's amplitude. */
-static const double bias_wanted = 1e-4;
-
-/* A mean with its standard error, and bias by finite steps with its own. */
-typedef struct quantity {
-  double value, error, bias, bias_error;
-} quantity;
-
+/* A point, as a task finds it. */
 typedef struct point {
-  quantity area, power, amplitude, lag;
-  int32_t steps; /* the most of the states' */
+  pendres_response_noise response;
+  scene_verdict verdict;
 } point;
 
 typedef struct work {
   const deck *d;
   const scene_response_grid *grid;
   size_t temperatures;
-  point *points;         /* [temperature][damping][drive] */
-  scene_failures failed; /* the same; of what noise adds alone */
+  pendres_response_noise *points; /* [temperature][damping][drive] */
+  scene_failures failed;          /* the same; of what noise adds alone */
 } work;
-
-/* The first harmonic, cosine and sine, with covariance of errors, and biases. */
-typedef struct harmonic {
-  double c, s, cc, cs, ss;
-  double bias_c, bias_s, bias_cc, bias_ss;
-} harmonic;
-
-/* ---- a point ------------------------------------------------------------------------------- */
-
-/* Members that a mean counts; in it, those that stay in a well and so have a loop. */
-static void count_members(const pendres_response *r, double *all, double *loops)
-{
-  *all = *loops = 0.0;
-  for (size_t i = 0; i < r->states; i++) {
-    const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->x)) continue;
-    *all += (double)r->state_members[i];
-    if (o->winding == 0) *loops += (double)r->state_members[i];
-  }
-}
-
-/* What a task finds. */
-typedef struct record {
-  point point;
-  scene_verdict verdict;
-} record;
-
-/* As many as the state has members in proportion. */
-static size_t trajectories_of(const work *w, const pendres_response *r, size_t state)
-{
-  double all, loops;
-  count_members(r, &all, &loops);
-  const double n =
-    ceil((double)r->state_members[state] / all * (double)w->d->noise.trajectories);
-  return n > 2.0 ? (size_t)n : 2;
-}
-
-/* Choose steps and make the cloud of trajectories that start on one state. */
-static pendres_status measure_state(const work *w, pendres_context *ctx, const pendres_response *r,
-                                    size_t state, double temperature, pendres_langevin_cloud *cloud,
-                                    pendres_langevin_bias *bias)
-{
-  enum { TRAJECTORIES = 192, RECORD = 60 };
-  const pendres_orbit *o = &r->state[state].orbit;
-  pendres_langevin_request request = { .pendulum = r->pendulum, .x = o->x, .v = o->v,
-                                       .trajectories = TRAJECTORIES, .record = RECORD,
-                                       .settle = scene_noise_settle(o) };
-  request.pendulum.temperature = temperature;
-  request.first_id = scene_noise_first_id(&request.pendulum, state);
-  pendres_status status =
-    scene_noise_choose_steps(ctx, &request, PENDRES_LANGEVIN_RESPONSE, bias_wanted, bias);
-  request.trajectories = trajectories_of(w, r, state);
-  request.record = (long)w->d->noise.periods;
-  request.steps_per_period = bias->steps_per_period;
-  if (status == PENDRES_OK) status = pendres_langevin_measure(ctx, &request, cloud, NULL, NULL);
-  return status;
-}
-
-static void add_area(quantity *q, double share, const pendres_langevin_cloud *cloud,
-                     const pendres_langevin_bias *bias)
-{
-  const pendres_langevin_estimate a = cloud->statistics[PENDRES_LANGEVIN_LOOP_AREA];
-  const pendres_langevin_estimate b = bias->statistics[PENDRES_LANGEVIN_LOOP_AREA];
-  q->value += share * a.value;
-  q->error = hypot(q->error, share * a.error);
-  q->bias += share * b.value;
-  q->bias_error = hypot(q->bias_error, share * b.error);
-}
-
-static void add_harmonic(harmonic *h, double share, const pendres_langevin_cloud *cloud,
-                         const pendres_langevin_bias *bias)
-{
-  const pendres_langevin_estimate c = cloud->statistics[PENDRES_LANGEVIN_COSINE];
-  const pendres_langevin_estimate s = cloud->statistics[PENDRES_LANGEVIN_SINE];
-  const pendres_langevin_estimate bc = bias->statistics[PENDRES_LANGEVIN_COSINE];
-  const pendres_langevin_estimate bs = bias->statistics[PENDRES_LANGEVIN_SINE];
-  h->c += share * c.value;
-  h->s += share * s.value;
-  h->cc += share * share * c.error * c.error;
-  h->ss += share * share * s.error * s.error;
-  h->cs += share * share * scene_noise_harmonic_covariance(cloud);
-  h->bias_c += share * bc.value;
-  h->bias_s += share * bs.value;
-  h->bias_cc += share * share * bc.error * bc.error;
-  h->bias_ss += share * share * bs.error * bs.error;
-}
-
-/* Length and direction of the harmonic, errors along and across. */
-static void polar(const harmonic *h, point *p)
-{
-  const double length = hypot(h->c, h->s), u = h->c / length, w = h->s / length;
-  const double along = u * u * h->cc + 2.0 * u * w * h->cs + w * w * h->ss;
-  const double across = w * w * h->cc - 2.0 * u * w * h->cs + u * u * h->ss;
-  p->amplitude = (quantity){ length, sqrt(fmax(0.0, along)), u * h->bias_c + w * h->bias_s,
-                             sqrt(u * u * h->bias_cc + w * w * h->bias_ss) };
-  const double lag = atan2(h->s, h->c);
-  p->lag = (quantity){ lag < 0.0 ? lag + two_pi : lag, sqrt(fmax(0.0, across)) / length,
-                       (u * h->bias_s - w * h->bias_c) / length,
-                       sqrt(w * w * h->bias_cc + u * u * h->bias_ss) / length };
-}
-
-/* The harmonic without noise, from the states' own. */
-static harmonic still_harmonic(const pendres_response *r, double loops)
-{
-  harmonic h = { 0 };
-  for (size_t i = 0; i < r->states; i++) {
-    const pendres_orbit *o = &r->state[i].orbit;
-    if (!isfinite(o->x) || o->winding != 0) continue;
-    h.c += (double)r->state_members[i] / loops * o->cosine[0];
-    h.s += (double)r->state_members[i] / loops * o->sine[0];
-  }
-  return h;
-}
-
-/* Temperature 0: what was found without noise, to the last digit. */
-static void still_point(const pendres_response *r, point *p)
-{
-  double all, loops;
-  count_members(r, &all, &loops);
-  const harmonic h = still_harmonic(r, loops);
-  p->area = (quantity){ r->mean_loop_area, r->mean_loop_area_error, 0.0, 0.0 };
-  p->power = (quantity){ r->mean_power, r->mean_power_error, 0.0, 0.0 };
-  p->lag = (quantity){ r->phase_lag, r->phase_lag_error, 0.0, 0.0 };
-  p->amplitude = (quantity){ loops > 0.0 ? hypot(h.c, h.s) : NAN, r->mean_loop_amplitude_error,
-                             0.0, 0.0 };
-}
-
-/* Nothing but the reason why. */
-static pendres_status note_point(record *q, pendres_status status, const char *why)
-{
-  const quantity none = { NAN, NAN, NAN, NAN };
-  q->point = (point){ .area = none, .power = none, .amplitude = none, .lag = none };
-  return scene_verdict_note(&q->verdict, status, why);
-}
 
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const work *w = arg;
   const size_t plane = w->grid->dampings * w->grid->drives;
   const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / plane];
-  const pendres_response *r = &w->grid->points[task % plane];
-  record *q = out->data;
-  point *p = &q->point;
-  harmonic h = { 0 };
-  double all, loops;
-  count_members(r, &all, &loops);
-  if (!(temperature > 0.0)) {
-    still_point(r, p);
-    return PENDRES_OK;
-  }
-  for (size_t i = 0; i < r->states; i++) {
-    pendres_langevin_cloud cloud;
-    pendres_langevin_bias bias;
-    const double members = (double)r->state_members[i];
-    if (!isfinite(r->state[i].orbit.x)) continue;
-    const pendres_status status = measure_state(w, ctx, r, i, temperature, &cloud, &bias);
-    if (status != PENDRES_OK) return note_point(q, status, pendres_context_message(ctx));
-    add_area(&p->area, members / all, &cloud, &bias);
-    if (r->state[i].orbit.winding == 0) add_harmonic(&h, members / loops, &cloud, &bias);
-    if (bias.steps_per_period > p->steps) p->steps = bias.steps_per_period;
-  }
-  const quantity none = { NAN, NAN, NAN, NAN };
-  if (all == 0.0) p->area = none;
-  const double f = r->pendulum.drive_frequency / two_pi;
-  p->power = (quantity){ f * p->area.value, f * p->area.error, f * p->area.bias,
-                         f * p->area.bias_error };
-  if (loops > 0.0) polar(&h, p);
-  else p->lag = p->amplitude = none;
-  return PENDRES_OK;
+  point *p = out->data;
+  const pendres_status status = pendres_response_add_noise(
+    ctx, &w->grid->points[task % plane], temperature, (size_t)w->d->noise.trajectories,
+    (long)w->d->noise.periods, &p->response);
+  return scene_verdict_note(&p->verdict, status, pendres_context_message(ctx));
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  const record *r = in->data;
-  w->points[task] = r->point;
-  scene_failures_take(&w->failed, task, &r->verdict);
+  const point *p = in->data;
+  w->points[task] = p->response;
+  scene_failures_take(&w->failed, task, &p->verdict);
   return PENDRES_OK;
 }
 
@@ -222,16 +53,16 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 
 static const struct {
   const char *name, *bias, *long_name, *units;
-  size_t of; /* where it stands in a point */
+  size_t of; /* where it stands in a response */
 } results[] = {
   { "mean_loop_area", "bias_loop_area", "mean loop area of the ensemble", "1",
-    offsetof(point, area) },
+    offsetof(pendres_response_noise, loop_area) },
   { "first_harmonic_amplitude", "bias_first_harmonic_amplitude",
-    "amplitude of the mean loop's first harmonic", "rad", offsetof(point, amplitude) },
+    "amplitude of the mean loop's first harmonic", "rad", offsetof(pendres_response_noise, amplitude) },
   { "phase_lag", "bias_phase_lag", "phase lag of the ensemble-averaged loop", "rad",
-    offsetof(point, lag) },
+    offsetof(pendres_response_noise, phase_lag) },
   { "mean_power", "bias_mean_power", "mean power taken up from the drive", "1",
-    offsetof(point, power) },
+    offsetof(pendres_response_noise, mean_power) },
 };
 
 /* What is known without noise alone. */
@@ -267,7 +98,7 @@ static pendres_status write_noisy(scene_run *run, const work *w, double *value, 
     const int bias = k % 2 == 1;
     char words[120];
     for (size_t i = 0; i < n; i++) {
-      quantity q;
+      pendres_response_mean q;
       memcpy(&q, (const char *)&w->points[i] + results[r].of, sizeof q);
       value[i] = bias ? q.bias : q.value;
       error[i] = bias ? q.bias_error : q.error;
@@ -317,7 +148,7 @@ static pendres_status write_results(scene_run *run, const work *w)
     (void)scene_fail(run, status, "out of memory for %zu results", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++) steps_of[i] = w->points[i].steps;
+  for (size_t i = 0; i < n; i++) steps_of[i] = w->points[i].steps_per_period;
   status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
   if (status == PENDRES_OK) status = write_noisy(run, w, value, value + n);
   if (status == PENDRES_OK) status = write_still(run, w, value, value + n);
@@ -337,10 +168,10 @@ static void print_table(FILE *out, const work *w)
   fprintf(out, "damping %g, drive period %g:\n", p->damping, two_pi / p->drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
   for (size_t i = 0; i < w->temperatures; i++) {
-    const point *q = &w->points[i * plane + at];
+    const pendres_response_noise *q = &w->points[i * plane + at];
     fprintf(out, "%-12g %-13.8f %-9.2g %-11.7f %-9.2g %-11.7f %.2g\n",
-            w->d->axis[DECK_AXIS_TEMPERATURE].value[i], q->area.value, q->area.error, q->lag.value,
-            q->lag.error, q->amplitude.value, q->amplitude.error);
+            w->d->axis[DECK_AXIS_TEMPERATURE].value[i], q->loop_area.value, q->loop_area.error,
+            q->phase_lag.value, q->phase_lag.error, q->amplitude.value, q->amplitude.error);
   }
 }
 
@@ -364,7 +195,7 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
     return scene_fail(run, status, "out of memory for %zu points", n);
   }
   status = scene_compute(run, &(farm_stage){ .what = "points with noise", .tasks = n,
-                                             .task = compute, .record_size = sizeof(record),
+                                             .task = compute, .record_size = sizeof(point),
                                              .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK) status = write_failed(run, &w);

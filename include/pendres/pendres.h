@@ -19,6 +19,7 @@
 #include <pendres/hysteresis.h>
 #include <pendres/phase_diagram.h>
 #include <pendres/boundary.h>
+#include <pendres/cloud.h>
 #include <pendres/basin.h>
 #include <pendres/langevin.h>
 #include <pendres/switching.h>

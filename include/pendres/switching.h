@@ -1,8 +1,11 @@
-/*
- * switching.h -- how often noise carries a pendulum from one attractor, or well, to another.
+/**
+ * @file switching.h
+ * @brief How often noise carries a pendulum from one attractor, or well, to another.
  *
  * Owns: counting transitions along noisy trajectories, their rates with confidence intervals,
- * and the activation energy from rates at several temperatures.
+ * and the activation energy from rates at several temperatures. pendres_switching_measure() does
+ * all of it for two states; the functions after it do its parts, so that a program may share them
+ * among threads, with the same results to the last bit.
  *
  * Attractors come with trapping ellipses (attractor.h). A trajectory belongs to the attractor
  * and well whose ellipse it was in last; it has switched at the first strobe that sees it inside
@@ -17,6 +20,8 @@
  *
  * For small temperatures rates follow exp(-E/T), E the activation energy (Kramers, Physica 7
  * (1940) 284; for driven systems Dykman and Krivoglaz, Sov. Phys. JETP 50 (1979) 30).
+ *
+ * Thread safety: that of the context (context.h); a set of attractors is only read.
  */
 #ifndef PENDRES_SWITCHING_H
 #define PENDRES_SWITCHING_H
@@ -34,21 +39,38 @@ enum {
   PENDRES_SWITCHING_WELL = PENDRES_SWITCHING_STATES   /**< as a destination: any other well */
 };
 
+/* ---- Where a trajectory belongs ------------------------------------------------------------ */
+
 /**
  * The attractor whose ellipse, shrunken to `core` of its size (0: the default, a half), holds the
  * state x, v at drive phase 0, and the well it is in (0 for running ones). Both -1 and 0: none.
+ * attractor and well may be NULL.
  */
 void pendres_switching_locate(const pendres_attractors *set, double core, double x, double v,
                               int *attractor, long *well);
 
-/** What to follow. */
+/** Who is at home where, for pendres_langevin_request. */
+typedef struct pendres_switching_home {
+  const pendres_attractors *set; /**< of one parameter set; not owned */
+  size_t attractor;              /**< number in the set of the attractor that is home */
+  double core;                   /**< size of ellipses, from 0 to 1; 0: a half */
+} pendres_switching_home;
+
+/** For `leave` of pendres_langevin_request, whose `arg` is a pendres_switching_home: marks
+ *  trajectories that have switched from the attractor in well 0, or left that well. */
+void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
+                             unsigned char *left);
+
+/* ---- Counting transitions ------------------------------------------------------------------ */
+
+/** Trajectories to follow. */
 typedef struct pendres_switching_request {
   pendres_pendulum pendulum;     /**< that of the set, with a temperature */
   const pendres_attractors *set; /**< of one parameter set; not owned */
-  size_t from;                   /**< all start on this attractor, in well 0 */
-  double core;                   /**< from 0 to 1; 0: a half */
-  size_t trajectories;
-  long periods;                  /**< of each */
+  size_t from;                   /**< number of the attractor that all start on, in well 0 */
+  double core;                   /**< size of ellipses, from 0 to 1; 0: a half */
+  size_t trajectories;           /**< how many */
+  long periods;                  /**< drive periods that each is followed over */
   int steps_per_period;          /**< steps a drive period, as in pendres_langevin_run */
   uint64_t first_id;             /**< trajectory i has id first_id + i */
 } pendres_switching_request;
@@ -56,25 +78,27 @@ typedef struct pendres_switching_request {
 /**
  * Transitions counted. Plain data: all zero is an empty one. [s] is the attractor that a
  * trajectory belonged to; [t] the one it went to (t = s: the same in another well), or
- * PENDRES_SWITCHING_WELL for all that ended in another well.
+ * PENDRES_SWITCHING_WELL for all that ended in another well. All numbers but the period are whole.
  */
 typedef struct pendres_switching_tally {
-  size_t states;         /**< attractors in the set */
-  double period;         /**< drive period */
-  double trajectories;
-  double exposure[PENDRES_SWITCHING_STATES]; /**< pendulum-periods */
-  double events[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1];
-  /* Sums over trajectories, for the scatter between them: of the events' square, of events times
-   * exposure, of the exposure's square. */
-  double events2[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1];
-  double mixed[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1];
-  double exposure2[PENDRES_SWITCHING_STATES];
+  size_t states;       /**< attractors in the set */
+  double period;       /**< drive period 2 pi / omega, in units of 1/omega_0 */
+  double trajectories; /**< how many were followed */
+  double exposure[PENDRES_SWITCHING_STATES];  /**< drive periods that they belonged to [s] */
+  double events[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1]; /**< transitions [s][t] */
+  double events2[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1]; /**< sum over trajectories
+                            of the square of each one's events [s][t] */
+  double mixed[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1];   /**< sum over trajectories
+                            of each one's events [s][t] times its exposure [s] */
+  double exposure2[PENDRES_SWITCHING_STATES]; /**< sum over trajectories of the square of each one's
+                                                   exposure [s] */
 } pendres_switching_tally;
 
 /**
- * Follow the request's trajectories through all their periods, and count.
- * *tally is overwritten. Errors: as pendres_langevin_advance; PENDRES_INVALID_ARGUMENT if the set
- * is not the pendulum's, or has more than PENDRES_SWITCHING_STATES attractors.
+ * Follow the request's trajectories through all their periods, and count. *tally is overwritten.
+ *
+ * Errors: as pendres_langevin_advance; PENDRES_INVALID_ARGUMENT if the set is not the pendulum's,
+ * or has more than PENDRES_SWITCHING_STATES attractors.
  */
 pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
@@ -84,40 +108,67 @@ pendres_status pendres_switching_count(pendres_context *ctx,
  *  adding does not matter to the last bit. */
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other);
 
-/** A rate, a unit time. */
+/** A rate of transitions, a unit time. */
 typedef struct pendres_switching_rate {
-  double events;
-  double exposure;     /**< unit times */
-  double value;        /**< events / exposure; NaN without exposure */
-  double error;        /**< standard error; without events the upper bound at one sigma */
-  double lower, upper; /**< confidence interval */
-  double dispersion;   /**< variance of the trajectories' counts by that of independent events:
-                            1 for those. Larger: transitions come in bursts, and error and
-                            interval allow for it. NaN where there are too few to tell */
+  double events;     /**< transitions counted */
+  double exposure;   /**< time spent where they start, in units of 1/omega_0 */
+  double value;      /**< events / exposure; NaN without exposure */
+  double error;      /**< standard error; without events the upper bound at one standard deviation */
+  double lower;      /**< lower end of the confidence interval */
+  double upper;      /**< upper end of the confidence interval */
+  double dispersion; /**< variance of the trajectories' counts by that of independent events: 1 for
+                          those. Larger: transitions come in bursts, and error and interval allow
+                          for it. NaN where there are too few to tell */
+  double mean_time;  /**< mean time spent until a transition, exposure / events; NaN without events */
+  double mean_time_error; /**< its standard error, to first order in that of the rate */
 } pendres_switching_rate;
 
 /**
  * The rate from s to t, and its confidence interval of the given level (0 < level < 1): that of
  * pendres_langevin_rate, with events and exposure divided by the dispersion where it exceeds 1.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
 pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, size_t s, size_t t,
                                          double level, pendres_switching_rate *rate);
 
+/* ---- Activation energies ------------------------------------------------------------------- */
+
+/** What became of a fit of an activation energy. */
+typedef enum pendres_switching_verdict {
+  PENDRES_SWITCHING_STRAIGHT = 0, /**< rates follow the law within their errors */
+  PENDRES_SWITCHING_BENT,         /**< they scatter by more: chi squared is more than three of its
+                                       standard deviations above its mean */
+  PENDRES_SWITCHING_UNCHECKED,    /**< two temperatures: nothing checks the law */
+  PENDRES_SWITCHING_TOO_FEW,      /**< too few events: there is no fit */
+  PENDRES_SWITCHING_NO_STATE,     /**< there is no such state: there is no fit */
+  PENDRES_SWITCHING_NO_BARRIER,   /**< the energy is less than twice the hottest temperature: no
+                                       barrier to speak of, and no activation energy */
+  PENDRES_SWITCHING_VERDICTS      /**< how many there are */
+} pendres_switching_verdict;
+
+/** "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier"; NULL if
+ *  out of range. */
+const char *pendres_switching_verdict_name(pendres_switching_verdict verdict);
+
 /**
- * ln rate = ln prefactor - energy / T, where the prefactor may depend on the temperature. Errors
- * are standard errors, as the rates' are.
+ * The law ln rate = ln prefactor - energy / T, where the prefactor may depend on the temperature.
+ * Errors are standard errors, as the rates' are.
  */
 typedef struct pendres_switching_activation {
-  size_t points;           /**< temperatures with enough events */
-  double energy, energy_error;
-  double log_prefactor, log_prefactor_error; /**< ln of the prefactor at `temperature` */
-  double chi2;             /**< of points - 2 degrees of freedom; errors are enlarged by
-                                sqrt(chi2 / (points - 2)) where that exceeds 1 */
-  double temperature;      /**< geometric mean of the temperatures with enough events */
-  double exponent, exponent_error; /**< power of the temperature in the prefactor; with few points,
-                                or close ones, it stays the 0 +- 1/2 that is assumed beforehand */
-  double least_barrier;    /**< energy / T at the hottest of these temperatures: below two or so
-                                there is no barrier to speak of, and no activation energy */
+  size_t points;              /**< temperatures with enough events */
+  double energy;              /**< E, in units of m omega_0^2 */
+  double energy_error;        /**< its error */
+  double log_prefactor;       /**< ln of the prefactor (in units of omega_0) at `temperature` */
+  double log_prefactor_error; /**< its error */
+  double chi2;                /**< chi squared, of points - 2 degrees of freedom; errors are enlarged
+                                   by sqrt(chi2 / (points - 2)) where that exceeds 1 */
+  double temperature;         /**< T0: geometric mean of the temperatures with enough events */
+  double exponent;            /**< b: power of the temperature in the prefactor */
+  double exponent_error;      /**< its error; with few points, or close ones, exponent and error stay
+                                   the 0 +- 1/2 that is assumed beforehand */
+  double least_barrier;       /**< energy / T at the hottest of these temperatures */
+  pendres_switching_verdict verdict; /**< what became of the fit */
 } pendres_switching_activation;
 
 /**
@@ -134,25 +185,108 @@ typedef struct pendres_switching_activation {
  *
  * Temperatures with fewer than `fewest` events (0: the default, 10) are left out.
  *
- * PENDRES_INVALID_ARGUMENT: a temperature that counts is not positive and finite, or its rate or
- * error is not. PENDRES_NOT_FOUND if fewer than two different temperatures are left: too few
- * events. All but points is NaN then.
+ * Errors: PENDRES_INVALID_ARGUMENT if a temperature that counts is not positive and finite, or its
+ * rate or error is not; PENDRES_NOT_FOUND if fewer than two different temperatures are left, since
+ * there are too few events (all but points and verdict is NaN then); PENDRES_OUT_OF_MEMORY.
  */
 pendres_status pendres_switching_fit(size_t n, const double *temperature,
                                      const pendres_switching_rate *rates, double fewest,
                                      pendres_switching_activation *out);
 
-/** Who is at home where, for pendres_langevin_request. */
-typedef struct pendres_switching_home {
-  const pendres_attractors *set; /**< not owned */
-  size_t attractor;
-  double core; /**< as above */
-} pendres_switching_home;
+/* ---- Both ways at several temperatures ----------------------------------------------------- */
 
-/** For `leave` of pendres_langevin_request, whose `arg` is a pendres_switching_home: marks
- *  trajectories that have switched from the attractor in well 0, or left that well. */
-void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
-                             unsigned char *left);
+/** Ways of switching that a survey of two states counts. */
+typedef enum pendres_switching_way {
+  PENDRES_SWITCHING_FORTH = 0,   /**< from the first state to the second */
+  PENDRES_SWITCHING_BACK,        /**< from the second state to the first */
+  PENDRES_SWITCHING_FIRST_WELL,  /**< from the first state to any state in another well */
+  PENDRES_SWITCHING_SECOND_WELL, /**< from the second state to any state in another well */
+  PENDRES_SWITCHING_WAYS         /**< how many there are */
+} pendres_switching_way;
+
+/** Two states to survey. */
+typedef struct pendres_switching_survey {
+  const pendres_attractors *set; /**< attractors of one parameter set; not owned */
+  int state[2];         /**< numbers of the two states in the set; -1: there is no such state */
+  size_t trajectories;  /**< at each temperature; half of them start on either state */
+  long periods;         /**< drive periods that each is followed over */
+  int steps_per_period; /**< steps a drive period, from 2 to 1000000; 0: as many as
+                             pendres_switching_choose_steps finds for both states */
+  double level;         /**< of confidence intervals, between 0 and 1; 0: 0.95 */
+} pendres_switching_survey;
+
+/** The numbers of the first small- and large-amplitude states in a set; -1: there is none. */
+void pendres_switching_states(const pendres_attractors *set, int state[2]);
+
+/** What a survey finds at one temperature. Plain data; what is not known is NaN. */
+typedef struct pendres_switching_rates {
+  double temperature;    /**< T, in units of m omega_0^2 */
+  pendres_status status; /**< PENDRES_OK, or why nothing is known; PENDRES_NOT_FOUND also where one
+                              of the two states does not exist, of whose other all is known */
+  double exposure[2];    /**< time spent on each state, in units of 1/omega_0 */
+  pendres_switching_rate way[PENDRES_SWITCHING_WAYS]; /**< rates, by their ways */
+} pendres_switching_rates;
+
+/**
+ * Rates of switching at n temperatures, and the activation energies of all ways. rates[n] and
+ * activation[PENDRES_SWITCHING_WAYS] are written. A temperature at which something fails is marked
+ * by its status and has no rates; the others are unaffected.
+ *
+ * The seed is the context's. The ids of trajectories follow from the parameters, the temperature
+ * and the attractor's number.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED; those of
+ * pendres_switching_choose_steps.
+ */
+pendres_status pendres_switching_measure(pendres_context *ctx,
+                                         const pendres_switching_survey *survey, size_t n,
+                                         const double *temperature, pendres_switching_rates *rates,
+                                         pendres_switching_activation *activation);
+
+/**
+ * Steps a drive period that a state (0: the first, 1: the second) asks for: twice those which keep
+ * the bias of its small cloud's widths below 1 %. A bias of the cloud acts as a wrong temperature,
+ * which rates feel E/T times stronger; of order four, it falls to a sixteenth by doubling. 0 steps
+ * where there is no such state; a survey takes the larger of both, since trajectories visit both.
+ *
+ * Errors: as pendres_langevin_choose_steps.
+ */
+pendres_status pendres_switching_choose_steps(pendres_context *ctx,
+                                              const pendres_switching_survey *survey, int state,
+                                              int *steps);
+
+/** How many parts the trajectories at one temperature are followed in; 0 without a survey. */
+size_t pendres_switching_parts(const pendres_switching_survey *survey);
+
+/**
+ * Follow the trajectories of one part at one temperature, by the survey's steps, which must not be
+ * 0, and count. *tally is overwritten.
+ *
+ * Errors: as pendres_switching_count.
+ */
+pendres_status pendres_switching_follow(pendres_context *ctx,
+                                        const pendres_switching_survey *survey, double temperature,
+                                        size_t part, pendres_switching_tally *tally);
+
+/**
+ * The rates at one temperature from the sum of all its parts' tallies (pendres_switching_add);
+ * all: NULL where a part has failed, whose status is then to be put into rates->status.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_switching_conclude(const pendres_switching_survey *survey,
+                                          double temperature, const pendres_switching_tally *all,
+                                          pendres_switching_rates *rates);
+
+/**
+ * The activation energies of all ways, activation[PENDRES_SWITCHING_WAYS], from rates at n
+ * temperatures. Too few events are no error: the verdict says so.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_switching_activate(const pendres_switching_survey *survey, size_t n,
+                                          const pendres_switching_rates *rates,
+                                          pendres_switching_activation *activation);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

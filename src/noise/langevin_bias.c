@@ -8,10 +8,10 @@ enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER
 
 static const double two_pi = 6.28318530717958647693;
 
-static void scales_of(const pendres_cloud_sums *total, double scale[STATISTICS])
+static void scales_of(const pendres_sums *total, double scale[STATISTICS])
 {
   double d[STATISTICS];
-  pendres_cloud_statistics(total, d);
+  pendres_sums_statistics(total, d);
   const double xx = d[PENDRES_LANGEVIN_COV_XX], vv = d[PENDRES_LANGEVIN_COV_VV];
   scale[PENDRES_LANGEVIN_MEAN_X] = sqrt(xx);
   scale[PENDRES_LANGEVIN_MEAN_V] = sqrt(vv);
@@ -28,18 +28,18 @@ static pendres_status measure_bias(pendres_context *ctx, const pendres_langevin_
                                    int steps, size_t trajectories, pendres_langevin_bias *bias)
 {
   /* Other trajectories than those measured: the top bit of the id. */
-  pendres_cloud_run r = {.ctx = ctx, .request = request, .trajectories = trajectories,
+  pendres_sums_run r = {.ctx = ctx, .request = request, .trajectories = trajectories,
                          .first_id = request->first_id ^ (uint64_t)1 << 63};
   pendres_langevin_block fine = {0}, coarse = {0};
   pendres_langevin_estimate fine_minus_coarse[STATISTICS];
   const double richardson = 1.0 / (1.0 - pow(2.0, -ORDER));
-  pendres_status status = pendres_cloud_run_make(&r, 1);
+  pendres_status status = pendres_sums_run_make(&r, 1);
   if (status == PENDRES_OK) status = pendres_langevin_open(ctx, trajectories, 2 * steps, &fine);
   if (status == PENDRES_OK) status = pendres_langevin_open(ctx, trajectories, steps, &coarse);
-  if (status == PENDRES_OK) status = pendres_cloud_follow(&r, &fine, &coarse);
-  if (status == PENDRES_OK) status = pendres_cloud_estimate(&r, fine_minus_coarse);
+  if (status == PENDRES_OK) status = pendres_sums_follow(&r, &fine, &coarse);
+  if (status == PENDRES_OK) status = pendres_sums_estimate(&r, fine_minus_coarse);
   if (status == PENDRES_OK) {
-    const pendres_cloud_sums total = pendres_cloud_total(r.all, trajectories);
+    const pendres_sums total = pendres_sums_total(r.all, trajectories);
     bias->steps_per_period = steps;
     for (int s = 0; s < STATISTICS; s++)
       bias->statistics[s] = (pendres_langevin_estimate){
@@ -48,7 +48,7 @@ static pendres_status measure_bias(pendres_context *ctx, const pendres_langevin_
   }
   pendres_langevin_block_clear(&fine);
   pendres_langevin_block_clear(&coarse);
-  pendres_cloud_run_clear(&r);
+  pendres_sums_run_clear(&r);
   return status;
 }
 
@@ -57,7 +57,7 @@ static pendres_status bias_of(pendres_context *ctx, const pendres_langevin_reque
 {
   if (request == NULL || bias == NULL) return PENDRES_CONTEXT_NULL(ctx, "request and bias");
   const int steps = pendres_langevin_resolve_steps(ctx, request->steps_per_period);
-  const pendres_status status = pendres_cloud_accept(ctx, request, steps);
+  const pendres_status status = pendres_sums_accept(ctx, request, steps);
   if (status != PENDRES_OK) return status;
   return measure_bias(ctx, request, steps, request->trajectories, bias);
 }
@@ -110,7 +110,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
                                 "damping, and a statistic");
   int steps = first_steps(&request->pendulum);
   for (int trial = 0; trial < TRIALS; trial++) {
-    pendres_status status = pendres_cloud_accept(ctx, request, steps);
+    pendres_status status = pendres_sums_accept(ctx, request, steps);
     if (status == PENDRES_OK) status = measure_bias(ctx, request, steps, trajectories, bias);
     if (status != PENDRES_OK) return status;
     worst_of(bias, statistics, &value, &error);

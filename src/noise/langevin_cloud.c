@@ -10,7 +10,7 @@ static const double two_pi = 6.28318530717958647693;
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 
-static void add(pendres_cloud_sums *s, double x, double v, double cosine, double sine,
+static void add(pendres_sums *s, double x, double v, double cosine, double sine,
                 double work)
 {
   s->strobes += 1.0;
@@ -24,9 +24,9 @@ static void add(pendres_cloud_sums *s, double x, double v, double cosine, double
   s->work += work;
 }
 
-pendres_cloud_sums pendres_cloud_total(const pendres_cloud_sums *all, size_t n)
+pendres_sums pendres_sums_total(const pendres_sums *all, size_t n)
 {
-  pendres_cloud_sums t = {0};
+  pendres_sums t = {0};
   for (size_t i = 0; i < n; i++) {
     t.strobes += all[i].strobes;
     t.x += all[i].x;
@@ -41,7 +41,7 @@ pendres_cloud_sums pendres_cloud_total(const pendres_cloud_sums *all, size_t n)
   return t;
 }
 
-void pendres_cloud_statistics(const pendres_cloud_sums *t,
+void pendres_sums_statistics(const pendres_sums *t,
                               double out[PENDRES_LANGEVIN_STATISTICS])
 {
   const double x = t->x / t->strobes, v = t->v / t->strobes;
@@ -59,7 +59,7 @@ void pendres_cloud_statistics(const pendres_cloud_sums *t,
  * What trajectory s adds to the sums of deviations: d holds the statistics. To
  * first order a statistic is off by the total of its row divided by the strobes.
  */
-static void influence(const pendres_cloud_sums *s, const double d[STATISTICS],
+static void influence(const pendres_sums *s, const double d[STATISTICS],
                       double out[STATISTICS])
 {
   const double x = d[PENDRES_LANGEVIN_MEAN_X], v = d[PENDRES_LANGEVIN_MEAN_V], n = s->strobes;
@@ -76,7 +76,7 @@ static void influence(const pendres_cloud_sums *s, const double d[STATISTICS],
   out[PENDRES_LANGEVIN_LOOP_AREA] = s->work - n * d[PENDRES_LANGEVIN_LOOP_AREA];
 }
 
-pendres_status pendres_cloud_run_make(pendres_cloud_run *r, int pairs)
+pendres_status pendres_sums_run_make(pendres_sums_run *r, int pairs)
 {
   r->all = calloc(r->trajectories, sizeof *r->all);
   r->left = calloc(r->trajectories, 1);
@@ -87,14 +87,14 @@ pendres_status pendres_cloud_run_make(pendres_cloud_run *r, int pairs)
   return PENDRES_OK;
 }
 
-void pendres_cloud_run_clear(pendres_cloud_run *r)
+void pendres_sums_run_clear(pendres_sums_run *r)
 {
   free(r->all);
   free(r->coarse);
   free(r->left);
 }
 
-pendres_status pendres_cloud_accept(pendres_context *ctx, const pendres_langevin_request *q,
+pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_request *q,
                                     int steps)
 {
   const pendres_status status = pendres_langevin_accept(ctx, &q->pendulum, q->x, q->v, steps, 0);
@@ -107,7 +107,7 @@ pendres_status pendres_cloud_accept(pendres_context *ctx, const pendres_langevin
 }
 
 /* Every trajectory of a block at the starting point. */
-static void load(pendres_langevin_block *b, const pendres_cloud_run *r, size_t first)
+static void load(pendres_langevin_block *b, const pendres_sums_run *r, size_t first)
 {
   const pendres_langevin_request *q = r->request;
   const size_t rest = r->trajectories - first;
@@ -119,7 +119,7 @@ static void load(pendres_langevin_block *b, const pendres_cloud_run *r, size_t f
 }
 
 /* Let the request say which of a block have left. */
-static void ask(const pendres_cloud_run *r, const pendres_langevin_block *b, size_t first,
+static void ask(const pendres_sums_run *r, const pendres_langevin_block *b, size_t first,
                 long period)
 {
   if (r->request->leave == NULL) return;
@@ -132,8 +132,8 @@ static void ask(const pendres_cloud_run *r, const pendres_langevin_block *b, siz
 }
 
 /* Count a strobe of a block; 0 if nobody is there any more. */
-static size_t count(pendres_cloud_run *r, const pendres_langevin_block *b,
-                    pendres_cloud_sums *all, size_t first, long strobe)
+static size_t count(pendres_sums_run *r, const pendres_langevin_block *b,
+                    pendres_sums *all, size_t first, long strobe)
 {
   const pendres_langevin_request *q = r->request;
   size_t staying = 0;
@@ -152,7 +152,7 @@ static size_t count(pendres_cloud_run *r, const pendres_langevin_block *b,
 }
 
 /* All periods of the block, and of its coarse partner if there is one. */
-static pendres_status follow_block(pendres_cloud_run *r, pendres_langevin_block *b,
+static pendres_status follow_block(pendres_sums_run *r, pendres_langevin_block *b,
                                    pendres_langevin_block *coarse, size_t first)
 {
   const pendres_langevin_request *q = r->request;
@@ -175,7 +175,7 @@ static pendres_status follow_block(pendres_cloud_run *r, pendres_langevin_block 
   return PENDRES_OK;
 }
 
-pendres_status pendres_cloud_follow(pendres_cloud_run *r, pendres_langevin_block *b,
+pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *b,
                                     pendres_langevin_block *coarse)
 {
   pendres_status status = PENDRES_OK;
@@ -194,19 +194,19 @@ static double standard_error(double square, size_t trajectories, double strobes)
   return pendres_student(PENDRES_ONE_SIGMA, n - 1.0) * sqrt(square * n / (n - 1.0)) / strobes;
 }
 
-pendres_status pendres_cloud_estimate(const pendres_cloud_run *r, pendres_langevin_estimate *out)
+pendres_status pendres_sums_estimate(const pendres_sums_run *r, pendres_langevin_estimate *out)
 {
   double value[STATISTICS], other[STATISTICS] = {0}, square[STATISTICS] = {0};
-  const pendres_cloud_sums total = pendres_cloud_total(r->all, r->trajectories);
+  const pendres_sums total = pendres_sums_total(r->all, r->trajectories);
   size_t counting = 0;
   for (size_t i = 0; i < r->trajectories; i++) counting += r->all[i].strobes > 0.0;
   if (counting < 2)
     return pendres_context_fail(r->ctx, PENDRES_NOT_FOUND,
                                 "fewer than two trajectories stayed on the attractor");
-  pendres_cloud_statistics(&total, value);
+  pendres_sums_statistics(&total, value);
   if (r->coarse != NULL) {
-    const pendres_cloud_sums partner = pendres_cloud_total(r->coarse, r->trajectories);
-    pendres_cloud_statistics(&partner, other);
+    const pendres_sums partner = pendres_sums_total(r->coarse, r->trajectories);
+    pendres_sums_statistics(&partner, other);
   }
   for (size_t i = 0; i < r->trajectories; i++) {
     double d[STATISTICS], e[STATISTICS] = {0};
@@ -223,7 +223,7 @@ pendres_status pendres_cloud_estimate(const pendres_cloud_run *r, pendres_langev
 
 /* Phase lag of a mean first harmonic, with the error that those of its parts carry over. The
  * parts' errors are taken as independent along and across the lag: only the latter counts. */
-static pendres_langevin_estimate phase_lag(const pendres_cloud_run *r,
+static pendres_langevin_estimate phase_lag(const pendres_sums_run *r,
                                            const double value[STATISTICS])
 {
   const double c = value[PENDRES_LANGEVIN_COSINE], s = value[PENDRES_LANGEVIN_SINE];
@@ -244,7 +244,7 @@ static pendres_langevin_estimate phase_lag(const pendres_cloud_run *r,
 }
 
 /* The cloud of a run that has been followed. */
-static pendres_status conclude(const pendres_cloud_run *r, pendres_langevin_cloud *cloud)
+static pendres_status conclude(const pendres_sums_run *r, pendres_langevin_cloud *cloud)
 {
   double value[STATISTICS];
   *cloud = (pendres_langevin_cloud){.exposure = r->exposure, .phase_lag = {NAN, NAN}};
@@ -254,7 +254,7 @@ static pendres_status conclude(const pendres_cloud_run *r, pendres_langevin_clou
     cloud->left += r->left[i] != 0;
     cloud->strobes += r->all[i].strobes;
   }
-  const pendres_status status = pendres_cloud_estimate(r, cloud->statistics);
+  const pendres_status status = pendres_sums_estimate(r, cloud->statistics);
   if (status != PENDRES_OK) return status;
   for (int s = 0; s < STATISTICS; s++) value[s] = cloud->statistics[s].value;
   cloud->phase_lag = phase_lag(r, value);
@@ -267,25 +267,25 @@ static pendres_status measure(pendres_context *ctx, const pendres_langevin_reque
                               pendres_langevin_cloud *cloud, double *strobe_x, double *strobe_v)
 {
   if (request == NULL || cloud == NULL) return PENDRES_CONTEXT_NULL(ctx, "request and cloud");
-  pendres_cloud_run r = {.ctx = ctx, .request = request, .trajectories = request->trajectories,
+  pendres_sums_run r = {.ctx = ctx, .request = request, .trajectories = request->trajectories,
                          .first_id = request->first_id, .strobe_x = strobe_x,
                          .strobe_v = strobe_v};
   pendres_langevin_block b = {0};
   const int steps = pendres_langevin_resolve_steps(ctx, request->steps_per_period);
-  pendres_status status = pendres_cloud_accept(ctx, request, steps);
+  pendres_status status = pendres_sums_accept(ctx, request, steps);
   if (status != PENDRES_OK) return status;
   if ((strobe_x == NULL) != (strobe_v == NULL))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "strobe points need room for both x and v");
-  status = pendres_cloud_run_make(&r, 0);
+  status = pendres_sums_run_make(&r, 0);
   if (status == PENDRES_OK) status = pendres_langevin_open(ctx, r.trajectories, steps, &b);
   if (status == PENDRES_OK && strobe_x != NULL)
     for (size_t i = 0; i < r.trajectories * (size_t)request->record; i++)
       strobe_x[i] = strobe_v[i] = NAN;
-  if (status == PENDRES_OK) status = pendres_cloud_follow(&r, &b, NULL);
+  if (status == PENDRES_OK) status = pendres_sums_follow(&r, &b, NULL);
   if (status == PENDRES_OK) status = conclude(&r, cloud);
   pendres_langevin_block_clear(&b);
-  pendres_cloud_run_clear(&r);
+  pendres_sums_run_clear(&r);
   return status;
 }
 

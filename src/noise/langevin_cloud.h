@@ -13,45 +13,45 @@
 #include "noise/langevin_internal.h"
 
 /* What one trajectory sums up over strobes that count; x and v from the starting point. */
-typedef struct pendres_cloud_sums {
+typedef struct pendres_sums {
   double strobes, x, v, xx, xv, vv, cosine, sine, work;
-} pendres_cloud_sums;
+} pendres_sums;
 
 /* A run of one request: trajectories and what they have summed up. */
-typedef struct pendres_cloud_run {
+typedef struct pendres_sums_run {
   pendres_context *ctx;
   const pendres_langevin_request *request;
   size_t trajectories;
   uint64_t first_id;
-  pendres_cloud_sums *all;     /* [trajectories] */
-  pendres_cloud_sums *coarse;  /* [trajectories] of the coarse partners, or NULL */
+  pendres_sums *all;     /* [trajectories] */
+  pendres_sums *coarse;  /* [trajectories] of the coarse partners, or NULL */
   unsigned char *left;         /* [trajectories] */
   double *strobe_x, *strobe_v; /* [trajectories][record] or NULL */
   double exposure;
-} pendres_cloud_run;
+} pendres_sums_run;
 
 /* Check a request that is to run with so many steps a period. */
-pendres_status pendres_cloud_accept(pendres_context *ctx, const pendres_langevin_request *q,
+pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_request *q,
                                     int steps);
 
 /* Memory for a run whose request, trajectories and first id are set. Clear it in any case. */
-pendres_status pendres_cloud_run_make(pendres_cloud_run *r, int pairs);
-void pendres_cloud_run_clear(pendres_cloud_run *r);
+pendres_status pendres_sums_run_make(pendres_sums_run *r, int pairs);
+void pendres_sums_run_clear(pendres_sums_run *r);
 
 /* Follow all trajectories of a run in block b, with their partners in block coarse if that is not
  * NULL. */
-pendres_status pendres_cloud_follow(pendres_cloud_run *r, pendres_langevin_block *b,
+pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *b,
                                     pendres_langevin_block *coarse);
 
 /* What all n trajectories sum up. */
-pendres_cloud_sums pendres_cloud_total(const pendres_cloud_sums *all, size_t n);
+pendres_sums pendres_sums_total(const pendres_sums *all, size_t n);
 
 /* The statistics that totals stand for; means from the starting point. */
-void pendres_cloud_statistics(const pendres_cloud_sums *t,
+void pendres_sums_statistics(const pendres_sums *t,
                               double out[PENDRES_LANGEVIN_STATISTICS]);
 
 /* The statistics of a run with their standard errors or, if it has coarse partners, their
  * differences from those of the partners. */
-pendres_status pendres_cloud_estimate(const pendres_cloud_run *r, pendres_langevin_estimate *out);
+pendres_status pendres_sums_estimate(const pendres_sums_run *r, pendres_langevin_estimate *out);
 
 #endif

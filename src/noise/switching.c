@@ -268,7 +268,8 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   if (tally == NULL || rate == NULL || s >= STATES || t > STATES || !(level > 0.0 && level < 1.0))
     return PENDRES_INVALID_ARGUMENT;
   *rate = (pendres_switching_rate){.value = NAN, .error = NAN, .lower = NAN, .upper = NAN,
-                                   .dispersion = NAN, .events = tally->events[s][t],
+                                   .dispersion = NAN, .mean_time = NAN, .mean_time_error = NAN,
+                                   .events = tally->events[s][t],
                                    .exposure = tally->exposure[s] * tally->period};
   if (!(rate->exposure > 0.0)) return PENDRES_OK;
   rate->dispersion = dispersion(tally, s, t);
@@ -281,6 +282,10 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
   rate->value = i.value;
   rate->lower = i.lower;
   rate->upper = i.upper;
+  if (rate->events > 0.0) {
+    rate->mean_time = rate->exposure / rate->events;
+    rate->mean_time_error = rate->mean_time * sqrt(d / rate->events);
+  }
   rate->error = rate->events > 0.0 ? sqrt(rate->events * d) / rate->exposure : i.error;
   return PENDRES_OK;
 }

@@ -83,6 +83,27 @@ static void fill_rows(const sample *s, gsl_matrix *rows, gsl_vector *wanted, gsl
   }
 }
 
+/* A barrier of less than so many temperatures is no activation energy. */
+static const double least_barrier = 2.0;
+
+const char *pendres_switching_verdict_name(pendres_switching_verdict verdict)
+{
+  static const char *const names[PENDRES_SWITCHING_VERDICTS] = {
+    "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier"};
+  return (unsigned)verdict < PENDRES_SWITCHING_VERDICTS ? names[verdict] : NULL;
+}
+
+static pendres_switching_verdict verdict_on(const pendres_switching_activation *f)
+{
+  const double freedom = (double)f->points - 2.0;
+  if (isnan(f->energy)) return PENDRES_SWITCHING_TOO_FEW;
+  if (!(f->least_barrier >= least_barrier)) return PENDRES_SWITCHING_NO_BARRIER;
+  if (f->points < 3) return PENDRES_SWITCHING_UNCHECKED;
+  /* Three standard deviations of chi squared above its mean. */
+  return f->chi2 > freedom + 3.0 * sqrt(2.0 * freedom) ? PENDRES_SWITCHING_BENT
+                                                       : PENDRES_SWITCHING_STRAIGHT;
+}
+
 static void report(const sample *s, const gsl_vector *c, const gsl_matrix *v,
                    pendres_switching_activation *out)
 {
@@ -145,6 +166,7 @@ pendres_status pendres_switching_fit(size_t n, const double *temperature,
   out->points = s.count;
   if (status == PENDRES_OK) status = fit_line(&s, memory + 3 * n);
   if (status == PENDRES_OK) status = fit(&s, out);
+  out->verdict = verdict_on(out);
   free(memory);
   return status;
 }

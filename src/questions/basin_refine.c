@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mix.h"
+
 /* What is known of a state; UNSURE: integrated, but it may belong elsewhere. */
 typedef enum knowledge { UNKNOWN, FILLED, ASKED, INTEGRATED, UNSURE } knowledge;
 
@@ -349,15 +351,6 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan, const pendres
   return plan != NULL ? accept(plan, state, NULL) : PENDRES_INVALID_ARGUMENT;
 }
 
-/* Random numbers by counting: Steele, Lea, Flood, OOPSLA 2014 (splitmix64). */
-static uint64_t scramble(uint64_t z)
-{
-  z += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return z ^ (z >> 31);
-}
-
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *p, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index)
 {
@@ -366,7 +359,7 @@ pendres_status pendres_basin_plan_sample(pendres_basin_plan *p, size_t n, uint64
   const size_t states = p->rows * p->nv;
   /* Where little was filled in, not every draw hits: give up in the end. */
   for (uint64_t draw = 0; p->queued < n && draw < 100 * (uint64_t)n; draw++) {
-    const size_t k = (size_t)(scramble(scramble(seed) + draw) % states);
+    const size_t k = (size_t)(pendres_mix(pendres_mix(seed) + draw) % states);
     if (p->knowledge[k] == FILLED && ask(p, k) != 0) return PENDRES_OUT_OF_MEMORY;
   }
   *drawn = p->queued;

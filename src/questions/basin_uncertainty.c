@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/mix.h"
 #include "orbits/attractor_internal.h"
 #include "questions/basin_scatter.h"
 #include "questions/basin_uncertainty.h"
@@ -24,13 +25,11 @@ enum {
  */
 static const double most_slopes = 4e9;
 
-/* The bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), as a number in [0, 1). */
+/* Random number `counter` of a seed, in [0, 1). */
 static double uniform(uint64_t seed, uint64_t counter)
 {
-  uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + (counter + 1) * UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  const uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + counter * UINT64_C(0x9e3779b97f4a7c15);
+  return (double)(pendres_mix(z) >> 11) * 0x1p-53;
 }
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */

@@ -1,0 +1,71 @@
+/* noise_plan.c -- ids, settling, steps and parts of noisy trajectories; see noise_plan.h. */
+#include "noise/noise_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/mix.h"
+
+enum {
+  PART = 192,   /* trajectories, at most */
+  IDS = 1 << 20 /* ids between those of one pendulum and attractor and others */
+};
+
+/* Relative to a cloud's width the bias is the same at all small temperatures; where it is hot, a
+ * coarse and a fine trajectory part soon, and their difference tells little about steps. */
+static const double coldest = 1e-4;
+
+uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
+{
+  const double numbers[4] = {p->damping, p->drive_amplitude, p->drive_frequency, p->temperature};
+  uint64_t hash = pendres_mix(attractor);
+  for (int i = 0; i < 4; i++) {
+    uint64_t bits;
+    memcpy(&bits, &numbers[i], sizeof bits);
+    hash = pendres_mix(hash ^ bits);
+  }
+  /* Room for trajectories; and the top bit is where bias is measured. */
+  return (hash >> 1) & ~(uint64_t)(IDS - 1);
+}
+
+long pendres_noise_settle(const pendres_orbit *orbit)
+{
+  const double contraction = hypot(orbit->multiplier_re[0], orbit->multiplier_im[0]);
+  const double periods = orbit->period * log(1e-5) / log(contraction);
+  if (!(contraction < 1.0)) return 10000; /* not known: chaotic, or about to vanish */
+  return (long)fmin(1e5, fmax(4.0, ceil(periods)));
+}
+
+pendres_status pendres_noise_choose_steps(pendres_context *ctx,
+                                          const pendres_langevin_request *request,
+                                          unsigned statistics, double tolerance,
+                                          pendres_langevin_bias *bias)
+{
+  pendres_langevin_request q = *request;
+  const int given = request->steps_per_period;
+  pendres_status status = PENDRES_OK;
+  *bias = (pendres_langevin_bias){.steps_per_period = given != 0 ? given : PENDRES_LANGEVIN_STEPS};
+  q.pendulum.temperature = fmin(q.pendulum.temperature, coldest);
+  if (given == 0) status = pendres_langevin_choose_steps(ctx, &q, statistics, tolerance, bias);
+  if (status == PENDRES_NOT_CONVERGED) status = PENDRES_OK;
+  q = *request;
+  q.steps_per_period = bias->steps_per_period;
+  if (status == PENDRES_OK && (given != 0 || q.pendulum.temperature > coldest))
+    status = pendres_langevin_measure_bias(ctx, &q, bias);
+  if (status != PENDRES_NOT_FOUND) return status;
+  for (int s = 0; s < PENDRES_LANGEVIN_STATISTICS; s++)
+    bias->statistics[s].value = bias->statistics[s].error = bias->scale[s] = NAN;
+  return PENDRES_OK;
+}
+
+size_t pendres_noise_parts(size_t trajectories)
+{
+  return trajectories / PART + (trajectories % PART > 0);
+}
+
+size_t pendres_noise_part(size_t trajectories, size_t part, size_t *first)
+{
+  const size_t parts = pendres_noise_parts(trajectories);
+  *first = part * trajectories / parts;
+  return (part + 1) * trajectories / parts - *first;
+}

@@ -1,0 +1,242 @@
+/* switching_survey.c -- switching between two states at several temperatures; see switching.h. */
+#include <pendres/switching.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "noise/noise_plan.h"
+
+/* Steps are chosen on the states' small clouds, at one temperature. */
+static const double bias_of_choice = 0.01, temperature_of_choice = 1e-4;
+
+static const double default_level = 0.95;
+
+enum { WAYS = PENDRES_SWITCHING_WAYS, WELL = -2 };
+
+/* Where ways begin and end: the first state, the second, or another well. */
+static const struct {
+  int from, to;
+} ways[WAYS] = {[PENDRES_SWITCHING_FORTH] = {0, 1}, [PENDRES_SWITCHING_BACK] = {1, 0},
+                [PENDRES_SWITCHING_FIRST_WELL] = {0, WELL},
+                [PENDRES_SWITCHING_SECOND_WELL] = {1, WELL}};
+
+void pendres_switching_states(const pendres_attractors *set, int state[2])
+{
+  static const pendres_label labels[2] = {PENDRES_LABEL_SA, PENDRES_LABEL_LA};
+  if (state == NULL) return;
+  for (int s = 0; s < 2; s++) {
+    state[s] = -1;
+    for (size_t i = pendres_attractors_count(set); i-- > 0;)
+      if (pendres_attractors_get(set, i)->label == labels[s]) state[s] = (int)i;
+  }
+}
+
+/* NULL, or what is wrong with a survey. */
+static const char *refuse(const pendres_switching_survey *q)
+{
+  const int count = (int)pendres_attractors_count(q->set);
+  if (count > PENDRES_SWITCHING_STATES) return "there are too many attractors";
+  if (q->state[0] < 0 && q->state[1] < 0) return "neither of the two states exists";
+  for (int s = 0; s < 2; s++)
+    if (q->state[s] < -1 || q->state[s] >= count) return "there is no such attractor";
+  if (q->state[0] == q->state[1]) return "the two states are the same";
+  if (q->periods < 0) return "the number of periods must not be negative";
+  if (!(q->level >= 0.0 && q->level < 1.0)) return "the level must be between 0 and 1";
+  return NULL;
+}
+
+/* ---- Following ----------------------------------------------------------------------------- */
+
+static pendres_status choose_steps(pendres_context *ctx, const pendres_switching_survey *q,
+                                   int state, int *steps)
+{
+  enum { TRAJECTORIES = 192, RECORD = 60 }; /* to choose steps by */
+  if (q == NULL || steps == NULL) return PENDRES_CONTEXT_NULL(ctx, "survey and steps");
+  const char *wrong = refuse(q);
+  if (wrong == NULL && (state < 0 || state > 1)) wrong = "the states are 0 and 1";
+  if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
+  *steps = 0;
+  if (q->state[state] < 0) return PENDRES_OK;
+  pendres_switching_home home = {q->set, (size_t)q->state[state], 0.0};
+  const pendres_orbit *o = &pendres_attractors_get(q->set, home.attractor)->orbit;
+  pendres_langevin_request r = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
+                                .trajectories = TRAJECTORIES, .record = RECORD,
+                                .settle = pendres_noise_settle(o),
+                                .leave = pendres_switching_leave, .arg = &home};
+  r.pendulum.temperature = temperature_of_choice;
+  r.first_id = pendres_noise_first_id(&r.pendulum, home.attractor);
+  pendres_langevin_bias bias;
+  const pendres_status status =
+    pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
+  if (status == PENDRES_OK) *steps = 2 * bias.steps_per_period;
+  return status;
+}
+
+pendres_status pendres_switching_choose_steps(pendres_context *ctx,
+                                              const pendres_switching_survey *survey, int state,
+                                              int *steps)
+{
+  return PENDRES_CONTEXT_CALL(ctx, choose_steps(ctx, survey, state, steps));
+}
+
+/* Trajectories that start on a state. */
+static size_t share(const pendres_switching_survey *q, int state)
+{
+  const size_t all = q->trajectories;
+  if (q->state[state] < 0) return 0;
+  if (q->state[1 - state] < 0) return all;
+  return state == 0 ? all - all / 2 : all / 2;
+}
+
+size_t pendres_switching_parts(const pendres_switching_survey *survey)
+{
+  if (survey == NULL) return 0;
+  return pendres_noise_parts(share(survey, 0)) + pendres_noise_parts(share(survey, 1));
+}
+
+static pendres_status follow(pendres_context *ctx, const pendres_switching_survey *q,
+                             double temperature, size_t part, pendres_switching_tally *tally)
+{
+  if (q == NULL || tally == NULL) return PENDRES_CONTEXT_NULL(ctx, "survey and tally");
+  const char *wrong = refuse(q);
+  if (wrong == NULL && part >= pendres_switching_parts(q)) wrong = "there is no such part";
+  if (wrong == NULL && q->steps_per_period == 0) wrong = "to follow trajectories asks for steps";
+  if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
+  const size_t of_first = pendres_noise_parts(share(q, 0));
+  const int start = part >= of_first;
+  size_t first;
+  pendres_switching_request r = {.set = q->set, .from = (size_t)q->state[start],
+                                 .periods = q->periods, .steps_per_period = q->steps_per_period};
+  r.pendulum = pendres_attractors_get(q->set, r.from)->orbit.pendulum;
+  r.pendulum.temperature = temperature;
+  r.trajectories = pendres_noise_part(share(q, start), start ? part - of_first : part, &first);
+  r.first_id = pendres_noise_first_id(&r.pendulum, r.from) + first;
+  return pendres_switching_count(ctx, &r, tally);
+}
+
+pendres_status pendres_switching_follow(pendres_context *ctx,
+                                        const pendres_switching_survey *survey, double temperature,
+                                        size_t part, pendres_switching_tally *tally)
+{
+  return PENDRES_CONTEXT_CALL(ctx, follow(ctx, survey, temperature, part, tally));
+}
+
+/* ---- Rates and energies -------------------------------------------------------------------- */
+
+pendres_status pendres_switching_conclude(const pendres_switching_survey *survey,
+                                          double temperature, const pendres_switching_tally *all,
+                                          pendres_switching_rates *rates)
+{
+  const pendres_switching_rate none = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  pendres_status status = PENDRES_OK;
+  if (survey == NULL || rates == NULL || refuse(survey) != NULL) return PENDRES_INVALID_ARGUMENT;
+  const double level = survey->level > 0.0 ? survey->level : default_level;
+  const int *state = survey->state;
+  *rates = (pendres_switching_rates){.temperature = temperature, .exposure = {NAN, NAN}};
+  for (int k = 0; k < WAYS; k++) rates->way[k] = none;
+  if (state[0] < 0 || state[1] < 0) rates->status = PENDRES_NOT_FOUND;
+  if (all == NULL) return PENDRES_OK;
+  for (int s = 0; s < 2; s++)
+    if (state[s] >= 0) rates->exposure[s] = all->exposure[state[s]] * all->period;
+  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) {
+    const int from = state[ways[k].from];
+    const int to = ways[k].to == WELL ? PENDRES_SWITCHING_WELL : state[ways[k].to];
+    if (from >= 0 && to >= 0)
+      status =
+        pendres_switching_rate_of(all, (size_t)from, (size_t)to, level, &rates->way[k]);
+  }
+  return status;
+}
+
+/* Temperatures and rates of one way, as the fit wants them. */
+static pendres_status activate(const pendres_switching_survey *q, int way, size_t n,
+                               const pendres_switching_rates *rates,
+                               pendres_switching_activation *out)
+{
+  const int from = q->state[ways[way].from];
+  const int to = ways[way].to == WELL ? 0 : q->state[ways[way].to];
+  double *temperature = malloc((n + 1) * sizeof *temperature);
+  pendres_switching_rate *rate = malloc((n + 1) * sizeof *rate);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (temperature == NULL || rate == NULL) goto done;
+  for (size_t i = 0; i < n; i++) {
+    temperature[i] = rates[i].temperature;
+    rate[i] = rates[i].way[way];
+  }
+  status = pendres_switching_fit(n, temperature, rate, 0.0, out);
+  if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* too few events: the verdict says so */
+  if (from < 0 || to < 0) out->verdict = PENDRES_SWITCHING_NO_STATE;
+done:
+  free(temperature);
+  free(rate);
+  return status;
+}
+
+pendres_status pendres_switching_activate(const pendres_switching_survey *survey, size_t n,
+                                          const pendres_switching_rates *rates,
+                                          pendres_switching_activation *activation)
+{
+  pendres_status status = PENDRES_OK;
+  if (survey == NULL || activation == NULL || (n > 0 && rates == NULL) || refuse(survey) != NULL)
+    return PENDRES_INVALID_ARGUMENT;
+  for (int k = 0; k < WAYS && status == PENDRES_OK; k++)
+    status = activate(survey, k, n, rates, &activation[k]);
+  return status;
+}
+
+/* ---- All of it ----------------------------------------------------------------------------- */
+
+/* Failures that no other temperature can be spared. */
+static int ends_all(pendres_status status)
+{
+  return status == PENDRES_OUT_OF_MEMORY || status == PENDRES_INTERRUPTED ||
+         status == PENDRES_INTERNAL || status == PENDRES_BUSY;
+}
+
+/* All parts at one temperature. */
+static pendres_status measure_at(pendres_context *ctx, const pendres_switching_survey *q,
+                                 double temperature, pendres_switching_rates *rates)
+{
+  const size_t parts = pendres_switching_parts(q);
+  pendres_switching_tally all = {0}, one;
+  pendres_status status = PENDRES_OK;
+  for (size_t part = 0; part < parts && status == PENDRES_OK; part++) {
+    status = follow(ctx, q, temperature, part, &one);
+    if (status == PENDRES_OK) pendres_switching_add(&all, &one);
+  }
+  if (ends_all(status)) return status;
+  const pendres_status concluded =
+    pendres_switching_conclude(q, temperature, status == PENDRES_OK ? &all : NULL, rates);
+  if (status != PENDRES_OK) rates->status = status;
+  return concluded;
+}
+
+static pendres_status measure(pendres_context *ctx, const pendres_switching_survey *survey,
+                              size_t n, const double *temperature, pendres_switching_rates *rates,
+                              pendres_switching_activation *activation)
+{
+  if (survey == NULL || activation == NULL || (n > 0 && (temperature == NULL || rates == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "survey, temperature, rates and activation");
+  pendres_switching_survey q = *survey;
+  pendres_status status = PENDRES_OK;
+  for (int s = 0; s < 2 && survey->steps_per_period == 0 && status == PENDRES_OK; s++) {
+    int steps;
+    status = choose_steps(ctx, survey, s, &steps);
+    if (status == PENDRES_OK && steps > q.steps_per_period) q.steps_per_period = steps;
+  }
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = measure_at(ctx, &q, temperature[i], &rates[i]);
+  if (status != PENDRES_OK) return status;
+  status = pendres_switching_activate(&q, n, rates, activation);
+  if (status == PENDRES_OK) return status;
+  return pendres_context_fail(ctx, status, "activation energies cannot be computed");
+}
+
+pendres_status pendres_switching_measure(pendres_context *ctx,
+                                         const pendres_switching_survey *survey, size_t n,
+                                         const double *temperature, pendres_switching_rates *rates,
+                                         pendres_switching_activation *activation)
+{
+  return PENDRES_CONTEXT_CALL(ctx, measure(ctx, survey, n, temperature, rates, activation));
+}
