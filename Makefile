@@ -11,6 +11,7 @@
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make deps-python   what the Python package needs; make deps-plots, what plots need
 #   make doc        reference manual from the public headers, with doxygen
+#   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
 #   make style      where lines or files are too long
 #   make clean
@@ -49,6 +50,7 @@ BINDIR ?= $(PREFIX)/bin
 LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 MANDIR ?= $(PREFIX)/share/man
+DATADIR ?= $(PREFIX)/share/pendres
 TEST_TIMEOUT ?= $(if $(VALGRIND),36000,600)
 RUN ?= $(if $(VALGRIND),sh tests/valgrind.sh)
 CFLAGS ?= $(if $(SANITIZE),-O2,-O3) -g -Wall -Wextra -Wpedantic
@@ -211,9 +213,9 @@ $(STATIC): $(LIBRARY_OBJECTS)
 $(DRIVER): $(DRIVER_OBJECTS) $(BUILD)/flags
 	$(ARCHIVE)
 
-$(SHARED): $(LIBRARY_OBJECTS)
+$(SHARED): $(LIBRARY_OBJECTS) pendres.map
 	@echo "  LD  $@"
-	@$(LINK) -shared -Wl,-soname,$(SONAME) $(if $(SANITIZE),,-Wl$(comma)-z$(comma)defs) \
+	@$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,pendres.map $(if $(SANITIZE),,-Wl$(comma)-z$(comma)defs) \
 	  -o $@ $(filter %.o,$^) $(LIBS)
 
 $(BUILD)/$(SONAME) $(BUILD)/libpendres.so: $(SHARED)
@@ -290,6 +292,9 @@ $(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
 	      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) -lm)|' pendres.pc.in >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
+# What share/pendres holds, beside what a compiler reads.
+SHARED_FILES = $(shell find examples input plots docs -type f ! -name '*.h5' ! -name '*.pyc')
+
 install: all
 	$(INSTALL) -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(INCLUDEDIR)/pendres
 	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)
@@ -301,24 +306,35 @@ install: all
 ifneq ($(PROGRAM),)
 	$(INSTALL) -d $(DESTDIR)$(BINDIR)
 	$(INSTALL) -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)
-	@if command -v help2man >/dev/null && \
-	    help2man -N -n 'resonance of driven pendulums' -o $(BUILD)/resonance.1 ./$(PROGRAM); then \
-	  $(INSTALL) -d $(DESTDIR)$(MANDIR)/man1; \
-	  $(INSTALL) -m 644 $(BUILD)/resonance.1 $(DESTDIR)$(MANDIR)/man1; fi
+	$(INSTALL) -d $(DESTDIR)$(MANDIR)/man1
+	$(INSTALL) -m 644 man/resonance.1 $(DESTDIR)$(MANDIR)/man1
 endif
+	$(INSTALL) -d $(DESTDIR)$(MANDIR)/man3
+	sh man/pendres.3.sh $(VERSION) $(DATADIR) >$(BUILD)/pendres.3
+	$(INSTALL) -m 644 $(BUILD)/pendres.3 $(DESTDIR)$(MANDIR)/man3
+	$(INSTALL) -d $(addprefix $(DESTDIR)$(DATADIR)/,$(sort $(dir $(SHARED_FILES))))
+	@for file in $(SHARED_FILES); do \
+	  $(INSTALL) -m 644 "$$file" "$(DESTDIR)$(DATADIR)/$$file" || exit 1; done
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 uninstall:
 	rm -f $(DESTDIR)$(LIBDIR)/libpendres.a $(DESTDIR)$(LIBDIR)/libpendres.so \
 	  $(DESTDIR)$(LIBDIR)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(notdir $(SHARED)) \
 	  $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc $(DESTDIR)$(BINDIR)/resonance \
-	  $(DESTDIR)$(MANDIR)/man1/resonance.1
-	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres
+	  $(DESTDIR)$(MANDIR)/man1/resonance.1 $(DESTDIR)$(MANDIR)/man3/pendres.3
+	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres $(DESTDIR)$(DATADIR)
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 doc:
+	@command -v doxygen >/dev/null || { echo 'make doc needs Doxygen (Debian: apt-get install' \
+	  'doxygen); without it, each header in include/pendres/ is its own manual' >&2; exit 1; }
 	@mkdir -p build
 	doxygen Doxyfile
+
+man: $(PROGRAM)
+	@command -v help2man >/dev/null || { echo 'make man needs help2man (Debian: apt-get install' \
+	  'help2man)' >&2; exit 1; }
+	LC_ALL=C help2man -N -n 'resonance of driven pendulums' -o man/resonance.1 ./$(PROGRAM)
 
 decks-reference: $(PROGRAM)
 	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
@@ -328,7 +344,7 @@ style:
 
 # A build directory of another name is kept if it holds anything else.
 clean:
-	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags pendres.pc resonance.1) \
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags pendres.pc pendres.3) \
 	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a $(PROGRAM)
 ifeq ($(BUILD),build)
 	rm -rf build

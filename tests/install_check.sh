@@ -28,12 +28,16 @@ stage=$scratch/stage
 # The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
 for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0 lib/pkgconfig/pendres.pc \
-  include/pendres/pendres.h; do
+  include/pendres/pendres.h share/man/man1/resonance.1 share/man/man3/pendres.3 \
+  share/pendres/input/f02.nml share/pendres/plots/plot.py share/pendres/docs/decks.md; do
   [ -e "$stage/opt/pendres/$file" ] || fail "$file was not installed"
 done
 for header in include/pendres/*.h; do
   cmp -s "$header" "$stage/opt/pendres/$header" || fail "$header was not installed"
 done
+grep -q '^.B <pendres/context.h>' "$stage/opt/pendres/share/man/man3/pendres.3" &&
+  grep -qF /opt/pendres/share/pendres/examples "$stage/opt/pendres/share/man/man3/pendres.3" ||
+  fail "pendres.3 lacks headers, or where the examples are"
 [ "$(ls "$stage")" = opt ] && [ "$(ls "$stage/opt")" = pendres ] || fail "files outside PREFIX"
 grep -rlF "$stage" "$stage/opt/pendres/lib/pkgconfig" && fail "DESTDIR got into pendres.pc"
 quiet $MAKE uninstall DESTDIR="$stage" PREFIX=/opt/pendres
@@ -89,6 +93,23 @@ done
 quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) -o readme
 quiet ./readme
 
+# The examples, as they were installed: each compiles, in its language, runs and says something.
+for example in "$prefix"/share/pendres/examples/*.c "$prefix"/share/pendres/examples/*.cc; do
+  case $example in
+    *.cc) compiler="${CXX:-c++} -std=c++11"; command -v ${CXX:-c++} >/dev/null || continue ;;
+    *) compiler="$CC -std=c11" ;;
+  esac
+  quiet $compiler -Wall -Wextra -Wpedantic -Werror "$example" \
+    $($PKG_CONFIG --cflags --libs pendres) -o example
+  quiet ./example
+  [ -s log ] || fail "$example says nothing"
+done
+
+# Found at run time without a word to the session, as the README says.
+quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) \
+  -Wl,-rpath,"$($PKG_CONFIG --variable=libdir pendres)" -o rpath
+(unset LD_LIBRARY_PATH && quiet ./rpath) || exit 1
+
 mkdir static_only
 cp "$prefix/lib/libpendres.a" static_only
 static=$($PKG_CONFIG --define-variable=libdir="$scratch/static_only" --static --cflags --libs pendres)
@@ -103,8 +124,13 @@ quiet ./whole
 if [ -x "$prefix/bin/resonance" ]; then
   "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"
   grep -qF "$version" "$scratch/log" || fail "resonance --version does not say $version"
+  "$prefix/bin/resonance" --help | grep -oE -- '--[a-z][-a-z]*' | sort -u | while read -r option; do
+    sed 's/\\//g' "$prefix/share/man/man1/resonance.1" | grep -qF -- "$option" || echo "$option"
+  done >"$scratch/untold"
+  [ ! -s "$scratch/untold" ] ||
+    fail "man/resonance.1 lacks" $(cat "$scratch/untold") "(make man renews it)"
 fi
-nm -D --defined-only "$prefix/lib/libpendres.so" | awk '$NF !~ /^pendres_/' | grep . &&
+nm -D --defined-only "$prefix/lib/libpendres.so" | awk '$2 != "A" && $NF !~ /^pendres_/' | grep . &&
   fail "exported without the prefix"
 cat "$scratch/log"
 exit 0

@@ -232,6 +232,10 @@ def test_functions():
     branch, = pendres.branches(orbits, 0.5, 1.0)
     assert min(abs(branch.bifurcations.value - fold.value)) < 1e-7
     assert len(branch.at(0.8)) == 3 and branch.ends == (0, 0)
+    path = np.linspace(0.7, 0.9, 5)
+    sweep = pendres.hysteresis(q, np.append(path, path[::-1]), 1.6)
+    assert len(sweep.points) == 10 and list(sweep.jumps.direction) == [1, -1]
+    assert abs(sweep.jumps.value[0] - fold.value) < 1e-7
     cusp = pendres.cusp(fold)
     curve, = pendres.curves(branch.bifurcations, "damping", [0.5, 0.05], [1.0, 0.3])
     assert np.allclose(curve.cusps.value[0], cusp.value, atol=1e-7)

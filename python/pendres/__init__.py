@@ -14,8 +14,8 @@ run: a function without `context=` uses one of its thread's own.
 `pendres.c` has every public function of the library as C has it, with its documentation:
 `help(pendres.c.strobe_advance)`, `dir(pendres.c)`; pendres.dtype(NAME) its structures for numpy.
 """
-from ._curves import (Boundary, Branch, Curve, backbone, boundary, branches, curves, cusp, fold,
-                      saddle)
+from ._curves import (Boundary, Branch, Curve, Hysteresis, backbone, boundary, branches, curves,
+                      cusp, fold, hysteresis, saddle)
 from ._files import open, words  # pylint: disable=redefined-builtin
 from ._handles import Context, ensemble, pendulum
 from ._library import (Error, Status, array, c, declared as _declared, dtype,

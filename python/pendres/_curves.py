@@ -1,7 +1,7 @@
 """Branches of orbits, their bifurcations, curves of these, and boundaries of basins."""
 import numpy as np
 
-from ._handles import as_pendulums, default_context, named, options, record
+from ._handles import as_pendulums, default_context, named, one_pendulum, options, record
 from ._library import Handle, array, c, ffi, make, stacked, viewed
 
 
@@ -132,6 +132,29 @@ class Boundary(Handle):
             c.boundary_x, c.boundary_v, c.boundary_error))
         self.piece = viewed("int", c.boundary_piece(self), n, self.pointer)
         self.bound, self.complete = c.boundary_bound(self), bool(c.boundary_complete(self))
+
+
+class Hysteresis(Handle):
+    """What was met on a path of a parameter: points (value, attractor, mean_velocity, ...) and
+    jumps (value, value_error, direction, kind, from, to, ...), see hysteresis.h."""
+
+    ctype = "pendres_hysteresis"
+
+    def __init__(self, pointer):
+        super().__init__(pointer)
+        self.points = stacked("pendres_hysteresis_point", [
+            c.hysteresis_get(self, i) for i in range(c.hysteresis_count(self))])
+        self.jumps = stacked("pendres_jump", [
+            c.hysteresis_jump(self, i) for i in range(c.hysteresis_jumps(self))])
+
+
+def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", context=None):
+    """The state that a pendulum from (x, v) settles on, followed along the values of a parameter,
+    slowly and in their order: a Hysteresis. A sweep up and down is a list that ascends and then
+    descends."""
+    path = np.ascontiguousarray(values, float)
+    return make(Hysteresis, c.hysteresis_follow, default_context(context), one_pendulum(p),
+                named(parameter), x, v, path.size, path)
 
 
 def saddle(attractor, *, context=None):
