@@ -53,7 +53,8 @@ typedef enum pendres_cloud_verdict {
   PENDRES_CLOUD_NOT_COMPARED,  /**< there is no cloud, or theory does not know it: an orbit of
                                     several periods has a cloud around several points */
   PENDRES_CLOUD_UNCERTAIN,     /**< an error above half the width, which agrees with anything */
-  PENDRES_CLOUD_BELOW_ROUNDING, /**< so narrow that nothing is followed: the covariance is theory's */
+  PENDRES_CLOUD_BELOW_ROUNDING, /**< so narrow that nothing is followed: the covariance is that
+                                     of theory */
   PENDRES_CLOUD_VERDICTS       /**< how many there are */
 } pendres_cloud_verdict;
 

@@ -1,6 +1,6 @@
 /**
  * @file langevin.h
- * @brief Pendulums with thermal noise: trajectories, the clouds that they form, linear noise theory.
+ * @brief Pendulums with thermal noise: trajectories, their clouds, linear noise theory.
  *
  * Owns: ensembles of noisy trajectories seen once a drive period, statistics of the clouds of their
  * strobe points with errors and biases, rates of rare events, and linear noise theory. Equation and

@@ -113,13 +113,13 @@ typedef struct pendres_switching_rate {
   double events;     /**< transitions counted */
   double exposure;   /**< time spent where they start, in units of 1/omega_0 */
   double value;      /**< events / exposure; NaN without exposure */
-  double error;      /**< standard error; without events the upper bound at one standard deviation */
+  double error;      /**< standard error; without events an upper bound at one sigma */
   double lower;      /**< lower end of the confidence interval */
   double upper;      /**< upper end of the confidence interval */
   double dispersion; /**< variance of the trajectories' counts by that of independent events: 1 for
                           those. Larger: transitions come in bursts, and error and interval allow
                           for it. NaN where there are too few to tell */
-  double mean_time;  /**< mean time spent until a transition, exposure / events; NaN without events */
+  double mean_time;  /**< mean time until a transition, exposure / events; NaN without events */
   double mean_time_error; /**< its standard error, to first order in that of the rate */
 } pendres_switching_rate;
 
@@ -161,12 +161,12 @@ typedef struct pendres_switching_activation {
   double energy_error;        /**< its error */
   double log_prefactor;       /**< ln of the prefactor (in units of omega_0) at `temperature` */
   double log_prefactor_error; /**< its error */
-  double chi2;                /**< chi squared, of points - 2 degrees of freedom; errors are enlarged
+  double chi2;                /**< chi squared of points - 2 degrees of freedom; errors are enlarged
                                    by sqrt(chi2 / (points - 2)) where that exceeds 1 */
   double temperature;         /**< T0: geometric mean of the temperatures with enough events */
   double exponent;            /**< b: power of the temperature in the prefactor */
-  double exponent_error;      /**< its error; with few points, or close ones, exponent and error stay
-                                   the 0 +- 1/2 that is assumed beforehand */
+  double exponent_error;      /**< its error; with few points, or close ones, both stay the 0 +- 1/2
+                                   that is assumed beforehand */
   double least_barrier;       /**< energy / T at the hottest of these temperatures */
   pendres_switching_verdict verdict; /**< what became of the fit */
 } pendres_switching_activation;

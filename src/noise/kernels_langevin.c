@@ -1,9 +1,9 @@
 /*
  * kernels_langevin.c -- the inner loops of thermal noise; see kernels_langevin.h.
  *
- * Compiled once per instruction set with PENDRES_KERNELS set to its name. Plain loops that
- * the compiler vectorises; only the 32 by 32 bit product of the generator is written in the
- * instruction sets' own terms, since compilers reach for the slow 64-bit product.
+ * This file is compiled once for each instruction set, with PENDRES_KERNELS set to its name. The
+ * compiler vectorises the plain loops; only the 32 by 32 bit product of the generator is written in
+ * the instruction sets' own terms, since compilers take the slow 64-bit product for it.
  */
 #include "noise/kernels_langevin.h"
 
@@ -27,7 +27,7 @@
 
 #define FMA(a, b, c) __builtin_fma((a), (b), (c))
 
-/* One word a lane in its low 32 bits; what stands above is not looked at. */
+/* A vector holds one word for each lane in its low 32 bits; the upper ones are not looked at. */
 #if defined(__AVX512F__)
 typedef uint64_t word __attribute__((vector_size(64), may_alias));
 #define PRODUCT(a, m) ((word)_mm512_mul_epu32((__m512i)(a), _mm512_set1_epi64((long long)(m))))
@@ -42,8 +42,8 @@ enum { WORD_LANES = sizeof(word) / sizeof(uint64_t), ROUNDS = philox4x32_rounds 
 
 /*
  * Philox4x32-10: Salmon, Moraes, Dror, Shaw, Parallel random numbers: as easy as 1, 2, 3
- * (SC11). Random123's own function works on one counter and is not vectorised by the
- * compiler; this is the same in lanes, with its constants, and tests compare the two.
+ * (SC11). Random123's own function works on one counter at a time and is not vectorised by the
+ * compiler. This one does the same in lanes, with its constants, and tests compare the two.
  */
 static void words(size_t stride, const uint64_t *id, uint32_t period, uint32_t call,
                   const uint32_t key[2], uint64_t *out)
@@ -85,7 +85,8 @@ static inline uint64_t to_bits(double d)
   return bits;
 }
 
-/* -2 ln u for 2^-33 <= u < 1, wrong by less than 4e-10; minimax on [sqrt(1/2), sqrt 2]. */
+/* -2 ln u for 2^-33 <= u < 1, with an error below 4e-10: a minimax polynomial on
+ * [sqrt(1/2), sqrt 2]. */
 static inline double minus_two_log(double u)
 {
   const uint64_t one = 0x3ff0000000000000u, root = 0x3fe6a09e667f3bcdu;
@@ -107,16 +108,17 @@ static inline double minus_two_log(double u)
 }
 
 /*
- * Box and Muller (Ann. Math. Stat. 29 (1958) 610). The radius takes 32 bits; the angle 31,
- * spread over half a circle, and its last bit turns it by half a circle. Within 1e-9 of
- * exact for the words given; the largest radius is 6.76.
+ * Two Gaussian numbers from two words, by the method of Box and Muller (Ann. Math. Stat. 29 (1958)
+ * 610). The radius takes 32 bits. The angle takes 31 bits, spread over half a circle, and its last
+ * bit turns it by half a circle. The results are within 1e-9 of what is exact for the words given;
+ * the largest radius is 6.76.
  */
 static inline void box_muller(uint64_t radius_word, uint64_t angle_word, double *a, double *b)
 {
   const double u = from_bits(0x3ff0000000080000u | (radius_word << 20)) - 1.0;
   const double t = from_bits(0x3ff0000000100000u | (angle_word << 20)) - 1.5;
   const double s = t * t;
-  /* Not an operation on doubles, hence no rounding: the sign alone. */
+  /* This changes the sign alone, and so cannot round. */
   const double radius = from_bits(to_bits(__builtin_sqrt(minus_two_log(u))) ^ (angle_word << 63));
   double p = -0x1.cacb5e8365512p-8, q = -0x1.8fb73efcc3b96p-6;
   p = FMA(p, s, 0x1.5000176682e82p-4);
@@ -155,7 +157,7 @@ static void drift(size_t stride, const double *restrict reach, const double *res
   }
 }
 
-/* Force and noise bear the same correction: see langevin_block.c. */
+/* Force and noise take the same correction: langevin_block.c says why. */
 static void kick(size_t stride, const pendres_langevin_rows *rows, const double *restrict reach,
                  const double *restrict decay, double cosine, double sine,
                  const double *restrict noise)

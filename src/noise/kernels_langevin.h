@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* What one call of the generator yields a lane. */
+/* How many random words one call of the generator yields for each lane. */
 enum { PENDRES_LANGEVIN_WORDS = 4 };
 
 /*
@@ -25,26 +25,26 @@ enum { PENDRES_LANGEVIN_WORDS = 4 };
 typedef struct pendres_langevin_rows {
   double *u, *w;
   const double *pivot_cos, *pivot_sin;
-  const double *push;   /* duration of a kick */
-  const double *spread; /* standard deviation of a kick's noise */
-  const double *bend;   /* of the fourth-order correction */
+  const double *push;   /* the duration of a kick: half a step */
+  const double *spread; /* the standard deviation of a kick's noise */
+  const double *bend;   /* the coefficient c of the fourth-order correction 1 - c cos y */
 } pendres_langevin_rows;
 
 typedef struct pendres_kernels_langevin {
   const char *name;
-  /* Philox4x32-10 (Random123) of the counters (id low, id high, period, call): four rows of
-   * 32-bit words, each in 64 bits. */
+  /* Philox4x32-10 (Random123) of the counters (id low, id high, period, call). It writes four
+   * rows of 32-bit words, each of which takes 64 bits. */
   void (*words)(size_t stride, const uint64_t *id, uint32_t period, uint32_t call,
                 const uint32_t key[2], uint64_t *words);
-  /* Four rows of words to four rows of independent Gaussian numbers of variance 1. */
+  /* Turn four rows of words into four rows of independent Gaussian numbers of variance 1. */
   void (*gauss)(size_t stride, const uint64_t *words, double *gauss);
-  /* Free motion: u += reach w, w *= decay. */
+  /* Move freely: u += reach w, w *= decay. */
   void (*drift)(size_t stride, const double *reach, const double *decay, double *u, double *w);
-  /* Free motion, then a kick at the drive phase whose cosine and sine are given. */
+  /* Move freely, then kick at the drive phase whose cosine and sine are given. */
   void (*kick)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
                const double *decay, double cosine, double sine, const double *gauss);
-  /* Add y cos theta and y sin theta to sums, where free motion of the given reach has brought
-   * u at the phase whose cosine and sine are given; the state stays. */
+  /* Add y cos theta and y sin theta to sums, with the y that free motion of the given reach leads
+   * to at the phase whose cosine and sine are given. The state itself is not changed. */
   void (*sample)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
                  double cosine, double sine, double *sum_cos, double *sum_sin);
 } pendres_kernels_langevin;
@@ -55,7 +55,8 @@ extern const pendres_kernels_langevin pendres_kernels_langevin_avx2;
 extern const pendres_kernels_langevin pendres_kernels_langevin_avx512;
 #endif
 
-/* The fastest variant that this processor runs. Never NULL; static. In langevin.c. */
+/* The fastest variant that this processor runs. Never NULL, and static. It is defined in
+ * langevin_block.c, since kernels_langevin.c is compiled once for each variant. */
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void);
 
 #endif

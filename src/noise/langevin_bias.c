@@ -27,7 +27,7 @@ static void scales_of(const pendres_sums *total, double scale[STATISTICS])
 static pendres_status measure_bias(pendres_context *ctx, const pendres_langevin_request *request,
                                    int steps, size_t trajectories, pendres_langevin_bias *bias)
 {
-  /* Other trajectories than those measured: the top bit of the id. */
+  /* The top bit of the id makes these other trajectories than those that are measured. */
   pendres_sums_run r = {.ctx = ctx, .request = request, .trajectories = trajectories,
                          .first_id = request->first_id ^ (uint64_t)1 << 63};
   pendres_langevin_block fine = {0}, coarse = {0};
@@ -69,10 +69,10 @@ pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
   return PENDRES_CONTEXT_CALL(ctx, bias_of(ctx, request, bias));
 }
 
-/* Raise *most to what a number is in units of its scale. NaN stays: it is no small bias. */
+/* Raise *most to what a number is in units of its scale. NaN is kept, since it is no small bias. */
 static void raise_to(double number, double scale, double *most)
 {
-  /* Exactly nothing, as the work of no drive, is nothing in any unit. */
+  /* What is exactly zero, as the work of no drive, is zero in any unit. */
   const double size = number == 0.0 ? 0.0 : fabs(number) / scale;
   if (!(size <= *most) && !isnan(*most)) *most = size;
 }
@@ -89,7 +89,7 @@ static void worst_of(const pendres_langevin_bias *bias, unsigned statistics, dou
   }
 }
 
-/* Where the search begins: two steps a unit of time would do for the well, and friction. */
+/* Where the search begins: with the fewest steps that may resolve the well and the friction. */
 static int first_steps(const pendres_pendulum *p)
 {
   const double period = two_pi / p->drive_frequency;
@@ -115,9 +115,9 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
     if (status != PENDRES_OK) return status;
     worst_of(bias, statistics, &value, &error);
     if (value + 2.0 * error <= tolerance) return PENDRES_OK;
-    /* More steps or trajectories do not make a number of what is none. */
+    /* Neither more steps nor more trajectories make a number of NaN. */
     if (isnan(value + error)) break;
-    /* Both go down with the steps; what noise leaves over goes down with trajectories. */
+    /* The bias goes down with more steps, and its error with these and with more trajectories. */
     if (error > 0.25 * tolerance && trajectories < GROWTH * request->trajectories)
       trajectories *= 4;
     const double ratio = value / (0.7 * tolerance);

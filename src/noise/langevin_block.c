@@ -34,11 +34,11 @@ static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
 enum { ALIGN = 64, ROWS = 25 };
 
-/* Beyond, an angle in the shaken frame loses more than 1e-9 to rounding. */
+/* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
 
-/* Steps of all lanes together between two questions whether to go on: some hundredths of a
-   second, as in flow.c. */
+/* How many steps all lanes take together between two questions whether to go on: those of some
+ * hundredths of a second, as in flow.c. */
 static const double steps_between = 300000.0;
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
@@ -53,7 +53,7 @@ const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
   return &pendres_kernels_langevin_base;
 }
 
-/* n eight-byte entries on a 64-byte boundary, all zero; n a multiple of 8. */
+/* Memory for n entries of eight bytes on a 64-byte boundary, all zero; n is a multiple of 8. */
 static void *allocate(size_t n)
 {
   void *memory = aligned_alloc(ALIGN, n * sizeof(double));
@@ -80,7 +80,7 @@ pendres_status pendres_langevin_block_make(pendres_langevin_block *b, size_t cap
   for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) TAKE(reach[d], 1), TAKE(decay[d], 1);
   TAKE(rows.u, 1), TAKE(rows.w, 1), TAKE(gauss, PENDRES_LANGEVIN_WORDS);
 #undef TAKE
-  /* The kernels only read these; loading a lane writes them through memory. */
+  /* The kernels only read the following rows; loading a lane writes them by way of `memory`. */
   b->rows.pivot_cos = row, row += capacity;
   b->rows.pivot_sin = row, row += capacity;
   b->rows.push = row, row += capacity;
@@ -103,7 +103,7 @@ pendres_status pendres_langevin_block_set_steps(pendres_langevin_block *b, int s
   const double within[3] = {0.0, 0.5 - 0.5 * root_third, 0.5 + 0.5 * root_third};
   double *phases = malloc(6 * (size_t)steps * sizeof *phases);
   if (phases == NULL) return PENDRES_OUT_OF_MEMORY;
-  /* The library's own sine: the same bytes on any processor. */
+  /* By the library's own sine, which gives the same bytes on any processor. */
   for (int k = 0; k < 3 * steps; k++)
     pendres_kernels_sincos(two_pi * (k / 3 + within[k % 3]) / steps, &phases[2 * k + 1],
                            &phases[2 * k]);
@@ -135,10 +135,11 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
   pivot_of(p, &c, &s);
   if (!(fabs(c) <= largest_pivot && fabs(s) <= largest_pivot))
     return "with noise, the drive must not shake a free particle farther than 1e7";
-  /* What noise alone makes of a velocity, and of a position within a period. */
+  /* Noise alone makes velocities of sqrt(T), which carry a pendulum by that over the larger of the
+   * drive frequency and the damping. */
   if (!(sqrt(p->temperature) <= largest_pivot * fmax(p->drive_frequency, p->damping)))
     return "so hot a pendulum is beyond 1e7 within a period";
-  /* 1 - bend cos y must stay positive, and far before that nothing is resolved. */
+  /* The correction 1 - bend cos y must stay positive; the motion is not resolved well before. */
   if (!(two_pi / p->drive_frequency / steps <= 3.0))
     return "with noise, a step must not be longer than 3: more steps a period are needed";
   return NULL;
@@ -178,7 +179,7 @@ void pendres_langevin_block_finish(pendres_langevin_block *b)
   }
 }
 
-/* Strobe point to the shaken frame, at drive phase 0, and within half a turn of the well. */
+/* Take the states at drive phase 0 into the shaken frame, without their whole turns. */
 static void enter(pendres_langevin_block *b)
 {
   pendres_langevin_rows *r = &b->rows;
@@ -192,20 +193,21 @@ static void enter(pendres_langevin_block *b)
   }
 }
 
-/* First harmonic and work of the period that ends at angle y. */
+/* The first harmonic and the work of lane i over the period that ends at angle y. */
 static void harmonics(pendres_langevin_block *b, size_t i, double y)
 {
   const double n = b->steps, pi = 0.5 * two_pi;
   const double moved = y - (b->x[i] - b->base[i]);
-  /* The sum takes a ramp theta for pi/n cot(pi/n) of what it is. */
+  /* The sum makes of a ramp in theta only pi/n cot(pi/n) of what it is. */
   const double missing = 1.0 - pi / n / tan(pi / n);
   b->cosine[i] = 2.0 / n * (b->cosine[i] + 0.5 * y);
   b->sine[i] = 2.0 / n * b->sine[i] - moved / pi * missing;
-  /* By parts: integral of cos theta dx = moved + integral of y sin theta. */
+  /* Integration by parts: that of cos theta dx is `moved` plus that of y sin theta dtheta. */
   b->work[i] = b->drive[i] * (moved + pi * b->sine[i]);
 }
 
-/* And back. The next period starts from these numbers, so a run may be cut at any strobe. */
+/* Take the states back from the shaken frame at the period's end. The next period starts from these
+ * numbers, so that a run may be cut at any strobe. */
 static void leave(pendres_langevin_block *b)
 {
   const pendres_langevin_rows *r = &b->rows;
@@ -219,7 +221,7 @@ static void leave(pendres_langevin_block *b)
   }
 }
 
-/* Free motion to kick k of the period, and the kick; on the way, the start of a step. */
+/* Move freely to kick k of the period, and kick. Where a step starts on the way, sample there. */
 static void kick(pendres_langevin_block *b, int k, const double *gauss)
 {
   const double *start = b->phases + 6 * (k / 2), *at = start + (k % 2 == 0 ? 2 : 4);
@@ -231,10 +233,10 @@ static void kick(pendres_langevin_block *b, int k, const double *gauss)
   b->kernels->kick(b->stride, &b->rows, b->reach[d], b->decay[d], at[0], at[1], gauss);
 }
 
-/* Gaussian numbers of kick k; each call of the generator serves four kicks. */
+/* The Gaussian numbers of kick k; one call of the generator serves four kicks. */
 static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
 {
-  /* Without noise any finite row will do: it is multiplied by zero. */
+  /* Without noise any finite row will do, since it is multiplied by zero. */
   if (!b->noisy) return b->gauss;
   const int row = k % PENDRES_LANGEVIN_WORDS;
   if (row == 0) {
@@ -245,7 +247,7 @@ static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
   return b->gauss + (size_t)row * b->stride;
 }
 
-/* Is the period to end here, before that step? Short ones are never asked within. */
+/* Whether the period is to end before this step. Nobody is asked within short ones. */
 static int stops(const pendres_langevin_block *b, int step)
 {
   const int every = (int)ceil(steps_between / (double)b->stride);
@@ -271,7 +273,7 @@ pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
   enter(fine);
   enter(coarse);
   for (int k = 0; k < coarse->steps * 2; k++) {
-    if (stops(fine, k)) return PENDRES_INTERRUPTED; /* one of its steps at a time */
+    if (stops(fine, k)) return PENDRES_INTERRUPTED; /* a coarse kick is a fine step */
     const double *first = noise(fine, period, 2 * k);
     kick(fine, 2 * k, first);
     const double *second = noise(fine, period, 2 * k + 1);

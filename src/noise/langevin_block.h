@@ -22,51 +22,54 @@ typedef enum pendres_langevin_duration {
 
 typedef struct pendres_langevin_block {
   const pendres_kernels_langevin *kernels;
-  size_t capacity; /* lanes that memory was taken for */
-  size_t count;    /* lanes in use; the others of the last eight hold copies of lane 0 */
+  size_t capacity; /* how many lanes there is memory for */
+  size_t count;    /* how many are in use; the rest of the last eight hold copies of lane 0 */
   size_t stride;   /* count rounded up to a multiple of 8 */
-  int steps;       /* a drive period */
-  int noisy;       /* any lane has a temperature */
-  int harmonics;   /* sums are wanted */
+  int steps;       /* in a drive period */
+  int noisy;       /* whether any lane has a temperature */
+  int harmonics;   /* whether first harmonics and work are to be summed up */
   uint32_t key[2];
   double *memory;  /* all rows of doubles, `capacity` apart */
-  double *x, *v;   /* at the strobe */
-  double *base;    /* whole turns taken off x, and the well's bottom */
+  double *x, *v;   /* the states at the last strobe */
+  double *base;    /* where the bottom of each lane's well was at the last strobe: x = y + base */
   double *drive, *pivot_speed, *cosine, *sine, *work;
   double *reach[PENDRES_LANGEVIN_DURATIONS], *decay[PENDRES_LANGEVIN_DURATIONS];
   double *gauss;   /* PENDRES_LANGEVIN_WORDS rows, `stride` apart */
   pendres_langevin_rows rows;
   uint64_t *id, *words;
-  double *phases;  /* cosine and sine of the drive phases at each step's start and two kicks */
-  int (*stop)(void *arg); /* asked within long periods, nonzero ends them; NULL: nobody is asked */
+  double *phases;  /* cosines and sines of the drive phases at each step's start and two kicks */
+  int (*stop)(void *arg); /* is asked within long periods, and ends them by an answer that is not
+                             zero; may be NULL */
   void *stop_arg;
 } pendres_langevin_block;
 
-/* Zeroed block to a block; on failure it can be freed all the same. */
+/* Make a block of one that is all zero. Clear it in any case, also after a failure. */
 pendres_status pendres_langevin_block_make(pendres_langevin_block *b, size_t capacity,
                                            uint64_t seed);
 void pendres_langevin_block_clear(pendres_langevin_block *b);
 
-/* Before lanes are loaded: the drive phases of the kicks. */
+/* Choose the steps; this comes before lanes are loaded. */
 pendres_status pendres_langevin_block_set_steps(pendres_langevin_block *b, int steps);
 
-/* How many lanes; loads follow for 0 .. count - 1, then finish. */
+/* Begin to load: resize to the number of lanes, load each from 0 to count - 1, then finish. */
 void pendres_langevin_block_resize(pendres_langevin_block *b, size_t count);
 void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p,
                                  uint64_t id, double x, double v);
 void pendres_langevin_block_finish(pendres_langevin_block *b);
 
-/* One drive period. PENDRES_INTERRUPTED if stop() said so: then nothing of the lanes is valid. */
+/* Advance by one drive period, the number of which is for the random numbers. Returns
+ * PENDRES_INTERRUPTED if stop() said so; nothing of the lanes is valid then. */
 pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t period);
 
 /*
- * The same for a pair: `fine` has twice the steps of `coarse`, whose kicks take the sums of
- * two of fine's. Both have the same lanes; fine's stop() is asked.
+ * The same for a pair with the same lanes and the same noise: `fine` has twice the steps of
+ * `coarse`, and the noise of a coarse kick is the sum of that of two fine ones. It is fine's stop()
+ * that is asked.
  */
 pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
                                            pendres_langevin_block *coarse, uint32_t period);
 
-/* NULL, or why no block can hold this pendulum with these steps. */
+/* Why no block can hold this pendulum with these steps; NULL if one can. */
 const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps);
 
 #endif

@@ -106,7 +106,7 @@ pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_
   return pendres_langevin_accept_periods(ctx, q->settle, q->record);
 }
 
-/* Every trajectory of a block at the starting point. */
+/* Put trajectories from number `first` on at the starting point, as many as the block holds. */
 static void load(pendres_langevin_block *b, const pendres_sums_run *r, size_t first)
 {
   const pendres_langevin_request *q = r->request;
@@ -118,7 +118,7 @@ static void load(pendres_langevin_block *b, const pendres_sums_run *r, size_t fi
   pendres_langevin_block_finish(b);
 }
 
-/* Let the request say which of a block have left. */
+/* Ask the request's leave() which trajectories of a block have left. */
 static void ask(const pendres_sums_run *r, const pendres_langevin_block *b, size_t first,
                 long period)
 {
@@ -131,7 +131,7 @@ static void ask(const pendres_sums_run *r, const pendres_langevin_block *b, size
   pendres_guard_ask(&r->ctx->guard, 0);
 }
 
-/* Count a strobe of a block; 0 if nobody is there any more. */
+/* Sum up a strobe of a block, and return how many trajectories have not left. */
 static size_t count(pendres_sums_run *r, const pendres_langevin_block *b,
                     pendres_sums *all, size_t first, long strobe)
 {
@@ -221,8 +221,8 @@ pendres_status pendres_sums_estimate(const pendres_sums_run *r, pendres_langevin
   return PENDRES_OK;
 }
 
-/* Phase lag of a mean first harmonic, with the error that those of its parts carry over. The
- * parts' errors are taken as independent along and across the lag: only the latter counts. */
+/* The phase lag of the mean first harmonic. To first order its error is that of the harmonic's
+ * component across its own direction, which is summed up over trajectories. */
 static pendres_langevin_estimate phase_lag(const pendres_sums_run *r,
                                            const double value[STATISTICS])
 {

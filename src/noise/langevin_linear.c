@@ -15,7 +15,7 @@
 
 static const double two_pi = 6.28318530717958647693;
 
-/* The state that is integrated: the orbit, its variation row by row, the covariance. */
+/* What is integrated: the orbit, its variation row by row, and the covariance. */
 enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };
 
 static void slope(const pendres_pendulum *p, double t, const double s[SIZE], double d[SIZE])
@@ -60,7 +60,7 @@ pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langev
     return PENDRES_INVALID_ARGUMENT;
   const double a = m[0], b = m[1], c = m[2], d = m[3];
   const double trace = a + d, det = a * d - b * c;
-  /* Jury: both eigenvalues inside the unit circle. */
+  /* By Jury's criterion both eigenvalues are inside the unit circle. */
   if (!(fabs(det) < 1.0 && fabs(trace) < 1.0 + det)) return PENDRES_NOT_FOUND;
 
   /* (1 - K) (xx, xv, vv) = (q.xx, q.xv, q.vv), by Cramer's rule. */
@@ -77,13 +77,13 @@ pendres_status pendres_langevin_lyapunov(const double m[4], const pendres_langev
   const double whole = k[0][0] * minor[0][0] + k[0][1] * minor[0][1] + k[0][2] * minor[0][2];
   for (int j = 0; j < 3; j++)
     out[j] = (right[0] * minor[0][j] + right[1] * minor[1][j] + right[2] * minor[2][j]) / whole;
-  /* So close to the unit circle, or so large, that nothing is left of it. */
+  /* M is so close to the unit circle, or Q so large, that no digit of the solution is known. */
   if (!(isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]))) return PENDRES_NOT_FOUND;
   *sigma = (pendres_langevin_covariance){out[0], out[1], out[2]};
   return PENDRES_OK;
 }
 
-/* Theory with so many steps a period. */
+/* The theory with so many steps a period. */
 static pendres_status theory(const pendres_pendulum *p, double x, double v, int cycle, int steps,
                              pendres_langevin_linear *out)
 {
@@ -102,7 +102,7 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
   if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_passage_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
-  /* 128 steps a unit of time: an error near 1e-11, and rounding well below. */
+  /* 128 steps a unit of time in the finer computation: an error near 1e-11, rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);
   const int steps = (int)fmin(1e6, ceil(64.0 * unit));
   if (!((double)cycle * steps <= 1e8)) return PENDRES_TOLERANCE_UNREACHABLE;
@@ -110,7 +110,7 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
   if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, 2 * steps, out);
   if (status != PENDRES_OK) return status;
   const pendres_langevin_covariance *a = &coarse.covariance, *b = &out->covariance;
-  /* Order four: what is left is a fifteenth of the difference. */
+  /* By order four the error that is left is a fifteenth of the difference. */
   out->error =
     fmax(fabs(a->xx - b->xx), fmax(fabs(a->xv - b->xv), fabs(a->vv - b->vv))) / 15.0;
   return PENDRES_OK;

@@ -10,8 +10,9 @@
 #include "base/student.h"
 
 /*
- * Points of the gamma distribution of unit scale. GSL's own inverses fail for shapes below a
- * tenth, give wrong values above a thousand (GSL 2.7), and end the program when they notice.
+ * A point of the gamma distribution of unit scale: beyond it, or up to it, lies a share `tail`.
+ * GSL's own inverses fail for shapes below a tenth, give wrong values above a thousand (GSL 2.7),
+ * and end the program when they notice.
  */
 typedef struct gamma_tail {
   double shape, tail;
@@ -26,7 +27,7 @@ static double beyond(double log_x, void *arg)
                   : gsl_cdf_gamma_P(x, g->shape, 1.0) - g->tail;
 }
 
-/* Wilson and Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684: see langevin.h on its error. */
+/* By Wilson and Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684; langevin.h tells its error. */
 static double gamma_point_of_many(const gamma_tail *g)
 {
   const double z = gsl_cdf_ugaussian_Pinv(g->tail) * (g->upper ? -1.0 : 1.0);
@@ -43,7 +44,7 @@ static pendres_status gamma_point(gamma_tail g, double *x)
     *x = gamma_point_of_many(&g);
     return PENDRES_OK;
   }
-  if (!(beyond(tiniest, &g) < 0.0)) return PENDRES_OK; /* zero, to all that doubles can say */
+  if (!(beyond(tiniest, &g) < 0.0)) return PENDRES_OK; /* the point is below all doubles */
   if (!(beyond(largest, &g) > 0.0)) return PENDRES_INVALID_ARGUMENT; /* a tail of 1e-300 */
   gsl_function f = {.function = beyond, .params = &g};
   gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);

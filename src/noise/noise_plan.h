@@ -18,8 +18,8 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor);
 long pendres_noise_settle(const pendres_orbit *orbit);
 
 /*
- * The request's steps a period or, if these are 0, such that the bias of the statistics (a set of bits) is below tolerance times
- * their scale; chosen at the request's temperature or, where that is hot, at a lower one. *bias is
+ * The request's steps a period or, if these are 0, such that the bias of the statistics (a set of
+ * bits) is below tolerance times their scale; chosen at the request's temperature or, where that is hot, at a lower one. *bias is
  * the one at the request's own temperature; its numbers are NaN if nothing stays on the attractor
  * there. Steps that do not reach the tolerance are taken all the same: the bias tells.
  */

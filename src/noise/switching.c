@@ -15,17 +15,17 @@ enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 /* A trajectory that runs has no well. */
 static const long NO_WELL = LONG_MIN;
 
-/* Fewer events, or trajectories, say nothing on their scatter; and ln of fewer is not Gaussian. */
+/* Fewer events, or fewer trajectories, say nothing on their scatter. */
 static const double FEWEST = 10.0;
 
 static const double DEFAULT_CORE = 0.5;
 
-/* An ellipse around the strobe point of an attractor, ready for use. */
+/* The shrunken ellipse around the strobe point of an attractor. */
 typedef struct core_set {
   int attractor;
   int running;
   double x, v;
-  double xx, xv, vv; /* (z - z0)' P (z - z0) <= 1, z = (x, v) */
+  double xx, xv, vv; /* P: inside, (z - z0)' P (z - z0) <= 1 with z = (x, v) */
 } core_set;
 
 typedef struct cores {
@@ -36,7 +36,7 @@ typedef struct cores {
 static int make_core(const pendres_attractor *a, int number, double shrink, core_set *out)
 {
   const double w = a->orbit.pendulum.drive_frequency, r = shrink * a->trap_radius;
-  /* A chaotic attractor has no ellipse, an orbit about to vanish one of size zero. */
+  /* A chaotic attractor has no ellipse, and an orbit that is about to vanish one of size zero. */
   if (!(r > 0.0)) return 0;
   *out = (core_set){.attractor = number, .running = a->orbit.winding != 0, .x = a->orbit.x,
                     .v = a->orbit.v, .xx = a->trap_metric[0] / (r * r),
@@ -55,7 +55,7 @@ static void make_cores(const pendres_attractors *set, double shrink, cores *out)
                                     &out->core[out->count]);
 }
 
-/* The core that holds a state, and its well; NULL if none does. */
+/* The core that holds a state, and the well that it is in; NULL if no core does. */
 static inline const core_set *locate(const cores *c, double x, double v, long *well)
 {
   for (size_t i = 0; i < c->count; i++) {
@@ -82,7 +82,7 @@ void pendres_switching_locate(const pendres_attractors *set, double core, double
 
 /* ---- Counting ------------------------------------------------------------------------------ */
 
-/* Where a trajectory belongs, and what it has done so far. */
+/* Where a trajectory belongs. */
 typedef struct track {
   int state;
   long well;
@@ -122,7 +122,7 @@ static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *str
   return PENDRES_LANGEVIN_GO_ON;
 }
 
-/* Sum up: whole numbers, exact in doubles. */
+/* Sum up over trajectories. The numbers are whole, so that doubles are exact. */
 static void sum_up(const counting *c, size_t trajectories, pendres_switching_tally *tally)
 {
   for (size_t i = 0; i < trajectories; i++)
@@ -140,7 +140,7 @@ static void sum_up(const counting *c, size_t trajectories, pendres_switching_tal
     }
 }
 
-/* NULL, or what is wrong with a request. */
+/* What is wrong with a request; NULL if nothing is. */
 static const char *refuse(const pendres_switching_request *q)
 {
   const pendres_attractor *a = pendres_attractors_get(q->set, q->from);
@@ -251,7 +251,8 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
 
 /* ---- Rates --------------------------------------------------------------------------------- */
 
-/* Variance of events - rate x exposure over trajectories, by its value for independent events. */
+/* The variance of events - rate x exposure over trajectories, divided by what independent events
+ * would have. */
 static double dispersion(const pendres_switching_tally *y, size_t s, size_t t)
 {
   const double events = y->events[s][t], n = y->trajectories;
@@ -273,7 +274,7 @@ pendres_status pendres_switching_rate_of(const pendres_switching_tally *tally, s
                                    .exposure = tally->exposure[s] * tally->period};
   if (!(rate->exposure > 0.0)) return PENDRES_OK;
   rate->dispersion = dispersion(tally, s, t);
-  /* Bursts of d events are one piece of information. */
+  /* A burst of d events is one piece of information. */
   const double d = rate->dispersion > 1.0 ? rate->dispersion : 1.0;
   pendres_langevin_interval i;
   const pendres_status status =

@@ -7,13 +7,13 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit.h>
 
-/* The logarithm of a rate from fewer events is not Gaussian. */
+/* The logarithm of a rate from fewer events is far from Gaussian. */
 static const double FEWEST = 10.0;
 
 /* Unknowns of the fit: ln rate at T0, energy / T0, the prefactor's power, two corrections. */
 enum { RATE, ENERGY, POWER, FIRST, SECOND, UNKNOWNS, PRIORS = UNKNOWNS - POWER };
 
-/* How large the last three may be, at one standard deviation: see switching.h. */
+/* The standard deviations that the last three are assumed to have beforehand: see switching.h. */
 static const double prior[PRIORS] = {0.5, 1.0, 1.0};
 
 /* The temperatures that count. */
@@ -24,7 +24,7 @@ typedef struct sample {
   double line_energy;                      /* of the straight line */
 } sample;
 
-/* Take over what counts; memory has room for 3 n. */
+/* Take over the temperatures that count; memory has room for 3 n numbers. */
 static pendres_status select_points(size_t n, const double *temperature,
                                     const pendres_switching_rate *rates, double fewest,
                                     double *memory, sample *s)
@@ -49,7 +49,7 @@ static pendres_status select_points(size_t n, const double *temperature,
   return PENDRES_OK;
 }
 
-/* The slope of the straight line: the scale that corrections go with. */
+/* The slope of the straight line, which is the scale of the corrections in T/E. */
 static pendres_status fit_line(sample *s, double *inverse)
 {
   double c0, c1, v00, v01, v11, chi2;
@@ -61,7 +61,7 @@ static pendres_status fit_line(sample *s, double *inverse)
   return PENDRES_OK;
 }
 
-/* Rows of the fit: a temperature each, then what is known of the prefactor beforehand. */
+/* The rows of the fit: one for each temperature, then what is assumed of the prefactor. */
 static void fill_rows(const sample *s, gsl_matrix *rows, gsl_vector *wanted, gsl_vector *weight)
 {
   const double t0 = s->middle, e = s->line_energy;
