@@ -131,6 +131,8 @@ endif
 
 SETS := base $(if $(X86_64),avx2 avx512)
 LIBS = $(SUNDIALS_LIBS) $(MPI_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
+# The program alone keeps journals, with checksums of zlib, which HDF5 asks for anyway.
+DRIVER_LIBS = $(LIBS) -lz
 ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(MPI_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
 LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
@@ -175,7 +177,7 @@ help:
 
 # Objects are made anew when a compiler or a flag has changed.
 ifneq ($(BUILDING),)
-FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(LIBS) $(FLAGS_avx2) $(FLAGS_avx512))
+FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(DRIVER_LIBS) $(FLAGS_avx2) $(FLAGS_avx512))
 ifneq ($(FLAGS_TEXT),$(strip $(file <$(BUILD)/flags)))
 $(shell mkdir -p $(BUILD))
 $(file >$(BUILD)/flags,$(FLAGS_TEXT))
@@ -224,7 +226,7 @@ $(BUILD)/$(SONAME) $(BUILD)/libpendres.so: $(SHARED)
 ifneq ($(PROGRAM),)
 $(PROGRAM): $(OBJ)/drivers/main.o $(DRIVER) $(STATIC)
 	@echo "  LD  $@"
-	@$(LINK) $(THREADS) -o $@ $^ $(LIBS)
+	@$(LINK) $(THREADS) -o $@ $^ $(DRIVER_LIBS)
 endif
 
 # ---- Tests and benchmarks --------------------------------------------------------------------
@@ -233,15 +235,15 @@ endif
 
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(DRIVER) $(STATIC)
 	@mkdir -p $(@D); echo "  LD  $@"
-	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS) -lcmocka
+	@$(LINK) $(OPENMP) -o $@ $^ $(DRIVER_LIBS) -lcmocka
 
 $(BUILD)/bench/%: $(OBJ)/bench/%.o $(DRIVER) $(STATIC)
 	@mkdir -p $(@D); echo "  LD  $@"
-	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+	@$(LINK) $(OPENMP) -o $@ $^ $(DRIVER_LIBS)
 
 $(ACCURACY_PROGRAM): $(ACCURACY_OBJECTS) $(DRIVER) $(STATIC)
 	@mkdir -p $(@D); echo "  LD  $@"
-	@$(LINK) $(OPENMP) -o $@ $^ $(LIBS)
+	@$(LINK) $(OPENMP) -o $@ $^ $(DRIVER_LIBS)
 
 accuracy: $(ACCURACY_PROGRAM) $(PROGRAM)
 	@$(RUN_ENVIRONMENT) $< $(ACCURACY)
@@ -355,7 +357,7 @@ endif
 # ---- What is needed --------------------------------------------------------------------------
 
 PACKAGES := gcc make pkg-config libc6-dev libsundials-dev libhdf5-dev libgsl-dev libcmocka-dev \
-            librandom123-dev
+            librandom123-dev zlib1g-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
 PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
 

@@ -16,6 +16,7 @@
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
+#include "resume.h"
 #include "terminal/safe_text.h"
 #include "scenes/scene.h"
 #include "terminal/signals.h"
@@ -35,6 +36,7 @@ typedef struct job {
   const scene_kind *scene;
   pendres_options precision;
   farm *farm;
+  journal *journal; /* NULL: none */
   scene_run run;
   char *table;
   size_t table_size;
@@ -205,6 +207,13 @@ static int open_output(job *j)
   return FAILED;
 }
 
+static int open_journal(job *j)
+{
+  const int code = resume_open(&j->deck, &j->options, &j->progress, &j->journal);
+  farm_set_journal(j->farm, j->journal);
+  return code;
+}
+
 /* Where orbits are wanted, a method that is not of fixed steps is told not to be theirs. */
 static void tell_method(job *j)
 {
@@ -226,13 +235,23 @@ static int compute(job *j)
   if (status == PENDRES_OK) return DONE;
   if (status == PENDRES_INTERRUPTED) {
     const char *signal = signals_name();
-    progress_error(&j->progress, "stopped by %s; nothing was written",
-                   signal != NULL ? signal : "request");
+    char advice[JOURNAL_WORDS];
+    (void)resume_advice(j->journal, advice, sizeof advice);
+    progress_error(&j->progress, "stopped by %s; %s", signal != NULL ? signal : "request",
+                   advice[0] != '\0' ? advice : "nothing was written");
     return STOPPED;
   }
   progress_error(&j->progress, "%s",
                  j->run.message[0] != '\0' ? j->run.message : pendres_status_message(status));
   return FAILED;
+}
+
+/* After a failure. */
+static void tell_kept(job *j)
+{
+  char advice[JOURNAL_WORDS];
+  (void)resume_advice(j->journal, advice, sizeof advice);
+  if (advice[0] != '\0') progress_note(&j->progress, "%s", advice);
 }
 
 static int finish_output(job *j)
@@ -246,9 +265,13 @@ static int finish_output(job *j)
     return FAILED;
   if (status == PENDRES_OK) status = pendres_store_close(store);
   files_keep_end(&kept, status == PENDRES_OK, &j->progress);
-  if (status == PENDRES_OK) return DONE;
-  progress_error(&j->progress, "%s", pendres_store_message(store));
-  return FAILED;
+  if (status != PENDRES_OK) {
+    progress_error(&j->progress, "%s", pendres_store_message(store));
+    return FAILED;
+  }
+  journal_remove(j->journal);
+  j->journal = NULL;
+  return DONE;
 }
 
 static int report(job *j)
@@ -305,6 +328,8 @@ static void let_go(job *j)
   j->table_size = 0;
   farm_free(j->farm);
   j->farm = NULL;
+  journal_close(j->journal);
+  j->journal = NULL;
   deck_free(&j->deck);
 }
 
@@ -328,9 +353,11 @@ static int run_deck(job *j)
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
   if (code == DONE) code = open_log(j);                              /* 6 the log */
   if (code == DONE) code = open_output(j);                           /* 7 the file */
-  if (code == DONE) code = compute(j);                               /* 8 all the work */
-  if (code == DONE) code = finish_output(j);                         /* 9 whole, in its place */
-  if (code == DONE) code = report(j);                                /* 10 the table */
+  if (code == DONE) code = open_journal(j);                          /* 8 what is done already */
+  if (code == DONE) code = compute(j);                               /* 9 all the work */
+  if (code == DONE) code = finish_output(j);                         /* 10 whole, in its place */
+  if (code == FAILED) tell_kept(j);
+  if (code == DONE) code = report(j);                                /* 11 the table */
   return code;
 }
 

@@ -31,6 +31,9 @@ static const char help[] =
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
   "  -f, --force           do not keep a file that is replaced (see below)\n"
+  "      --resume          go on where a run of the same deck was stopped, if there was one\n"
+  "      --journal=DIR     keep finished tasks in DIR/FILE.journal, not beside FILE\n"
+  "      --no-journal      keep nothing that a stopped run could go on from\n"
   "  -t, --threads=N       use N threads (default: OMP_NUM_THREADS, or all cores)\n"
   "  -q, --quiet           no progress and no notes; errors are still reported\n"
   "      --log=FILE        append progress, notes and errors to FILE, with the time\n"
@@ -43,6 +46,10 @@ static const char help[] =
   "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are\n"
   "not. A FILE that is there already and holds anything but results of the same deck is kept, as\n"
   "FILE.~1~, FILE.~2~ and so on.\n"
+  "Finished tasks are kept in FILE.journal, which is removed when FILE is whole. After a signal, a\n"
+  "crash or a loss of power the same command with --resume goes on from there and ends in the\n"
+  "same results; --resume may be given always. Without it an older journal is set aside, as\n"
+  "FILE.journal~.\n"
   "\n"
   "Examples: resonance input/f02.nml\n"
   "          resonance input/f02.nml pendulum.drive_amplitude=0.15 sweep.damping=0.2,0.3\n";
@@ -108,6 +115,15 @@ static int apply(int option, const char *value, const char *name, options *out)
     return 0;
   case 'l':
     out->log = value;
+    return 0;
+  case 'r':
+    out->resume = 1;
+    return 0;
+  case 'j':
+    out->journal = value;
+    return 0;
+  case 'J':
+    out->no_journal = 1;
     return 0;
   case 'q':
     out->quiet = 1;
@@ -178,7 +194,9 @@ int options_parse(int argc, char **argv, options *out)
     { "help", no_argument, NULL, 'h' },          { "version", no_argument, NULL, 'V' },
     { "list", no_argument, NULL, 'L' },          { "explain", required_argument, NULL, 'E' },
     { "init", required_argument, NULL, 'I' },    { "reference", no_argument, NULL, 'R' },
-    { "force", no_argument, NULL, 'f' },         { NULL, 0, NULL, 0 },
+    { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
+    { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
+    { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
   int option = 0;

@@ -29,6 +29,9 @@ typedef struct options {
   char **setting;     /* keys set behind the decks, for all of them */
   size_t setting_count;
   const char *output; /* instead of the deck's; NULL: not given */
+  int resume;         /* nonzero: go on from the journal */
+  int no_journal;
+  const char *journal; /* its folder; NULL: the output's */
   int force;          /* nonzero: an output that is there is not kept */
   const char *log;    /* NULL: none */
   const char *word;   /* of --explain and --init */

@@ -11,6 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "farm/journal.h"
+
 struct farm {
   farm_options options;
   int threads;
@@ -18,6 +20,8 @@ struct farm {
   pthread_mutex_t lock;      /* of `spent` */
   pendres_cost spent;        /* but for what the contexts have in their own books */
   pendres_context **context; /* one a thread, made at its first task */
+  journal *journal;          /* NULL: none */
+  size_t stages;             /* that were run */
   char message[512];
 };
 
@@ -27,17 +31,22 @@ typedef struct kept {
   size_t size;
 } kept;
 
+/* Whether a task's record is there: in memory, or in the journal alone. */
+enum { NOT_DONE, DONE, JOURNALED };
+
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
   farm *farm;
   const farm_stage *stage;
+  size_t number;        /* of the stage */
+  journal *journal;     /* of the stage's records; NULL: none */
   int hired;            /* threads that work; those with higher numbers go home */
   pthread_mutex_t lock;
   size_t next;          /* not yet taken */
   size_t finished;
   size_t collected;     /* tasks 0 .. collected-1 */
   int collecting;       /* a thread is at it */
-  char *done;
+  char *done;           /* NOT_DONE, ... */
   kept *record;         /* of tasks that are done and not yet collected */
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
@@ -111,7 +120,7 @@ static pendres_status context_of(farm *f, int thread, pendres_context **out)
   return status;
 }
 
-/* ---- costs and records --------------------------------------------------------------------- */
+/* ---- costs --------------------------------------------------------------------------------- */
 
 static void add_cost(pendres_cost *sum, const pendres_cost *one)
 {
@@ -138,16 +147,6 @@ static void settle_books(farm *f, pendres_context *ctx)
   spend(f, &cost);
 }
 
-void *farm_record_resize(farm_record *record, size_t size)
-{
-  char *data = realloc(record->data, size + 1); /* one more, so that none is no failure */
-  if (data == NULL) return NULL;
-  if (size > record->size) memset(data + record->size, 0, size - record->size);
-  record->data = data;
-  record->size = size;
-  return data;
-}
-
 /* ---- a stage ------------------------------------------------------------------------------- */
 
 static void fail(crew *c, size_t task, pendres_status status, const char *message)
@@ -162,6 +161,7 @@ static void fail(crew *c, size_t task, pendres_status status, const char *messag
 static int take(crew *c, size_t *task)
 {
   pthread_mutex_lock(&c->lock);
+  while (c->next < c->stage->tasks && c->done[c->next] != NOT_DONE) c->next++;
   const int taken = c->next < atomic_load(&c->limit) && !farm_stop(c->farm);
   if (taken) *task = c->next++;
   pthread_mutex_unlock(&c->lock);
@@ -180,24 +180,34 @@ static pendres_status collect_next(crew *c)
   kept *k = &c->record[c->collected];
   farm_record record = { .data = k->data, .size = k->size };
   pendres_status status = PENDRES_OK;
+  if (c->done[c->collected] == JOURNALED) {
+    status = journal_read(c->journal, c->number, c->collected, &record);
+    if (status != PENDRES_OK) return status;
+    spend(c->farm, &record.cost);
+  }
   if (c->stage->collect != NULL) status = c->stage->collect(c->stage->arg, c->collected, &record);
-  free(k->data);
+  free(record.data);
   *k = (kept){ 0 };
   return status;
 }
 
-/* Note a task's end, and collect what has become ready while nobody else does. */
-static void finish(crew *c, size_t task, pendres_status status, farm_record *record)
+/* Keep a finished task's record on disk; where that fails the run goes on without. */
+static void keep(crew *c, size_t task, const farm_record *record)
+{
+  char words[JOURNAL_WORDS];
+  if (c->journal == NULL) return;
+  const pendres_status status = journal_append(c->journal, c->number, task, record, words);
+  if (status == PENDRES_OK || words[0] == '\0') return;
+  pthread_mutex_lock(&c->lock);
+  progress_error(c->farm->options.progress, "%s; what is computed from now on is not kept if the "
+                   "run is stopped", words);
+  pthread_mutex_unlock(&c->lock);
+}
+
+/* Collect what has become ready while nobody else does. */
+static void collect_ready(crew *c)
 {
   pthread_mutex_lock(&c->lock);
-  if (status != PENDRES_OK) {
-    fail(c, task, status, record->message);
-  } else {
-    c->record[task] = (kept){ record->data, record->size };
-    record->data = NULL;
-    c->done[task] = 1;
-    progress_step(c->farm->options.progress, ++c->finished);
-  }
   const int mine = !c->collecting && may_collect(c);
   if (mine) c->collecting = 1;
   while (mine && c->collecting) {
@@ -209,6 +219,23 @@ static void finish(crew *c, size_t task, pendres_status status, farm_record *rec
     c->collecting = may_collect(c);
   }
   pthread_mutex_unlock(&c->lock);
+}
+
+/* Note a task's end. */
+static void finish(crew *c, size_t task, pendres_status status, farm_record *record)
+{
+  if (status == PENDRES_OK) keep(c, task, record);
+  pthread_mutex_lock(&c->lock);
+  if (status != PENDRES_OK) {
+    fail(c, task, status, record->message);
+  } else {
+    c->record[task] = (kept){ record->data, record->size };
+    record->data = NULL;
+    c->done[task] = DONE;
+    progress_step(c->farm->options.progress, ++c->finished);
+  }
+  pthread_mutex_unlock(&c->lock);
+  collect_ready(c);
 }
 
 /* Run a task; its record then holds what it has cost, and why it failed. */
@@ -320,12 +347,19 @@ int farm_errand(int (*run)(void *arg), void *arg)
 /* Room for the records of a stage; free it in any case. */
 static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage)
 {
-  *c = (crew){ .farm = f, .stage = stage };
+  *c = (crew){ .farm = f, .stage = stage, .number = f->stages,
+               .journal = stage->timed ? NULL : f->journal };
   atomic_init(&c->limit, stage->tasks);
   c->done = calloc(stage->tasks, 1);
   c->record = calloc(stage->tasks, sizeof *c->record);
-  if (c->done != NULL && c->record != NULL && pthread_mutex_init(&c->lock, NULL) == 0)
+  if (c->done != NULL && c->record != NULL && pthread_mutex_init(&c->lock, NULL) == 0) {
+    for (size_t i = 0; i < stage->tasks; i++) {
+      if (!journal_has(c->journal, c->number, i)) continue;
+      c->done[i] = JOURNALED;
+      c->finished++;
+    }
     return PENDRES_OK;
+  }
   free(c->done);
   free(c->record);
   return PENDRES_OUT_OF_MEMORY;
@@ -359,7 +393,8 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;
   }
-  progress_start(f->options.progress, stage->what, stage->tasks);
+  progress_start(f->options.progress, stage->what, stage->tasks, c.finished);
+  collect_ready(&c);
   work_together(&c, threads, hands);
   progress_end(f->options.progress);
   if (c.status == PENDRES_OK && c.collected < stage->tasks) {
@@ -369,7 +404,13 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
   }
   crew_free(&c);
   free(hands);
+  f->stages++;
   return c.status;
+}
+
+void farm_set_journal(farm *f, journal *j)
+{
+  f->journal = j;
 }
 
 const char *farm_message(const farm *f)

@@ -14,6 +14,7 @@
 
 #include <pendres/pendres.h>
 
+#include "farm/record.h"
 #include "terminal/progress.h"
 
 enum {
@@ -35,17 +36,6 @@ typedef struct farm_options {
 pendres_status farm_create(const farm_options *options, farm **out);
 /* NULL is allowed. */
 void farm_free(farm *f);
-
-/* What a task hands over. */
-typedef struct farm_record {
-  void *data;        /* zero at first; the farm's */
-  size_t size;       /* bytes: as the stage says, unless the task has asked for another size */
-  pendres_cost cost; /* of the task, as its context tells: the farm's to fill in */
-  char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
-} farm_record;
-
-/* A size of its own for a record; new bytes are zero. Returns data, NULL: out of memory. */
-void *farm_record_resize(farm_record *record, size_t size);
 
 /* Compute task number `task` with this thread's context, and fill its record: nothing else is to be
    written to, since several threads share arg. */
@@ -73,6 +63,15 @@ typedef struct farm_stage {
  * tasks) stops the farm and is returned, its message kept; PENDRES_INTERRUPTED after a signal.
  */
 pendres_status farm_run(farm *f, const farm_stage *stage);
+
+/*
+ * Keep the records of finished tasks in a journal, which is not owned, and take those that it holds
+ * already from there instead of computing them. The stages of a run are told apart by their
+ * ordinals: with the same deck and code they follow each other in the same order. NULL: no journal,
+ * as at first. Stages whose tasks look at the clock are never kept.
+ */
+struct journal;
+void farm_set_journal(farm *f, struct journal *j);
 
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there

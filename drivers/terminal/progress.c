@@ -56,8 +56,8 @@ static void draw(progress *p, size_t done, double elapsed)
   memset(bar, '.', BAR);
   memset(bar, '#', (size_t)filled);
   bar[BAR] = '\0';
-  if (done > 0 && elapsed > 1.0) {
-    const double seconds = elapsed * (1.0 - part) / part;
+  if (done > p->before && elapsed > 1.0) {
+    const double seconds = elapsed * (double)(p->total - done) / (double)(done - p->before);
     snprintf(left, sizeof left, ", %.0f s left", seconds);
   }
   clear(p);
@@ -66,12 +66,13 @@ static void draw(progress *p, size_t done, double elapsed)
   fflush(p->stream);
 }
 
-void progress_start(progress *p, const char *what, size_t total)
+void progress_start(progress *p, const char *what, size_t total, size_t done)
 {
   if (p == NULL) return;
   snprintf(p->what, sizeof p->what, "%s", what);
   p->total = total;
-  p->percent = 0;
+  p->before = done;
+  p->percent = (int)(100.0 * (double)done / (double)total);
   p->start = now();
   p->drawn = -1.0;
 }

@@ -20,6 +20,7 @@ typedef struct progress {
   int terminal;      /* nonzero: draw a bar */
   char what[48];     /* are counted */
   size_t total;      /* 0: nothing under way */
+  size_t before;     /* were done at the start */
   int percent;       /* shown last */
   int width;         /* of the bar's line as it stands; 0: none */
   double start, drawn; /* seconds */
@@ -28,8 +29,9 @@ typedef struct progress {
 /* A progress without a log; the stream decides between bar and lines. */
 void progress_init(progress *p, FILE *stream, int quiet);
 
-/* `total` things called `what` are to be done; `done` of them are; no more follow. */
-void progress_start(progress *p, const char *what, size_t total);
+/* `total` things called `what` are to be done, of which `done` are already; `done` of them are; no
+   more follow. */
+void progress_start(progress *p, const char *what, size_t total, size_t done);
 void progress_step(progress *p, size_t done);
 void progress_end(progress *p);
 

@@ -1,0 +1,163 @@
+/* journal_file.c -- the bytes of a journal; see journal_file.h. */
+#define _POSIX_C_SOURCE 200809L /* pread, pwrite */
+#include "farm/journal_file.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <zlib.h>
+
+static const char magic[8] = { 'P', 'E', 'N', 'D', 'R', 'E', 'S', 'J' };
+static const uint64_t mark = 0x5245434f52443031u; /* of a record, version 1 */
+
+typedef struct file_head {
+  char magic[8];
+  uint64_t length;
+  uint32_t text_sum, sum;
+} file_head;
+
+enum { PIECE = 1 << 20 /* bytes summed up at a time */ };
+
+static uint32_t sum_of(const void *data, size_t size)
+{
+  const unsigned char *p = data;
+  uLong sum = crc32(0L, Z_NULL, 0);
+  for (; size > PIECE; size -= PIECE, p += PIECE) sum = crc32(sum, p, PIECE);
+  return (uint32_t)(size > 0 ? crc32(sum, p, (uInt)size) : sum);
+}
+
+static int read_all(int fd, off_t at, void *to, size_t size)
+{
+  for (char *p = to; size > 0;) {
+    const ssize_t n = pread(fd, p, size, at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return 0;
+    p += n;
+    at += n;
+    size -= (size_t)n;
+  }
+  return 1;
+}
+
+static int write_all(int fd, off_t at, const void *from, size_t size)
+{
+  for (const char *p = from; size > 0;) {
+    const ssize_t n = pwrite(fd, p, size, at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errno = ENOSPC;
+    if (n <= 0) return 0;
+    p += n;
+    at += n;
+    size -= (size_t)n;
+  }
+  return 1;
+}
+
+/* ---- the head ------------------------------------------------------------------------------ */
+
+/* The first line in which two texts differ, without its indentation. */
+static void name_difference(const char *theirs, const char *ours, char *words)
+{
+  while (*theirs != '\0' && *ours != '\0') {
+    const size_t a = strcspn(theirs, "\n"), b = strcspn(ours, "\n");
+    if (a != b || memcmp(theirs, ours, a) != 0) break;
+    theirs += a + (theirs[a] != '\0');
+    ours += b + (ours[b] != '\0');
+  }
+  theirs += strspn(theirs, " ");
+  ours += strspn(ours, " ");
+  snprintf(words, JOURNAL_WORDS, "the journal is of another deck or version: it has '%.*s', and "
+           "this run '%.*s'", (int)strcspn(theirs, "\n"), theirs, (int)strcspn(ours, "\n"), ours);
+}
+
+journal_head journal_file_head(int fd, const char *text, off_t *end, char *words)
+{
+  file_head h;
+  journal_head found = JOURNAL_TORN;
+  struct stat s;
+  char begin[sizeof magic] = "";
+  if (fstat(fd, &s) != 0 || !read_all(fd, 0, begin, sizeof begin)) return JOURNAL_TORN;
+  if (memcmp(begin, magic, sizeof magic) != 0) {
+    snprintf(words, JOURNAL_WORDS, "what stands in the place of the journal is none: it is left "
+             "alone");
+    return JOURNAL_OTHER;
+  }
+  if (!read_all(fd, 0, &h, sizeof h) || h.sum != sum_of(&h, offsetof(file_head, sum)) ||
+      h.length > (uint64_t)s.st_size)
+    return JOURNAL_TORN;
+  char *theirs = malloc((size_t)h.length + 1);
+  if (theirs == NULL) return JOURNAL_NO_MEMORY;
+  theirs[h.length] = '\0';
+  if (read_all(fd, sizeof h, theirs, (size_t)h.length) &&
+      h.text_sum == sum_of(theirs, (size_t)h.length)) {
+    found = strcmp(theirs, text) == 0 ? JOURNAL_SAME : JOURNAL_OTHER;
+    if (found == JOURNAL_OTHER) name_difference(theirs, text, words);
+  }
+  *end = (off_t)(sizeof h + h.length);
+  free(theirs);
+  return found;
+}
+
+int journal_file_begin(int fd, const char *text, off_t *end)
+{
+  file_head h = { .length = strlen(text), .text_sum = sum_of(text, strlen(text)) };
+  memcpy(h.magic, magic, sizeof magic);
+  h.sum = sum_of(&h, offsetof(file_head, sum));
+  *end = (off_t)(sizeof h + h.length);
+  return write_all(fd, 0, &h, sizeof h) && write_all(fd, sizeof h, text, (size_t)h.length);
+}
+
+/* ---- records ------------------------------------------------------------------------------- */
+
+int journal_file_entry(int fd, off_t at, journal_entry *e)
+{
+  struct stat s;
+  return fstat(fd, &s) == 0 && read_all(fd, at, e, sizeof *e) && e->mark == mark &&
+         e->sum == sum_of(e, offsetof(journal_entry, sum)) && e->stored <= e->size &&
+         e->stored <= (uint64_t)s.st_size;
+}
+
+int journal_file_data(int fd, off_t at, const journal_entry *e, void *data)
+{
+  const size_t stored = (size_t)e->stored;
+  if (!read_all(fd, at + (off_t)sizeof *e, data, stored)) return 0;
+  memset((char *)data + stored, 0, (size_t)e->size - stored);
+  return e->data_sum == sum_of(data, stored);
+}
+
+/* The data are not kept: only their sum counts. */
+int journal_file_next(int fd, off_t at, journal_entry *e)
+{
+  if (!journal_file_entry(fd, at, e)) return 0;
+  uint64_t left = e->stored;
+  unsigned char *piece = malloc(PIECE);
+  uLong sum = crc32(0L, Z_NULL, 0);
+  int whole = piece != NULL;
+  at += (off_t)sizeof *e;
+  while (whole && left > 0) {
+    const size_t n = left < PIECE ? (size_t)left : PIECE;
+    whole = read_all(fd, at, piece, n);
+    if (whole) sum = crc32(sum, piece, (uInt)n);
+    at += (off_t)n;
+    left -= n;
+  }
+  free(piece);
+  return whole && e->data_sum == (uint32_t)sum;
+}
+
+int journal_file_append(int fd, off_t at, journal_entry *e, const void *data)
+{
+  const char *bytes = data;
+  e->stored = e->size;
+  while (e->stored > 0 && bytes[e->stored - 1] == 0) e->stored--;
+  e->mark = mark;
+  e->data_sum = sum_of(data, (size_t)e->stored);
+  e->sum = sum_of(e, offsetof(journal_entry, sum));
+  return write_all(fd, at, e, sizeof *e) &&
+         write_all(fd, at + (off_t)sizeof *e, data, (size_t)e->stored);
+}

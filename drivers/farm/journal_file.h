@@ -1,0 +1,54 @@
+/*
+ * journal_file.h -- the bytes of a journal.
+ *
+ * Owns: how head and records are written and read back, and their checksums (zlib's crc32).
+ *
+ *   head     "PENDRESJ", length of the text and two checksums, of the text and of all before it;
+ *            the text
+ *   record   a journal_entry, with a checksum of itself and one of the data; the data, without the
+ *            zeros at its end
+ *
+ * Numbers have the byte order of the machine: a journal goes on where it began.
+ */
+#ifndef JOURNAL_FILE_H
+#define JOURNAL_FILE_H
+
+#include <stdint.h>
+#include <sys/types.h>
+
+enum { JOURNAL_WORDS = 512 /* room for what is said of a journal */ };
+
+typedef struct journal_entry {
+  uint64_t mark;         /* filled in by journal_file_append, as are stored and the checksums */
+  uint64_t stage, task;
+  uint64_t size, stored; /* bytes of data, and how many of them were written */
+  double cost[5];
+  uint32_t data_sum, sum;
+} journal_entry;
+
+typedef enum journal_head {
+  JOURNAL_SAME,
+  JOURNAL_OTHER,    /* of another deck or version; or no journal */
+  JOURNAL_TORN,     /* killed while it was made, or empty */
+  JOURNAL_NO_MEMORY
+} journal_head;
+
+/* Compare the head with `text`; *end is where it ends. words: the difference. */
+journal_head journal_file_head(int fd, const char *text, off_t *end, char *words);
+
+/* Write a head into an empty file; 0 on failure, see errno. */
+int journal_file_begin(int fd, const char *text, off_t *end);
+
+/* Read the head of the record at `at`; 0 if there is no such. */
+int journal_file_entry(int fd, off_t at, journal_entry *e);
+
+/* Read its data, zeros and all; 0 if they are damaged. */
+int journal_file_data(int fd, off_t at, const journal_entry *e, void *data);
+
+/* Is there a whole record at `at`? */
+int journal_file_next(int fd, off_t at, journal_entry *e);
+
+/* Write a record; 0 on failure, see errno. */
+int journal_file_append(int fd, off_t at, journal_entry *e, const void *data);
+
+#endif

@@ -1,0 +1,23 @@
+/*
+ * record.h -- what a task hands over: plain bytes that depend on its number, the deck and the code
+ * alone.
+ */
+#ifndef RECORD_H
+#define RECORD_H
+
+#include <stddef.h>
+
+#include <pendres/pendres.h>
+
+/* What a task hands over. */
+typedef struct farm_record {
+  void *data;        /* zero at first; the farm's */
+  size_t size;       /* bytes: as the stage says, unless the task has asked for another size */
+  pendres_cost cost; /* of the task, as its context tells: the farm's to fill in */
+  char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
+} farm_record;
+
+/* A size of its own for a record; new bytes are zero. Returns data, NULL: out of memory. */
+void *farm_record_resize(farm_record *record, size_t size);
+
+#endif

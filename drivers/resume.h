@@ -1,0 +1,22 @@
+/*
+ * resume.h -- a run that goes on where an earlier one was stopped.
+ *
+ * Owns: where the journal of a run stands (beside the output, or in a folder of the user's choice),
+ * what its head holds (the code's version and the resolved deck), and what the user is told of it.
+ */
+#ifndef RESUME_H
+#define RESUME_H
+
+#include "deck/deck.h"
+#include "farm/journal.h"
+#include "options.h"
+#include "terminal/progress.h"
+
+/* The journal of a run of this deck, open; *out is NULL where there is to be none. 0, or an exit
+   code after an error. */
+int resume_open(const deck *d, const options *o, progress *p, journal **out);
+
+/* How to go on, in words, where something was kept: " ...", else "". */
+const char *resume_advice(const journal *j, char *text, size_t size);
+
+#endif

@@ -1,0 +1,272 @@
+/*
+ * test_journal.c -- records on disk: they come back as they were, whatever happens to the file. No
+ * tolerances: bytes.
+ */
+#ifndef _XOPEN_SOURCE
+#define _XOPEN_SOURCE 700 /* mkdtemp, setrlimit */
+#endif
+#include "check.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "farm/journal.h"
+
+enum { RECORDS = 12, ROOM = 1 << 14 };
+
+/* Where files are made thousands of times: in memory, if there is such a place. */
+static char folder[40];
+static const char path[] = "run.journal", head[] = "libpendres 1\n&pendulum\n  damping = 0.1\n/\n";
+
+static int enter(void **state)
+{
+  (void)state;
+  const int fast = access("/dev/shm", W_OK | X_OK) == 0;
+  snprintf(folder, sizeof folder, "%s/journal-XXXXXX", fast ? "/dev/shm" : "/tmp");
+  return mkdtemp(folder) != NULL && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int leave(void **state)
+{
+  (void)state;
+  (void)unlink("run.journal");
+  (void)unlink("run.journal~");
+  (void)unlink("other.journal");
+  return chdir("/") == 0 ? rmdir(folder) : -1;
+}
+
+/* Record number i: its stage, task, and some bytes of which the last are zeros. */
+static size_t stage_of(size_t i)
+{
+  return i % 3;
+}
+
+static farm_record make(size_t i)
+{
+  farm_record r = { .cost = { 1.0 + (double)i, 2.0, 3.0, 4.0, 5.0 } };
+  unsigned char *data = farm_record_resize(&r, 17 * i);
+  assert_non_null(data);
+  for (size_t k = 0; k < 13 * i; k++) data[k] = (unsigned char)(k * k + 7 * i + 1);
+  return r;
+}
+
+static void write_all(const char *name)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  check_ok(journal_open(name, head, 0, &j, words));
+  for (size_t i = 0; i < RECORDS; i++) {
+    farm_record r = make(i);
+    check_ok(journal_append(j, stage_of(i), i, &r, words));
+    assert_true(journal_has(j, stage_of(i), i));
+    free(r.data);
+  }
+  assert_int_equal(journal_count(j), RECORDS);
+  journal_close(j);
+}
+
+/* Those that are there are as they were; their number. */
+static size_t check_records(journal *j)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < RECORDS; i++) {
+    farm_record r = { 0 };
+    if (!journal_has(j, stage_of(i), i)) {
+      assert_int_equal(journal_read(j, stage_of(i), i, &r), PENDRES_NOT_FOUND);
+      continue;
+    }
+    farm_record want = make(i);
+    check_ok(journal_read(j, stage_of(i), i, &r));
+    assert_int_equal(r.size, want.size);
+    if (r.size > 0) assert_memory_equal(r.data, want.data, r.size);
+    assert_memory_equal(&r.cost, &want.cost, sizeof r.cost);
+    free(r.data);
+    free(want.data);
+    n++;
+  }
+  assert_int_equal(journal_count(j), n);
+  return n;
+}
+
+static size_t load(const char *name, unsigned char *bytes)
+{
+  FILE *f = fopen(name, "rb");
+  assert_non_null(f);
+  const size_t n = fread(bytes, 1, ROOM, f);
+  assert_true(n < ROOM);
+  fclose(f);
+  return n;
+}
+
+static void save(const char *name, const unsigned char *bytes, size_t n)
+{
+  FILE *f = fopen(name, "wb");
+  assert_non_null(f);
+  assert_int_equal(fwrite(bytes, 1, n, f), n);
+  assert_int_equal(fclose(f), 0);
+}
+
+static void comes_back(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL, *again = NULL;
+  (void)state;
+  write_all(path);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_string_equal(words, "");
+  assert_int_equal(check_records(j), RECORDS);
+  assert_false(journal_has(j, 0, RECORDS) || journal_has(j, 77, 0) || journal_has(NULL, 0, 0));
+  /* One process at a time. */
+  assert_int_equal(journal_open(path, head, 1, &again, words), PENDRES_BUSY);
+  assert_null(again);
+  journal_close(j);
+  /* Without resume it begins anew, and the older one is set aside; one without records leaves
+     nothing. */
+  check_ok(journal_open(path, head, 0, &j, words));
+  assert_int_equal(journal_count(j), 0);
+  assert_int_equal(access("run.journal~", F_OK), 0);
+  journal_close(j);
+  assert_int_equal(access(path, F_OK), -1);
+  check_ok(journal_open("run.journal~", head, 1, &j, words));
+  assert_int_equal(check_records(j), RECORDS);
+  journal_remove(j);
+  assert_int_equal(access("run.journal~", F_OK), -1);
+}
+
+static void another_head(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  (void)state;
+  write_all(path);
+  const char other[] = "libpendres 1\n&pendulum\n  damping = 0.2\n/\n";
+  assert_int_equal(journal_open(path, other, 1, &j, words), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(words, "'damping = 0.1'"));
+  assert_non_null(strstr(words, "'damping = 0.2'"));
+  save(path, (const unsigned char *)"my poems", 8);
+  assert_int_equal(journal_open(path, head, 1, &j, words), PENDRES_INVALID_ARGUMENT);
+  unsigned char bytes[ROOM];
+  assert_int_equal(load(path, bytes), 8); /* left alone */
+}
+
+/* Cut at every length: what was whole is there, and a run can go on. */
+static void cut_anywhere(void **state)
+{
+  unsigned char bytes[ROOM];
+  size_t before = 0;
+  (void)state;
+  write_all(path);
+  const size_t size = load(path, bytes);
+  for (size_t length = 0; length <= size; length++) {
+    char words[JOURNAL_WORDS];
+    journal *j = NULL;
+    save(path, bytes, length);
+    check_ok(journal_open(path, head, 1, &j, words));
+    const size_t n = check_records(j);
+    assert_true(n >= before && n <= before + 1);
+    before = n;
+    if (length % 64 != 0) { /* to write to the disk in earnest takes its time */
+      journal_close(j);
+      continue;
+    }
+    for (size_t i = n; i < RECORDS; i++) {
+      farm_record r = make(i);
+      check_ok(journal_append(j, stage_of(i), i, &r, words));
+      free(r.data);
+    }
+    assert_int_equal(check_records(j), RECORDS);
+    journal_close(j);
+    check_ok(journal_open(path, head, 1, &j, words));
+    assert_string_equal(words, "");
+    assert_int_equal(check_records(j), RECORDS);
+    journal_close(j);
+  }
+  assert_int_equal(before, RECORDS);
+}
+
+/* A flipped bit anywhere: nothing comes back that is not as it was. */
+static void flipped_bits(void **state)
+{
+  unsigned char bytes[ROOM];
+  (void)state;
+  write_all(path);
+  const size_t size = load(path, bytes);
+  for (size_t at = 0; at < size; at++) {
+    char words[JOURNAL_WORDS];
+    journal *j = NULL;
+    bytes[at] ^= (unsigned char)(1u << (at % 8));
+    save(path, bytes, size);
+    const pendres_status status = journal_open(path, head, 1, &j, words);
+    bytes[at] ^= (unsigned char)(1u << (at % 8));
+    assert_string_not_equal(words, ""); /* said in any case */
+    if (at < 8) assert_int_equal(status, PENDRES_INVALID_ARGUMENT); /* no journal, it seems */
+    else check_ok(status);
+    if (status == PENDRES_OK) assert_true(check_records(j) < RECORDS);
+    journal_close(j);
+  }
+}
+
+/* Records of several journals, as of shards. */
+static void several(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  farm_record r = make(3);
+  (void)state;
+  write_all("other.journal");
+  (void)unlink(path);
+  check_ok(journal_open(path, head, 1, &j, words));
+  check_ok(journal_append(j, stage_of(3), 3, &r, words));
+  free(r.data);
+  assert_int_equal(journal_add(j, "none.journal", words), PENDRES_NOT_FOUND);
+  check_ok(journal_add(j, "other.journal", words));
+  assert_int_equal(check_records(j), RECORDS);
+  journal_remove(j);
+  assert_int_equal(access("other.journal", F_OK), 0);
+  check_ok(journal_open(path, "another\n", 1, &j, words));
+  assert_int_equal(journal_add(j, "other.journal", words), PENDRES_INVALID_ARGUMENT);
+  journal_close(j);
+}
+
+/* No room: what was whole stays whole, it is said once, and no more is written. */
+static void no_room(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  struct rlimit before;
+  farm_record r = make(RECORDS - 1);
+  (void)state;
+  write_all(path);
+  check_ok(journal_open(path, head, 1, &j, words));
+  struct stat s;
+  assert_int_equal(stat(path, &s), 0);
+  assert_true(signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const struct rlimit tight = { (rlim_t)s.st_size + 100, before.rlim_max };
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const pendres_status first = journal_append(j, 5, 0, &r, words);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+  assert_int_equal(first, PENDRES_IO);
+  assert_string_not_equal(words, "");
+  assert_int_equal(journal_append(j, 5, 0, &r, words), PENDRES_IO);
+  assert_string_equal(words, "");
+  free(r.data);
+  journal_close(j);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_string_equal(words, "");
+  assert_int_equal(check_records(j), RECORDS);
+  journal_close(j);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(comes_back), cmocka_unit_test(another_head), cmocka_unit_test(cut_anywhere),
+    cmocka_unit_test(flipped_bits), cmocka_unit_test(several), cmocka_unit_test(no_room),
+  };
+  return cmocka_run_group_tests(tests, enter, leave);
+}

@@ -1,0 +1,147 @@
+/*
+ * test_resume.c -- runs that are killed at any moment and gone on with end in the same bytes as one
+ * that was left in peace; another deck is refused.
+ */
+#include "driver_run.h"
+#include "same_results.h"
+
+#include <signal.h>
+#include <time.h>
+
+/* Some tasks each, of a tenth of a second in all or so. */
+static const struct {
+  const char *name, *text;
+} decks[] = {
+  { "free", "&scene kind = 'free_oscillation' /\n&sweep amplitude_range = 0.01, 3.1, 3000 /\n" },
+  { "curve", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+             "&sweep damping = 0.3, 0.5, 0.9, 1.5 /\n&ensemble members = 8 /\n" },
+  { "response", "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+                "&sweep damping = 0.24, 0.5, 1e4, drive_period_range = 6, 8, 20 /\n"
+                "&ensemble members = 8 /\n" },
+  { "noisy", "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
+             "&sweep damping = 0.5, drive_period = 7, 8, temperature = 0, 1e-3 /\n"
+             "&ensemble members = 8 /\n&noise trajectories = 16, periods = 10 /\n" },
+  { "orbit", "&scene kind = 'orbit' /\n"
+             "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+             "&orbit start = 'la' /\n" },
+  { "basins", "&scene kind = 'basins' /\n"
+              "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
+              "&sweep x_range = -1.5, 4.7, 3, v_range = -2, 2, 40000 /\n" },
+  { "clouds", "&scene kind = 'basins' /\n"
+              "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
+              "&sweep x_range = -1.5, 4.7, 8, v_range = -2, 2, 8, temperature = 0, 1e-3 /\n"
+              "&basins strobes = 800, trajectories = 400 /\n" },
+  { "diagram", "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
+               "&sweep damping_range = 0.10, 0.16, 4, drive_frequency_range = 0.7, 0.9, 4 /\n"
+               "&ensemble members = 8 /\n" },
+  { "branches", "&scene kind = 'branches' /\n&pendulum drive_amplitude = 0.2 /\n"
+                "&sweep damping = 0.13, 0.15, drive_frequency_range = 0.7, 0.9, 4 /\n"
+                "&ensemble members = 8 /\n" },
+  { "switching", "&scene kind = 'switching' /\n"
+                 "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
+                 "&sweep temperature = 0.02, 0.03 /\n&noise trajectories = 400, periods = 20 /\n" },
+  { "hard", "&scene kind = 'hard_cases' /\n&sweep case = 'separatrix', 'equilibrium' /\n" },
+};
+
+static double now(void)
+{
+  struct timespec t = { 0 };
+  assert_int_equal(clock_gettime(CLOCK_MONOTONIC, &t), 0);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void wait_seconds(double seconds)
+{
+  const struct timespec t = { (time_t)seconds, (long)(1e9 * (seconds - (double)(long)seconds)) };
+  (void)nanosleep(&t, NULL);
+}
+
+/* Numbers from 0 to 1, the same in every run of the test. */
+static double some_share(void)
+{
+  static unsigned long state = 20;
+  state = (state * 1103515245ul + 12345ul) & 0x7ffffffful;
+  return (double)state / (double)0x7ffffffful;
+}
+
+/* Kill runs at some moments of their time, then let one end. How many of them went on from
+   something. */
+static int kill_and_resume(const char *deck, double takes)
+{
+  const char *const go_on[] = { "--resume", "-t2", "-o", "killed.h5", deck, NULL };
+  int went_on = 0, code = 1000 + SIGKILL;
+  for (int k = 0; k < 3; k++) {
+    const pid_t pid = start("stdout.txt", 0, go_on);
+    wait_seconds(1.1 * takes * some_share());
+    (void)kill(pid, SIGKILL);
+    code = finish(pid);
+    assert_true(code == 1000 + SIGKILL || code == DONE || code == 3);
+    went_on += strstr(err, "going on from") != NULL;
+  }
+  code = run_list(go_on);
+  assert_true(code == DONE || code == 3);
+  went_on += strstr(err, "going on from") != NULL;
+  return went_on;
+}
+
+static void killed_at_any_moment(void **state)
+{
+  int went_on = 0;
+  (void)state;
+  for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
+    write_text("deck.nml", decks[i].text);
+    const double begin = now();
+    const int code = RUN("-q", "-t1", "-o", "whole.h5", "deck.nml");
+    if (code != DONE && code != 3) check_code(code, DONE);
+    went_on += kill_and_resume("deck.nml", now() - begin);
+    check_same_results("whole.h5", "killed.h5");
+    assert_int_equal(count_names("journal"), 0);
+  }
+  assert_true(went_on > 5);
+}
+
+/* Stopped by a signal: said so, with the way to go on. */
+static void stopped_by_signal(void **state)
+{
+  (void)state;
+  write_text("deck.nml", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+                         "&sweep damping_range = 0.5, 1.5, 2000 /\n&ensemble members = 8 /\n");
+  const pid_t pid = start("stdout.txt", 0, (const char *const[]){ "deck.nml", "-t2", NULL });
+  for (int k = 0; k < 1000 && !exists("deck.h5.journal"); k++) wait_seconds(0.01);
+  wait_seconds(0.5);
+  assert_int_equal(kill(pid, SIGTERM), 0);
+  const double sent = now();
+  check_code(finish(pid), 75);
+  assert_true(now() - sent < 5.0); /* a second, on a machine that does other things as well */
+  check_says(err, "stopped by SIGTERM; ");
+  check_says(err, "finished tasks are kept in ");
+  check_says(err, "--resume");
+  assert_true(exists("deck.h5.journal") && !exists("deck.h5") && count_names(".part") == 0);
+  /* Of another deck it is refused with the difference, which is not the output's name. */
+  write_text("deck.nml", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+                         "&sweep damping_range = 0.5, 1.5, 2000 /\n&ensemble members = 9 /\n");
+  check_code(RUN("--resume", "deck.nml"), 2);
+  check_says(err, "'members = 8'");
+  check_says(err, "'members = 9'");
+  assert_true(exists("deck.h5.journal"));
+}
+
+/* In a folder of the user's choice, or not at all. */
+static void place_of_journal(void **state)
+{
+  (void)state;
+  check_code(RUN("--journal=nowhere", "orbit.nml"), 1);
+  check_says(err, "nowhere/orbit.h5.journal");
+  assert_false(exists("orbit.h5"));
+  check_code(RUN("--no-journal", "orbit.nml"), DONE);
+  check_code(RUN("--resume", "--journal=.", "orbit.nml"), DONE);
+  assert_int_equal(count_names("journal"), 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
+                                      TEST(place_of_journal) };
+  if (!find_program()) return 77;
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
