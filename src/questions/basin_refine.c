@@ -254,11 +254,34 @@ static int ask_unlike(pendres_basin_plan *p, size_t k)
   return 0;
 }
 
+/* Columns of a row at which it is unlike the rows above and below, or the next column. */
+static void find_edges(const pendres_basin_plan *p, size_t row, uint8_t *edge)
+{
+  const uint16_t *here = p->fate_of + row * p->nv;
+  const uint16_t *above = row > 0 ? here - p->nv : here;
+  const uint16_t *below = row + 1 < p->rows ? here + p->nv : here;
+  const size_t n = p->nv; /* bytes that are written might be anything, also p's */
+  for (size_t j = 0; j < n; j++) edge[j] = (here[j] != above[j]) | (here[j] != below[j]);
+  for (size_t j = 0; j + 1 < n; j++) edge[j] |= here[j] != here[j + 1];
+}
+
+/* Most states are like all of their neighbours: there is nothing to ask for around these. */
 static int scan(pendres_basin_plan *p)
 {
-  for (size_t k = 0; k < p->rows * p->nv; k++)
-    if (p->knowledge[k] != ASKED && ask_unlike(p, k) != 0) return -1;
-  return 0;
+  int bad = 0;
+  uint8_t *edge = malloc(p->nv + 1);
+  if (edge == NULL) return -1;
+  edge[p->nv] = 0;
+  for (size_t i = 0; i < p->rows && !bad; i++) {
+    find_edges(p, i, edge);
+    for (size_t j = 0; j < p->nv && !bad; j++) {
+      const size_t k = i * p->nv + j;
+      if ((edge[j] | edge[j + 1] | edge[j > 0 ? j - 1 : 0]) != 0 && p->knowledge[k] != ASKED)
+        bad = ask_unlike(p, k) != 0;
+    }
+  }
+  free(edge);
+  return bad ? -1 : 0;
 }
 
 /* ---- what was filled in wrongly ---- */

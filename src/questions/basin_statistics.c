@@ -186,11 +186,12 @@ static void count_unlike(pendres_basin_sums *s, const int16_t *a)
 {
   for (int k = 0; k < s->scales; k++) {
     const size_t far = (size_t)1 << k;
-    size_t unlike = 0;
-    for (size_t j = far; j + far < s->nv; j++)
-      unlike += a[j - far] != a[j] || a[j + far] != a[j];
-    s->group[k] += (double)unlike;
-    s->counts[k] += (double)unlike;
+    const int16_t *before = a, *here = a + far, *after = here + far;
+    const size_t n = s->nv > 2 * far ? s->nv - 2 * far : 0;
+    unsigned unlike = 0;
+    for (size_t j = 0; j < n; j++) unlike += (before[j] != here[j]) | (after[j] != here[j]);
+    s->group[k] += unlike;
+    s->counts[k] += unlike;
   }
 }
 
