@@ -444,6 +444,7 @@ static void ensembles(void **state)
   pendres_resonance peak;
   pendres_phase_point point;
   pendres_branches *all = NULL;
+  pendres_phase_options line = {.ensemble = some};
   bad[0].members = 0;
   bad[1].x_first = NAN;
   bad[2].x_last = INFINITY;
@@ -464,23 +465,33 @@ static void ensembles(void **state)
   REFUSED(pendres_resonance_find(f->ctx, &good, NAN, 0.7, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, 0.7, INFINITY, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, 0.7, NAN, &peak));
-  REFUSED(pendres_phase_line(f->ctx, 1, NULL, &some, 0.0, &point, &all));
-  REFUSED(pendres_phase_line(f->ctx, 1, &good, NULL, 0.0, &point, &all));
-  REFUSED(pendres_phase_line(f->ctx, 1, &good, &some, 0.0, NULL, &all));
-  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, NULL, 0.0, &point, f->branches));
-  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &some, 0.0, NULL, f->branches));
-  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &some, 0.0, &point, NULL));
-  for (size_t i = 0; i < COUNT(bad_numbers); i++)
-    if (!(bad_numbers[i] > 0.0)) REFUSED(
-      pendres_phase_line(f->ctx, 1, &good, &some, bad_numbers[i], &point, &all));
+  REFUSED(pendres_phase_line(f->ctx, 1, NULL, &line, &point, &all));
+  REFUSED(pendres_phase_line(f->ctx, 1, &good, NULL, &point, &all));
+  REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, NULL, &all));
+  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, NULL, &point, f->branches));
+  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &line, NULL, f->branches));
+  REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &line, &point, NULL));
+  for (size_t i = 0; i < COUNT(bad_numbers); i++) {
+    line.spacing = bad_numbers[i];
+    if (!(bad_numbers[i] > 0.0)) REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
+  }
+  line.spacing = 0.0;
+  for (int k = -1; k <= PENDRES_PARAMETER_COUNT; k++) {
+    line.parameter = (pendres_parameter)k;
+    if (k != PENDRES_DRIVE_FREQUENCY && k != PENDRES_DRIVE_AMPLITUDE)
+      REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
+  }
+  line.parameter = PENDRES_DRIVE_FREQUENCY;
   for (size_t i = 0; i < COUNT(bad); i++) {
     REFUSED(pendres_response_compute(f->ctx, 1, &good, &bad[i], &r));
     REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, &bad[i], &peak));
-    REFUSED(pendres_phase_line(f->ctx, 1, &good, &bad[i], 0.0, &point, &all));
+    line.ensemble = bad[i];
+    REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
   }
+  line.ensemble = some;
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_response_compute(f->ctx, 1, &bad_pendulums[i], &some, &r));
-    REFUSED(pendres_phase_line(f->ctx, 1, &bad_pendulums[i], &some, 0.0, &point, &all));
+    REFUSED(pendres_phase_line(f->ctx, 1, &bad_pendulums[i], &line, &point, &all));
     if (i < 5 || (i >= 9 && i < 13)) /* the drive frequency is not read */
       REFUSED(pendres_resonance_find(f->ctx, &bad_pendulums[i], 0.7, 0.9, &peak));
   }

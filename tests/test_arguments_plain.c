@@ -91,7 +91,7 @@ static void nothing(void **state)
   assert_null(pendres_curve_get(NULL, 0));
   assert_int_equal(pendres_curve_cusps(NULL), 0);
   assert_null(pendres_curve_cusp(NULL, 0));
-  (void)pendres_curve_end_of(NULL, -1);
+  assert_int_equal(pendres_curve_parameter(NULL, -1), PENDRES_PARAMETER_COUNT);
   pendres_curves_free(NULL);
   assert_int_equal(pendres_curves_count(NULL), 0);
   assert_null(pendres_curves_get(NULL, 0));

@@ -23,7 +23,7 @@ static void the_smallest_of_several_is_small(void **state)
 {
   (void)state;
   pendres_label_states s = {.count = 0};
-  const pendres_label_border border = {.distinct = 1, .frequency = 0.8, .amplitude = 1.2};
+  const pendres_label_border border = {.distinct = 1, .amplitude = 1.2};
   pendres_orbit a = orbit(0.9, 1, 0.7), b = orbit(2.4, 0, 0.7), c = orbit(2.4 + 1e-9, 0, 0.7);
   pendres_orbit other = orbit(0.1, 0, 0.7), unstable = orbit(0.2, 1, 0.7);
   other.period = 3;
@@ -51,13 +51,14 @@ static void one_alone_continues_a_branch(void **state)
 {
   (void)state;
   const pendres_label_states s = {.count = 1, .amplitude = {0.9}};
-  const pendres_label_border border = {.distinct = 1, .frequency = 0.8, .amplitude = 1.2};
+  const pendres_label_border border = {.distinct = 1, .amplitude = 1.2};
+  const pendres_label_border behind = {.distinct = 1, .beyond = 1, .amplitude = 1.2};
   const pendres_label_border none = {.distinct = 0};
   pendres_orbit small = orbit(0.9, 1, 0.7), large = orbit(1.5, 1, 0.7);
   pendres_orbit beyond = orbit(0.9, 1, 0.81);
   assert_int_equal(pendres_label_of(&s, &border, &small), PENDRES_LABEL_SA);
   assert_int_equal(pendres_label_of(&s, &border, &large), PENDRES_LABEL_LA);
-  assert_int_equal(pendres_label_of(&s, &border, &beyond), PENDRES_LABEL_LA);
+  assert_int_equal(pendres_label_of(&s, &behind, &beyond), PENDRES_LABEL_LA);
   assert_int_equal(pendres_label_of(&s, &none, &small), PENDRES_LABEL_PERIODIC);
   /* Under the paper's drives its lag tells; at rest it has none. */
   small.pendulum.drive_amplitude = beyond.pendulum.drive_amplitude = 0.2;
@@ -89,7 +90,7 @@ static void all_questions_name_alike(void **state)
                                 .drive_frequency = frequency[i]};
     check_ok(pendres_response_compute(ctx, LINE, p, &e, r));
     check_ok(pendres_response_name(ctx, LINE, r));
-    check_ok(pendres_phase_line(ctx, LINE, p, &e, 0.0, points, NULL));
+    check_ok(pendres_phase_line(ctx, LINE, p, &(pendres_phase_options){.ensemble = e}, points, NULL));
     for (int i = 0; i < LINE; i++) {
       /* Both count members: equal to rounding, or both without a name. */
       assert_int_equal(isnan(r[i].sa_fraction), k == 1);
@@ -125,7 +126,7 @@ static void a_pair_is_a_state(void **state)
   for (int i = 0; i < 5; i++)
     p[i] = (pendres_pendulum){.damping = 1.0 / 9.0, .drive_amplitude = 0.35,
                               .drive_frequency = 0.605 + 0.005 * i};
-  check_ok(pendres_phase_line(ctx, 5, p, &e, 0.0, points, NULL));
+  check_ok(pendres_phase_line(ctx, 5, p, &(pendres_phase_options){.ensemble = e}, points, NULL));
   for (int i = 0; i < 5; i++) {
     assert_int_equal(points[i].exact, PENDRES_REGIME_COEXISTENCE);
     if (i < 3) check_near(points[i].la_amplitude, 2.74, 0.01);

@@ -23,6 +23,14 @@ static pendres_context *context_of(double tolerance)
   return ctx;
 }
 
+/* Lines along the drive frequency, with these members. */
+static const pendres_phase_options *with(const pendres_ensemble *e)
+{
+  static pendres_phase_options o;
+  o = (pendres_phase_options){.ensemble = *e};
+  return &o;
+}
+
 static pendres_phase_point point_at(pendres_context *ctx, double damping, double frequency,
                                     size_t members)
 {
@@ -31,7 +39,7 @@ static pendres_phase_point point_at(pendres_context *ctx, double damping, double
   pendres_ensemble e = pendres_ensemble_default();
   pendres_phase_point point;
   e.members = members;
-  check_ok(pendres_phase_line(ctx, 1, &p, &e, 0.0, &point, NULL));
+  check_ok(pendres_phase_line(ctx, 1, &p, with(&e), &point, NULL));
   return point;
 }
 
@@ -60,7 +68,7 @@ static void regimes_of_the_paper(void **state)
   const pendres_ensemble e = pendres_ensemble_default();
   pendres_phase_point points[5];
   pendres_branches *branches = NULL;
-  check_ok(pendres_phase_line(ctx, 5, line, &e, 0.0, points, &branches));
+  check_ok(pendres_phase_line(ctx, 5, line, with(&e), points, &branches));
   assert_int_equal(pendres_branches_count(branches), 1);
   for (int i = 0; i < 5; i++) {
     const pendres_phase_point *p = &points[i];
@@ -142,7 +150,7 @@ static void basins_can_miss_the_members(void **state)
   for (int i = 0; i < 12; i++)
     line[i] = (pendres_pendulum){
       .damping = 0.124, .drive_amplitude = 0.2, .drive_frequency = 0.49 + 0.004 * i};
-  check_ok(pendres_phase_line(ctx, 12, line, &e, 0.0, points, NULL));
+  check_ok(pendres_phase_line(ctx, 12, line, with(&e), points, NULL));
   int missed = 0;
   for (int i = 0; i < 12; i++) {
     /* Members never see more than exists. */
@@ -169,7 +177,7 @@ static void others_are_told(void **state)
   for (int i = 0; i < 4; i++)
     line[i] = (pendres_pendulum){
       .damping = 0.08, .drive_amplitude = 0.2, .drive_frequency = 0.530 + 0.003 * i};
-  check_ok(pendres_phase_line(ctx, 4, line, &e, 0.0, points, NULL));
+  check_ok(pendres_phase_line(ctx, 4, line, with(&e), points, NULL));
   int told = 0;
   for (int i = 0; i < 4; i++) {
     /* The pair is one state, LA, beside SA. */
@@ -208,7 +216,7 @@ static line line_of(pendres_context *ctx, double drive, double damping, double f
     p[i] = (pendres_pendulum){
       .damping = damping, .drive_amplitude = drive, .drive_frequency = from + step * i};
   memset(&l, 0, sizeof l);
-  check_ok(pendres_phase_line(ctx, DRIVES, p, members(), 0.0, l.points, &l.branches));
+  check_ok(pendres_phase_line(ctx, DRIVES, p, with(members()), l.points, &l.branches));
   return l;
 }
 
@@ -231,7 +239,7 @@ static pendres_curves *curves_of(pendres_context *ctx, const line *l)
 static void complete(pendres_context *ctx, const pendres_curves *curves, line *l)
 {
   check_ok(
-    pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, l->points, l->branches));
+    pendres_phase_line_complete(ctx, DRIVES, curves, with(members()), l->points, l->branches));
 }
 
 /*
@@ -282,7 +290,7 @@ static void curves_tell_what_members_miss(void **state)
   pendres_ensemble dense = *members();
   pendres_phase_point seen;
   dense.members = 5000;
-  check_ok(pendres_phase_line(ctx, 1, &l.points[2].pendulum, &dense, 0.0, &seen, NULL));
+  check_ok(pendres_phase_line(ctx, 1, &l.points[2].pendulum, with(&dense), &seen, NULL));
   assert_int_equal(seen.regime, PENDRES_REGIME_COEXISTENCE);
   assert_true(seen.la_fraction > 0.0 && seen.la_fraction < 0.005);
   check_near(seen.la_amplitude, l.points[2].la_amplitude,
@@ -334,12 +342,12 @@ static void curves_tell_where_sa_ends(void **state)
   }
   /* Curves of other pendulums are refused. */
   for (int i = 0; i < DRIVES; i++) weak.points[i].pendulum.drive_amplitude = 0.19;
-  assert_int_equal(pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, weak.points,
+  assert_int_equal(pendres_phase_line_complete(ctx, DRIVES, curves, with(members()), weak.points,
                                                weak.branches),
                    PENDRES_INVALID_ARGUMENT);
   assert_true(strlen(pendres_context_message(ctx)) > 0);
   assert_int_equal(
-    pendres_phase_line_complete(ctx, DRIVES, curves, members(), 0.0, weak.points, NULL),
+    pendres_phase_line_complete(ctx, DRIVES, curves, with(members()), weak.points, NULL),
     PENDRES_INVALID_ARGUMENT);
   pendres_curves_free(curves);
   pendres_branches_free(source.branches);
@@ -369,6 +377,100 @@ static void above_the_cusp_there_is_no_distinction(void **state)
   pendres_context_free(ctx);
 }
 
+/* One call, and its pieces with another context, give the same bytes; the folds and the cusp are
+   those of the reference. */
+static void whole_diagrams(void **state)
+{
+  (void)state;
+  enum { LINES = 2, VALUES = 2 };
+  const double damping[LINES] = {0.13, 0.17}, frequency[VALUES] = {0.8, 0.86};
+  pendres_phase_grid grid = {.pendulum = {.drive_amplitude = 0.2},
+                             .options = *with(members()),
+                             .values = VALUES, .value = frequency,
+                             .across = PENDRES_DAMPING,
+                             .lines = LINES, .line_value = damping};
+  grid.options.ensemble.members = 20;
+  pendres_context *ctx = context_of(1e-8), *other = context_of(1e-8);
+  pendres_phase_diagram *whole = NULL, *parts = NULL;
+  int more = 1, rounds = 0;
+  check_ok(pendres_phase_diagram_compute(ctx, &grid, &whole));
+  check_ok(pendres_phase_diagram_create(&grid, &parts));
+  for (size_t i = LINES; i-- > 0;) {
+    pendres_phase_record *r = NULL;
+    check_ok(pendres_phase_diagram_compute_line(other, parts, i, &r));
+    check_ok(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r),
+                                             pendres_phase_record_bytes(r)));
+    assert_int_equal(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r) - 1,
+                                                     pendres_phase_record_bytes(r)),
+                     PENDRES_INVALID_ARGUMENT);
+    pendres_phase_record_free(r);
+  }
+  while (pendres_phase_diagram_follow_curves(other, parts, &more) == PENDRES_OK && more) {
+    for (size_t i = 0; i < LINES; i++) {
+      pendres_phase_record *r = NULL;
+      check_ok(pendres_phase_diagram_complete_line(other, parts, i, &r));
+      check_ok(pendres_phase_diagram_take_line(parts, i, pendres_phase_record_size(r),
+                                               pendres_phase_record_bytes(r)));
+      pendres_phase_record_free(r);
+    }
+    rounds++;
+  }
+  assert_true(rounds > 0);
+  for (size_t i = 0; i < LINES * VALUES; i++) {
+    const pendres_phase_point *p = pendres_phase_diagram_point(whole, i);
+    assert_memory_equal(p, pendres_phase_diagram_point(parts, i), sizeof *p);
+    assert_int_equal(pendres_phase_diagram_outcome(whole, i, NULL), PENDRES_OK);
+    assert_int_equal(p->regime, i == 0   ? PENDRES_REGIME_COEXISTENCE
+                                : i == 1 ? PENDRES_REGIME_LA
+                                         : PENDRES_REGIME_SINGLE);
+  }
+  const pendres_cusp *cusp = pendres_phase_diagram_cusp(whole);
+  check_near(cusp->value[1], cusp_damping, cusp->value_error[1] + 1e-15);
+  check_near(cusp->value[0], cusp_frequency, cusp->value_error[0] + 1e-15);
+  const pendres_bifurcation *sa = pendres_phase_diagram_fold(whole, 0, PENDRES_LABEL_SA);
+  const pendres_bifurcation *la = pendres_phase_diagram_fold(whole, 0, PENDRES_LABEL_LA);
+  check_near(sa->value, sa_fold, sa->value_error + 1e-15);
+  check_near(la->value, la_fold, la->value_error + 1e-15);
+  assert_null(pendres_phase_diagram_fold(whole, 1, PENDRES_LABEL_SA));
+  pendres_phase_diagram_free(whole);
+  pendres_phase_diagram_free(parts);
+  pendres_context_free(ctx);
+  pendres_context_free(other);
+}
+
+/* A point that is left out, or that cannot be computed, is marked, and the others are there. */
+static void points_fail_alone(void **state)
+{
+  (void)state;
+  const double damping[1] = {0.13}, frequency[3] = {2.3e-308, 0.7, 0.8};
+  pendres_phase_grid grid = {.pendulum = {.drive_amplitude = 0.2},
+                             .options = *with(members()),
+                             .values = 3, .value = frequency,
+                             .across = PENDRES_DAMPING,
+                             .lines = 1, .line_value = damping};
+  grid.options.ensemble.members = 4;
+  pendres_context *ctx = context_of(1e-8);
+  pendres_phase_diagram *d = NULL;
+  pendres_phase_record *r = NULL;
+  const char *words = NULL;
+  check_ok(pendres_phase_diagram_create(&grid, &d));
+  check_ok(pendres_phase_diagram_leave_out(d, 1));
+  check_ok(pendres_phase_diagram_compute_line(ctx, d, 0, &r));
+  check_ok(pendres_phase_diagram_take_line(d, 0, pendres_phase_record_size(r),
+                                           pendres_phase_record_bytes(r)));
+  assert_int_equal(pendres_phase_diagram_outcome(d, 0, &words), PENDRES_INVALID_ARGUMENT);
+  assert_true(words != NULL && strlen(words) > 0);
+  assert_int_equal(pendres_phase_diagram_outcome(d, 1, &words), PENDRES_UNSUPPORTED);
+  assert_null(words);
+  assert_int_equal(pendres_phase_diagram_outcome(d, 2, &words), PENDRES_OK);
+  assert_true(isnan(pendres_phase_diagram_point(d, 0)->mean_loop_area));
+  assert_true(isnan(pendres_phase_diagram_point(d, 1)->mean_loop_area));
+  assert_true(pendres_phase_diagram_point(d, 2)->mean_loop_area > 0.0);
+  pendres_phase_record_free(r);
+  pendres_phase_diagram_free(d);
+  pendres_context_free(ctx);
+}
+
 static void mistakes_are_told(void **state)
 {
   (void)state;
@@ -377,16 +479,17 @@ static void mistakes_are_told(void **state)
                               {.damping = 0.13, .drive_amplitude = 0.2, .drive_frequency = 0.7}};
   pendres_ensemble e = pendres_ensemble_default();
   pendres_phase_point points[2];
-  assert_int_equal(pendres_phase_line(ctx, 2, line, &e, 0.0, points, NULL),
+  assert_int_equal(pendres_phase_line(ctx, 2, line, with(&e), points, NULL),
                    PENDRES_INVALID_ARGUMENT);
   assert_true(strlen(pendres_context_message(ctx)) > 0);
   line[1] = (pendres_pendulum){.damping = 0.14, .drive_amplitude = 0.2, .drive_frequency = 0.9};
-  assert_int_equal(pendres_phase_line(ctx, 2, line, &e, 0.0, points, NULL),
+  assert_int_equal(pendres_phase_line(ctx, 2, line, with(&e), points, NULL),
                    PENDRES_INVALID_ARGUMENT);
   e.members = 0;
-  assert_int_equal(pendres_phase_line(ctx, 1, line, &e, 0.0, points, NULL),
+  assert_int_equal(pendres_phase_line(ctx, 1, line, with(&e), points, NULL),
                    PENDRES_INVALID_ARGUMENT);
-  check_ok(pendres_phase_line(ctx, 0, NULL, &(pendres_ensemble){.members = 1}, 0.0, NULL, NULL));
+  e.members = 1;
+  check_ok(pendres_phase_line(ctx, 0, NULL, with(&e), NULL, NULL));
   pendres_context_free(ctx);
 }
 
@@ -399,6 +502,7 @@ int main(void)
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(curves_change_nothing_else),
     cmocka_unit_test(curves_tell_where_sa_ends),
     cmocka_unit_test(above_the_cusp_there_is_no_distinction), cmocka_unit_test(mistakes_are_told),
+    cmocka_unit_test(whole_diagrams), cmocka_unit_test(points_fail_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

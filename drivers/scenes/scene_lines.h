@@ -1,46 +1,42 @@
 /*
- * scene_lines.h -- points over damping and drive frequency, a line a damping, with the branches
- * that they lie on: what phase_diagram and branches both compute.
+ * scene_lines.h -- points over two parameters, line by line, with the branches that they lie on:
+ * what phase_diagram and branches both compute, with pendres_phase_diagram.
  *
- * Owns: the lines, one task each, the curves of bifurcations through all of them, and what these
- * tell each line in turn.
+ * Owns: the deck's axes as the diagram's, its lines as tasks, which points failed, and what both
+ * scenes write and print of the whole.
  */
 #ifndef SCENE_LINES_H
 #define SCENE_LINES_H
 
-#include "scenes/scene_curves.h"
-#include "scenes/scene_failed.h"
+#include <pendres/phase_diagram.h>
 
-typedef struct scene_line {
-  size_t count;                /* drives that could be computed */
-  pendres_phase_point *points; /* [count] */
-  size_t *place;               /* [drive] where it stands in points; SIZE_MAX: it failed */
-  pendres_branches *branches;
-} scene_line;
+#include "scenes/scene_columns.h"
+#include "scenes/scene_failed.h"
 
 typedef struct scene_lines {
   scene_run *run;
-  pendres_sweep sweep; /* damping, drive frequency */
-  pendres_ensemble ensemble;
-  double spacing;      /* of the points of branches, see phase_diagram.h */
-  size_t dampings, drives;
-  scene_line *line;    /* [damping] */
-  scene_curves curves;
-  scene_failures failed; /* [damping][drive] */
-  pendres_phase_point nothing; /* what stands for a point that failed */
+  deck_axis_id axis[2];  /* across the lines and along them: the dimensions of results */
+  pendres_phase_grid grid;
+  pendres_phase_diagram *diagram;
+  pendres_phase_point *points; /* [lines][values] */
+  size_t n;                    /* points */
+  scene_failures failed;       /* [lines][values] */
 } scene_lines;
 
-/* Compute all lines, follow the curves and complete the lines by them. l holds spacing; free it in
-   any case. */
-pendres_status scene_lines_compute(scene_run *run, scene_lines *l);
+/* Compute the diagram. spacing: of the points of branches, see phase_diagram.h. Free l in any
+   case. */
+pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l);
 
 void scene_lines_free(scene_lines *l);
 
-/* Point number i = damping * drives + drive. */
-const pendres_phase_point *scene_lines_point(const scene_lines *l, size_t i);
+/* Define the dimensions of the points and write columns of pendres_phase_point. */
+pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns);
+
+/* The names of the regimes, for a column of them. */
+extern const char *const scene_lines_regimes[PENDRES_REGIME_COUNT];
 
 /* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
-pendres_status scene_lines_write_doubtful(scene_run *run, const scene_lines *l);
+pendres_status scene_lines_write_doubtful(const scene_lines *l);
 
 /* Lines of the short table: the cusp, if there is one; what the branches' own bifurcations do not
    explain of them, if there is any. */
@@ -48,5 +44,8 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
+
+/* One line on what is computed, for --dry-run: axes and what is fixed. */
+void scene_lines_plan(const deck *d, FILE *out);
 
 #endif

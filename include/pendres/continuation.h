@@ -23,21 +23,54 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/** What changes along a branch. */
+/* One list makes the codes, their names and the fields of pendres_pendulum. */
+#define PENDRES_PARAMETER_LIST(X)                       \
+  X(DRIVE_FREQUENCY, "drive_frequency", drive_frequency) \
+  X(DAMPING, "damping", damping)                         \
+  X(DRIVE_AMPLITUDE, "drive_amplitude", drive_amplitude)
+
+/** A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum. */
 typedef enum pendres_parameter {
-  PENDRES_DRIVE_FREQUENCY = 0,
-  PENDRES_DAMPING,
-  PENDRES_DRIVE_AMPLITUDE,
-  PENDRES_PARAMETER_COUNT
+#define PENDRES_PARAMETER_CODE(code, name, field) PENDRES_##code,
+  PENDRES_PARAMETER_LIST(PENDRES_PARAMETER_CODE)
+#undef PENDRES_PARAMETER_CODE
+  PENDRES_PARAMETER_COUNT /**< how many there are; not a parameter */
 } pendres_parameter;
 
-/** Where a branch changes its character. */
+/** "drive_frequency", "damping", "drive_amplitude", as the fields are called; NULL if out of range.
+    The string is static. Thread safe. */
+const char *pendres_parameter_name(pendres_parameter parameter);
+
+/** A pendulum's value of a parameter; NaN if either does not exist. Thread safe. */
+double pendres_parameter_get(pendres_parameter parameter, const pendres_pendulum *pendulum);
+
+/** Set a pendulum's value of a parameter; nothing happens if either does not exist, and no value
+    is refused here. Thread safe. */
+void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pendulum *pendulum);
+
+/* One list makes the codes and their names. */
+#define PENDRES_SPECIAL_LIST(X)      \
+  X(REGULAR, "regular")              \
+  X(FOLD, "fold")                    \
+  X(PERIOD_DOUBLING, "period_doubling") \
+  X(SYMMETRY_BREAKING, "symmetry_breaking")
+
+/**
+ * Where a branch changes its character. PENDRES_REGULAR: nowhere there; PENDRES_FOLD: two orbits
+ * meet and vanish, a multiplier is +1; PENDRES_PERIOD_DOUBLING: a multiplier is -1;
+ * PENDRES_SYMMETRY_BREAKING: an orbit that is its own mirror image meets a pair that are each
+ * other's, a multiplier is +1.
+ */
 typedef enum pendres_special {
-  PENDRES_REGULAR = 0,
-  PENDRES_FOLD,             /**< two orbits meet and vanish; multiplier +1 */
-  PENDRES_PERIOD_DOUBLING,  /**< multiplier -1 */
-  PENDRES_SYMMETRY_BREAKING /**< of an orbit that is its own mirror image; multiplier +1 */
+#define PENDRES_SPECIAL_CODE(code, name) PENDRES_##code,
+  PENDRES_SPECIAL_LIST(PENDRES_SPECIAL_CODE)
+#undef PENDRES_SPECIAL_CODE
+  PENDRES_SPECIAL_COUNT /**< how many there are; not a character */
 } pendres_special;
+
+/** "regular", "fold", "period_doubling", "symmetry_breaking"; NULL if out of range. The string is
+    static. Thread safe. */
+const char *pendres_special_name(pendres_special special);
 
 /** A fold, period doubling or symmetry breaking. Plain data. */
 typedef struct pendres_bifurcation {
@@ -260,8 +293,8 @@ size_t pendres_curve_count(const pendres_curve *curve);
 const pendres_curve_point *pendres_curve_get(const pendres_curve *curve, size_t i);
 size_t pendres_curve_cusps(const pendres_curve *curve);
 const pendres_cusp *pendres_curve_cusp(const pendres_curve *curve, size_t i);
-/** How the curve ends at its first (which = 0) and its last point (1). */
-pendres_branch_end pendres_curve_end_of(const pendres_curve *curve, int which);
+/** The parameter that the curve's starts were found in (which = 0), and the second (1). */
+pendres_parameter pendres_curve_parameter(const pendres_curve *curve, int which);
 
 /**
  * All bifurcations of a curve at a value of its second parameter, in the order of the curve; each

@@ -2,7 +2,7 @@
 import numpy as np
 
 from ._handles import (as_pendulums, default_context, ensemble as make_ensemble, one_pendulum,
-                       record, spread)
+                       options, record, spread)
 from ._library import Handle, array, c, dtype, ffi, make, stacked
 
 
@@ -78,15 +78,17 @@ def resonance(p, lowest=0.5, highest=1.2, ensemble=None, *, context=None):
     return record(out)
 
 
-def phase_line(p, ensemble=None, *, spacing=0.0, context=None):
-    """Which states exist along a line of drive frequencies, ascending, at one damping and drive
-    amplitude: (points, branches). points have regime (pendres.Regime, by the ensemble), exact (by
-    the branches), sa_fraction, ...; branches as of branches()."""
+def phase_line(p, ensemble=None, *, parameter="drive_frequency", spacing=0.0, context=None):
+    """Which states exist along a line of pendulums that differ in one parameter, "drive_frequency"
+    or "drive_amplitude", ascending: (points, branches). points have regime (pendres.Regime, by the
+    ensemble), exact (by the branches), sa_fraction, ...; branches as of branches()."""
     from ._curves import Branches
     pendulums = np.ascontiguousarray(as_pendulums(p))
+    how = options("pendres_phase_options", {"parameter": parameter, "spacing": spacing})
+    how["ensemble"] = make_ensemble() if ensemble is None else ensemble
     out = array("pendres_phase_point", pendulums.shape)
     found = make(Branches, c.phase_line, default_context(context), pendulums.size, pendulums,
-                 make_ensemble() if ensemble is None else ensemble, spacing, out)
+                 how, out)
     return record(out), found.list()
 
 

@@ -61,15 +61,6 @@ const pendres_curve *pendres_curves_get(const pendres_curves *c, size_t i)
 
 /* ---- branches ---- */
 
-static double value_of(const pendres_orbit *o, pendres_parameter parameter)
-{
-  switch (parameter) {
-  case PENDRES_DAMPING: return o->pendulum.damping;
-  case PENDRES_DRIVE_AMPLITUDE: return o->pendulum.drive_amplitude;
-  default: return o->pendulum.drive_frequency;
-  }
-}
-
 static double mixed(double a, double b, double part)
 {
   return a + part * (b - a);
@@ -87,7 +78,7 @@ static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double par
 
 static int lies_on(const pendres_branch *b, const pendres_orbit *o)
 {
-  const double value = value_of(o, b->parameter);
+  const double value = pendres_parameter_get(b->parameter, &o->pendulum);
   const pendres_orbit *first = &b->point[0].orbit;
   if (first->period != o->period || abs(first->winding) != abs(o->winding)) return 0;
   for (size_t i = 0; i + 1 < b->count; i++) {
@@ -110,8 +101,8 @@ static pendres_status really_lies_on(pendres_context *ctx, const pendres_branch 
   *on = 0;
   if (there == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-  const pendres_status status =
-    pendres_branch_cross(ctx, b, value_of(o, b->parameter), MOST, there, &found);
+  const double value = pendres_parameter_get(b->parameter, &o->pendulum);
+  const pendres_status status = pendres_branch_cross(ctx, b, value, MOST, there, &found);
   for (size_t i = 0; i < found && i < MOST && status == PENDRES_OK; i++) {
     const double e = 1e-5 + 10.0 * (o->x_error + there[i].x_error);
     if (there[i].period == o->period && fabs(there[i].amplitude - o->amplitude) < e &&
@@ -171,7 +162,7 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches");
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int yes = 0;
-    const double value = value_of(&orbits[i], options->parameter);
+    const double value = pendres_parameter_get(options->parameter, &orbits[i].pendulum);
     if (value < options->low || value > options->high) continue;
     status = known(ctx, set, &orbits[i], &yes);
     if (status == PENDRES_OK && !yes) status = add_branch(ctx, set, &orbits[i], options);
@@ -237,7 +228,7 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
 
 static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
 {
-  const double value = value_of(&b->orbit, second);
+  const double value = pendres_parameter_get(second, &b->orbit.pendulum);
   const pendres_curve_point *p = pendres_curve_get(c, 0);
   if (pendres_curve_kind(c) != b->kind || p->orbit.period != b->orbit.period ||
       abs(p->orbit.winding) != abs(b->orbit.winding))

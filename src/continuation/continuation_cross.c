@@ -15,7 +15,7 @@
 
 double pendres_branch_value(const pendres_branch *b, size_t i)
 {
-  return pendres_parameter_value(&b->point[i].orbit.pendulum, b->parameter);
+  return pendres_parameter_get(b->parameter, &b->point[i].orbit.pendulum);
 }
 
 /* The Poincaré point on the chord; the well of x may differ by whole turns from end to end. */
@@ -31,7 +31,7 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
                            .v = p->v + part * (q->v - p->v),
                            .period = p->period,
                            .winding = p->winding};
-  *pendres_parameter_of(&g.pendulum, b->parameter) = value;
+  pendres_parameter_set(b->parameter, value, &g.pendulum);
   return g;
 }
 

@@ -61,9 +61,9 @@ const pendres_cusp *pendres_curve_cusp(const pendres_curve *c, size_t i)
   return c != NULL && i < c->cusps ? &c->cusp[i] : NULL;
 }
 
-pendres_branch_end pendres_curve_end_of(const pendres_curve *c, int which)
+pendres_parameter pendres_curve_parameter(const pendres_curve *c, int which)
 {
-  return c != NULL ? c->end[which != 0] : PENDRES_END_STUCK;
+  return c != NULL ? c->parameter[which != 0] : PENDRES_PARAMETER_COUNT;
 }
 
 static int place_of(pendres_parameter parameter)

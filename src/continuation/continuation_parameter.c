@@ -1,4 +1,4 @@
-/* continuation_parameter.c -- a parameter of a pendulum by its number. */
+/* continuation_parameter.c -- parameters and bifurcations by name; see continuation.h. */
 #include "continuation/continuation_parameter.h"
 
 #include <math.h>
@@ -6,25 +6,52 @@
 
 #include "continuation/continuation_walk.h"
 
-double *pendres_parameter_of(pendres_pendulum *p, pendres_parameter parameter)
+static const char *const names[PENDRES_PARAMETER_COUNT] = {
+#define PARAMETER_NAME(code, name, field) name,
+  PENDRES_PARAMETER_LIST(PARAMETER_NAME)
+#undef PARAMETER_NAME
+};
+
+const char *pendres_parameter_name(pendres_parameter parameter)
 {
-  switch (parameter) {
-  case PENDRES_DRIVE_FREQUENCY: return &p->drive_frequency;
-  case PENDRES_DAMPING: return &p->damping;
-  case PENDRES_DRIVE_AMPLITUDE: return &p->drive_amplitude;
-  case PENDRES_PARAMETER_COUNT: break;
-  }
-  return NULL;
+  return (unsigned)parameter < PENDRES_PARAMETER_COUNT ? names[parameter] : NULL;
 }
 
-double pendres_parameter_value(const pendres_pendulum *p, pendres_parameter parameter)
+static double *place_of(pendres_pendulum *p, pendres_parameter parameter)
 {
+  switch (parameter) {
+#define PARAMETER_PLACE(code, name, field) case PENDRES_##code: return &p->field;
+    PENDRES_PARAMETER_LIST(PARAMETER_PLACE)
+#undef PARAMETER_PLACE
+  default: return NULL;
+  }
+}
+
+double pendres_parameter_get(pendres_parameter parameter, const pendres_pendulum *p)
+{
+  if (p == NULL) return NAN;
   pendres_pendulum copy = *p;
-  const double *value = pendres_parameter_of(&copy, parameter);
+  const double *value = place_of(&copy, parameter);
   return value != NULL ? *value : NAN;
+}
+
+void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pendulum *p)
+{
+  double *place = p != NULL ? place_of(p, parameter) : NULL;
+  if (place != NULL) *place = value;
 }
 
 double pendres_parameter_scale(pendres_parameter parameter)
 {
   return pendres_walk_scale[PENDRES_U_OMEGA + (int)parameter];
+}
+
+const char *pendres_special_name(pendres_special special)
+{
+  static const char *const specials[PENDRES_SPECIAL_COUNT] = {
+#define SPECIAL_NAME(code, name) name,
+    PENDRES_SPECIAL_LIST(SPECIAL_NAME)
+#undef SPECIAL_NAME
+  };
+  return (unsigned)special < PENDRES_SPECIAL_COUNT ? specials[special] : NULL;
 }

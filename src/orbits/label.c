@@ -51,9 +51,7 @@ static pendres_label lone(const pendres_label_border *b, const pendres_orbit *o)
     return o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;
   }
   if (!b->distinct) return PENDRES_LABEL_PERIODIC;
-  return o->pendulum.drive_frequency <= b->frequency && o->amplitude < b->amplitude
-           ? PENDRES_LABEL_SA
-           : PENDRES_LABEL_LA;
+  return !b->beyond && o->amplitude < b->amplitude ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
 }
 
 pendres_label pendres_label_of(const pendres_label_states *s, const pendres_label_border *border,

@@ -23,11 +23,12 @@ typedef struct pendres_label_states {
   double amplitude[PENDRES_LABEL_STATES], error[PENDRES_LABEL_STATES];
 } pendres_label_states;
 
-/* The fold at which SA ends, at one damping and drive amplitude: an orbit alone beyond its
-   frequency is LA; below, it is SA if its amplitude is less than the fold's, else LA. */
+/* The fold at which SA ends as a parameter grows, seen from one point of that line: an orbit alone
+   beyond it is LA; before it, it is SA if its amplitude is less than the fold's, else LA. */
 typedef struct pendres_label_border {
-  int distinct; /* 0: there is no such fold, and no distinction */
-  double frequency, amplitude;
+  int distinct;     /* 0: there is no such fold, and no distinction */
+  int beyond;       /* whether the point lies beyond the fold */
+  double amplitude; /* of the orbit at the fold */
 } pendres_label_border;
 
 /* Whether an orbit can be SA or LA: one drive period, no winding. */

@@ -78,7 +78,7 @@ typedef struct path {
 static pendres_pendulum pendulum_at(const path *w, double value)
 {
   pendres_pendulum p = w->pendulum;
-  *pendres_parameter_of(&p, w->parameter) = value;
+  pendres_parameter_set(w->parameter, value, &p);
   return p;
 }
 
@@ -201,7 +201,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
     status = PENDRES_OK;
   } else if (status == PENDRES_NOT_FOUND) {
     status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
-    w->at = pendres_parameter_value(&w->state.pendulum, w->parameter);
+    w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
   }
   if (status == PENDRES_OK) status = note_jump(w, &j);
   leave_stretch(w);

@@ -1,415 +1,449 @@
-/* phase_diagram.c -- regimes by ensemble and by branches; see phase_diagram.h. */
-#include <pendres/phase_diagram.h>
+/* phase_diagram.c -- whole phase diagrams: lines and curves; see phase_diagram.h. */
+#include "questions/phase_record.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/context_internal.h"
-#include "orbits/label.h"
-#include "engine/passage.h"
+#include "questions/phase_line.h"
 
-enum { MOST_CROSSINGS = 16 };
+/* Curves through the lines' bifurcations show branches that some lines have missed, whose own
+   bifurcations may lie on further curves; mostly the first round has shown all. */
+enum { MOST_ROUNDS = 4 };
+
+struct pendres_phase_diagram {
+  pendres_phase_grid grid;
+  pendres_phase_done *line;    /* [lines] */
+  pendres_phase_point nothing; /* what stands for a point that has no results */
+  pendres_bifurcation *bifurcation; /* of all lines, in their order */
+  size_t *first;               /* [lines + 1] the first bifurcation of each line */
+  size_t bifurcations;
+  int rounds;
+  pendres_curves *curves;
+  pendres_phase_mark curves_mark;
+  pendres_cusp cusp;
+  int has_cusp;
+};
 
 const char *pendres_regime_name(pendres_regime regime)
 {
-  static const char *const names[PENDRES_REGIME_COUNT] = {"sa", "la", "coexistence", "single",
-                                                          "other"};
+  static const char *const names[PENDRES_REGIME_COUNT] = {
+#define REGIME_NAME(code, name) name,
+    PENDRES_REGIME_LIST(REGIME_NAME)
+#undef REGIME_NAME
+  };
   return (unsigned)regime < PENDRES_REGIME_COUNT ? names[regime] : NULL;
 }
 
-/* ---- what tells SA from LA at one damping ---- */
+/* ---- diagrams and marks ---- */
 
-/* Orbits on the sheets that fold over each other, whatever their stability. */
-static int on_sheets(const pendres_orbit *o)
+static int ascends(size_t n, const double *value)
 {
-  return pendres_label_named(o) && o->symmetric;
+  for (size_t i = 1; i < n; i++)
+    if (!(value[i] > value[i - 1])) return 0;
+  return 1;
 }
 
-/* Among the folds below whose frequency two orbits exist, the one of the smallest amplitude. */
-static pendres_label_border find_border(const pendres_branches *branches)
+/* NULL, or what is wrong with a grid; what is wrong with a point is told when it is computed. */
+static const char *refused(const pendres_phase_grid *g)
 {
-  pendres_label_border b = {.distinct = 0};
-  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
-    const pendres_branch *branch = pendres_branches_get(branches, i);
-    for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
-      if (f->kind != PENDRES_FOLD || !on_sheets(&f->orbit) || !(f->curvature < 0.0)) continue;
-      if (b.distinct && f->orbit.amplitude >= b.amplitude) continue;
-      b = (pendres_label_border){
-        .distinct = 1, .frequency = f->value, .amplitude = f->orbit.amplitude};
-    }
-  }
-  return b;
+  const pendres_parameter along = g->options.parameter;
+  if (along != PENDRES_DRIVE_FREQUENCY && along != PENDRES_DRIVE_AMPLITUDE)
+    return "lines go along the drive frequency or the drive amplitude";
+  if ((unsigned)g->across >= PENDRES_PARAMETER_COUNT || g->across == along)
+    return "lines differ in another parameter than changes along them";
+  if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
+    return "a diagram needs values of both its parameters";
+  if (!ascends(g->values, g->value) || !ascends(g->lines, g->line_value))
+    return "the values of a diagram's parameters must ascend";
+  return g->lines > (size_t)-1 / 1024 / g->values ? "a diagram has too many points" : NULL;
 }
 
-/* Whether the names mean something where these states are. */
-static int distinct(const pendres_label_border *b, const pendres_label_states *s)
+void pendres_phase_diagram_free(pendres_phase_diagram *d)
 {
-  return b->distinct || s->count > 1;
+  if (d == NULL) return;
+  for (size_t i = 0; d->line != NULL && i < d->grid.lines; i++) pendres_phase_done_free(&d->line[i]);
+  pendres_phase_mark_free(&d->curves_mark);
+  free(d->line);
+  free(d->bifurcation);
+  free(d->first);
+  pendres_curves_free(d->curves);
+  free(d);
 }
 
-/* ---- by the ensemble ---- */
-
-static int other_of(const pendres_attractor *a)
+pendres_status pendres_phase_diagram_create(const pendres_phase_grid *grid,
+                                            pendres_phase_diagram **out)
 {
-  if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
-  if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
-  if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
-  return a->orbit.symmetric ? 0 : PENDRES_OTHER_ASYMMETRIC;
-}
-
-static void judge_ensemble(const pendres_label_border *b, const pendres_label_states *known,
-                           const pendres_ensemble *e, const pendres_response *r,
-                           pendres_phase_point *p)
-{
-  size_t sa = 0, la = 0, others = r->unlisted;
-  const double all = (double)e->members;
-  const int names = distinct(b, known);
-  const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
-  for (size_t i = 0; i < states; i++) {
-    const pendres_attractor *a = &r->state[i];
-    p->other |= other_of(a);
-    if (a->label == PENDRES_LABEL_CHAOTIC || !pendres_label_named(&a->orbit))
-      others += r->state_members[i];
-    else if (pendres_label_of(known, b, &a->orbit) == PENDRES_LABEL_SA)
-      sa += r->state_members[i];
-    else
-      la += r->state_members[i];
-  }
-  if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
-  p->unresolved = r->unresolved;
-  p->uncertain = r->uncertain;
-  if (others > 0 || sa + la == 0)
-    p->regime = PENDRES_REGIME_OTHER;
-  else if (!names)
-    p->regime = PENDRES_REGIME_SINGLE;
-  else
-    p->regime = sa > 0 && la > 0 ? PENDRES_REGIME_COEXISTENCE
-                : sa > 0         ? PENDRES_REGIME_SA
-                                 : PENDRES_REGIME_LA;
-  p->sa_fraction = names ? (double)sa / all : NAN;
-  p->la_fraction = names ? (double)la / all : NAN;
-  p->sa_fraction_error = p->la_fraction_error =
-    names ? (double)(r->unresolved + r->uncertain + r->unlisted) / all : NAN;
-  p->mean_loop_area = r->mean_loop_area;
-  p->mean_loop_area_error = r->mean_loop_area_error;
-  p->mean_loop_amplitude = r->mean_loop_amplitude;
-  p->mean_loop_amplitude_error = r->mean_loop_amplitude_error;
-}
-
-/* ---- by the branches ---- */
-
-/* Amplitudes of SA and LA at a point, from the states that are known there. */
-static void judge_amplitudes(const pendres_label_border *b, const pendres_label_states *s,
-                             pendres_phase_point *p)
-{
-  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
-  p->exact = s->count > 0 ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
-  if (s->count == 0 || !distinct(b, s)) return;
-  const size_t least = pendres_label_extreme(s, 0), most = pendres_label_extreme(s, 1);
-  const pendres_orbit orbit = {
-    .pendulum = p->pendulum, .period = 1, .amplitude = s->amplitude[least]};
-  const int sa = pendres_label_of(s, b, &orbit) == PENDRES_LABEL_SA;
-  if (sa) {
-    p->sa_amplitude = s->amplitude[least];
-    p->sa_amplitude_error = s->error[least];
-  }
-  if (!sa || s->count > 1) {
-    p->la_amplitude = s->amplitude[most];
-    p->la_amplitude_error = s->error[most];
-  }
-  p->exact = s->count > 1 ? PENDRES_REGIME_COEXISTENCE
-             : sa         ? PENDRES_REGIME_SA
-                          : PENDRES_REGIME_LA;
-}
-
-/* Whether all that can be SA or LA is known of a point: both, the one beyond the fold at which SA
-   ends, or the only one. */
-static int enough(const pendres_label_border *b, const pendres_label_states *s,
-                  const pendres_phase_point *p)
-{
-  if (!b->distinct) return s->count > 0;
-  return s->count > 1 || (s->count > 0 && p->pendulum.drive_frequency > b->frequency);
-}
-
-/* What is not known yet of a point is looked up on the branches from number `first` on. */
-static pendres_status look_up(pendres_context *ctx, const pendres_label_border *b,
-                              const pendres_branches *branches, size_t first,
-                              pendres_label_states *s, pendres_orbit *there,
-                              pendres_phase_point *p)
-{
-  pendres_status status = PENDRES_OK;
-  const int known = enough(b, s, p);
-  for (size_t i = first; i < pendres_branches_count(branches) && !known; i++) {
-    size_t found = 0;
-    status = pendres_branch_cross(ctx, pendres_branches_get(branches, i),
-                                  p->pendulum.drive_frequency, MOST_CROSSINGS, there, &found);
-    if (status != PENDRES_OK) return status;
-    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++) pendres_label_note(s, &there[k]);
-  }
-  judge_amplitudes(b, s, p);
-  return status;
-}
-
-/* All orbits at one point: those that members reach, and those of the branches. */
-static pendres_status judge_branches(pendres_context *ctx, const pendres_label_border *b,
-                                     const pendres_branches *branches, const pendres_response *r,
-                                     pendres_label_states *s, pendres_orbit *there,
-                                     pendres_phase_point *p)
-{
-  *s = (pendres_label_states){.count = 0};
-  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
-    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) pendres_label_note(s, &r->state[i].orbit);
-  return look_up(ctx, b, branches, 0, s, there, p);
-}
-
-/* ---- lines ---- */
-
-static pendres_status check_line(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                 const pendres_ensemble *e)
-{
-  const char *why = e->members == 0 ? "an ensemble needs members" : NULL;
-  for (size_t i = 0; i < n && why == NULL; i++) {
-    if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) break;
-    why = pendres_passage_refuses(&p[i], fmax(fabs(e->x_first), fabs(e->x_last)), e->v);
-    if (why != NULL) break;
-    if (p[i].damping != p[0].damping || p[i].drive_amplitude != p[0].drive_amplitude)
-      why = "a line has one damping and one drive amplitude";
-    else if (i > 0 && !(p[i].drive_frequency > p[i - 1].drive_frequency))
-      why = "the drive frequencies of a line must ascend";
-  }
-  if (why == NULL) return PENDRES_OK;
-  return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
-}
-
-static pendres_branch_options options_of(const pendres_pendulum *first,
-                                         const pendres_pendulum *last, double spacing)
-{
-  /* The fold that makes the distinction lies below the small oscillations' frequency, 1. */
-  return (pendres_branch_options){.parameter = PENDRES_DRIVE_FREQUENCY,
-                                  .low = fmin(0.8 * first->drive_frequency, 0.7),
-                                  .high = fmax(1.1 * last->drive_frequency, 1.1),
-                                  .spacing = spacing};
-}
-
-/* The orbits of all responses, those of the largest number of members first at each point. */
-static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
-                                    double spacing, pendres_branches **out)
-{
-  size_t count = 0;
-  pendres_status status = PENDRES_OK;
-  const pendres_branch_options options =
-    options_of(&r[0].pendulum, &r[n - 1].pendulum, spacing);
-  pendres_orbit *orbits = malloc((n * PENDRES_RESPONSE_STATES + 1) * sizeof *orbits);
-  if (orbits == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-  for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
-      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
-  status = pendres_branches_find(ctx, count, orbits, &options, out);
-  free(orbits);
-  return status;
-}
-
-/* All points of a line whose branches are known, from its responses. */
-static pendres_status judge_line(pendres_context *ctx, size_t n, const pendres_ensemble *ensemble,
-                                 const pendres_response *r, const pendres_branches *branches,
-                                 pendres_orbit *there, pendres_phase_point *out)
-{
-  pendres_status status = PENDRES_OK;
-  const pendres_label_border b = find_border(branches);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    out[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
-    pendres_label_states known;
-    status = judge_branches(ctx, &b, branches, &r[i], &known, there, &out[i]);
-    if (status == PENDRES_OK) judge_ensemble(&b, &known, ensemble, &r[i], &out[i]);
-  }
-  return status;
-}
-
-/* Compute the members of a line and judge its points by them and by its branches; those
-   are looked for if *branches is NULL. */
-static pendres_status compute_line(pendres_context *ctx, size_t n,
-                                   const pendres_pendulum *pendulums,
-                                   const pendres_ensemble *ensemble, double spacing,
-                                   pendres_phase_point *out, pendres_branches **branches)
-{
-  pendres_status status;
-  pendres_response *r = malloc(n * sizeof *r);
-  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
-  if (r == NULL || there == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-    goto done;
-  }
-  status = pendres_response_compute(ctx, n, pendulums, ensemble, r);
-  if (status == PENDRES_OK && *branches == NULL)
-    status = find_branches(ctx, n, r, spacing, branches);
-  if (status == PENDRES_OK) status = judge_line(ctx, n, ensemble, r, *branches, there, out);
-done:
-  free(r);
-  free(there);
-  return status;
-}
-
-static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                                 const pendres_ensemble *ensemble, double spacing,
-                                 pendres_phase_point *out, pendres_branches **branches)
-{
-  if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and points");
-  if (!(spacing >= 0.0))
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "phase diagram: the spacing must not be negative");
-  pendres_status status = check_line(ctx, n, pendulums, ensemble);
-  if (status != PENDRES_OK || n == 0) return status;
-  pendres_branches *found = NULL;
-  status = compute_line(ctx, n, pendulums, ensemble, spacing, out, &found);
-  if (status == PENDRES_OK && branches != NULL) {
-    *branches = found;
-    found = NULL;
-  }
-  pendres_branches_free(found);
-  return status;
-}
-
-pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
-                                  const pendres_ensemble *ensemble, double spacing,
-                                  pendres_phase_point *out, pendres_branches **branches)
-{
-  if (branches != NULL) *branches = NULL;
-  return PENDRES_CONTEXT_CALL(ctx, phase_line(ctx, n, pendulums, ensemble, spacing, out, branches));
-}
-
-/* ---- what neighbouring lines know ---- */
-
-/* Curves of what bounds the orbits that can be SA or LA. */
-static int bounds_named(const pendres_curve *c)
-{
-  const pendres_special kind = pendres_curve_kind(c);
-  return (kind == PENDRES_FOLD || kind == PENDRES_SYMMETRY_BREAKING) &&
-         pendres_curve_count(c) > 0 && on_sheets(&pendres_curve_get(c, 0)->orbit);
-}
-
-/* Beyond all cusps no small orbit ends, whatever folds there are. */
-static int above_cusps(const pendres_curves *curves, double damping)
-{
-  size_t cusps = 0;
-  for (size_t i = 0; i < pendres_curves_count(curves); i++) {
-    const pendres_curve *c = pendres_curves_get(curves, i);
-    for (size_t k = 0; bounds_named(c) && k < pendres_curve_cusps(c); k++, cusps++)
-      if (damping < pendres_curve_cusp(c, k)->value[1]) return 0;
-  }
-  return cusps > 0;
-}
-
-/* The branches through all points at which a curve crosses the line. */
-static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *curve,
-                                  const pendres_pendulum *line,
-                                  const pendres_branch_options *options,
-                                  pendres_branches *branches)
-{
-  size_t found = 0;
-  pendres_bifurcation *at = malloc(MOST_CROSSINGS * sizeof *at);
-  if (at == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  if (out != NULL) *out = NULL;
+  if (grid == NULL || out == NULL || refused(grid) != NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_phase_diagram *d = calloc(1, sizeof *d);
+  if (d == NULL) return PENDRES_OUT_OF_MEMORY;
+  d->grid = *grid;
+  d->nothing = (pendres_phase_point){
+    .regime = PENDRES_REGIME_OTHER, .exact = PENDRES_REGIME_OTHER,
+    .other = PENDRES_OTHER_UNRESOLVED, .unresolved = grid->options.ensemble.members,
+    .sa_fraction = NAN, .sa_fraction_error = NAN, .la_fraction = NAN, .la_fraction_error = NAN,
+    .mean_loop_area = NAN, .mean_loop_area_error = NAN, .mean_loop_amplitude = NAN,
+    .mean_loop_amplitude_error = NAN, .sa_amplitude = NAN, .sa_amplitude_error = NAN,
+    .la_amplitude = NAN, .la_amplitude_error = NAN};
+  d->line = calloc(grid->lines, sizeof *d->line);
+  d->first = calloc(grid->lines + 1, sizeof *d->first);
   pendres_status status =
-    pendres_curve_cross(ctx, curve, line->damping, MOST_CROSSINGS, at, &found);
-  if (found > MOST_CROSSINGS) found = MOST_CROSSINGS;
-  for (size_t i = 0; i < found && status == PENDRES_OK; i++) {
-    const pendres_pendulum *p = &at[i].orbit.pendulum;
-    if (at[i].parameter != PENDRES_DRIVE_FREQUENCY || p->damping != line->damping ||
-        p->drive_amplitude != line->drive_amplitude)
-      status = pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                    "phase diagram: the curves are not of drive frequency and "
-                                    "damping at the line's drive amplitude");
-  }
-  if (status == PENDRES_OK) status = pendres_branches_extend(ctx, found, at, options, branches);
-  free(at);
+    d->line == NULL || d->first == NULL ? PENDRES_OUT_OF_MEMORY : PENDRES_OK;
+  for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++)
+    status = pendres_phase_done_create(grid->values, &d->line[i]);
+  if (status != PENDRES_OK) pendres_phase_diagram_free(d);
+  else *out = d;
   return status;
 }
 
-/* The states that a point has been found to have, but for one without a name. */
-static pendres_label_states states_of(const pendres_phase_point *p)
+pendres_status pendres_phase_diagram_leave_out(pendres_phase_diagram *d, size_t point)
 {
-  pendres_label_states s = {.count = 0};
-  pendres_orbit orbit = {.stable = 1, .period = 1};
-  const double amplitude[2] = {p->sa_amplitude, p->la_amplitude};
-  const double error[2] = {p->sa_amplitude_error, p->la_amplitude_error};
-  for (int i = 0; i < 2; i++) {
-    orbit.amplitude = amplitude[i];
-    orbit.amplitude_error = error[i];
-    if (!isnan(amplitude[i])) pendres_label_note(&s, &orbit);
-  }
-  return s;
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return PENDRES_INVALID_ARGUMENT;
+  d->line[point / d->grid.values].mark[point % d->grid.values].outcome = PENDRES_UNSUPPORTED;
+  return PENDRES_OK;
 }
 
-/* All points again, now that there are branches from number `first` on. */
-static pendres_status judge_again(pendres_context *ctx, size_t n, const pendres_label_border *b,
-                                  const pendres_branches *branches, size_t first,
-                                  pendres_phase_point *points)
+/* A failure that the parameters cause, not the machine or the caller: the rest goes on. */
+static int is_own(pendres_status status)
 {
-  pendres_status status = PENDRES_OK;
-  pendres_orbit *there = malloc(MOST_CROSSINGS * sizeof *there);
-  if (there == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    pendres_label_states known = states_of(&points[i]);
-    /* Where there is one state without a name, nothing is missing. */
-    if (points[i].exact != PENDRES_REGIME_SINGLE)
-      status = look_up(ctx, b, branches, first, &known, there, &points[i]);
+  switch (status) {
+  case PENDRES_INVALID_ARGUMENT:
+  case PENDRES_INTEGRATION_FAILED:
+  case PENDRES_TOLERANCE_UNREACHABLE:
+  case PENDRES_NOT_CONVERGED:
+  case PENDRES_NOT_FOUND:
+  case PENDRES_UNRESOLVED: return 1;
+  default: return 0;
   }
-  free(there);
-  return status;
 }
 
-/* The fold at which SA ends has become known: members count anew. */
-static pendres_status compute_again(pendres_context *ctx, size_t n,
-                                    const pendres_ensemble *ensemble, double spacing,
-                                    pendres_phase_point *points, pendres_branches *branches)
+/* Keep a failure that is somebody's own, with the context's sentence on it; return the others. */
+static pendres_status keep(const pendres_context *ctx, pendres_status status,
+                           pendres_phase_mark *m)
 {
-  pendres_pendulum *p = malloc(n * sizeof *p);
+  if (!is_own(status)) return status;
+  return pendres_phase_mark_set(m, status, pendres_context_message(ctx));
+}
+
+/* ---- a line ---- */
+
+static pendres_pendulum pendulum_of(const pendres_phase_grid *g, size_t line, size_t k)
+{
+  pendres_pendulum p = g->pendulum;
+  pendres_parameter_set(g->across, g->line_value[line], &p);
+  pendres_parameter_set(g->options.parameter, g->value[k], &p);
+  return p;
+}
+
+static pendres_status try_line(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                               pendres_phase_done *l)
+{
+  pendres_pendulum *p = malloc((g->values + 1) * sizeof *p);
+  pendres_branches_free(l->branches);
+  l->branches = NULL;
   if (p == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
-  for (size_t i = 0; i < n; i++) p[i] = points[i].pendulum;
-  const pendres_status status = compute_line(ctx, n, p, ensemble, spacing, points, &branches);
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for pendulums");
+  for (size_t k = 0; k < g->values; k++)
+    if (l->place[k] != PENDRES_PHASE_NOWHERE) p[l->place[k]] = pendulum_of(g, line, k);
+  const pendres_status status =
+    pendres_phase_line(ctx, l->count, p, &g->options, l->points, &l->branches);
   free(p);
   return status;
 }
 
-static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
-                                          const pendres_curves *curves,
-                                          const pendres_ensemble *ensemble, double spacing,
-                                          pendres_phase_point *points, pendres_branches *branches)
+/* Which of a line's points can be computed at all: the others are marked. Costly, and done only
+   where a line has failed. */
+static pendres_status sort_out(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                               pendres_phase_done *l)
 {
-  if (ensemble == NULL || (n > 0 && (points == NULL || branches == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "ensemble, points and branches");
-  if (n == 0) return PENDRES_OK;
-  pendres_status status = PENDRES_OK;
-  const size_t first = pendres_branches_count(branches);
-  /* What the points were judged by: without that fold, those with one state have no names. */
-  pendres_label_border before = find_border(branches);
-  for (size_t i = 0; i < n; i++)
-    if (isnan(points[i].sa_fraction)) before = (pendres_label_border){.distinct = 0};
-  const pendres_branch_options options =
-    options_of(&points[0].pendulum, &points[n - 1].pendulum, spacing);
-  for (size_t i = 0; i < pendres_curves_count(curves) && status == PENDRES_OK; i++) {
-    const pendres_curve *c = pendres_curves_get(curves, i);
-    if (bounds_named(c)) status = add_crossed(ctx, c, &points[0].pendulum, &options, branches);
+  l->count = 0;
+  for (size_t k = 0; k < g->values; k++) {
+    if (l->place[k] == PENDRES_PHASE_NOWHERE) continue;
+    const pendres_pendulum p = pendulum_of(g, line, k);
+    pendres_response r;
+    const pendres_status status = pendres_response_compute(ctx, 1, &p, &g->options.ensemble, &r);
+    l->place[k] = status == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
+    const pendres_status rest = keep(ctx, status, &l->mark[k]);
+    if (rest != PENDRES_OK) return rest;
   }
-  if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
-  const pendres_label_border b =
-    above_cusps(curves, points[0].pendulum.damping) ? before : find_border(branches);
-  if (b.distinct != before.distinct || b.frequency != before.frequency)
-    return compute_again(ctx, n, ensemble, spacing, points, branches);
-  return judge_again(ctx, n, &b, branches, first, points);
+  return PENDRES_OK;
 }
 
-pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
-                                           const pendres_curves *curves,
-                                           const pendres_ensemble *ensemble, double spacing,
-                                           pendres_phase_point *points,
-                                           pendres_branches *branches)
+/* Mark all points of a line that have results, which they keep. */
+static pendres_status mark_line(pendres_context *ctx, pendres_status status, pendres_phase_done *l)
 {
-  return PENDRES_CONTEXT_CALL(ctx, phase_line_complete(ctx, n, curves, ensemble, spacing, points,
-                                                       branches));
+  pendres_status rest = status;
+  for (size_t k = 0; k < l->values; k++)
+    if (l->place[k] != PENDRES_PHASE_NOWHERE) rest = keep(ctx, status, &l->mark[k]);
+  return rest;
+}
+
+static pendres_status fill_line(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                                pendres_phase_done *l)
+{
+  l->count = 0;
+  for (size_t k = 0; k < l->values; k++)
+    l->place[k] = l->mark[k].outcome == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
+  pendres_status status = try_line(ctx, g, line, l);
+  if (!is_own(status)) return status;
+  status = sort_out(ctx, g, line, l);
+  if (status != PENDRES_OK) return status;
+  status = try_line(ctx, g, line, l);
+  if (!is_own(status)) return status;
+  status = mark_line(ctx, status, l);
+  for (size_t k = 0; k < l->values; k++) l->place[k] = PENDRES_PHASE_NOWHERE;
+  l->count = 0;
+  return status;
+}
+
+/* What the curves tell, if it can be had; the points stay as they were if not. */
+static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram *d,
+                               const pendres_phase_done *before, pendres_phase_done *l)
+{
+  if (l->count == 0) return PENDRES_OK;
+  const pendres_status status = pendres_phase_line_complete(
+    ctx, l->count, d->curves, &d->grid.options, l->points, l->branches);
+  if (!is_own(status)) return status;
+  memcpy(l->points, before->points, l->count * sizeof *l->points);
+  return mark_line(ctx, status, l);
+}
+
+/* A line's record: computed from nothing, or completed by the curves. */
+static pendres_status record_line(pendres_context *ctx, const pendres_phase_diagram *d, size_t line,
+                                  int by_curves, pendres_phase_record **out)
+{
+  if (out != NULL) *out = NULL;
+  if (d == NULL || out == NULL || line >= d->grid.lines)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "phase diagram: no diagram, no such line, or no place for it");
+  pendres_phase_done l;
+  pendres_status status = pendres_phase_done_copy(&d->line[line], &l);
+  if (status == PENDRES_OK)
+    status = by_curves ? complete(ctx, d, &d->line[line], &l) : fill_line(ctx, &d->grid, line, &l);
+  if (status == PENDRES_OK) status = pendres_phase_done_pack(&l, out);
+  pendres_phase_done_free(&l);
+  return status;
+}
+
+pendres_status pendres_phase_diagram_compute_line(pendres_context *ctx,
+                                                  const pendres_phase_diagram *d, size_t line,
+                                                  pendres_phase_record **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 0, out));
+}
+
+pendres_status pendres_phase_diagram_complete_line(pendres_context *ctx,
+                                                   const pendres_phase_diagram *d, size_t line,
+                                                   pendres_phase_record **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 1, out));
+}
+
+pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *d, size_t line, size_t size,
+                                               const void *bytes)
+{
+  if (d == NULL || line >= d->grid.lines || bytes == NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_phase_done l;
+  const pendres_status status = pendres_phase_done_unpack(d->grid.values, size, bytes, &l);
+  if (status != PENDRES_OK) return status;
+  pendres_phase_done_free(&d->line[line]);
+  d->line[line] = l;
+  return PENDRES_OK;
+}
+
+/* ---- curves ---- */
+
+/* The bifurcations of all lines. */
+static pendres_status gather(pendres_context *ctx, pendres_phase_diagram *d)
+{
+  size_t n = 0;
+  for (size_t i = 0; i < d->grid.lines; i++)
+    for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++)
+      n += pendres_branch_bifurcations(pendres_branches_get(d->line[i].branches, k));
+  pendres_bifurcation *all = malloc((n + 1) * sizeof *all);
+  if (all == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  free(d->bifurcation);
+  d->bifurcation = all;
+  n = 0;
+  for (size_t i = 0; i < d->grid.lines; i++) {
+    d->first[i] = n;
+    for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++) {
+      const pendres_branch *b = pendres_branches_get(d->line[i].branches, k);
+      for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
+        all[n++] = *pendres_branch_bifurcation(b, m);
+    }
+  }
+  d->first[d->grid.lines] = d->bifurcations = n;
+  return PENDRES_OK;
+}
+
+/* Of the cusps of SA and LA the last one on the way out of the region where both exist. */
+static void find_cusp(pendres_phase_diagram *d)
+{
+  for (size_t i = 0; i < pendres_curves_count(d->curves); i++) {
+    const pendres_curve *curve = pendres_curves_get(d->curves, i);
+    for (size_t k = 0; k < pendres_curve_cusps(curve); k++) {
+      const pendres_cusp *cusp = pendres_curve_cusp(curve, k);
+      if (!pendres_phase_on_sheets(&cusp->orbit)) continue;
+      if (d->has_cusp && pendres_phase_beyond(d->grid.across, d->cusp.value[1], cusp->value[1]))
+        continue;
+      d->cusp = *cusp;
+      d->has_cusp = 1;
+    }
+  }
+}
+
+static pendres_status follow_curves(pendres_context *ctx, pendres_phase_diagram *d, int *more)
+{
+  if (d == NULL || more == NULL) return PENDRES_CONTEXT_NULL(ctx, "diagram and more");
+  const pendres_phase_grid *g = &d->grid;
+  const size_t before = d->bifurcations;
+  *more = 0;
+  pendres_status status = gather(ctx, d);
+  if (status != PENDRES_OK || d->bifurcations <= before || d->rounds == MOST_ROUNDS) return status;
+  d->rounds++;
+  pendres_curve_options options = {.second = g->across};
+  pendres_phase_reach(g->options.parameter, g->value[0], g->value[g->values - 1], &options.low[0],
+                      &options.high[0]);
+  pendres_phase_reach(g->across, g->line_value[0], g->line_value[g->lines - 1], &options.low[1],
+                      &options.high[1]);
+  status = d->curves == NULL
+             ? pendres_curves_find(ctx, d->bifurcations, d->bifurcation, &options, &d->curves)
+             : pendres_curves_extend(ctx, d->bifurcations, d->bifurcation, &options, d->curves);
+  /* What was found stays; that there may be more is said, once. */
+  if (is_own(status))
+    status = d->curves_mark.outcome == PENDRES_OK ? keep(ctx, status, &d->curves_mark) : PENDRES_OK;
+  if (status != PENDRES_OK) return status;
+  find_cusp(d);
+  *more = 1;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_phase_diagram_follow_curves(pendres_context *ctx, pendres_phase_diagram *d,
+                                                   int *more)
+{
+  return PENDRES_CONTEXT_CALL(ctx, follow_curves(ctx, d, more));
+}
+
+/* ---- all of it ---- */
+
+static pendres_status do_line(pendres_context *ctx, pendres_phase_diagram *d, size_t line,
+                              int by_curves)
+{
+  pendres_phase_record *r = NULL;
+  pendres_status status = record_line(ctx, d, line, by_curves, &r);
+  if (status == PENDRES_OK) {
+    const void *bytes = pendres_phase_record_bytes(r);
+    status = pendres_phase_diagram_take_line(d, line, pendres_phase_record_size(r), bytes);
+  }
+  pendres_phase_record_free(r);
+  return status;
+}
+
+static pendres_status compute(pendres_context *ctx, const pendres_phase_grid *grid,
+                              pendres_phase_diagram **out)
+{
+  if (out != NULL) *out = NULL;
+  if (grid == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "grid and out");
+  const char *why = refused(grid);
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
+  pendres_phase_diagram *d = NULL;
+  pendres_status status = pendres_phase_diagram_create(grid, &d);
+  if (status != PENDRES_OK)
+    return pendres_context_fail(ctx, status, "out of memory for a phase diagram");
+  for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++) status = do_line(ctx, d, i, 0);
+  for (int more = 1; more && status == PENDRES_OK;) {
+    status = follow_curves(ctx, d, &more);
+    for (size_t i = 0; i < grid->lines && more && status == PENDRES_OK; i++)
+      status = do_line(ctx, d, i, 1);
+  }
+  if (status != PENDRES_OK) pendres_phase_diagram_free(d);
+  else *out = d;
+  return status;
+}
+
+pendres_status pendres_phase_diagram_compute(pendres_context *ctx, const pendres_phase_grid *grid,
+                                             pendres_phase_diagram **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, compute(ctx, grid, out));
+}
+
+/* ---- results ---- */
+
+const pendres_phase_point *pendres_phase_diagram_point(const pendres_phase_diagram *d, size_t point)
+{
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return NULL;
+  const pendres_phase_done *l = &d->line[point / d->grid.values];
+  const size_t place = l->place[point % d->grid.values];
+  return place != PENDRES_PHASE_NOWHERE ? &l->points[place] : &d->nothing;
+}
+
+static pendres_status outcome_of(const pendres_phase_mark *m, const char **message)
+{
+  if (message != NULL) *message = m->message;
+  return m->outcome;
+}
+
+pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *d, size_t point,
+                                             const char **message)
+{
+  if (message != NULL) *message = NULL;
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return PENDRES_INVALID_ARGUMENT;
+  return outcome_of(&d->line[point / d->grid.values].mark[point % d->grid.values], message);
+}
+
+const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagram *d, size_t line)
+{
+  return d != NULL && line < d->grid.lines ? d->line[line].branches : NULL;
+}
+
+const pendres_curves *pendres_phase_diagram_curves(const pendres_phase_diagram *d)
+{
+  return d != NULL ? d->curves : NULL;
+}
+
+pendres_status pendres_phase_diagram_curves_outcome(const pendres_phase_diagram *d,
+                                                    const char **message)
+{
+  if (message != NULL) *message = NULL;
+  return d != NULL ? outcome_of(&d->curves_mark, message) : PENDRES_INVALID_ARGUMENT;
+}
+
+const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phase_diagram *d,
+                                                              size_t *n)
+{
+  if (n != NULL) *n = d != NULL ? d->bifurcations : 0;
+  return d != NULL ? d->bifurcation : NULL;
+}
+
+const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *d)
+{
+  return d != NULL && d->has_cusp ? &d->cusp : NULL;
+}
+
+pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const pendres_orbit *o,
+                                           double curvature)
+{
+  if (d == NULL || o == NULL || !pendres_phase_on_sheets(o)) return PENDRES_LABEL_PERIODIC;
+  const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude : curvature < 0.0;
+  return small ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+}
+
+const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *d, size_t line,
+                                                      pendres_label state)
+{
+  const pendres_bifurcation *best = NULL;
+  if (d == NULL || line >= d->grid.lines) return NULL;
+  for (size_t i = d->first[line]; i < d->first[line + 1]; i++) {
+    const pendres_bifurcation *b = &d->bifurcation[i];
+    if (b->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&b->orbit)) continue;
+    if ((b->curvature > 0.0) != (state == PENDRES_LABEL_LA)) continue;
+    /* Of several on a line the one next to the cusp. */
+    if (best == NULL || b->value > best->value) best = b;
+  }
+  return best;
 }

@@ -292,11 +292,11 @@ static void clear(pendres_resonance *out)
 static pendres_status name_states(const pendres_search *s, pendres_response *r)
 {
   const pendres_response *line[PENDRES_SEARCH_POINTS];
-  pendres_label_border border;
+  pendres_small_end end;
   if (!pendres_response_nameless(r)) return PENDRES_OK;
   for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
-  const pendres_status status = pendres_response_border(s->ctx, s->count, line, &border);
-  if (status == PENDRES_OK) pendres_response_name_by(&border, r);
+  const pendres_status status = pendres_response_small_end(s->ctx, s->count, line, &end);
+  if (status == PENDRES_OK) pendres_response_name_by(&end, r);
   return status;
 }
 

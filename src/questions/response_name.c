@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <pendres/continuation.h>
-
 #include "engine/context_internal.h"
 
 enum { MOST_TRIES = 3 }; /* of orbits whose branch is followed to its fold */
@@ -43,13 +41,13 @@ static const pendres_orbit *highest_below(size_t n, const pendres_response *cons
   return best;
 }
 
-pendres_status pendres_response_border(pendres_context *ctx, size_t n,
-                                       const pendres_response *const *line,
-                                       pendres_label_border *border)
+pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
+                                          const pendres_response *const *line,
+                                          pendres_small_end *end)
 {
-  *border = (pendres_label_border){.distinct = 0};
+  *end = (pendres_small_end){.known = 0};
   double limit = INFINITY;
-  for (int k = 0; k < MOST_TRIES && !border->distinct; k++) {
+  for (int k = 0; k < MOST_TRIES && !end->known; k++) {
     const pendres_orbit *o = highest_below(n, line, limit);
     pendres_fold fold;
     if (o == NULL) break;
@@ -59,20 +57,23 @@ pendres_status pendres_response_border(pendres_context *ctx, size_t n,
     if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
     if (!(fold.curvature < 0.0 && fold.value >= limit && fold.orbit.amplitude >= o->amplitude))
       continue;
-    *border = (pendres_label_border){
-      .distinct = 1, .frequency = fold.value, .amplitude = fold.orbit.amplitude};
+    *end = (pendres_small_end){.known = 1,
+                               .parameter = fold.parameter,
+                               .value = fold.value,
+                               .amplitude = fold.orbit.amplitude};
   }
   return PENDRES_OK;
 }
 
-void pendres_response_name_by(const pendres_label_border *border, pendres_response *r)
+void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
 {
   static const pendres_label_states alone = {.count = 0};
   size_t sa = 0, la = 0, all = r->unresolved + r->unlisted;
-  if (!border->distinct || !pendres_response_nameless(r)) return;
+  if (!end->known || !pendres_response_nameless(r)) return;
+  const pendres_label_border border = pendres_small_end_from(end, &r->pendulum);
   for (size_t i = 0; i < r->states; i++) {
     pendres_attractor *a = &r->state[i];
-    if (waits(a)) a->label = pendres_label_of(&alone, border, &a->orbit);
+    if (waits(a)) a->label = pendres_label_of(&alone, &border, &a->orbit);
     if (a->label == PENDRES_LABEL_SA) sa += r->state_members[i];
     if (a->label == PENDRES_LABEL_LA) la += r->state_members[i];
     all += r->state_members[i];
@@ -86,7 +87,7 @@ void pendres_response_name_by(const pendres_label_border *border, pendres_respon
 
 static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response *responses)
 {
-  pendres_label_border border;
+  pendres_small_end end;
   size_t nameless = 0;
   if (n > 0 && responses == NULL) return PENDRES_CONTEXT_NULL(ctx, "responses");
   for (size_t i = 0; i < n; i++) {
@@ -101,9 +102,9 @@ static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response
   if (line == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu responses", n);
   for (size_t i = 0; i < n; i++) line[i] = &responses[i];
-  const pendres_status status = pendres_response_border(ctx, n, line, &border);
+  const pendres_status status = pendres_response_small_end(ctx, n, line, &end);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    pendres_response_name_by(&border, &responses[i]);
+    pendres_response_name_by(&end, &responses[i]);
   free(line);
   return status;
 }

@@ -6,18 +6,18 @@
 
 #include <pendres/response.h>
 
-#include "orbits/label.h"
+#include "questions/small_end.h"
 
 /* Whether a response has a state that could have a name and has none. */
 int pendres_response_nameless(const pendres_response *response);
 
 /* The fold at which SA ends, from the n responses of a line at which it coexists with LA; not
-   distinct if they show none. */
-pendres_status pendres_response_border(pendres_context *ctx, size_t n,
-                                       const pendres_response *const *line,
-                                       pendres_label_border *border);
+   known if they show none. */
+pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
+                                          const pendres_response *const *line,
+                                          pendres_small_end *end);
 
 /* Name what is alone; shares are brought up to date. */
-void pendres_response_name_by(const pendres_label_border *border, pendres_response *response);
+void pendres_response_name_by(const pendres_small_end *end, pendres_response *response);
 
 #endif

@@ -33,7 +33,7 @@ static double angle_between(double a, double b)
 static double distance(const pendres_branch_point *p, pendres_parameter parameter, double value,
                        const pendres_orbit *o)
 {
-  const double dp = (pendres_parameter_value(&p->orbit.pendulum, parameter) - value) /
+  const double dp = (pendres_parameter_get(parameter, &p->orbit.pendulum) - value) /
                     pendres_parameter_scale(parameter);
   return hypot(hypot(angle_between(p->orbit.x, o->x), p->orbit.v - o->v), dp);
 }
@@ -67,7 +67,7 @@ static const pendres_branch_point *point_of(const pendres_stretch *s, size_t k)
 
 static double value_of(const pendres_stretch *s, size_t k)
 {
-  return pendres_parameter_value(&point_of(s, k)->orbit.pendulum, s->parameter);
+  return pendres_parameter_get(s->parameter, &point_of(s, k)->orbit.pendulum);
 }
 
 /* How far a value is ahead of another in the direction of the stretch. */
@@ -137,7 +137,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
                              pendres_branch **out)
 {
   const double room = margin * pendres_parameter_scale(parameter);
-  const double here = pendres_parameter_value(&orbit->pendulum, parameter);
+  const double here = pendres_parameter_get(parameter, &orbit->pendulum);
   double low = fmin(fmin(from, limit), here) - room, high = fmax(fmax(from, limit), here) + room;
   if (parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * fmin(here, fmin(from, limit)));
   if (parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
@@ -150,7 +150,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
                                     pendres_parameter parameter, double limit,
                                     pendres_stretch *out)
 {
-  const double from = pendres_parameter_value(&orbit->pendulum, parameter);
+  const double from = pendres_parameter_get(parameter, &orbit->pendulum);
   pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
   double off = 0.0;
   s.period = orbit->period;
@@ -183,7 +183,7 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   pendres_status status = pendres_branch_switch(ctx, at, &child);
   if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
   if (status != PENDRES_OK) return status;
-  const double there = pendres_parameter_value(&child.pendulum, at->parameter);
+  const double there = pendres_parameter_get(at->parameter, &child.pendulum);
   if (!(ahead(&s, there, at->value) > 0.0)) return PENDRES_NOT_FOUND;
   status = follow(ctx, &child, at->parameter, at->value, limit, &s.branch);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
@@ -220,8 +220,8 @@ int pendres_stretch_holds(const pendres_stretch *s, double value)
 static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_branch_point *q,
                                    pendres_parameter parameter, double value)
 {
-  const double from = pendres_parameter_value(&p->orbit.pendulum, parameter);
-  const double to = pendres_parameter_value(&q->orbit.pendulum, parameter);
+  const double from = pendres_parameter_get(parameter, &p->orbit.pendulum);
+  const double to = pendres_parameter_get(parameter, &q->orbit.pendulum);
   double part = to != from ? (value - from) / (to - from) : 0.0;
   /* Not far beyond the first point, where a value may lie next to the place of a jump. */
   part = fmin(fmax(part, -1.0), 1.0);
@@ -231,7 +231,7 @@ static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_
                            .v = p->orbit.v + part * (q->orbit.v - p->orbit.v),
                            .period = p->orbit.period,
                            .winding = p->orbit.winding};
-  *pendres_parameter_of(&g.pendulum, parameter) = value;
+  pendres_parameter_set(parameter, value, &g.pendulum);
   return g;
 }
 

@@ -1,0 +1,24 @@
+/*
+ * small_end.h -- the fold at which SA ends along a line of points in one parameter.
+ *
+ * Owns: how that fold, found once for the line, names what is alone at each of its points.
+ */
+#ifndef PENDRES_SMALL_END_H
+#define PENDRES_SMALL_END_H
+
+#include <pendres/continuation.h>
+
+#include "orbits/label.h"
+
+typedef struct pendres_small_end {
+  int known;                   /* 0: there is no such fold, and no distinction */
+  pendres_parameter parameter; /* that changes along the line */
+  double value;                /* of the parameter, at the fold */
+  double amplitude;            /* of the orbit there */
+} pendres_small_end;
+
+/* The fold as an orbit at these parameters has it before or behind itself. */
+pendres_label_border pendres_small_end_from(const pendres_small_end *end,
+                                            const pendres_pendulum *pendulum);
+
+#endif

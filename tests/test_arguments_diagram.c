@@ -1,0 +1,116 @@
+/*
+ * test_arguments_diagram.c -- phase diagrams and parameters with arguments that are none, as in
+ * test_arguments.c.
+ */
+#include <string.h>
+
+#include <pendres/pendres.h>
+
+#include "check.h"
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* A failure with a sentence of its own. */
+#define REFUSED(call)                                                  \
+  do {                                                                 \
+    assert_int_equal((call), PENDRES_INVALID_ARGUMENT);                \
+    const char *said = pendres_context_message(ctx);                   \
+    assert_true(strlen(said) >= 8);                                    \
+    assert_string_not_equal(said, pendres_status_message(PENDRES_INVALID_ARGUMENT)); \
+  } while (0)
+
+static void without_context(pendres_phase_diagram *d)
+{
+  const char *words = "";
+  size_t n = 1;
+  assert_int_equal(pendres_phase_diagram_take_line(NULL, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take_line(d, 2, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_leave_out(NULL, 0), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_leave_out(d, 4), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_outcome(NULL, 0, &words), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_outcome(d, 4, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_curves_outcome(NULL, &words), PENDRES_INVALID_ARGUMENT);
+  assert_true(words == NULL && pendres_phase_diagram_point(NULL, 0) == NULL);
+  assert_null(pendres_phase_diagram_point(d, 4));
+  assert_null(pendres_phase_diagram_branches(NULL, 0));
+  assert_null(pendres_phase_diagram_branches(d, 2));
+  assert_null(pendres_phase_diagram_curves(NULL));
+  assert_null(pendres_phase_diagram_bifurcations(NULL, &n));
+  assert_null(pendres_phase_diagram_bifurcations(NULL, NULL));
+  assert_null(pendres_phase_diagram_cusp(NULL));
+  assert_null(pendres_phase_diagram_fold(NULL, 0, PENDRES_LABEL_SA));
+  assert_null(pendres_phase_diagram_fold(d, 2, PENDRES_LABEL_SA));
+  assert_int_equal(pendres_phase_diagram_ending(NULL, NULL, 0.0), PENDRES_LABEL_PERIODIC);
+  assert_true(n == 0 && pendres_phase_record_bytes(NULL) == NULL);
+  assert_int_equal(pendres_phase_record_size(NULL), 0);
+  pendres_phase_record_free(NULL);
+}
+
+static void diagrams(void **state)
+{
+  (void)state;
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  const double value[] = {0.7, 0.8}, back[] = {0.8, 0.7}, nan[] = {0.7, NAN};
+  const pendres_phase_grid some = {.pendulum = {.drive_amplitude = 0.2},
+                                   .options = {.ensemble = {4, 0.0, 1.0, 0.0}},
+                                   .values = 2, .value = value, .across = PENDRES_DAMPING,
+                                   .lines = 2, .line_value = value};
+  pendres_phase_grid bad[] = {some, some, some, some, some, some, some, some, some, some};
+  pendres_phase_diagram *d = NULL, *none = NULL;
+  pendres_phase_record *r = NULL;
+  int more = 1;
+  bad[0].values = bad[1].lines = 0;
+  bad[2].value = bad[3].line_value = NULL;
+  bad[4].value = back;
+  bad[5].line_value = nan;
+  bad[6].across = PENDRES_DRIVE_FREQUENCY;
+  bad[7].across = PENDRES_PARAMETER_COUNT;
+  bad[8].options.parameter = PENDRES_DAMPING;
+  bad[9].lines = (size_t)-1 / 2;
+  for (size_t i = 0; i < COUNT(bad); i++) {
+    REFUSED(pendres_phase_diagram_compute(ctx, &bad[i], &none));
+    assert_int_equal(pendres_phase_diagram_create(&bad[i], &none), PENDRES_INVALID_ARGUMENT);
+  }
+  REFUSED(pendres_phase_diagram_compute(ctx, NULL, &none));
+  REFUSED(pendres_phase_diagram_compute(ctx, &some, NULL));
+  assert_int_equal(pendres_phase_diagram_create(NULL, &none), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_create(&some, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_null(none);
+  assert_int_equal(pendres_phase_diagram_create(&some, &d), PENDRES_OK);
+  REFUSED(pendres_phase_diagram_compute_line(ctx, NULL, 0, &r));
+  REFUSED(pendres_phase_diagram_compute_line(ctx, d, 2, &r));
+  REFUSED(pendres_phase_diagram_compute_line(ctx, d, 0, NULL));
+  REFUSED(pendres_phase_diagram_complete_line(ctx, NULL, 0, &r));
+  REFUSED(pendres_phase_diagram_complete_line(ctx, d, 2, &r));
+  REFUSED(pendres_phase_diagram_complete_line(ctx, d, 0, NULL));
+  REFUSED(pendres_phase_diagram_follow_curves(ctx, NULL, &more));
+  REFUSED(pendres_phase_diagram_follow_curves(ctx, d, NULL));
+  assert_true(r == NULL);
+  without_context(d);
+  pendres_phase_diagram_free(d);
+  pendres_phase_diagram_free(NULL);
+  pendres_context_free(ctx);
+}
+
+static void parameters(void **state)
+{
+  const pendres_pendulum good = {.damping = 0.1, .drive_amplitude = 0.2, .drive_frequency = 0.8};
+  pendres_pendulum p = good;
+  (void)state;
+  assert_null(pendres_parameter_name(PENDRES_PARAMETER_COUNT));
+  assert_null(pendres_special_name(PENDRES_SPECIAL_COUNT));
+  assert_true(isnan(pendres_parameter_get(PENDRES_DAMPING, NULL)));
+  assert_true(isnan(pendres_parameter_get((pendres_parameter)-1, &p)));
+  pendres_parameter_set(PENDRES_DAMPING, 1.0, NULL);
+  pendres_parameter_set(PENDRES_PARAMETER_COUNT, 1.0, &p);
+  assert_memory_equal(&p, &good, sizeof p);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(diagrams), cmocka_unit_test(parameters)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
