@@ -124,11 +124,6 @@ quiet ./whole
 if [ -x "$prefix/bin/resonance" ]; then
   "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"
   grep -qF "$version" "$scratch/log" || fail "resonance --version does not say $version"
-  "$prefix/bin/resonance" --help | grep -oE -- '--[a-z][-a-z]*' | sort -u | while read -r option; do
-    sed 's/\\//g' "$prefix/share/man/man1/resonance.1" | grep -qF -- "$option" || echo "$option"
-  done >"$scratch/untold"
-  [ ! -s "$scratch/untold" ] ||
-    fail "man/resonance.1 lacks" $(cat "$scratch/untold") "(make man renews it)"
 fi
 nm -D --defined-only "$prefix/lib/libpendres.so" | awk '$2 != "A" && $NF !~ /^pendres_/' | grep . &&
   fail "exported without the prefix"

@@ -294,6 +294,39 @@ def test_file():
     assert "deck" in pendres.open(out, group="provenance")
 
 
+def test_tutorial():
+    """Every command of docs/python.md, in its order, as it stands; the figure's numbers are the
+    program's, and pictures are drawn where there is matplotlib."""
+    import contextlib
+    import importlib.util
+    import io
+    with open("docs/python.md", encoding="utf-8") as page:
+        text = page.read()
+    program = os.environ.get("RESONANCE")
+    has = {name: importlib.util.find_spec(name) is not None for name in
+           ("matplotlib", "xarray", "h5netcdf")}
+    os.symlink(os.path.abspath("input"), os.path.join(SCRATCH, "input"))
+    names, done, printed, home = {}, 0, io.StringIO(), os.getcwd()
+    os.chdir(SCRATCH)
+    try:
+        for block in re.findall(r"^```python\n(.*?)^```$|^    (resonance [^\n]*)$", text,
+                                flags=re.M | re.S):
+            if block[1] and program:
+                subprocess.run([program, *block[1].split()[1:]], check=True, capture_output=True)
+            if ("matplotlib" in block[0] and not has["matplotlib"]) or \
+                    ("pendres.open" in block[0] and not (program and has["h5netcdf"])):
+                continue
+            with contextlib.redirect_stdout(printed):
+                exec(compile(block[0], "docs/python.md", "exec"), names)  # pylint: disable=exec-used
+            done += 1
+    finally:
+        os.chdir(home)
+    assert done > 10 and "True\n" in printed.getvalue() or not has["h5netcdf"], printed.getvalue()
+    # Fig. 2 as the paper has it: edges at weak damping, and smooth peaks at strong.
+    assert not names["smooth"][:8].any() and names["smooth"][-80:].all()
+    print(printed.getvalue())
+
+
 def main():
     """All of them; the first that fails ends the program with its traceback."""
     for name, test in list(globals().items()):

@@ -121,6 +121,17 @@ for _status in Status:
 
 # ---- Structures as numpy sees them -------------------------------------------------------------
 
+
+class Record(np.record):
+    """One of the library's structures; its fields are attributes, those of arrays in it too."""
+
+    def __getattribute__(self, name):
+        value = super().__getattribute__(name)
+        if type(value) is np.ndarray and value.dtype.names:  # pylint: disable=unidiomatic-typecheck
+            return value.view(np.recarray)
+        return value
+
+
 _PRIMITIVES = {"float": "f4", "double": "f8", "long double": "g", "char": "i1", "_Bool": "?"}
 _dtypes = {}
 
@@ -147,7 +158,7 @@ def _dtype_of(ctype):
         names, fields = zip(*ctype.fields)
         plain = np.dtype({"names": list(names), "formats": [dtype(f.type) for f in fields],
                           "offsets": [f.offset for f in fields], "itemsize": ffi.sizeof(ctype)})
-        return np.dtype((np.record, plain))
+        return np.dtype((Record, plain))
     return np.dtype(np.uintp)
 
 
