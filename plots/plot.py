@@ -359,11 +359,36 @@ def draw_switching(h, path):
     return fig
 
 
+def draw_hysteresis(h, path):
+    name = h.file["amplitude"].dims[1][0].name.rsplit("/", 1)[-1]
+    x, amplitude, velocity, lyapunov = (h[n] for n in
+                                        (name, "amplitude", "mean_velocity", "lyapunov"))
+    figure, (top, below) = plt.subplots(2, 1, sharex=True, figsize=(7, 6), height_ratios=(2, 1))
+    for way, marker in enumerate("^v"):
+        words = f"{name.replace('_', ' ')} goes {('up', 'down')[way]}"
+        top.plot(x, amplitude[way], marker, ms=4, mfc="none", label=words, color=f"C{way}")
+        below.plot(x, lyapunov[way], marker, ms=4, mfc="none", color=f"C{way}")
+    for value, way, gradual in zip(h["jump_parameter"], h["jump_direction"], h["jump_gradual"]):
+        for ax in (top, below):
+            ax.axvline(value, color=f"C{way}", lw=0.8, ls=":" if gradual else "-")
+    if np.nanmax(np.abs(velocity)) > 0:
+        right = top.twinx()
+        right.plot(x, velocity.T, lw=0.8)
+        right.set_ylabel("mean velocity")
+    top.set_ylabel("amplitude")
+    top.legend(frameon=False)
+    below.axhline(0, color="0.7", lw=0.8)
+    below.set_ylabel("Lyapunov exponent")
+    below.set_xlabel(name.replace("_", " "))
+    return figure
+
+
 DRAWERS = [  # the first whose variable is there draws the file
     ("frequency_kittel", draw_free_oscillation),
     ("peak", draw_resonance_curve),
     ("resonance_period", draw_response),
     ("drive_phase", draw_orbit),
+    ("jump_parameter", draw_hysteresis),
     ("label", draw_basins),
     ("branch_frequency", draw_branches),
     ("regime", draw_phase_diagram),

@@ -120,6 +120,12 @@ static const char *const good[] = {
   "&scene kind='switching' /\n" ONE "&sweep temperature_range=1e-3,1e-2,5 /\n",
   "&scene kind='switching' /\n" ONE "&sweep temperature=0.01 /\n&switching from=1, to=3 /\n",
   "&scene kind='orbit' /\n" ONE "&orbit start='2' /\n",
+  "&scene kind='hysteresis' /\n&pendulum drive_amplitude=0.2 damping=0.12 /\n"
+  "&sweep drive_frequency_range=0.6,0.9,31 /\n&hysteresis start='sa' /\n",
+  "&scene kind='hysteresis' /\n&pendulum drive_period=8 damping=0.12 /\n"
+  "&sweep drive_amplitude=0.1,0.3 /\n&hysteresis x=1 v=0.5 /\n",
+  "&scene kind='lyapunov_map' /\n&pendulum drive_frequency=0.66 /\n"
+  "&sweep drive_amplitude_range=0.5,1.5,9 damping=0.2,0.5 /\n",
 };
 
 enum { GOOD = sizeof good / sizeof *good };

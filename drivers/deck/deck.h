@@ -43,7 +43,11 @@
   ITEM(HARD_CASES, "hard_cases",                                                                  \
        "cases that break pendulum programs, each with its bound and the figure measured")         \
   ITEM(SWITCHING, "switching",                                                                    \
-       "rates at which noise drives a pendulum from one state to another, against temperature")
+       "rates at which noise drives a pendulum from one state to another, against temperature")   \
+  ITEM(HYSTERESIS, "hysteresis",                                                                  \
+       "state of a pendulum while one parameter is swept slowly, up and then down; its jumps")    \
+  ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
+       "largest Lyapunov exponent, period and winding over two parameters")
 
 typedef enum deck_kind {
 #define DECK_KIND_CODE(code, name, words) DECK_##code,
@@ -206,6 +210,10 @@ int deck_has_noise(const deck *d);
 
 /** The seed of its random numbers. */
 uint64_t deck_seed(const deck *d);
+
+/** The axes along which parameters of the pendulum move: those with more than one value, among
+ *  damping, drive amplitude, frequency and period. Up to `room` are written; how many there are. */
+int deck_moving(const deck *d, int room, deck_axis_id *axis);
 
 /** Names in decks, and what a kind computes in words; NULL if out of range. */
 const char *deck_kind_name(deck_kind kind);

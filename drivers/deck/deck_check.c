@@ -51,14 +51,15 @@ static int in_scene(const deck_builder *b, const char *group, const char *name)
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
-/* Given, or tried in vain, in &sweep or, for an axis, in &pendulum. */
+/* Given, or tried in vain; for an axis, in &sweep or in &pendulum. */
 static int was_tried(const deck_builder *b, size_t row)
 {
   const deck_key *key = &deck_table[row];
+  const int axis = key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
   if (b->given[row].given || b->given[row].broken) return 1;
-  for (size_t i = 0; key->type == DECK_SWEEP && i < deck_table_size; i++)
-    if (deck_table[i].type == DECK_SWEEP_VALUE && deck_table[i].axis == key->axis &&
-        (b->given[i].given || b->given[i].broken))
+  for (size_t i = 0; axis && i < deck_table_size; i++)
+    if ((deck_table[i].type == DECK_SWEEP_VALUE || deck_table[i].type == DECK_SWEEP) &&
+        deck_table[i].axis == key->axis && (b->given[i].given || b->given[i].broken))
       return 1;
   return 0;
 }
@@ -163,8 +164,9 @@ static void check_idle_keys(deck_builder *b)
     [DECK_WITH_NOISE] = "it concerns noise, and there is no 'temperature' above 0",
     [DECK_WITHOUT_START] = "'start' names an attractor",
   };
-  const deck_given *start = given(b, "orbit", "start");
-  const deck_given *x = given(b, "orbit", "x");
+  const char *group = in_scene(b, "hysteresis", "start") ? "hysteresis" : "orbit";
+  const deck_given *start = given(b, group, "start");
+  const deck_given *x = given(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD)
@@ -175,11 +177,14 @@ static void check_idle_keys(deck_builder *b)
     namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
                       b->errors, "'%s' is not used: %s", key->name, why[key->when]);
   }
-  if (in_scene(b, "orbit", "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
-      !x->given && !x->broken &&
-      (x->group == NULL || !x->group->broken))
-    complain_of_group(b, x->group, "scene 'orbit' needs 'start' ('sa', 'la' or a number) or 'x' "
-                                   "(and 'v') in &orbit");
+  if (in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
+      !x->given && !x->broken && (x->group == NULL || !x->group->broken)) {
+    char message[200];
+    snprintf(message, sizeof message,
+             "scene '%s' needs 'start' ('sa', 'la' or a number) or 'x' (and 'v') in &%s",
+             deck_kind_name(b->d->kind), group);
+    complain_of_group(b, x->group, message);
+  }
 }
 
 /* ---- axes ---------------------------------------------------------------------------------- */
@@ -203,6 +208,27 @@ static void expand_axes(deck_builder *b)
     if (axis->listed_count + axis->range_count == 0) continue;
     if (!expand_axis(axis)) b->out_of_memory = 1;
   }
+}
+
+/* Scenes in which some parameters move: as many as they are about. */
+static void check_moving(deck_builder *b)
+{
+  static const struct {
+    deck_kind kind;
+    int axes;
+    const char *message;
+  } wanted[] = {
+    { DECK_HYSTERESIS, 1, "one parameter is swept: give two or more values of damping, "
+                          "drive_amplitude or drive_frequency, and one of each of the others" },
+    { DECK_LYAPUNOV_MAP, 2, "a map has two axes: give two or more values of two of damping, "
+                            "drive_amplitude and drive_frequency, and one of the third" },
+  };
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
+    if (b->scene == 1u << wanted[i].kind && deck_moving(b->d, 0, NULL) != wanted[i].axes)
+      complain_of_group(b, NULL, wanted[i].message);
+  if (b->scene == 1u << DECK_HYSTERESIS && b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
+    complain(b, given(b, "sweep", "drive_period"), "drive_period",
+             "what is swept is the drive's frequency: give 'drive_frequency'");
 }
 
 /* ---- sizes and the rest -------------------------------------------------------------------- */
@@ -253,6 +279,7 @@ void deck_check(deck_builder *b)
   resolve_drive(b);
   expand_axes(b);
   check_idle_keys(b);
+  if (b->errors->count == 0) check_moving(b);
   check_size(b);
   check_output(b);
   if (!(d->ensemble.x_first < d->ensemble.x_last)) {

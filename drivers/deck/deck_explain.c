@@ -302,7 +302,9 @@ pendres_status deck_init(const char *word, FILE *out, char *why, size_t size)
           deck_kind_name((deck_kind)kind), deck_kind_words((deck_kind)kind));
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if ((key->scenes & 1u << kind) == 0 || key->type == DECK_SWEEP_VALUE) continue;
+    if ((key->scenes & 1u << kind) == 0) continue;
+    /* One value of an axis is an example for &sweep, unless the others are to stand still. */
+    if (key->type == DECK_SWEEP_VALUE && key->example == NULL) continue;
     if (group == NULL || strcmp(group, key->group) != 0)
       fprintf(out, "%s\n&%s", group != NULL ? "/\n" : "", key->group);
     group = key->group;

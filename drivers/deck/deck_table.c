@@ -30,14 +30,17 @@
 #define WORK BIT(WORK_PRECISION)
 #define HARD BIT(HARD_CASES)
 #define SWITCHING BIT(SWITCHING)
+#define HYSTERESIS BIT(HYSTERESIS)
+#define MAP BIT(LYAPUNOV_MAP)
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
-#define SETTLING (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
+#define ALONG (HYSTERESIS | MAP)                   /* some of the parameters move */
+#define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
 #define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
-#define RESULTS (FREE | DRIVEN)                    /* scenes with one tolerance */
+#define RESULTS (FREE | DRIVEN | ALONG)            /* scenes with one tolerance */
 
 #define FIELD(f) .offset = offsetof(deck, f), .size = sizeof(((deck *)0)->f)
 #define REAL(g, n, f) .group = g, .name = n, .type = DECK_REAL, FIELD(f)
@@ -109,15 +112,19 @@ const deck_key deck_table[] = {
     SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
     .number = NAN, EXAMPLE("0.12") },
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(HYSTERESIS), NOT_NEGATIVE,
+    EXAMPLE("0.2") },
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP), NOT_NEGATIVE },
   { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },
+  { VALUE("damping", DAMPING), NEEDED_IN(ALONG), POSITIVE, EXAMPLE("0.12") },
   { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_FREQUENCY,
     SAYS("omega0", "angular frequency of the drive; instead of 'drive_period'") },
   { REAL("pendulum", "drive_period", pendulum.drive_period), IN(POINT), FREQUENCY,
     .number = NAN, .when = DECK_BY_PERIOD, EXAMPLE("8.0"),
     SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
-  { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID), FREQUENCY },
-  { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY },
+  { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
+  { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
   { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE,
     SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
@@ -127,6 +134,7 @@ const deck_key deck_table[] = {
   { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE,
     EXAMPLE("0.1, 0.4, 4"),
     SAYS("omega0", "friction coefficient gamma; one value may stand in &pendulum instead") },
+  { SWEEP("damping", DAMPING), IN(ALONG), POSITIVE },
   { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5,
     .number2 = 1.2, SAYS("omega0", "lowest and highest drive frequency where the resonance is "
                          "looked for") },
@@ -135,9 +143,13 @@ const deck_key deck_table[] = {
          "possible") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), NEEDED_IN(GRID), FREQUENCY,
     EXAMPLE("0.7, 0.9, 21") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(ALONG), FREQUENCY, EXAMPLE("0.7, 0.9, 21") },
+  { SWEEP("drive_period", DRIVE_PERIOD), IN(ALONG), FREQUENCY },
   { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
     SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
-  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(0), NOT_NEGATIVE },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(HYSTERESIS), NOT_NEGATIVE,
+    SAYS("m g l", "amplitude F0 of the drive") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
     SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
@@ -180,6 +192,15 @@ const deck_key deck_table[] = {
     SAYS(NULL, "samples a drive period") },
   { LOGICAL("orbit", "transient", orbit.transient), IN(ORBIT), .number = 0,
     SAYS(NULL, "record from the start on instead of after settling") },
+
+  { CHOICE("hysteresis", "start", orbit.start), IN(HYSTERESIS), .choices = starts,
+    EXAMPLE("'sa'"),
+    SAYS(NULL, "attractor at the first value that the pendulum is on: SA, LA, or its number in the "
+         "order of amplitude; without it the one reached from 'x', 'v'") },
+  { REAL("hysteresis", "x", orbit.x), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+  { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
 
   { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
     SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "
@@ -274,6 +295,19 @@ const deck_key *deck_table_words(const deck_key *key)
     if (other == NULL) other = k;
   }
   return other;
+}
+
+int deck_moving(const deck *d, int room, deck_axis_id *axis)
+{
+  static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
+                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD };
+  int n = 0;
+  for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+    if (d->axis[parameters[i]].count < 2) continue;
+    if (n < room) axis[n] = parameters[i];
+    n++;
+  }
+  return n;
 }
 
 const char *deck_kind_words(deck_kind kind)

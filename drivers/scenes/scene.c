@@ -17,6 +17,7 @@ extern const scene_kind scene_phase_diagram;
 extern const scene_kind scene_branches;
 extern const scene_kind scene_switching;
 extern const scene_kind scene_hard_cases;
+extern const scene_kind scene_hysteresis;
 
 static const scene_kind *const scenes[] = {
   &scene_free_oscillation,
@@ -29,6 +30,7 @@ static const scene_kind *const scenes[] = {
   &scene_branches,
   &scene_switching,
   &scene_hard_cases,
+  &scene_hysteresis,
 };
 
 const scene_kind *scene_find(deck_kind kind)
@@ -117,11 +119,15 @@ pendres_status scene_write_identity(scene_run *run)
                                           slash != NULL ? slash + 1 : d->name);
   for (size_t i = 0; i < sizeof fixed / sizeof *fixed && status == PENDRES_OK; i++) {
     const deck_axis_id axis = fixed[i].axis;
-    if (isnan(fixed[i].value) || d->axis[axis].count > 0) continue;
+    /* A scene of which some parameters move has the others as axes of one value. */
+    const int alone = d->axis[axis].count == 1 && (d->kind == DECK_HYSTERESIS ||
+                                                   d->kind == DECK_LYAPUNOV_MAP);
+    const double value = alone ? d->axis[axis].value[0] : fixed[i].value;
+    if (isnan(value) || (d->axis[axis].count > 0 && !alone)) continue;
     const pendres_store_spec spec = { .name = deck_axis_name(axis),
                                       .long_name = about[axis].words,
                                       .units = about[axis].units };
-    status = pendres_store_put(run->store, &spec, &fixed[i].value, 1);
+    status = pendres_store_put(run->store, &spec, &value, 1);
     if (coordinates[0] != '\0') strcat(coordinates, " ");
     strcat(coordinates, spec.name);
   }

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -64,38 +65,12 @@ static void keep_orbit(work *w, const pendres_attractor *a)
   w->found.escape_rate_bound = a->escape_rate_bound;
 }
 
-/* "sa, la": what there is instead. */
-static void list_labels(const pendres_attractors *set, char *text, size_t size)
-{
-  text[0] = '\0';
-  for (size_t i = 0; i < pendres_attractors_count(set); i++)
-    snprintf(text + strlen(text), size - strlen(text), "%s%s", i > 0 ? ", " : "",
-             pendres_label_name(pendres_attractors_get(set, i)->label));
-}
-
 static pendres_status find_named(work *w, pendres_context *ctx, farm_record *out)
 {
-  pendres_attractors *set = NULL;
-  pendres_status status = pendres_attractors_find(ctx, &w->pendulum, 0, NULL, NULL, &set);
-  if (status != PENDRES_OK) return status;
-  status = PENDRES_NOT_FOUND;
-  const long number = strtol(w->d->orbit.start, NULL, 10); /* 0: a name */
-  for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
-    const pendres_attractor *a = pendres_attractors_get(set, i);
-    if (number > 0 ? (long)i + 1 != number
-                   : strcmp(pendres_label_name(a->label), w->d->orbit.start) != 0)
-      continue;
-    keep_orbit(w, a);
-    status = PENDRES_OK;
-  }
-  if (status != PENDRES_OK) {
-    char list[100];
-    list_labels(set, list, sizeof list);
-    snprintf(out->message, sizeof out->message,
-             "there is no attractor '%s' at these parameters; found: %s", w->d->orbit.start,
-             list[0] != '\0' ? list : "none");
-  }
-  pendres_attractors_free(set);
+  pendres_attractor a;
+  const pendres_status status = scene_along_named(ctx, &w->pendulum, w->d->orbit.start, &a,
+                                                  out->message, sizeof out->message);
+  if (status == PENDRES_OK) keep_orbit(w, &a);
   return status;
 }
 

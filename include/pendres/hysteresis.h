@@ -2,7 +2,8 @@
  * hysteresis.h -- a pendulum whose parameter is moved so slowly that it always settles.
  *
  * Owns: following the state that a pendulum is in along any path of a parameter, as an experimenter
- * does who sweeps a frequency up and down; where the state ends, and what the pendulum goes to then.
+ * does who sweeps a frequency up and down; where the state ends, and what the pendulum goes to
+ * then.
  *
  * While the state is a stable periodic orbit it is followed by continuation, so that the value at
  * which it ends is a bifurcation's, located to the tolerance, and not that of the next step. At a
@@ -64,7 +65,8 @@ typedef struct pendres_jump {
   int direction;             /**< 1: the parameter grows, -1: it falls */
   pendres_jump_kind kind;
   double value, value_error; /**< of the parameter. For OTHER, unless a bifurcation was found to be
-                                  the end, the middle between two steps and half their distance */
+                                  the end, it was halved down to, and the error is half of what is
+                                  left: somewhere therein the pendulum leaves */
   pendres_label from, to;
   int to_period;             /**< drive periods of the orbit that it goes to; 0: none that closes */
   int gradual;               /**< 1: goes over to the orbit born there, which grows from nothing. At

@@ -12,7 +12,10 @@
 
 static const double two_pi = 6.28318530717958647693;
 
-enum { MOST_JUMPS = 256 /* between two values of the path */ };
+enum {
+  MOST_JUMPS = 256, /* between two values of the path */
+  HALVINGS = 8      /* of the distance of two values between which chaos ends */
+};
 
 struct pendres_hysteresis {
   size_t count, jumps, jump_room;
@@ -178,7 +181,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   if (s->end == PENDRES_STRETCH_LOST)
     end = (pendres_bifurcation){.kind = PENDRES_REGULAR, .parameter = w->parameter,
                                 .value = s->end_value, .value_error = s->end_error,
-                                .orbit = pendres_stretch_last(s)->orbit};
+                                .orbit = w->state.attractor.orbit};
   pendres_jump j = {.step = step, .direction = s->direction, .kind = kinds[end.kind],
                     .value = end.value, .value_error = end.value_error,
                     .from = w->state.attractor.label, .share = NAN};
@@ -249,7 +252,9 @@ static pendres_status put_stretch(path *w, size_t first, size_t last)
 static double turning_point(const path *w, size_t i)
 {
   const int up = w->value[i] > w->at;
-  while (i + 1 < w->n && (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i])) i++;
+  while (i + 1 < w->n &&
+         (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i]))
+    i++;
   return w->value[i];
 }
 
@@ -277,6 +282,35 @@ static pendres_status follow_closed(path *w, size_t *i)
     if (status != PENDRES_OK || !pendres_settled_closed(&w->state.attractor)) return status;
   }
   return PENDRES_OK;
+}
+
+/*
+ * Where the pendulum leaves for an orbit between two values, at the latter of which it is on it: by
+ * halving. What happens in windows of other motions on the way is not told.
+ */
+static pendres_status halve(path *w, const pendres_settled *old, double from, double to,
+                            pendres_jump *j)
+{
+  pendres_settled before = *old;
+  pendres_status status = PENDRES_OK;
+  for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
+    const double middle = 0.5 * (from + to);
+    const pendres_pendulum p = pendulum_at(w, middle);
+    pendres_settled there;
+    status = pendres_settled_find(w->ctx, &p, before.x, before.v, &there);
+    if (status != PENDRES_OK) break;
+    const pendres_orbit *a = &there.attractor.orbit, *b = &w->state.attractor.orbit;
+    if (pendres_settled_closed(&there.attractor) && a->period == b->period &&
+        abs(a->winding) == abs(b->winding)) {
+      to = middle;
+    } else {
+      from = middle;
+      if (!pendres_settled_closed(&there.attractor)) before = there;
+    }
+  }
+  j->value = 0.5 * (from + to);
+  j->value_error = 0.5 * fabs(to - from);
+  return status;
 }
 
 /*
@@ -315,6 +349,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
     }
   }
   pendres_stretch_free(&s);
+  if (status == PENDRES_OK && !j.certain) status = halve(w, old, from, to, &j);
   return status == PENDRES_OK ? note_jump(w, &j) : status;
 }
 
@@ -435,7 +470,8 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
   }
   w->h = create(w->n);
   if (w->h == NULL)
-    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values", w->n);
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
+                                w->n);
   pendres_status status = w->n > 0 ? walk(w) : PENDRES_OK;
   if (status == PENDRES_OK) status = give_names(w->ctx, w->h);
   if (status == PENDRES_OK) *out = w->h;

@@ -54,8 +54,8 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, const pendres_p
   pendres_attractors *found = NULL;
   const pendres_status status = pendres_settle(ctx, n, p, x, v, outcome, &found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_attractor *a =
-      outcome[i].attractor >= 0 ? pendres_attractors_get(found, (size_t)outcome[i].attractor) : NULL;
+    const size_t which = outcome[i].attractor >= 0 ? (size_t)outcome[i].attractor : (size_t)-1;
+    const pendres_attractor *a = pendres_attractors_get(found, which);
     out[i] = (pendres_settled){.pendulum = p[i], .x = x[i], .v = v[i]};
     out[i].attractor = a != NULL ? *a : pendres_settled_nothing(&p[i]);
   }

@@ -13,6 +13,8 @@ static const double two_pi = 6.28318530717958647693;
 static const double wildest = 3000.0;
 /* The branch is followed beyond both ends by this share of the parameter's scale. */
 static const double margin = 0.003;
+/* Points of orbits of period one; those of a doubling cascade reach less far each time. */
+static const double spacing = 0.05;
 
 /* Values that differ by less, in the parameter's scale, are those of one place. */
 static const double same_value = 1e-8;
@@ -82,12 +84,14 @@ static void walk_along(pendres_stretch *s, double limit)
   const pendres_branch_point *p = NULL;
   const pendres_bifurcation *met = NULL; /* the latest, where it is not known yet what follows */
   const double same = same_value * pendres_parameter_scale(s->parameter);
+  size_t met_at = 0;
   int turned = 0;
   s->end = PENDRES_STRETCH_LOST;
   s->points = 1;
   for (size_t k = 1; (p = point_of(s, k)) != NULL; k++) {
     if (p->bifurcation >= 0) {
       met = pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
+      met_at = k;
       if (met->kind == PENDRES_FOLD) break;
       continue;
     }
@@ -114,7 +118,7 @@ static void walk_along(pendres_stretch *s, double limit)
   s->bifurcation = *met;
   s->end_value = met->value;
   s->end_error = met->value_error;
-  s->points++;
+  s->points = met_at + 1;
 }
 
 /* Which way along the branch the parameter goes in the direction, from the first point to the next
@@ -141,8 +145,9 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
   double low = fmin(fmin(from, limit), here) - room, high = fmax(fmax(from, limit), here) + room;
   if (parameter == PENDRES_DRIVE_FREQUENCY) low = fmax(low, 0.5 * fmin(here, fmin(from, limit)));
   if (parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
-  const pendres_branch_options options = {
-    .parameter = parameter, .low = low, .high = high, .wildest = wildest};
+  const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high,
+                                          .spacing = spacing / orbit->period,
+                                          .wildest = wildest};
   return pendres_branch_follow(ctx, 1, orbit, &options, out);
 }
 
@@ -190,7 +195,7 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   if (status != PENDRES_OK) return status;
   s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
   if (off < near_birth && choose_way(&s)) walk_along(&s, limit);
-  if (s.points < 2) {
+  if (pendres_stretch_last(&s) == NULL) {
     pendres_branch_free(s.branch);
     return PENDRES_NOT_FOUND;
   }

@@ -1,0 +1,99 @@
+/*
+ * test_scene_sweeps.c -- scenes in which parameters move, run in this process on small decks: what
+ * is written is what the library finds, whatever the threads.
+ */
+#include "scene_fixture.h"
+
+#include <pendres/pendres.h>
+
+#define HYSTERESIS \
+  "&scene kind = 'hysteresis' /\n&pendulum drive_amplitude = 0.2, damping = 0.15 /\n"
+
+/* Both jumps of Fig. 9's middle damping: folds, and the ends that the scene `branches` finds. */
+static void hysteresis(void **state)
+{
+  (void)state;
+  static const char deck_text[] = HYSTERESIS
+    "&sweep drive_frequency_range = 0.65, 0.9, 11 /\n&hysteresis start = 'sa' /\n";
+  size_t n = 0;
+  scene_run_deck(deck_text, 1, "one");
+  scene_run_deck(deck_text, 2, "two");
+  scene_check_same_bytes("one", "two");
+  pendres_store *store = scene_open("one");
+  double *value = scene_values(store, "jump_parameter", &n);
+  assert_int_equal(n, 2);
+  double *error = scene_values(store, "jump_parameter_error", &n);
+  double *from = scene_values(store, "jump_from", &n), *to = scene_values(store, "jump_to", &n);
+  double *way = scene_values(store, "jump_direction", &n);
+  double *label = scene_values(store, "label", &n);
+  assert_int_equal(n, 22);
+  double *amplitude = scene_values(store, "amplitude", &n);
+  double *period = scene_values(store, "period", &n);
+  assert_true(way[0] == 0.0 && way[1] == 1.0);
+  assert_true(from[0] == PENDRES_LABEL_SA && to[0] == PENDRES_LABEL_LA);
+  assert_true(from[1] == PENDRES_LABEL_LA && to[1] == PENDRES_LABEL_SA);
+  for (int i = 0; i < 11; i++) {
+    const double frequency = 0.65 + 0.025 * i;
+    assert_int_equal(label[i], frequency < value[0] ? PENDRES_LABEL_SA : PENDRES_LABEL_LA);
+    assert_int_equal(label[11 + i], frequency < value[1] ? PENDRES_LABEL_SA : PENDRES_LABEL_LA);
+    assert_true(period[i] == 1.0 && period[11 + i] == 1.0);
+    if (label[i] == label[11 + i]) check_near(amplitude[i], amplitude[11 + i], 1e-7);
+  }
+  for (int k = 0; k < 2; k++) {
+    pendres_context *ctx = NULL;
+    pendres_fold fold;
+    pendres_attractors *set = NULL;
+    /* From the far side of each branch. */
+    const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2,
+                                .drive_frequency = k == 0 ? 0.7 : 0.88};
+    check_ok(pendres_context_create(NULL, &ctx));
+    check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+    check_ok(pendres_fold_find(ctx, &pendres_attractors_get(set, 0)->orbit, &fold));
+    check_near(value[k], fold.value, error[k] + fold.value_error);
+    pendres_attractors_free(set);
+    pendres_context_free(ctx);
+  }
+  pendres_store_free(store);
+  free(value), free(error), free(from), free(to), free(way), free(label), free(amplitude);
+  free(period);
+}
+
+/* One parameter is swept, no more and no less; a start is needed. */
+static void wrong_decks(void **state)
+{
+  static const struct {
+    const char *text, *message;
+  } wrong[] = {
+    {HYSTERESIS "&sweep drive_frequency = 0.7 /\n&hysteresis x = 1 /\n", "one parameter is swept"},
+    {HYSTERESIS "&hysteresis x = 1 /\n", "needs 'drive_frequency' or 'drive_period'"},
+    {HYSTERESIS "&sweep drive_frequency = 0.7, 0.8 /\n", "needs 'start'"},
+    {HYSTERESIS "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis start = 'sa', x = 1 /\n",
+     "'x' is not used"},
+    {HYSTERESIS "&sweep drive_period = 7, 8 /\n&hysteresis x = 1 /\n", "give 'drive_frequency'"},
+    {"&scene kind = 'hysteresis' /\n&pendulum damping = 0.1 /\n"
+     "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis x = 1 /\n", "needs 'drive_amplitude'"},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    deck d;
+    namelist_errors errors = {0};
+    assert_int_equal(
+      deck_read_memory("test.nml", wrong[i].text, strlen(wrong[i].text), &d, &errors),
+      PENDRES_INVALID_ARGUMENT);
+    int told = 0;
+    for (size_t k = 0; k < errors.count; k++)
+      told |= strstr(errors.item[k].text, wrong[i].message) != NULL;
+    if (!told) print_error("%s: %s\n", wrong[i].text, errors.item[0].text);
+    assert_true(told);
+    namelist_errors_free(&errors);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(hysteresis),
+    cmocka_unit_test(wrong_decks),
+  };
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
