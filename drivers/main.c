@@ -17,6 +17,7 @@
 #include "options.h"
 #include "provenance.h"
 #include "resume.h"
+#include "shard.h"
 #include "terminal/safe_text.h"
 #include "scenes/scene.h"
 #include "terminal/signals.h"
@@ -197,7 +198,10 @@ static int open_output(job *j)
     return FAILED;
   }
   j->watched = 1;
-  if (pendres_store_create(d->output, &options, &j->run.store) != PENDRES_OK) {
+  char output[DECK_PATH + SHARD_NAME], suffix[SHARD_NAME] = "";
+  if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
+  snprintf(output, sizeof output, "%s%s", d->output, suffix);
+  if (pendres_store_create(output, &options, &j->run.store) != PENDRES_OK) {
     progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
     return FAILED;
   }
@@ -209,9 +213,23 @@ static int open_output(job *j)
 
 static int open_journal(job *j)
 {
-  const int code = resume_open(&j->deck, &j->options, &j->progress, &j->journal);
+  const options *o = &j->options;
+  const int code = resume_open(&j->deck, o, &j->progress, &j->journal);
   farm_set_journal(j->farm, j->journal);
+  if (o->shards > 0)
+    farm_set_share(j->farm, (farm_share){ .shard = o->shard - 1, .shards = o->shards });
+  else if (o->merge && !o->resume) farm_set_share(j->farm, (farm_share){ .complete = 1 });
   return code;
+}
+
+/* A part has done its own, and writes no results. */
+static int leave_part(job *j)
+{
+  const options *o = &j->options;
+  progress_note(&j->progress, "part %zu of %zu is done: %zu finished tasks in %s; when all parts "
+                "are, the same command with --merge instead of --shard writes %s", o->shard,
+                o->shards, journal_own(j->journal), journal_path(j->journal), j->deck.output);
+  return DONE;
 }
 
 /* Where orbits are wanted, a method that is not of fixed steps is told not to be theirs. */
@@ -232,7 +250,7 @@ static int compute(job *j)
   tell_method(j);
   pendres_status status = j->scene->run(&j->run);
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
-  if (status == PENDRES_OK) return DONE;
+  if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
   if (status == PENDRES_INTERRUPTED) {
     const char *signal = signals_name();
     char advice[JOURNAL_WORDS];
@@ -355,6 +373,7 @@ static int run_deck(job *j)
   if (code == DONE) code = open_output(j);                           /* 7 the file */
   if (code == DONE) code = open_journal(j);                          /* 8 what is done already */
   if (code == DONE) code = compute(j);                               /* 9 all the work */
+  if (code == DONE && j->options.shards > 0) return leave_part(j);
   if (code == DONE) code = finish_output(j);                         /* 10 whole, in its place */
   if (code == FAILED) tell_kept(j);
   if (code == DONE) code = report(j);                                /* 11 the table */

@@ -12,6 +12,7 @@
 
 #include "deck/deck.h"
 #include "farm/farm.h"
+#include "shard.h"
 
 enum { MOST_THREADS = FARM_MOST_THREADS };
 
@@ -34,6 +35,9 @@ static const char help[] =
   "      --resume          go on where a run of the same deck was stopped, if there was one\n"
   "      --journal=DIR     keep finished tasks in DIR/FILE.journal, not beside FILE\n"
   "      --no-journal      keep nothing that a stopped run could go on from\n"
+  "      --shard=I/N       compute the I-th of N parts and leave it in FILE.I-of-N.journal;\n"
+  "                        auto or auto/N: as the variables of an array of jobs say\n"
+  "      --merge           put the parts together; with --resume compute what is missing\n"
   "  -t, --threads=N       use N threads (default: OMP_NUM_THREADS, or all cores)\n"
   "  -q, --quiet           no progress and no notes; errors are still reported\n"
   "      --log=FILE        append progress, notes and errors to FILE, with the time\n"
@@ -46,8 +50,8 @@ static const char help[] =
   "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are\n"
   "not. A FILE that is there already and holds anything but results of the same deck is kept, as\n"
   "FILE.~1~, FILE.~2~ and so on.\n"
-  "Finished tasks are kept in FILE.journal, which is removed when FILE is whole. After a signal, a\n"
-  "crash or a loss of power the same command with --resume goes on from there and ends in the\n"
+  "Finished tasks are kept in FILE.journal, which is removed when FILE is whole. After a signal,\n"
+  "a crash or a loss of power the same command with --resume goes on from there and ends in the\n"
   "same results; --resume may be given always. Without it an older journal is set aside, as\n"
   "FILE.journal~.\n"
   "\n"
@@ -67,6 +71,15 @@ static int threads_of(const char *text)
   errno = 0;
   const long n = strtol(text, &end, 10);
   return errno != 0 || end == text || *end != '\0' || n < 1 || n > MOST_THREADS ? 0 : (int)n;
+}
+
+/* --shard; 0, or 2 after a message. */
+static int take_shard(const char *value, const char *name, options *out)
+{
+  char why[200];
+  if (shard_parse(value, &out->shard, &out->shards, why, sizeof why)) return 0;
+  fprintf(stderr, "%s: --shard: %s\n", name, why);
+  return complain(name);
 }
 
 /* What needs no deck. */
@@ -124,6 +137,11 @@ static int apply(int option, const char *value, const char *name, options *out)
     return 0;
   case 'J':
     out->no_journal = 1;
+    return 0;
+  case 'S':
+    return take_shard(value, name, out);
+  case 'M':
+    out->merge = 1;
     return 0;
   case 'q':
     out->quiet = 1;
@@ -196,6 +214,7 @@ int options_parse(int argc, char **argv, options *out)
     { "init", required_argument, NULL, 'I' },    { "reference", no_argument, NULL, 'R' },
     { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
     { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
+    { "shard", required_argument, NULL, 'S' },   { "merge", no_argument, NULL, 'M' },
     { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
@@ -208,6 +227,14 @@ int options_parse(int argc, char **argv, options *out)
     if (code != 0) return code;
   }
   if (out->action >= OPTIONS_LIST) return 0;
+  if (out->no_journal && (out->resume || out->shards > 0 || out->merge)) {
+    fprintf(stderr, "%s: --resume, --shard and --merge need a journal\n", name);
+    return complain(name);
+  }
+  if (out->merge && out->shards > 0) {
+    fprintf(stderr, "%s: --merge puts together what --shard has computed: one at a time\n", name);
+    return complain(name);
+  }
   const int code = take_operands(argc, argv, name, out);
   if (code != 0) return code;
   return threads_of_environment(out, name);

@@ -31,6 +31,8 @@ typedef struct options {
   const char *output; /* instead of the deck's; NULL: not given */
   int resume;         /* nonzero: go on from the journal */
   int no_journal;
+  size_t shard, shards; /* of --shard, from 1; 0: not given */
+  int merge;            /* put shards together */
   const char *journal; /* its folder; NULL: the output's */
   int force;          /* nonzero: an output that is there is not kept */
   const char *log;    /* NULL: none */

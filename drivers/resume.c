@@ -1,27 +1,70 @@
 /* resume.c -- a run that goes on where an earlier one was stopped; see resume.h. */
+#define _POSIX_C_SOURCE 200809L /* opendir */
 #include "resume.h"
 
+#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <pendres/store.h>
 
+#include "shard.h"
+
 enum { FAILED = 1, BAD_USAGE = 2 };
 
-/* Beside the file that the output goes to, or in a folder; to be freed. NULL: no memory. */
-static char *place_of(const deck *d, const options *o)
+/* Where journals stand: the folder, and what their names begin with. Free both. */
+typedef struct place {
+  char *folder, *base;
+} place;
+
+static void place_free(place *p)
+{
+  free(p->folder);
+  free(p->base);
+}
+
+static char *copy_of(const char *text, size_t length)
+{
+  char *copy = malloc(length + 1);
+  if (copy == NULL) return NULL;
+  memcpy(copy, text, length);
+  copy[length] = '\0';
+  return copy;
+}
+
+/* Beside the file that the output goes to, or in a folder of the user's. 0: no memory. */
+static int place_of(const deck *d, const options *o, place *p)
 {
   char *target = NULL;
-  if (pendres_store_target(d->output, &target, NULL, 0) != PENDRES_OK) return NULL;
-  const char *slash = strrchr(target, '/'), *folder = o->journal;
-  const char *name = folder == NULL || slash == NULL ? target : slash + 1;
-  const size_t size = strlen(name) + (folder != NULL ? strlen(folder) : 0) + sizeof "/.journal";
+  *p = (place){ 0 };
+  if (pendres_store_target(d->output, &target, NULL, 0) != PENDRES_OK) return 0;
+  const char *slash = strrchr(target, '/');
+  const char *name = slash != NULL ? slash + 1 : target;
+  p->base = copy_of(name, strlen(name));
+  if (o->journal != NULL) p->folder = copy_of(o->journal, strlen(o->journal));
+  else if (slash == NULL) p->folder = copy_of(".", 1);
+  else p->folder = copy_of(target, slash == target ? 1 : (size_t)(slash - target));
+  free(target);
+  return p->folder != NULL && p->base != NULL;
+}
+
+/* FOLDER/NAME.ENDING, to be freed; a folder that is the working one is not named. */
+static char *path_in(const char *folder, const char *name, const char *ending)
+{
+  const int here = strcmp(folder, ".") == 0;
+  const size_t size = strlen(folder) + strlen(name) + strlen(ending) + 2;
   char *path = malloc(size);
   if (path != NULL)
-    snprintf(path, size, "%s%s%s.journal", folder != NULL ? folder : "", folder != NULL ? "/" : "",
-             name);
-  free(target);
+    snprintf(path, size, "%s%s%s%s", here ? "" : folder, here ? "" : "/", name, ending);
   return path;
+}
+
+static char *own_path(const place *p, const options *o)
+{
+  char ending[SHARD_NAME + 16] = "";
+  if (o->shards > 0) shard_suffix(o->shard, o->shards, ending);
+  strcat(ending, ".journal");
+  return path_in(p->folder, p->base, ending);
 }
 
 /* What records depend on, a line each; to be freed. NULL: no memory. Titles and the names of
@@ -40,31 +83,87 @@ static char *head_of(const deck *d)
   return head;
 }
 
-static int open_at(const char *path, const char *head, const options *o, progress *p,
-                   journal **out)
+static int complain(progress *p, pendres_status status, const char *words, const char *advice)
+{
+  progress_error(p, "%s%s", words, status == PENDRES_INVALID_ARGUMENT ? advice : "");
+  return status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
+}
+
+/* The journals of the parts, of which *count there are. A part goes on without what it cannot read
+   of others, as those of an earlier deck. */
+static int add_parts(const place *at, const options *o, const char *own, progress *p, journal *j,
+                     size_t *count)
 {
   char words[JOURNAL_WORDS];
-  const pendres_status status = journal_open(path, head, o->resume, out, words);
-  if (status != PENDRES_OK) {
-    progress_error(p, "%s%s", words, status != PENDRES_INVALID_ARGUMENT ? "" :
-                   " (without --resume all is computed, and that journal set aside)");
-    return status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
+  DIR *folder = opendir(at->folder);
+  int code = 0;
+  *count = 0;
+  if (folder == NULL) return 0; /* without it the own journal could not be there */
+  for (const struct dirent *e = readdir(folder); e != NULL && code == 0; e = readdir(folder)) {
+    if (!shard_is_journal(e->d_name, at->base)) continue;
+    char *path = path_in(at->folder, e->d_name, "");
+    if (path == NULL) {
+      progress_error(p, "out of memory for the journals of parts");
+      code = FAILED;
+    } else if (strcmp(path, own) != 0) {
+      const pendres_status status = journal_add(j, path, words);
+      *count += status == PENDRES_OK;
+      if (status != PENDRES_OK && o->merge) {
+        progress_error(p, "%s: %s", path, words);
+        code = status == PENDRES_INVALID_ARGUMENT ? BAD_USAGE : FAILED;
+      }
+    }
+    free(path);
   }
+  (void)closedir(folder);
+  return code;
+}
+
+static int open_at(const place *at, const char *path, const char *head, const options *o,
+                   progress *p, journal **out)
+{
+  char words[JOURNAL_WORDS];
+  size_t parts = 0;
+  int code = 0;
+  const pendres_status status = journal_open(path, head, o->resume || o->merge, out, words);
+  if (status != PENDRES_OK)
+    return complain(p, status, words, " (without --resume all is computed, and that journal set "
+                    "aside)");
   if (words[0] != '\0') progress_error(p, "%s", words);
-  if (journal_count(*out) > 0)
-    progress_note(p, "going on from %zu finished tasks in %s", journal_count(*out), path);
-  return 0;
+  const size_t own = journal_count(*out);
+  if (own > 0) progress_note(p, "going on from %zu finished tasks in %s", own, path);
+  if (o->shards > 0 || o->merge) code = add_parts(at, o, path, p, *out, &parts);
+  if (code == 0 && o->merge && parts == 0) {
+    progress_error(p, "there are no journals of parts, %s.I-of-N.journal, in the folder '%s'",
+                   at->base, at->folder);
+    code = BAD_USAGE;
+  }
+  if (code == 0 && parts > 0)
+    progress_note(p, "%zu finished tasks in the journals of %zu%s part%s",
+                  journal_count(*out) - own, parts, o->merge ? "" : " other",
+                  parts == 1 ? "" : "s");
+  return code;
 }
 
 int resume_open(const deck *d, const options *o, progress *p, journal **out)
 {
-  *out = NULL;
-  /* What is timed is not the same twice. */
-  if (o->no_journal || d->kind == DECK_WORK_PRECISION) return 0;
-  char *path = place_of(d, o), *head = head_of(d);
+  place at = { 0 };
+  char *path = NULL, *head = NULL;
   int code = FAILED;
-  if (path != NULL && head != NULL) code = open_at(path, head, o, p, out);
+  *out = NULL;
+  if (d->kind == DECK_WORK_PRECISION) { /* what is timed is not the same twice */
+    if (o->shards == 0 && !o->merge) return 0;
+    progress_error(p, "methods are timed beside each other, not in parts");
+    return BAD_USAGE;
+  }
+  if (o->no_journal) return 0;
+  if (place_of(d, o, &at)) {
+    path = own_path(&at, o);
+    head = head_of(d);
+  }
+  if (path != NULL && head != NULL) code = open_at(&at, path, head, o, p, out);
   else progress_error(p, "out of memory for the journal");
+  place_free(&at);
   free(path);
   free(head);
   return code;
@@ -73,8 +172,8 @@ int resume_open(const deck *d, const options *o, progress *p, journal **out)
 const char *resume_advice(const journal *j, char *text, size_t size)
 {
   text[0] = '\0';
-  if (j != NULL && journal_count(j) > 0)
+  if (j != NULL && journal_own(j) > 0)
     snprintf(text, size, "%zu finished tasks are kept in %s, and the same command with --resume "
-             "goes on from there", journal_count(j), journal_path(j));
+             "goes on from there", journal_own(j), journal_path(j));
   return text;
 }

@@ -52,6 +52,7 @@ typedef struct farm_stage {
   const char *what;      /* names the tasks in the progress line, e.g. "dampings" */
   size_t tasks;
   size_t record_size;    /* bytes */
+  int cheap;             /* so little to do that every shard does all of it */
   int timed;             /* tasks look at the clock: one at a time, so that each is alone */
   farm_task *task;
   farm_collect *collect; /* may be NULL */
@@ -72,6 +73,20 @@ pendres_status farm_run(farm *f, const farm_stage *stage);
  */
 struct journal;
 void farm_set_journal(farm *f, struct journal *j);
+
+/* How tasks are shared out among several programs, each with a journal; all zero: not at all. */
+typedef struct farm_share {
+  size_t shard, shards; /* this one, from 0, of so many: every so-manieth task is its own */
+  int complete;         /* put together from shards: the stage that they share must be there */
+} farm_share;
+
+/*
+ * A shard computes its own tasks of the first stage that is neither cheap nor in the journals as a
+ * whole; farm_run then returns PENDRES_INTERRUPTED, and farm_left() tells that it was for this
+ * reason. Later stages need all records: they come when the shards are put together.
+ */
+void farm_set_share(farm *f, farm_share share);
+int farm_left(const farm *f);
 
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there

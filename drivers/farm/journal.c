@@ -33,11 +33,13 @@ struct journal {
   char *path, *aside;
   char *head;
   int *file;        /* the first is written to */
+  char **added;     /* names of the files */
   size_t files;
   off_t end;        /* of the first */
   stage *stage;
   size_t stages, count;
-  int own, broken;  /* the first file holds records; it takes no more */
+  size_t own;       /* records in the first file */
+  int broken;       /* it takes no more */
   int dirty;        /* not all of it is known to be on disk */
   double synced;
   pthread_mutex_t lock; /* of writing, and of the index from then on */
@@ -98,6 +100,11 @@ size_t journal_count(const journal *j)
   return j->count;
 }
 
+size_t journal_own(const journal *j)
+{
+  return j->own;
+}
+
 const char *journal_path(const journal *j)
 {
   return j->path;
@@ -125,16 +132,29 @@ static pendres_status load(journal *j, size_t file, off_t *end)
 }
 
 /* One more file; its number is files - 1. */
-static pendres_status take_file(journal *j, int fd)
+static pendres_status take_file(journal *j, int fd, const char *name)
 {
   int *grown = realloc(j->file, (j->files + 1) * sizeof *grown);
-  if (grown == NULL) {
+  if (grown != NULL) j->file = grown;
+  char **names = realloc(j->added, (j->files + 1) * sizeof(char *));
+  if (names != NULL) j->added = names;
+  char *copy = malloc(strlen(name) + 1);
+  if (grown == NULL || names == NULL || copy == NULL) {
+    free(copy);
     close(fd);
     return PENDRES_OUT_OF_MEMORY;
   }
-  j->file = grown;
+  strcpy(copy, name);
+  j->added[j->files] = copy;
   j->file[j->files++] = fd;
   return PENDRES_OK;
+}
+
+static void drop_own(journal *j)
+{
+  close(j->file[0]);
+  free(j->added[0]);
+  j->files = 0;
 }
 
 /* A journal that is not to be gone on from. */
@@ -160,14 +180,13 @@ static pendres_status open_own(journal *j, char *words)
     close(fd);
     return complain(words, PENDRES_BUSY, "the journal", j->path, "another run is writing it");
   }
-  return take_file(j, fd);
+  return take_file(j, fd, j->path);
 }
 
 /* Set the own file aside and begin another. */
 static pendres_status begin_anew(journal *j, char *words)
 {
-  close(j->file[0]);
-  j->files = 0;
+  drop_own(j);
   const pendres_status status = set_aside(j, words);
   return status == PENDRES_OK ? open_own(j, words) : status;
 }
@@ -204,7 +223,7 @@ static pendres_status load_own(journal *j, char *words)
 {
   const pendres_status status = load(j, 0, &j->end);
   const off_t dropped = size_of(j->file[0]) - j->end;
-  j->own = j->count > 0;
+  j->own = j->count;
   if (status != PENDRES_OK || dropped <= 0) return status;
   if (ftruncate(j->file[0], j->end) != 0)
     return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
@@ -235,7 +254,11 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
 
 static void let_go(journal *j)
 {
-  for (size_t i = 0; i < j->files; i++) close(j->file[i]);
+  for (size_t i = 0; i < j->files; i++) {
+    close(j->file[i]);
+    free(j->added[i]);
+  }
+  free(j->added);
   for (size_t i = 0; i < j->stages; i++) free(j->stage[i].task);
   free(j->stage);
   free(j->file);
@@ -277,7 +300,7 @@ pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORD
   if (fd < 0)
     return complain(words, errno == ENOENT ? PENDRES_NOT_FOUND : PENDRES_IO,
                     "cannot read the journal", path, strerror(errno));
-  pendres_status status = take_file(j, fd);
+  pendres_status status = take_file(j, fd, path);
   if (status != PENDRES_OK) return status;
   switch (journal_file_head(fd, j->head, &end, words)) {
   case JOURNAL_SAME: return load(j, j->files - 1, &end);
@@ -324,7 +347,8 @@ static pendres_status append(journal *j, size_t number, size_t task, const farm_
   }
   const off_t at = j->end;
   j->end += (off_t)(sizeof e + e.stored);
-  j->own = j->dirty = 1;
+  j->own++;
+  j->dirty = 1;
   if (now() - j->synced > sync_after) {
     (void)fdatasync(j->file[0]);
     j->synced = now();
@@ -348,7 +372,7 @@ pendres_status journal_append(journal *j, size_t number, size_t task, const farm
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (!j->own) (void)unlink(j->path);
+  if (j->own == 0) (void)unlink(j->path);
   else if (j->dirty) (void)fsync(j->file[0]);
   let_go(j);
 }
@@ -356,7 +380,7 @@ void journal_close(journal *j)
 void journal_remove(journal *j)
 {
   if (j == NULL) return;
-  (void)unlink(j->path);
+  for (size_t i = 0; i < j->files; i++) (void)unlink(j->added[i]);
   (void)unlink(j->aside);
   let_go(j);
 }

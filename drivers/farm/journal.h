@@ -2,8 +2,8 @@
  * journal.h -- records of finished tasks, kept on disk until the results stand whole.
  *
  * Owns: the journal's file. It is only ever appended to: a head that says of which deck and code
- * the records are, then records, each with its stage, task, length and checksums. A run that was killed
- * in the middle of one leaves a torn end, which is dropped when the journal is opened again.
+ * the records are, then records, each with its stage, task, length and checksums. A run that was
+ * killed in the middle of one leaves a torn end, which is dropped when the journal is opened again.
  */
 #ifndef JOURNAL_H
 #define JOURNAL_H
@@ -29,8 +29,9 @@ pendres_status journal_open(const char *path, const char *head, int resume, jour
    journal_open; PENDRES_NOT_FOUND: there is none. */
 pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORDS]);
 
-/* Records that are there, and the name of the file. */
+/* Records that are there; those in the own file among them; its name. */
 size_t journal_count(const journal *j);
+size_t journal_own(const journal *j);
 const char *journal_path(const journal *j);
 
 /* Is the record of a task there? j may be NULL: no. */
@@ -51,7 +52,8 @@ pendres_status journal_append(journal *j, size_t stage, size_t task, const farm_
    allowed. */
 void journal_close(journal *j);
 
-/* The results stand whole: the file is removed, and what was set aside, and j is let go of. */
+/* The results stand whole: the file is removed, what was set aside, and the journals that were
+   added; j is let go of. */
 void journal_remove(journal *j);
 
 #endif

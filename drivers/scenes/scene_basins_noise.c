@@ -128,6 +128,7 @@ static pendres_status compute(scene_run *run, cloud_work *w)
   for (size_t i = 0; i < n * w->strobes; i++) w->x[i] = w->v[i] = NAN;
   pendres_status status =
     scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = n, .task = prepare,
+                                      .cheap = 1,
                                       .record_size = sizeof(made), .collect = collect_prepared,
                                       .arg = w });
   if (status == PENDRES_OK)

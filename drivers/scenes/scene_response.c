@@ -395,7 +395,7 @@ static pendres_status run_scene(scene_run *run)
                                              .tasks = g.dampings * (g.chunks + 1),
                                              .collect = collect, .arg = &g });
   if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = g.dampings,
+    status = scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = g.dampings, .cheap = 1,
                                                .task = name_states, .collect = collect_names,
                                                .record_size = g.drives * sizeof *g.points,
                                                .arg = &g });

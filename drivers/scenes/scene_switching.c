@@ -200,6 +200,7 @@ static pendres_status compute(scene_run *run, work *w)
                       w->temperatures);
   pendres_status status =
     scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = STATES, .task = choose,
+                                      .cheap = 1,
                                       .record_size = sizeof(choice), .collect = collect_choice,
                                       .arg = w });
   w->survey.steps_per_period = steps_of(w);

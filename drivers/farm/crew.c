@@ -1,29 +1,10 @@
-/* farm.c -- tasks on threads; see farm.h. */
-#define _GNU_SOURCE /* sched_getaffinity */
-#include "farm/farm.h"
+/* crew.c -- the tasks of a stage on threads; see farm.h. */
+#include "farm/farm_internal.h"
 
-#include <pthread.h>
-#include <sched.h>
 #include <stdatomic.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-#include "farm/journal.h"
-
-struct farm {
-  farm_options options;
-  int threads;
-  int short_of;              /* threads that could be had, when there were fewer; else 0 */
-  pthread_mutex_t lock;      /* of `spent` */
-  pendres_cost spent;        /* but for what the contexts have in their own books */
-  pendres_context **context; /* one a thread, made at its first task */
-  journal *journal;          /* NULL: none */
-  size_t stages;             /* that were run */
-  char message[512];
-};
 
 /* A record that waits for its turn to be collected. */
 typedef struct kept {
@@ -31,8 +12,12 @@ typedef struct kept {
   size_t size;
 } kept;
 
-/* Whether a task's record is there: in memory, or in the journal alone. */
-enum { NOT_DONE, DONE, JOURNALED };
+/* Whether a task's record is there: in memory; in the journal alone, from this run or from an
+   earlier one; or another shard's to compute. */
+enum { NOT_DONE, DONE, KEPT, JOURNALED, OTHERS };
+
+/* Bytes of records that wait in memory for their turn, where the journal holds them as well. */
+enum { MOST_WAITING = 64 << 20 };
 
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
@@ -44,6 +29,8 @@ typedef struct crew {
   pthread_mutex_t lock;
   size_t next;          /* not yet taken */
   size_t finished;
+  size_t waiting;       /* bytes of records in memory */
+  size_t others;        /* tasks that are left to other shards */
   size_t collected;     /* tasks 0 .. collected-1 */
   int collecting;       /* a thread is at it */
   char *done;           /* NOT_DONE, ... */
@@ -58,84 +45,11 @@ typedef struct worker {
   size_t task;
 } worker;
 
-static int farm_stop(const farm *f)
-{
-  return f->options.stop != NULL && f->options.stop(f->options.stop_arg);
-}
-
-int farm_stopped(void *f)
-{
-  return farm_stop(f);
-}
-
 /* Stop at a signal, and where an earlier task has failed already. */
 static int worker_stop(void *arg)
 {
   const worker *w = arg;
   return farm_stop(w->crew->farm) || w->task > atomic_load(&w->crew->limit);
-}
-
-/* The processors that this process may use. */
-static int processors(void)
-{
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* more than the set has room for */
-  return online > 0 && online <= FARM_MOST_THREADS ? (int)online : 1;
-}
-
-pendres_status farm_create(const farm_options *options, farm **out)
-{
-  farm *f = calloc(1, sizeof *f);
-  *out = NULL;
-  if (f == NULL) return PENDRES_OUT_OF_MEMORY;
-  f->options = *options;
-  f->threads = options->threads > 0 ? options->threads : processors();
-  f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
-  if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
-    free(f->context);
-    free(f);
-    return PENDRES_OUT_OF_MEMORY;
-  }
-  *out = f;
-  return PENDRES_OK;
-}
-
-void farm_free(farm *f)
-{
-  if (f == NULL) return;
-  for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
-  free(f->context);
-  (void)pthread_mutex_destroy(&f->lock);
-  free(f);
-}
-
-/* The context of a thread; only that thread asks for it. */
-static pendres_status context_of(farm *f, int thread, pendres_context **out)
-{
-  pendres_status status = PENDRES_OK;
-  if (f->context[thread] == NULL)
-    status = pendres_context_create(&f->options.library, &f->context[thread]);
-  *out = f->context[thread];
-  return status;
-}
-
-/* ---- costs --------------------------------------------------------------------------------- */
-
-static void add_cost(pendres_cost *sum, const pendres_cost *one)
-{
-  sum->pendulum_periods += one->pendulum_periods;
-  sum->rhs_evaluations += one->rhs_evaluations;
-  sum->steps += one->steps;
-  sum->newton_steps += one->newton_steps;
-  sum->settled_pendulums += one->settled_pendulums;
-}
-
-static void spend(farm *f, const pendres_cost *cost)
-{
-  pthread_mutex_lock(&f->lock);
-  add_cost(&f->spent, cost);
-  pthread_mutex_unlock(&f->lock);
 }
 
 /* What a context has spent outside of tasks goes to the farm's sum: the next is a task's. */
@@ -144,7 +58,7 @@ static void settle_books(farm *f, pendres_context *ctx)
   pendres_cost cost;
   pendres_context_cost(ctx, &cost);
   pendres_context_cost_reset(ctx);
-  spend(f, &cost);
+  farm_spend(f, &cost);
 }
 
 /* ---- a stage ------------------------------------------------------------------------------- */
@@ -171,7 +85,8 @@ static int take(crew *c, size_t *task)
 /* Is it this thread's turn to collect? Only under the lock. */
 static int may_collect(const crew *c)
 {
-  return c->collected < atomic_load(&c->limit) && c->done[c->collected];
+  const char done = c->collected < c->stage->tasks ? c->done[c->collected] : NOT_DONE;
+  return c->collected < atomic_load(&c->limit) && done != NOT_DONE && done != OTHERS;
 }
 
 /* Hand the next record over, without the lock: others go on with their tasks meanwhile. */
@@ -180,10 +95,10 @@ static pendres_status collect_next(crew *c)
   kept *k = &c->record[c->collected];
   farm_record record = { .data = k->data, .size = k->size };
   pendres_status status = PENDRES_OK;
-  if (c->done[c->collected] == JOURNALED) {
+  if (c->done[c->collected] != DONE) {
     status = journal_read(c->journal, c->number, c->collected, &record);
     if (status != PENDRES_OK) return status;
-    spend(c->farm, &record.cost);
+    if (c->done[c->collected] == JOURNALED) farm_spend(c->farm, &record.cost);
   }
   if (c->stage->collect != NULL) status = c->stage->collect(c->stage->arg, c->collected, &record);
   free(record.data);
@@ -191,17 +106,38 @@ static pendres_status collect_next(crew *c)
   return status;
 }
 
-/* Keep a finished task's record on disk; where that fails the run goes on without. */
-static void keep(crew *c, size_t task, const farm_record *record)
+/*
+ * Keep a finished task's record on disk; 0 if it is not there. Then the run goes on without, but
+ * not as a shard, of which the journal is all that stays.
+ */
+static int keep(crew *c, size_t task, farm_record *record, pendres_status *status)
 {
   char words[JOURNAL_WORDS];
-  if (c->journal == NULL) return;
-  const pendres_status status = journal_append(c->journal, c->number, task, record, words);
-  if (status == PENDRES_OK || words[0] == '\0') return;
+  if (c->journal == NULL) return 0;
+  if (journal_append(c->journal, c->number, task, record, words) == PENDRES_OK) return 1;
+  if (c->others > 0) {
+    *status = PENDRES_IO;
+    snprintf(record->message, sizeof record->message, "%.500s", words);
+  }
+  if (c->others > 0 || words[0] == '\0') return 0;
   pthread_mutex_lock(&c->lock);
   progress_error(c->farm->options.progress, "%s; what is computed from now on is not kept if the "
                    "run is stopped", words);
   pthread_mutex_unlock(&c->lock);
+  return 0;
+}
+
+/* Note a finished task's record: in memory, unless it would wait there for long. Under the lock. */
+static void note_record(crew *c, size_t task, farm_record *record, int on_disk)
+{
+  const int long_way = c->others > 0 || c->waiting + record->size > MOST_WAITING;
+  c->done[task] = on_disk && long_way && task != c->collected ? KEPT : DONE;
+  if (c->done[task] == DONE) {
+    c->record[task] = (kept){ record->data, record->size };
+    c->waiting += record->size;
+    record->data = NULL;
+  }
+  progress_step(c->farm->options.progress, ++c->finished);
 }
 
 /* Collect what has become ready while nobody else does. */
@@ -211,9 +147,11 @@ static void collect_ready(crew *c)
   const int mine = !c->collecting && may_collect(c);
   if (mine) c->collecting = 1;
   while (mine && c->collecting) {
+    const size_t size = c->record[c->collected].size;
     pthread_mutex_unlock(&c->lock);
     const pendres_status collected = collect_next(c);
     pthread_mutex_lock(&c->lock);
+    c->waiting -= size;
     if (collected != PENDRES_OK) fail(c, c->collected, collected, "");
     else c->collected++;
     c->collecting = may_collect(c);
@@ -224,16 +162,10 @@ static void collect_ready(crew *c)
 /* Note a task's end. */
 static void finish(crew *c, size_t task, pendres_status status, farm_record *record)
 {
-  if (status == PENDRES_OK) keep(c, task, record);
+  const int on_disk = status == PENDRES_OK && keep(c, task, record, &status);
   pthread_mutex_lock(&c->lock);
-  if (status != PENDRES_OK) {
-    fail(c, task, status, record->message);
-  } else {
-    c->record[task] = (kept){ record->data, record->size };
-    record->data = NULL;
-    c->done[task] = DONE;
-    progress_step(c->farm->options.progress, ++c->finished);
-  }
+  if (status != PENDRES_OK) fail(c, task, status, record->message);
+  else note_record(c, task, record, on_disk);
   pthread_mutex_unlock(&c->lock);
   collect_ready(c);
 }
@@ -248,7 +180,7 @@ static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_re
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
   pendres_context_cost(ctx, &record->cost);
   pendres_context_cost_reset(ctx);
-  spend(c->farm, &record->cost);
+  farm_spend(c->farm, &record->cost);
   if (status != PENDRES_OK && record->message[0] == '\0')
     snprintf(record->message, sizeof record->message, "%s", pendres_context_message(ctx));
   return status;
@@ -260,7 +192,7 @@ static void work(crew *c, int thread)
   worker w = { .crew = c };
   while (take(c, &w.task)) {
     farm_record record = { 0 };
-    pendres_status status = context_of(c->farm, thread, &ctx);
+    pendres_status status = farm_context_of(c->farm, thread, &ctx);
     if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
     finish(c, w.task, status, &record);
     free(record.data);
@@ -285,18 +217,6 @@ static void *hand_work(void *arg)
   return NULL;
 }
 
-/* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */
-static int start_thread(pthread_t *thread, void *(*run)(void *), void *arg)
-{
-  pthread_attr_t attributes;
-  int error = pthread_attr_init(&attributes);
-  if (error != 0) return error;
-  error = pthread_attr_setstacksize(&attributes, FARM_STACK);
-  if (error == 0) error = pthread_create(thread, &attributes, run, arg);
-  (void)pthread_attr_destroy(&attributes);
-  return error;
-}
-
 /*
  * Work with `threads` threads, or with fewer where there cannot be so many: the results are the
  * same. As a rule it is memory that there is no more of: half of them leave theirs to the rest.
@@ -307,7 +227,7 @@ static void work_together(crew *c, int threads, hand *hands)
   pthread_mutex_lock(&c->lock);
   while (started < threads && error == 0) {
     hands[started] = (hand){ .crew = c, .number = started };
-    error = start_thread(&hands[started].thread, hand_work, &hands[started]);
+    error = farm_start_thread(&hands[started].thread, hand_work, &hands[started]);
     if (error == 0) started++;
   }
   c->hired = error == 0 ? started : (started + 1) / 2;
@@ -322,26 +242,44 @@ static void work_together(crew *c, int threads, hand *hands)
   for (int i = 1; i < c->hired; i++) (void)pthread_join(hands[i].thread, NULL);
 }
 
-typedef struct errand {
-  int (*run)(void *arg);
-  void *arg;
-  int result;
-} errand;
-
-static void *errand_run(void *arg)
+/* What is in the journal already, and what is left to other shards. */
+static void look_up(crew *c)
 {
-  errand *e = arg;
-  e->result = e->run(e->arg);
-  return NULL;
+  const farm_share *s = &c->farm->share;
+  const int shared = s->shards > 1 && !c->stage->cheap && !c->stage->timed;
+  for (size_t i = 0; i < c->stage->tasks; i++) {
+    if (journal_has(c->journal, c->number, i)) c->done[i] = JOURNALED;
+    else if (shared && i % s->shards != s->shard) c->done[i] = OTHERS;
+    c->finished += c->done[i] == JOURNALED;
+    c->others += c->done[i] == OTHERS;
+  }
 }
 
-int farm_errand(int (*run)(void *arg), void *arg)
+/* Where shards are put together, they have to have done the first stage that they share; what some
+   of them may have done of later ones is all to the good. */
+static pendres_status check_complete(crew *c)
 {
-  errand e = { run, arg, 0 };
-  pthread_t thread;
-  if (start_thread(&thread, errand_run, &e) != 0) return run(arg);
-  (void)pthread_join(thread, NULL);
-  return e.result;
+  const size_t tasks = c->stage->tasks;
+  size_t first = 0;
+  if (!c->farm->share.complete || c->stage->cheap) return PENDRES_OK;
+  c->farm->share.complete = 0;
+  if (c->finished == tasks) return PENDRES_OK;
+  while (first < tasks && c->done[first] != NOT_DONE) first++;
+  snprintf(c->farm->message, sizeof c->farm->message, "%zu of %zu %s are in no journal, number "
+           "%zu the first: some shard has not finished", tasks - c->finished, tasks,
+           c->stage->what, first);
+  return PENDRES_NOT_FOUND;
+}
+
+/* How a stage has ended. */
+static pendres_status outcome(crew *c)
+{
+  farm *f = c->farm;
+  if (c->status != PENDRES_OK || c->collected == c->stage->tasks) return c->status;
+  f->left = c->others > 0 && c->finished + c->others == c->stage->tasks;
+  snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c->finished,
+           c->stage->tasks, c->stage->what);
+  return PENDRES_INTERRUPTED;
 }
 
 /* Room for the records of a stage; free it in any case. */
@@ -353,11 +291,7 @@ static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage)
   c->done = calloc(stage->tasks, 1);
   c->record = calloc(stage->tasks, sizeof *c->record);
   if (c->done != NULL && c->record != NULL && pthread_mutex_init(&c->lock, NULL) == 0) {
-    for (size_t i = 0; i < stage->tasks; i++) {
-      if (!journal_has(c->journal, c->number, i)) continue;
-      c->done[i] = JOURNALED;
-      c->finished++;
-    }
+    look_up(c);
     return PENDRES_OK;
   }
   free(c->done);
@@ -393,51 +327,16 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;
   }
-  progress_start(f->options.progress, stage->what, stage->tasks, c.finished);
-  collect_ready(&c);
-  work_together(&c, threads, hands);
-  progress_end(f->options.progress);
-  if (c.status == PENDRES_OK && c.collected < stage->tasks) {
-    snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c.collected,
-             stage->tasks, stage->what);
-    c.status = PENDRES_INTERRUPTED;
+  pendres_status status = check_complete(&c);
+  if (status == PENDRES_OK) {
+    progress_start(f->options.progress, stage->what, stage->tasks - c.others, c.finished);
+    collect_ready(&c);
+    work_together(&c, threads, hands);
+    progress_end(f->options.progress);
+    status = outcome(&c);
   }
   crew_free(&c);
   free(hands);
   f->stages++;
-  return c.status;
-}
-
-void farm_set_journal(farm *f, journal *j)
-{
-  f->journal = j;
-}
-
-const char *farm_message(const farm *f)
-{
-  return f->message;
-}
-
-pendres_context *farm_context(farm *f)
-{
-  pendres_context *ctx = NULL;
-  if (context_of(f, 0, &ctx) == PENDRES_OK)
-    pendres_context_set_interrupt(ctx, farm_stopped, f);
-  return ctx;
-}
-
-int farm_threads(const farm *f)
-{
-  return f->threads;
-}
-
-void farm_cost(const farm *f, pendres_cost *cost)
-{
-  *cost = f->spent;
-  for (int i = 0; i < f->threads; i++) {
-    pendres_cost one = { 0 };
-    if (f->context[i] == NULL) continue;
-    pendres_context_cost(f->context[i], &one);
-    add_cost(cost, &one);
-  }
+  return status;
 }

@@ -1,0 +1,36 @@
+/* farm_internal.h -- what a farm holds: farm_contexts.c makes it, crew.c works with it. */
+#ifndef FARM_INTERNAL_H
+#define FARM_INTERNAL_H
+
+#include <pthread.h>
+
+#include "farm/farm.h"
+#include "farm/journal.h"
+
+struct farm {
+  farm_options options;
+  int threads;
+  int short_of;              /* threads that could be had, when there were fewer; else 0 */
+  pthread_mutex_t lock;      /* of `spent` */
+  pendres_cost spent;        /* but for what the contexts have in their own books */
+  pendres_context **context; /* one a thread, made at its first task */
+  journal *journal;          /* NULL: none */
+  farm_share share;
+  int left;                  /* a stage was left to other shards */
+  size_t stages;             /* that were run */
+  char message[512];
+};
+
+/* Nonzero: the run is to stop. */
+int farm_stop(const farm *f);
+
+/* The context of a thread, made when first asked for; only that thread asks. */
+pendres_status farm_context_of(farm *f, int thread, pendres_context **out);
+
+/* Add to what the farm has spent; any thread may. */
+void farm_spend(farm *f, const pendres_cost *cost);
+
+/* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */
+int farm_start_thread(pthread_t *thread, void *(*run)(void *), void *arg);
+
+#endif

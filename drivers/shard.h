@@ -1,0 +1,24 @@
+/*
+ * shard.h -- which part of a run is computed here.
+ *
+ * Owns: what --shard means, with the variables of arrays of jobs (Slurm, Grid Engine, PBS), and the
+ * names of the parts' files.
+ */
+#ifndef SHARD_H
+#define SHARD_H
+
+#include <stddef.h>
+
+enum { SHARD_MOST = 1000000, SHARD_NAME = 32 };
+
+/* "3/8", "auto" or "auto/8" as number *shard, from 1, of *shards. 0 and words[size] if it is none,
+   or there is no array of jobs. */
+int shard_parse(const char *text, size_t *shard, size_t *shards, char *words, size_t size);
+
+/* ".3-of-8": what the names of a part's files end in, before ".journal" or ".part". */
+void shard_suffix(size_t shard, size_t shards, char suffix[SHARD_NAME]);
+
+/* Is `name` a part's journal beside the file `base`? Both without a folder. */
+int shard_is_journal(const char *name, const char *base);
+
+#endif

@@ -1,0 +1,128 @@
+/*
+ * test_shard.c -- runs in parts: what --shard means, and parts put together end in the same bytes
+ * as a run as a whole.
+ */
+#include "driver_run.h"
+#include "same_results.h"
+
+#include "shard.h"
+
+static const char diagram[] =
+  "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
+  "&sweep damping_range = 0.10, 0.16, 4, drive_frequency_range = 0.7, 0.9, 4 /\n"
+  "&ensemble members = 8 /\n";
+static const char clouds[] =
+  "&scene kind = 'basins' /\n"
+  "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
+  "&sweep x_range = -1.5, 4.7, 8, v_range = -2, 2, 8, temperature = 0, 1e-3 /\n"
+  "&basins strobes = 800, trajectories = 400 /\n";
+
+static void forget_array(void)
+{
+  static const char *const names[] = {
+    "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP",
+    "SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "PBS_ARRAY_INDEX", "PBS_ARRAYID",
+    "LSB_JOBINDEX" };
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_int_equal(unsetenv(names[i]), 0);
+}
+
+static void check_parse(const char *text, size_t shard, size_t shards)
+{
+  char words[200];
+  size_t i = 0, n = 0;
+  if (shard == 0) {
+    assert_false(shard_parse(text, &i, &n, words, sizeof words));
+    assert_string_not_equal(words, "");
+    return;
+  }
+  assert_true(shard_parse(text, &i, &n, words, sizeof words));
+  assert_int_equal(i, shard);
+  assert_int_equal(n, shards);
+}
+
+static void what_is_meant(void **state)
+{
+  static const char *const bad[] = { "", "3", "0/4", "5/4", "1/0", "-1/4", " 1/4", "1/4x", "1//4",
+                                     "1/99999999999999999999", "auto", "auto/4", "auto/0" };
+  (void)state;
+  forget_array();
+  check_parse("1/1", 1, 1);
+  check_parse("3/8", 3, 8);
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) check_parse(bad[i], 0, 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "5", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_MIN", "3", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_MAX", "9", 1), 0);
+  check_parse("auto", 3, 7);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_STEP", "2", 1), 0);
+  check_parse("auto", 2, 4);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "4", 1), 0); /* not one of them */
+  check_parse("auto", 0, 0);
+  forget_array();
+  assert_int_equal(setenv("PBS_ARRAY_INDEX", "2", 1), 0);
+  check_parse("auto", 0, 0);
+  check_parse("auto/8", 2, 8);
+  check_parse("auto/1", 0, 0);
+  forget_array();
+  assert_true(shard_is_journal("a.h5.1-of-3.journal", "a.h5"));
+  assert_false(shard_is_journal("a.h5.1-of-3.journal~", "a.h5"));
+  assert_false(shard_is_journal("a.h5.journal", "a.h5"));
+  assert_false(shard_is_journal("b.h5.1-of-3.journal", "a.h5"));
+  assert_false(shard_is_journal("a.h5.1-of-.journal", "a.h5"));
+}
+
+static void compute_parts(int shards)
+{
+  for (int i = 1; i <= shards; i++) {
+    char shard[40];
+    snprintf(shard, sizeof shard, "--shard=%d/%d", i, shards);
+    check_code(RUN("-t1", "-o", "parts.h5", shard, "deck.nml"), DONE);
+    check_says(err, "is done");
+  }
+  assert_false(exists("parts.h5"));
+}
+
+static void same_bytes(void **state)
+{
+  static const char *const decks[] = { diagram, clouds };
+  static const int shards[] = { 1, 3, 8 };
+  (void)state;
+  for (int d = 0; d < 2; d++) {
+    write_text("deck.nml", decks[d]);
+    check_code(RUN("-q", "-o", "whole.h5", "deck.nml"), DONE);
+    for (int k = 0; k < 3; k++) {
+      compute_parts(shards[k]);
+      check_code(RUN("-q", "-o", "parts.h5", "--merge", "deck.nml"), DONE);
+      check_same_results("whole.h5", "parts.h5");
+      assert_int_equal(count_names("journal") + count_names(".part"), 0);
+      assert_int_equal(remove("parts.h5"), 0);
+    }
+  }
+}
+
+static void not_all_there(void **state)
+{
+  (void)state;
+  write_text("deck.nml", diagram);
+  check_code(RUN("-o", "parts.h5", "--merge", "deck.nml"), 2);
+  check_says(err, "no journals of parts");
+  check_code(RUN("-o", "parts.h5", "--shard=2/3", "deck.nml"), DONE);
+  check_code(RUN("-o", "parts.h5", "--merge", "deck.nml"), 1);
+  check_says(err, "some shard has not finished");
+  assert_true(exists("parts.h5.2-of-3.journal") && !exists("parts.h5"));
+  /* Of another deck. */
+  check_code(RUN("-o", "parts.h5", "--merge", "deck.nml", "ensemble.members=9"), 2);
+  check_says(err, "'members = 8'");
+  assert_true(exists("parts.h5.2-of-3.journal"));
+  check_code(RUN("-q", "-o", "parts.h5", "--merge", "--resume", "deck.nml"), DONE);
+  check_code(RUN("-q", "-o", "whole.h5", "deck.nml"), DONE);
+  check_same_results("whole.h5", "parts.h5");
+  check_code(RUN("--merge", "--shard=1/2", "deck.nml"), 2);
+  check_code(RUN("--no-journal", "--resume", "deck.nml"), 2);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = { TEST(what_is_meant), TEST(same_bytes), TEST(not_all_there) };
+  if (!find_program()) return 77;
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
