@@ -19,9 +19,9 @@ long pendres_noise_settle(const pendres_orbit *orbit);
 
 /*
  * The request's steps a period or, if these are 0, such that the bias of the statistics (a set of
- * bits) is below tolerance times their scale; chosen at the request's temperature or, where that is hot, at a lower one. *bias is
- * the one at the request's own temperature; its numbers are NaN if nothing stays on the attractor
- * there. Steps that do not reach the tolerance are taken all the same: the bias tells.
+ * bits) is below tolerance times their scale; they are chosen at the request's temperature or, where
+ * that is hot, at a lower one. *bias is the one at the request's own temperature; its numbers are
+ * NaN if nothing stays on the attractor there. Steps that do not reach the tolerance are taken all the same: the bias tells.
  */
 pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           const pendres_langevin_request *request,
