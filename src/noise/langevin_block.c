@@ -26,6 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/instructions.h"
 #include "engine/kernels_sine.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -43,14 +44,7 @@ static const double steps_between = 300000.0;
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
 {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl"))
-    return &pendres_kernels_langevin_avx512;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return &pendres_kernels_langevin_avx2;
-#endif
-  return &pendres_kernels_langevin_base;
+  return PENDRES_INSTRUCTIONS_BEST(pendres_kernels_langevin);
 }
 
 /* Memory for n entries of eight bytes on a 64-byte boundary, all zero; n is a multiple of 8. */
