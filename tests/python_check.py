@@ -228,6 +228,8 @@ def test_functions():
     outcome, others = pendres.settle(q, orbits.x, orbits.v)
     assert list(outcome.label) == [0, 1] and len(others) == 2
     assert list(found.settle(orbits.x, orbits.v).attractor) == [0, 1]
+    response = pendres.response(q, pendres.ensemble(members=16))
+    assert list(response.state.label[:2]) == [0, 1] and response.state_members.sum() == 16
     fold = pendres.fold(orbits[0])
     branch, = pendres.branches(orbits, 0.5, 1.0)
     assert min(abs(branch.bifurcations.value - fold.value)) < 1e-7

@@ -3,7 +3,7 @@ import threading
 
 import numpy as np
 
-from ._library import Handle, array, c, copied, dtype, enumerations, errors, ffi, lib
+from ._library import Handle, Record, array, c, copied, dtype, enumerations, errors, ffi, lib
 
 PENDULUM = dtype("pendres_pendulum")
 
@@ -156,4 +156,7 @@ def ensemble(**fields):
 
 def record(values):
     """An array of structures whose fields are attributes; of none, a record."""
-    return values[()] if values.shape == () else values.view(np.recarray)
+    if values.shape:
+        return values.view(np.recarray)
+    plain = values.view(np.ndarray)  # numpy's recarray knows numpy's own records alone
+    return plain.view(np.dtype((Record, plain.dtype)))[()]
