@@ -85,12 +85,15 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     goto done;
   }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum *p = &catalogues[set[i]].pendulum;
     outcome[i] = pendres_settle_unresolved;
     doubt[i] = NAN;
-    status = pendres_settle_load(ctx, &catalogues[set[i]].pendulum, x[i], v[i], accuracy,
-                                 &lanes[i]);
-    if (explore) starts[i] = lanes[i];
+    if (i > 0 && set[i] == set[i - 1] && v[i] == v[i - 1])
+      lanes[i] = pendres_settle_load_like(&lanes[i - 1], x[i], v[i]);
+    else
+      status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
   }
+  if (explore && status == PENDRES_OK) memcpy(starts, lanes, n * sizeof *lanes);
   for (size_t s = 0; s < sets; s++) {
     budget[s] = pendres_settle_last_budget(ctx, &catalogues[s]);
     const long first = pendres_settle_first_budget(&catalogues[s].pendulum);

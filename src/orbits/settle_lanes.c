@@ -63,6 +63,15 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum 
   return status;
 }
 
+pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
+                                             double v)
+{
+  pendres_strobe_lane lane = pendres_strobe_lane_at(neighbour->pendulum, x, v);
+  lane.steps = neighbour->steps;
+  lane.added = neighbour->added;
+  return lane;
+}
+
 static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
 {
   const long k = h->filled++ % PENDRES_SETTLE_HISTORY;

@@ -48,6 +48,10 @@ long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalo
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane);
 
+/* The same for a neighbour of its parameters and velocity, whose steps are known. */
+pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
+                                             double v);
+
 /* Whether errors are carried: not with adaptive steps, nor with a number of steps that was asked
    for, as nothing is known of what one of them adds. */
 int pendres_settle_carries(const pendres_context *ctx);
