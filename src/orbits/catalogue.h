@@ -50,6 +50,9 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
 pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
                                      const pendres_scout *guesses);
 
+/* Room for one more attractor with so many traps; nonzero if out of memory. */
+int pendres_catalogue_reserve(pendres_catalogue *c, size_t more_traps);
+
 /* Nothing is known of an orbit that does not close: NaN, not 0. */
 pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
 

@@ -1,0 +1,436 @@
+/* catalogue_add.c -- orbits that are added to catalogues; see catalogue.h. */
+#include "orbits/catalogue.h"
+
+#include <pendres/strobe.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+/* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
+   unless they are about to annihilate in a fold, where neither is an attractor much longer. */
+static const double same_point = 1e-6;
+/* Guesses closer than this lead to the same orbit, so one of them is enough. */
+static const double same_guess = 0.05;
+
+/* ---- what is in a catalogue ---- */
+
+/* From a Poincaré point of an orbit to another one. */
+static double distance(const pendres_orbit *o, double x, double v)
+{
+  double dx = x - o->x;
+  dx -= two_pi * rint(dx / two_pi);
+  return hypot(dx, v - o->v);
+}
+
+/* Whether an orbit, or another point of the same orbit, is in the catalogue. */
+static int known(const pendres_catalogue *c, const pendres_orbit *o)
+{
+  for (size_t t = 0; t < c->traps; t++) {
+    const pendres_trap *at = &c->trap[t];
+    const double x = at->y + half_pi, v = at->w * o->pendulum.drive_frequency;
+    if (at->period == o->period && at->winding == o->winding && distance(o, x, v) < same_point)
+      return 1;
+  }
+  return 0;
+}
+
+/* Whether an orbit of period q closes earlier already: it is then found under that period. */
+static int closes_earlier(const pendres_orbit *points, int q)
+{
+  for (int d = 1; d < q; d++)
+    if (q % d == 0 && distance(&points[0], points[d].x, points[d].v) < same_point) return 1;
+  return 0;
+}
+
+/*
+ * The larger multiplier's logarithm in time, with an error from the interval of its modulus. That
+ * is exp(-damping time / 2) at least, since the product of both is its square, and exactly so if
+ * the pair is complex for certain. Below DBL_MIN, as strong damping makes it, it has no digits.
+ */
+static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
+{
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  const double least = -0.5 * o->pendulum.damping, off = fmax(DBL_MIN, o->multiplier_error);
+  const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  a->lyapunov = fmax(least, log(size) / time);
+  a->lyapunov_error = DBL_EPSILON * (4.0 * fabs(a->lyapunov) + 1.0 / time);
+  if (isnan(size + o->multiplier_error)) { /* fmax would take the other one */
+    a->lyapunov = isnan(size) ? NAN : a->lyapunov;
+    a->lyapunov_error = NAN;
+    return;
+  }
+  if (fabs(o->multiplier_im[0]) > off) return;
+  const double high = log(size + off) / time;
+  const double low = fmax(least, log(fmax(0.0, size - off)) / time);
+  a->lyapunov_error += fmax(0.0, fmax(high - a->lyapunov, a->lyapunov - low));
+}
+
+/* The point with the largest x represents the orbit. */
+static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
+                             const pendres_orbit *points, const pendres_trap *traps)
+{
+  const int q = points[0].period;
+  int representative = 0;
+  for (int j = 1; j < q; j++)
+    if (points[j].x > points[representative].x) representative = j;
+  if (pendres_catalogue_reserve(c, (size_t)q) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  pendres_attractor *a = &c->attractors[c->count];
+  *a = (pendres_attractor){.orbit = points[representative],
+                           .trap_radius = traps[representative].radius,
+                           .drift = NAN,
+                           .drift_error = NAN,
+                           .watched_periods = NAN,
+                           .escape_rate_bound = NAN};
+  /* All points of an orbit have the same multipliers: by what they differ they are not known. */
+  for (int j = 0; j < q; j++)
+    a->orbit.multiplier_error =
+      fmax(a->orbit.multiplier_error,
+           hypot(points[j].multiplier_re[0] - a->orbit.multiplier_re[0],
+                 fabs(points[j].multiplier_im[0]) - fabs(a->orbit.multiplier_im[0])));
+  set_lyapunov(a, &a->orbit);
+  memcpy(a->trap_metric, traps[representative].metric, sizeof a->trap_metric);
+  for (int j = 0; j < q; j++) {
+    c->trap[c->traps] = traps[j];
+    c->owner[c->traps++] = (int)c->count;
+  }
+  c->count++;
+  return PENDRES_OK;
+}
+
+/* ---- the points of long orbits ---- */
+
+/* Orbits whose Poincaré points are looked for, side by side; those of one lie one after another. */
+typedef struct long_orbits {
+  size_t count, points;
+  const pendres_orbit **orbit;
+  size_t *first;        /* point of each */
+  char *complete;       /* all points have been found */
+  pendres_orbit *point; /* the first of each is the one that was given */
+  pendres_trap *trap;   /* of each point */
+} long_orbits;
+
+static void free_long(long_orbits *l)
+{
+  free(l->orbit);
+  free(l->first);
+  free(l->complete);
+  free(l->point);
+  free(l->trap);
+}
+
+/* Where the orbits are at their other strobes, roughly. */
+static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
+                                   pendres_orbit_guess *guess)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_pendulum *p = malloc(l->count * sizeof *p);
+  double *x = malloc(2 * l->count * sizeof *x), *v = x + l->count;
+  size_t *who = malloc(l->count * sizeof *who), left = l->count;
+  if (p == NULL || x == NULL || who == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
+    p[i] = l->orbit[i]->pendulum;
+    x[i] = l->orbit[i]->x;
+    v[i] = l->orbit[i]->v;
+    who[i] = i;
+  }
+  for (int j = 1; left > 0 && status == PENDRES_OK; j++) {
+    size_t still = 0;
+    for (size_t k = 0; k < left; k++) {
+      if (l->orbit[who[k]]->period <= j) continue;
+      who[still] = who[k];
+      p[still] = p[k];
+      x[still] = x[k];
+      v[still++] = v[k];
+    }
+    left = still;
+    if (left > 0) status = pendres_strobe_advance(ctx, left, p, x, v, 1, NULL);
+    for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
+      const pendres_orbit *o = l->orbit[who[k]];
+      guess[l->first[who[k]] + (size_t)j] = (pendres_orbit_guess){
+        .pendulum = p[k], .x = x[k], .v = v[k], .period = o->period, .winding = o->winding};
+    }
+  }
+  free(p);
+  free(x);
+  free(who);
+  return status;
+}
+
+/* All points, each refined at its own place. */
+static pendres_status find_points(pendres_context *ctx, long_orbits *l)
+{
+  pendres_orbit_guess *guess = malloc(l->points * sizeof *guess);
+  pendres_status *outcome = malloc(l->points * sizeof *outcome), status = PENDRES_OK;
+  if (guess == NULL || outcome == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  if (status == PENDRES_OK) status = guess_points(ctx, l, guess);
+  /* Guesses for the points that are not known, and the orbits that they lead to, without gaps. */
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++)
+    memmove(guess + l->first[i] - i, guess + l->first[i] + 1,
+            (size_t)(l->orbit[i]->period - 1) * sizeof *guess);
+  if (status == PENDRES_OK)
+    status = pendres_orbit_refine(ctx, l->points - l->count, guess, PENDRES_ORBIT_PLAIN, l->point,
+                                  outcome);
+  for (size_t i = l->count; i-- > 0 && status == PENDRES_OK;) {
+    const int q = l->orbit[i]->period;
+    const size_t from = l->first[i] - i;
+    pendres_orbit *point = l->point + l->first[i];
+    memmove(point + 1, l->point + from, (size_t)(q - 1) * sizeof *point);
+    point[0] = *l->orbit[i];
+    l->complete[i] = 1;
+    for (int j = 1; j < q; j++)
+      if (outcome[from + (size_t)j - 1] == PENDRES_NOT_CONVERGED || !point[j].stable)
+        l->complete[i] = 0;
+    if (l->complete[i] && closes_earlier(point, q)) l->complete[i] = 0;
+  }
+  free(guess);
+  free(outcome);
+  return status;
+}
+
+/* The traps of the points, once those of orbits that are not complete have gone. */
+static pendres_status find_traps(pendres_context *ctx, long_orbits *l, pendres_trap_effort effort)
+{
+  size_t kept = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    const size_t q = (size_t)l->orbit[i]->period;
+    if (!l->complete[i]) continue;
+    memmove(l->point + kept, l->point + l->first[i], q * sizeof *l->point);
+    l->first[i] = kept;
+    kept += q;
+  }
+  return pendres_trap_find(ctx, kept, l->point, effort, l->trap);
+}
+
+static int allocate_long(long_orbits *l, size_t n)
+{
+  l->orbit = malloc(n * sizeof *l->orbit);
+  l->first = malloc(n * sizeof *l->first);
+  l->complete = malloc(n);
+  return l->orbit != NULL && l->first != NULL && l->complete != NULL;
+}
+
+/* Points and traps of the orbits in the list. */
+static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
+                                    pendres_trap_effort effort)
+{
+  l->points = 0;
+  for (size_t i = 0; i < l->count; i++) {
+    l->first[i] = l->points;
+    l->points += (size_t)l->orbit[i]->period;
+  }
+  free(l->point);
+  free(l->trap);
+  l->point = malloc(l->points * sizeof *l->point);
+  l->trap = malloc(l->points * sizeof *l->trap);
+  if (l->point == NULL || l->trap == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  const pendres_status status = find_points(ctx, l);
+  return status == PENDRES_OK ? find_traps(ctx, l, effort) : status;
+}
+
+/* ---- adding orbits ---- */
+
+/* Stable orbits, those of a set one after another, and what has become of them. */
+typedef struct candidates {
+  size_t count;
+  const pendres_orbit *orbit;
+  const size_t *set;
+  const pendres_trap *trap; /* of orbits of one period */
+  char *done, *added;
+} candidates;
+
+/*
+ * Add the orbits of a set, from the first that is not done on, up to one of more periods that is
+ * new: its number, or the number after the set's last. A point of a long orbit that has been added
+ * is known by the time it is met.
+ */
+static pendres_status add_up_to_long(pendres_context *ctx, pendres_catalogue *c,
+                                     const candidates *k, size_t first, size_t *next)
+{
+  pendres_status status = PENDRES_OK;
+  size_t i = first;
+  for (; i < k->count && k->set[i] == k->set[first] && status == PENDRES_OK; i++) {
+    if (k->done[i]) continue;
+    const int new = !known(c, &k->orbit[i]);
+    if (new && k->orbit[i].period > 1) break;
+    k->done[i] = 1;
+    if (new) status = append(ctx, c, &k->orbit[i], &k->trap[i]);
+    k->added[i] = (char)new;
+  }
+  *next = i;
+  return status;
+}
+
+/* Long orbits go side by side, the next of every set at a time. */
+static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalogues,
+                                 const candidates *k)
+{
+  long_orbits l = {0};
+  pendres_status status = PENDRES_OK;
+  if (!allocate_long(&l, k->count + 1))
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  for (int more = 1; more && status == PENDRES_OK;) {
+    l.count = 0;
+    for (size_t first = 0, next; first < k->count && status == PENDRES_OK; first = next) {
+      status = add_up_to_long(ctx, &catalogues[k->set[first]], k, first, &next);
+      if (next < k->count && k->set[next] == k->set[first]) l.orbit[l.count++] = &k->orbit[next];
+      while (next < k->count && k->set[next] == k->set[first]) next++;
+    }
+    more = l.count > 0;
+    if (more && status == PENDRES_OK) status = complete_long(ctx, &l, catalogues[0].effort);
+    for (size_t i = 0; i < l.count && status == PENDRES_OK; i++) {
+      const size_t number = (size_t)(l.orbit[i] - k->orbit), at = l.first[i];
+      k->done[number] = 1;
+      k->added[number] = l.complete[i];
+      if (l.complete[i])
+        status = append(ctx, &catalogues[k->set[number]], l.point + at, l.trap + at);
+    }
+  }
+  free_long(&l);
+  return status;
+}
+
+/* ---- from guesses to orbits ---- */
+
+/* Guesses of one set near an earlier guess are left out. */
+static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_catalogue *c,
+                               pendres_orbit_guess *g, size_t *set)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    const pendres_pendulum *p = &c[s[i].set].pendulum;
+    int new = 1;
+    for (size_t j = count; j-- > 0 && set[j] == s[i].set && new;) {
+      double dx = g[j].x - half_pi - s[i].y;
+      dx -= two_pi * rint(dx / two_pi);
+      new = g[j].period != s[i].period || g[j].winding != s[i].winding ||
+            hypot(dx, g[j].v - s[i].w * p->drive_frequency) > same_guess;
+    }
+    if (!new) continue;
+    set[count] = s[i].set;
+    g[count++] = (pendres_orbit_guess){.pendulum = *p,
+                                       .x = s[i].y + half_pi,
+                                       .v = s[i].w * p->drive_frequency,
+                                       .period = s[i].period,
+                                       .winding = s[i].winding};
+  }
+  return count;
+}
+
+/* Keep the stable orbits that are not in the catalogues, drop repetitions within a set. */
+static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
+                              const pendres_status *outcome, const pendres_catalogue *catalogues)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (outcome[i] == PENDRES_NOT_CONVERGED || !o[i].stable) continue;
+    int new = !known(&catalogues[set[i]], &o[i]);
+    for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
+      new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
+            distance(&o[j], o[i].x, o[i].v) > same_point;
+    if (!new) continue;
+    set[count] = set[i];
+    o[count++] = o[i];
+  }
+  return count;
+}
+
+/* Where the mirror image of an orbit crosses drive phase 0: half a period later, reflected. */
+static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendres_orbit *o,
+                                   pendres_scout *out)
+{
+  double *x = malloc(4 * (size_t)o->period * sizeof *x);
+  if (x == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an orbit");
+  double *v = x + 2 * o->period;
+  const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
+  if (status == PENDRES_OK)
+    *out = (pendres_scout){.set = set,
+                           .y = half_pi - x[1],
+                           .w = -v[1] / o->pendulum.drive_frequency,
+                           .period = o->period,
+                           .winding = -o->winding};
+  free(x);
+  return status;
+}
+
+/* The traps of orbits of one period; those of others belong to all of their points. */
+static pendres_status trap_short(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
+                                 pendres_trap_effort effort, pendres_trap *traps)
+{
+  size_t count = 0;
+  pendres_orbit *alone = malloc((n + 1) * sizeof *alone);
+  if (alone == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  for (size_t i = 0; i < n; i++)
+    if (orbits[i].period == 1) alone[count++] = orbits[i];
+  const pendres_status status = pendres_trap_find(ctx, count, alone, effort, traps);
+  for (size_t i = n; i-- > 0 && status == PENDRES_OK;)
+    if (orbits[i].period == 1) traps[i] = traps[--count];
+  free(alone);
+  return status;
+}
+
+/* Add what guesses lead to; mirrors[0 .. *more) are guesses for the mirror images of new orbits. */
+static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
+                                  const pendres_scout *guesses, pendres_scout *mirrors,
+                                  size_t *more)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_orbit_guess *g = calloc(n, sizeof *g);
+  pendres_orbit *orbits = malloc(n * sizeof *orbits);
+  pendres_status *outcome = malloc(n * sizeof *outcome);
+  pendres_trap *traps = malloc(n * sizeof *traps);
+  size_t *set = malloc(n * sizeof *set);
+  char *marks = calloc(2 * n, 1);
+  *more = 0;
+  if (g == NULL || orbits == NULL || outcome == NULL || traps == NULL || set == NULL ||
+      marks == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
+    goto done;
+  }
+  size_t count = distinct_guesses(n, guesses, catalogues, g, set);
+  status = pendres_orbit_refine(ctx, count, g, PENDRES_ORBIT_PLAIN, orbits, outcome);
+  if (status != PENDRES_OK) goto done;
+  count = distinct_orbits(count, orbits, set, outcome, catalogues);
+  status = trap_short(ctx, count, orbits, catalogues[0].effort, traps);
+  const candidates k = {.count = count, .orbit = orbits, .set = set, .trap = traps,
+                        .done = marks, .added = marks + n};
+  if (status == PENDRES_OK) status = add_orbits(ctx, catalogues, &k);
+  for (size_t i = 0; i < count && status == PENDRES_OK; i++)
+    if (k.added[i] && !orbits[i].symmetric)
+      status = mirror_guess(ctx, set[i], &orbits[i], &mirrors[(*more)++]);
+done:
+  free(g);
+  free(orbits);
+  free(outcome);
+  free(traps);
+  free(set);
+  free(marks);
+  return status;
+}
+
+pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
+                                     const pendres_scout *guesses)
+{
+  size_t more = 0, last = 0;
+  if (n == 0) return PENDRES_OK;
+  pendres_scout *mirrors = malloc(2 * n * sizeof *mirrors);
+  if (mirrors == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu guesses", n);
+  pendres_status status = add_guesses(ctx, catalogues, n, guesses, mirrors, &more);
+  if (status == PENDRES_OK && more > 0)
+    status = add_guesses(ctx, catalogues, more, mirrors, mirrors + n, &last);
+  free(mirrors);
+  return status;
+}
