@@ -438,8 +438,10 @@ static void ensembles(void **state)
 {
   fixture *f = *state;
   f->wrong = 0;
-  const pendres_ensemble some = { 4, 0.0, 1.0, 0.0 };
-  pendres_ensemble bad[] = { some, some, some, some, some, some };
+  const pendres_ensemble some = { .members = 4, .x_first = 0.0, .x_last = 1.0 };
+  const pendres_ensemble area = { .members = 4, .x_first = 0.0, .x_last = 1.0, .v_last = 1.0,
+                                  .shape = PENDRES_ENSEMBLE_RECTANGLE, .rows = 2 };
+  pendres_ensemble bad[] = { some, some, some, some, some, some, some, area, area, area, area };
   pendres_response r;
   pendres_resonance peak;
   pendres_phase_point point;
@@ -451,6 +453,11 @@ static void ensembles(void **state)
   bad[3].v = NAN;
   bad[4].x_first = -1e50;
   bad[5].v = DBL_MAX;
+  bad[6].shape = PENDRES_ENSEMBLE_SHAPE_COUNT;
+  bad[7].rows = 0;
+  bad[8].rows = 3;
+  bad[9].v_last = NAN;
+  bad[10].x_last = 0.0;
   REFUSED(pendres_response_compute(f->ctx, 1, NULL, &some, &r));
   REFUSED(pendres_response_compute(f->ctx, 1, &good, NULL, &r));
   REFUSED(pendres_response_compute(f->ctx, 1, &good, &some, NULL));

@@ -211,6 +211,9 @@ static void sweeps(void **state)
   sweep.axis[0] = (pendres_axis){ .quantity = PENDRES_QUANTITY_X, .count = 1, .value = NULL };
   INVALID(pendres_sweep_count(&sweep, &count));
   assert_true(isnan(pendres_ensemble_x(NULL, 1)));
+  pendres_ensemble_start(NULL, 1, &x, &v);
+  assert_true(isnan(x) && isnan(v));
+  INVALID(pendres_ensemble_check(NULL, NULL));
   const pendres_ensemble nobody = pendres_ensemble_default();
   assert_int_equal(nobody.members, 200);
   pendres_response_average(NULL);

@@ -126,6 +126,12 @@ static const char *const good[] = {
   "&sweep drive_amplitude=0.1,0.3 /\n&hysteresis x=1 v=0.5 /\n",
   "&scene kind='lyapunov_map' /\n&pendulum drive_frequency=0.66 /\n"
   "&sweep drive_amplitude_range=0.5,1.5,9 damping=0.2,0.5 /\n",
+  "&scene kind='phase_diagram' /\n&pendulum drive_amplitude=0.2 /\n"
+  "&sweep damping=0.1 drive_frequency_range=0.7,0.9,200 /\n"
+  "&ensemble shape='rectangle' members=64 rows=8 v=-1 v_last=1 /\n",
+  "&scene kind='response' /\n&pendulum drive_amplitude=0.2 damping=0.1 /\n"
+  "&sweep drive_period=8 /\n"
+  "&ensemble shape='random' v=-1 v_last=1 seed=3 /\n",
 };
 
 enum { GOOD = sizeof good / sizeof *good };
@@ -358,6 +364,7 @@ static void dump_is_complete(void **state)
                       "/\n"
                       "&ensemble\n"
                       "  members = 200\n"
+                      "  shape = 'line'\n"
                       "  x_first = -1.5707963267948966\n"
                       "  x_last = 4.71238898038469\n"
                       "  v = 0.0\n"
@@ -422,7 +429,12 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='free_oscillation' /\n&sweep apmlitdue=1 /", { "2:8 did you mean 'amplitude'?" } },
   { CURVE "&sweep damping_rnge=0.1,1,5 /", { "3:8 did you mean 'damping_range'?" } },
   { CURVE "&sweep damping=0.1 /\n&precision members=3 /", { "4:12 'members' is not a key of &precision (it belongs in &ensemble)" } },
-  { CURVE "&sweep damping=0.1 /\n&ensemble qwertz=3 /", { "4:11 'qwertz' is not a key of &ensemble; scene 'resonance_curve' takes members, x_first, x_last, v\n" } },
+  { CURVE "&sweep damping=0.1 /\n&ensemble qwertz=3 /", { "4:11 'qwertz' is not a key of &ensemble; scene 'resonance_curve' takes members, shape, x_first, x_last, v, v_last, rows, seed\n" } },
+  { CURVE "&sweep damping=0.1 /\n&ensemble shape='rectangle' members=64 v_last=1 /",
+    { "4:11 whole 'rows'" } },
+  { CURVE "&sweep damping=0.1 /\n&ensemble shape='random' v_last=-1 rows=2 /",
+    { "4:26 must be above", "4:36 'rows' is not used: 'shape' is not 'rectangle'" } },
+  { CURVE "&sweep damping=0.1 /\n&ensemble v_last=1 /", { "4:11 'v_last' is not used: the starts" } },
   { CURVE "&sweep damping=0.1 /\n&precision method='blok_fixed' table='tp9' /",
     { "4:19 did you mean 'block_fixed'?", "4:38 did you mean 'tp8'?" } },
   { CURVE "&sweep damping=0.1 /\n&precision method='' /", { "4:19 knows no ''; it takes" } },

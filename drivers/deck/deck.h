@@ -121,10 +121,13 @@ typedef struct deck {
   deck_axis axis[DECK_AXIS_COUNT];
   double search[2];         /* bounds of drive frequency in the search of a resonance */
 
-  struct {                  /* members at x_first + (x_last - x_first) k / members, k = 1.. */
+  struct {                  /* as in struct pendres_ensemble */
     int64_t members;
+    char shape[DECK_NAME];  /* "line", "rectangle", "random" */
     double x_first, x_last;
-    double v;
+    double v, v_last;
+    int64_t rows;
+    int64_t seed;
   } ensemble;
 
   struct {                  /* zero: chosen by the library */

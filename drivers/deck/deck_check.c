@@ -163,6 +163,9 @@ static void check_idle_keys(deck_builder *b)
   static const char *const why[] = {
     [DECK_WITH_NOISE] = "it concerns noise, and there is no 'temperature' above 0",
     [DECK_WITHOUT_START] = "'start' names an attractor",
+    [DECK_OFF_LINE] = "the starts are on a line, see 'shape'",
+    [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
+    [DECK_AT_RANDOM] = "'shape' is not 'random'",
   };
   const char *group = in_scene(b, "hysteresis", "start") ? "hysteresis" : "orbit";
   const deck_given *start = given(b, group, "start");
@@ -258,6 +261,28 @@ static void check_size(deck_builder *b)
              "'boundary' is looked for in a window: give x and v at least two values");
 }
 
+static void check_ensemble(deck_builder *b)
+{
+  const deck *d = b->d;
+  const deck_given *shape = given(b, "ensemble", "shape");
+  if (!in_scene(b, "ensemble", "members") || shape->broken) return;
+  if (!(d->ensemble.x_first < d->ensemble.x_last)) {
+    const deck_given *last = given(b, "ensemble", "x_last");
+    complain(b, last->given ? last : given(b, "ensemble", "x_first"), "x_last",
+             "'x_first' must be below 'x_last'");
+  }
+  if (strcmp(d->ensemble.shape, "line") == 0) return;
+  const deck_given *v_last = given(b, "ensemble", "v_last");
+  if (!v_last->broken && !(d->ensemble.v < d->ensemble.v_last))
+    complain(b, v_last->given ? v_last : shape, "v_last",
+             "a rectangle of starts goes from 'v' up to 'v_last', which must be above it");
+  const deck_given *rows = given(b, "ensemble", "rows");
+  if (strcmp(d->ensemble.shape, "rectangle") == 0 && !rows->broken &&
+      (d->ensemble.rows < 1 || d->ensemble.members % d->ensemble.rows != 0))
+    complain(b, rows->given ? rows : shape, "rows",
+             "'members' must make whole 'rows' of a rectangle");
+}
+
 static void check_output(deck_builder *b)
 {
   const char *output = b->d->output;
@@ -282,11 +307,7 @@ void deck_check(deck_builder *b)
   if (b->errors->count == 0) check_moving(b);
   check_size(b);
   check_output(b);
-  if (!(d->ensemble.x_first < d->ensemble.x_last)) {
-    const deck_given *last = given(b, "ensemble", "x_last");
-    complain(b, last->given ? last : given(b, "ensemble", "x_first"), "x_last",
-             "'x_first' must be below 'x_last'");
-  }
+  check_ensemble(b);
   if (d->precision.block_lanes % 8 != 0)
     complain(b, given(b, "precision", "block_lanes"), "block_lanes",
              "'block_lanes' must be a multiple of 8");

@@ -108,9 +108,14 @@ static void add_need(char *text, const deck_key *key, unsigned scene)
 /* When it counts only together with others. */
 static const char *condition(const deck_key *key)
 {
-  return key->when == DECK_WITH_NOISE       ? "only with a temperature above 0"
-         : key->when == DECK_WITHOUT_START ? "only where 'start' is not given"
-                                           : NULL;
+  switch (key->when) {
+  case DECK_WITH_NOISE: return "only with a temperature above 0";
+  case DECK_WITHOUT_START: return "only where 'start' is not given";
+  case DECK_OFF_LINE: return "only with shape = 'rectangle' or 'random'";
+  case DECK_IN_RECTANGLE: return "only with shape = 'rectangle'";
+  case DECK_AT_RANDOM: return "only with shape = 'random'";
+  default: return NULL;
+  }
 }
 
 /* "drive_amplitude" or, for an axis that may be a range too, "damping, damping_range". */

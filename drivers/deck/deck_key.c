@@ -363,6 +363,12 @@ int deck_key_applies(const deck_key *key, const deck *d)
     return deck_has_noise(d);
   case DECK_WITHOUT_START:
     return d->orbit.start[0] == '\0';
+  case DECK_OFF_LINE:
+    return strcmp(d->ensemble.shape, "line") != 0;
+  case DECK_IN_RECTANGLE:
+    return strcmp(d->ensemble.shape, "rectangle") == 0;
+  case DECK_AT_RANDOM:
+    return strcmp(d->ensemble.shape, "random") == 0;
   case DECK_BY_FREQUENCY:
     return !d->pendulum.by_period;
   case DECK_BY_PERIOD:

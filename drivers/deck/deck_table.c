@@ -91,6 +91,7 @@ static const char *const cases[] = {
 #undef CASE_NAME
   NULL
 };
+static const char *const shapes[] = { "line", "rectangle", "random", NULL }; /* as in sweep.h */
 static const char *const units[] = { "ensemble", "sweep", NULL };
 
 const deck_key deck_table[] = {
@@ -171,13 +172,24 @@ const deck_key deck_table[] = {
 
   { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
     .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
+  { CHOICE("ensemble", "shape", ensemble.shape), IN(MEMBERS), .choices = shapes, .text = "line",
+    SAYS(NULL, "how the starts lie: on a line of one velocity, on a grid that fills a rectangle of "
+         "x and v, or at random in such a rectangle; of the latter two, errors of shares and means "
+         "contain the sampling") },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = -PI / 2,
-    SAYS("rad", "initial positions lie above this one, which is left out") },
+    SAYS("rad", "initial positions lie above this one, which a line leaves out") },
   { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = 3 * PI / 2, SAYS("rad", "initial positions go up to this one, equally spaced") },
   { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
-    SAYS("omega0", "initial velocity") },
+    SAYS("omega0", "initial velocity, of a rectangle the lowest") },
+  { REAL("ensemble", "v_last", ensemble.v_last), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_OFF_LINE, SAYS("omega0", "highest initial velocity") },
+  { INTEGER("ensemble", "rows", ensemble.rows), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
+    .number = 10, .when = DECK_IN_RECTANGLE,
+    SAYS(NULL, "velocities of the grid, a divisor of 'members'") },
+  { INTEGER("ensemble", "seed", ensemble.seed), IN(MEMBERS), RANGE(0, 0x1p63), .number = 1,
+    .when = DECK_AT_RANDOM, SAYS(NULL, "seed of the random starts") },
 
   { CHOICE("orbit", "start", orbit.start), IN(ORBIT), .choices = starts, EXAMPLE("'sa'"),
     SAYS(NULL, "attractor recorded: SA, LA, or its number in the order of amplitude; without it "

@@ -24,6 +24,9 @@ typedef enum deck_when {
   DECK_ALWAYS = 0,
   DECK_WITH_NOISE,     /* only with a temperature above 0 */
   DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
+  DECK_OFF_LINE,       /* only where ensemble.shape is no line */
+  DECK_IN_RECTANGLE,   /* only where it is a rectangle */
+  DECK_AT_RANDOM,      /* only where it is random */
   DECK_BY_FREQUENCY,   /* unless the drive is given by its period */
   DECK_BY_PERIOD       /* the reverse */
 } deck_when;
@@ -50,7 +53,7 @@ typedef struct deck_key {
                                   NULL: its default, as a comment */
 } deck_key;
 
-enum { DECK_MAX_KEYS = 96 };
+enum { DECK_MAX_KEYS = 160 };
 
 extern const deck_key deck_table[];
 extern const size_t deck_table_size;

@@ -19,8 +19,8 @@
  * Of a chaotic member the means over time on its attractor count, a drive cycle: the work of the
  * drive (loop area, power), half peak to peak of the angle (amplitude); attractor.h has their
  * errors, which are statistical. Where no member enters a mean it is NaN, as in an ensemble that is
- * all chaotic the loop and its phase lag. Errors allow for the share of unresolved members, and of
- * those whose state is uncertain.
+ * all chaotic the loop and its phase lag. Errors allow for the share of unresolved members, of
+ * those whose state is uncertain, and for the sampling of an area of starts.
  *
  * With thermal noise every member starts on the attractor that it settles on without noise, and is
  * then followed wherever noise takes it. So trajectories start on the attractors in the members'
@@ -71,6 +71,11 @@ typedef struct pendres_response {
                                          were found, errors allow for any other state */
   size_t unlisted;                  /**< members on attractors beyond those that are listed; in
                                          the means of pendres_response_compute like all others */
+  double sampling;                  /**< of a rectangle or random starts: the share of members that
+                                         another such ensemble may have on other states, two
+                                         standard errors: of counts for random starts, from the
+                                         scatter between rows for a rectangle. In all errors of
+                                         shares and means; 0 for a line */
 } pendres_response;
 
 /**

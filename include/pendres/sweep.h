@@ -10,6 +10,7 @@
 #define PENDRES_SWEEP_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include <pendres/pendulum.h>
 #include <pendres/status.h>
@@ -82,17 +83,43 @@ pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count);
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v);
 
-/** Members k = 1..members start at x_first + (x_last - x_first) k / members with velocity v. */
+/** How the starts of an ensemble lie. */
+typedef enum pendres_ensemble_shape {
+  PENDRES_ENSEMBLE_LINE = 0,  /**< member k at x_first + (x_last - x_first) k / members and v */
+  PENDRES_ENSEMBLE_RECTANGLE, /**< the middles of `rows` rows of equal cells, of x_first to x_last
+                                   and v to v_last, row by row from the lowest v on */
+  PENDRES_ENSEMBLE_RANDOM,    /**< independent and evenly spread over the same rectangle */
+  PENDRES_ENSEMBLE_SHAPE_COUNT
+} pendres_ensemble_shape;
+
+/**
+ * The starts of an ensemble, members k = 1..members. A line is what it is; a rectangle and random
+ * starts stand for all states of the rectangle, and errors of what is found with them contain that
+ * they are a sample of these (pendres_response.sampling). All zero behind v: a line.
+ */
 typedef struct pendres_ensemble {
   size_t members;
   double x_first, x_last;
-  double v;
+  double v;                     /**< of a line; else the lowest */
+  pendres_ensemble_shape shape;
+  double v_last;                /**< the highest; not of a line */
+  size_t rows;                  /**< of a rectangle; a divisor of members */
+  uint64_t seed;                /**< of random starts: another one, other starts */
 } pendres_ensemble;
 
 /** The paper's: 200 members at rest over -pi/2 < x <= 3 pi/2. */
 pendres_ensemble pendres_ensemble_default(void);
 
-/** Start of member k = 1..members. */
+/**
+ * Is it one: members, finite starts, rows that fit, ascending bounds of a rectangle? Else
+ * PENDRES_INVALID_ARGUMENT, and *why (may be NULL) is a static sentence.
+ */
+pendres_status pendres_ensemble_check(const pendres_ensemble *e, const char **why);
+
+/** Start of member k = 1..members; x and v may be NULL. NaN if there is no such member. */
+void pendres_ensemble_start(const pendres_ensemble *e, size_t k, double *x, double *v);
+
+/** The x of that start alone. */
 double pendres_ensemble_x(const pendres_ensemble *e, size_t k);
 
 #ifdef __cplusplus

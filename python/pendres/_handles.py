@@ -144,7 +144,8 @@ def spread(p, *values):
 
 def ensemble(**fields):
     """An ensemble of starts: members k = 1 .. members at x_first + (x_last - x_first) k / members
-    (rad) with velocity v. Without fields the paper's 200 at rest over -pi/2 < x <= 3 pi/2."""
+    (rad) with velocity v; with shape, v_last and rows or seed in a rectangle (struct
+    pendres_ensemble tells how). Without fields the paper's 200 at rest over -pi/2 < x <= 3 pi/2."""
     chosen = np.asarray(copied("pendres_ensemble", ffi.new("pendres_ensemble *",
                                                            c.ensemble_default())))
     for key, value in fields.items():

@@ -25,21 +25,14 @@ enum {
  */
 static const double most_slopes = 4e9;
 
-/* Random number `counter` of a seed, in [0, 1). */
-static double uniform(uint64_t seed, uint64_t counter)
-{
-  const uint64_t z = seed * UINT64_C(0xd1342543de82ef95) + counter * UINT64_C(0x9e3779b97f4a7c15);
-  return (double)(pendres_mix(z) >> 11) * 0x1p-53;
-}
-
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
 static void place(const pendres_basin_window *window, uint64_t seed, uint64_t i, int scales,
                   const double *distance, double *x, double *v)
 {
   const double at_x =
-    window->x_low + (window->x_high - window->x_low) * uniform(seed, 2 * i);
+    window->x_low + (window->x_high - window->x_low) * pendres_mix_uniform(seed, 2 * i);
   const double at_v =
-    window->v_low + (window->v_high - window->v_low) * uniform(seed, 2 * i + 1);
+    window->v_low + (window->v_high - window->v_low) * pendres_mix_uniform(seed, 2 * i + 1);
   for (int k = 0; k <= 2 * scales; k++) x[k] = at_x;
   v[0] = at_v;
   for (int k = 0; k < scales; k++) {

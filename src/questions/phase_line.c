@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "engine/passage.h"
+#include "questions/response_members.h"
 #include "questions/small_end.h"
 
 enum { MOST_CROSSINGS = 16 };
@@ -86,7 +86,7 @@ static void judge_ensemble(const pendres_small_end *end, const pendres_label_sta
   p->sa_fraction = names ? (double)sa / all : NAN;
   p->la_fraction = names ? (double)la / all : NAN;
   p->sa_fraction_error = p->la_fraction_error =
-    names ? (double)(r->unresolved + r->uncertain + r->unlisted) / all : NAN;
+    names ? (double)(r->unresolved + r->uncertain + r->unlisted) / all + r->sampling : NAN;
   p->mean_loop_area = r->mean_loop_area;
   p->mean_loop_area_error = r->mean_loop_area_error;
   p->mean_loop_amplitude = r->mean_loop_amplitude;
@@ -186,10 +186,10 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
   if (o->parameter != PENDRES_DRIVE_FREQUENCY && o->parameter != PENDRES_DRIVE_AMPLITUDE)
     return "lines go along the drive frequency or the drive amplitude";
-  if (e->members == 0) return "an ensemble needs members";
+  if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
-    why = pendres_passage_refuses(&p[i], fmax(fabs(e->x_first), fabs(e->x_last)), e->v);
+    why = pendres_response_refuses(&p[i], e);
     if (why != NULL) return why;
     if (!on_one_line(o->parameter, &p[0], p[i]))
       return "the pendulums of a line differ in its parameter alone";

@@ -6,10 +6,11 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "questions/response_members.h"
+#include "questions/response_sampling.h"
 #include "questions/resonance_gap.h"
 #include "questions/resonance_search.h"
 #include "questions/response_name.h"
-#include "engine/passage.h"
 
 enum { SECTIONS = 4 /* a gap is cut into */ };
 
@@ -321,6 +322,23 @@ static pendres_status search(work *w, double lowest, double highest, pendres_res
   return status;
 }
 
+/*
+ * The search is about the ensemble as it is. If its members are a sample, that enters the errors of
+ * shares and means at the end, by members that are settled there once more.
+ */
+static pendres_status add_sampling(pendres_context *ctx, const pendres_ensemble *e,
+                                   pendres_resonance *out)
+{
+  pendres_response there;
+  if (e->shape == PENDRES_ENSEMBLE_LINE || !isfinite(out->frequency)) return PENDRES_OK;
+  const pendres_status status =
+    pendres_response_compute(ctx, 1, &out->response.pendulum, e, &there);
+  if (status != PENDRES_OK) return status;
+  pendres_response_widen(&out->response, there.sampling);
+  out->loop_area_error = fmax(out->loop_area_error, out->response.mean_loop_area_error);
+  return PENDRES_OK;
+}
+
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
                                              double lowest, double highest,
                                              const pendres_ensemble *ensemble, double most_work,
@@ -333,14 +351,13 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the range of frequencies must be positive and ascending");
   const char *why = NULL;
+  (void)pendres_ensemble_check(ensemble, &why);
   for (int i = 0; i < 2 && why == NULL; i++) {
     pendres_pendulum at = *p;
     at.drive_frequency = i == 0 ? lowest : highest;
     if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
-      why = pendres_passage_refuses(&at, fmax(fabs(ensemble->x_first), fabs(ensemble->x_last)),
-                                   ensemble->v);
+      why = pendres_response_refuses(&at, ensemble);
   }
-  if (ensemble->members < 1) why = "an ensemble needs members";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   /* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
   if (p->drive_amplitude == 0.0 && p->damping > 0.0) return no_area(ctx, p);
@@ -349,6 +366,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   if (status == PENDRES_OK && w.gap == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
   if (status == PENDRES_OK) status = search(&w, lowest, highest, out);
+  if (status == PENDRES_OK) status = add_sampling(ctx, ensemble, out);
   if (status != PENDRES_OK) clear(out);
   pendres_search_free(&w.s);
   free(w.gap);

@@ -79,28 +79,30 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
 
 enum { DECIDERS = 8 /* members that are followed up to a fold */ };
 
+/* Starts of members. */
+typedef struct starts {
+  size_t n;
+  double *x, *v;
+} starts;
+
 /*
- * Of the n starts in x, those that settle on an orbit's state at a frequency, at most `most`, are
- * moved to its front; *found is their number.
+ * Those starts that settle on an orbit's state at a frequency, at most `most`, are kept.
  */
-static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p, size_t n,
-                                 double v, double amplitude, size_t most, double *x, size_t *found)
+static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum *p,
+                                    double amplitude, size_t most, starts *s)
 {
+  const size_t n = s->n;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
-  double *velocity = malloc(n * sizeof *velocity);
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
   pendres_attractors *set = NULL;
-  *found = 0;
-  if (pendulums == NULL || velocity == NULL || outcome == NULL) {
+  s->n = 0;
+  if (pendulums == NULL || outcome == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for %zu members", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++) {
-    pendulums[i] = *p;
-    velocity[i] = v;
-  }
-  status = pendres_settle(ctx, n, pendulums, x, velocity, outcome, &set);
+  for (size_t i = 0; i < n; i++) pendulums[i] = *p;
+  status = pendres_settle(ctx, n, pendulums, s->x, s->v, outcome, &set);
   if (status != PENDRES_OK) goto done;
   size_t on = 0;
   for (int pass = 0; pass < 2; pass++) {
@@ -113,14 +115,16 @@ static pendres_status members_on(pendres_context *ctx, const pendres_pendulum *p
                                  : pendres_attractors_get(set, (size_t)outcome[i].attractor);
       /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
       if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
-      if (pass == 1 && *found < most && on * most >= *found * all) x[(*found)++] = x[i];
+      if (pass == 1 && s->n < most && on * most >= s->n * all) {
+        s->x[s->n] = s->x[i];
+        s->v[s->n++] = s->v[i];
+      }
       on++;
     }
   }
 done:
   pendres_attractors_free(set);
   free(pendulums);
-  free(velocity);
   free(outcome);
   return status;
 }
@@ -135,22 +139,23 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
                                    const pendres_fold *fold, double side, int *decides)
 {
   const size_t most[2] = {DECIDERS, e->members};
-  double *x = malloc(e->members * sizeof *x);
+  starts s = {.x = malloc(e->members * sizeof *s.x), .v = malloc(e->members * sizeof *s.v)};
   pendres_status status = PENDRES_OK;
   *decides = 0;
-  if (x == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
+  if (s.x == NULL || s.v == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for an ensemble");
   for (int pass = 0; pass < 2 && !*decides && status == PENDRES_OK; pass++) {
-    size_t n = e->members;
-    for (size_t k = 1; k <= n; k++) x[k - 1] = pendres_ensemble_x(e, k);
-    for (double off = 1e-3; off > 5e-7 && n > 0 && status == PENDRES_OK; off *= 0.1) {
+    s.n = e->members;
+    for (size_t k = 1; k <= s.n; k++) pendres_ensemble_start(e, k, &s.x[k - 1], &s.v[k - 1]);
+    for (double off = 1e-3; off > 5e-7 && s.n > 0 && status == PENDRES_OK; off *= 0.1) {
       pendres_pendulum p = fold->orbit.pendulum;
       p.drive_frequency = fold->value + side * off;
-      status = members_on(ctx, &p, n, e->v, fold->orbit.amplitude, most[pass], x, &n);
+      status = keep_those_on(ctx, &p, fold->orbit.amplitude, most[pass], &s);
     }
-    *decides = n > 0;
+    *decides = s.n > 0;
   }
-  free(x);
+  free(s.x);
+  free(s.v);
   return status;
 }
 

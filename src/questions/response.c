@@ -12,6 +12,7 @@
 #include "questions/response_members.h"
 #include "orbits/settle.h"
 #include "engine/passage.h"
+#include "questions/response_sampling.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -37,8 +38,7 @@ typedef struct sums {
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
 } sums;
 
-/* Whole turns again and again: such a motion has no amplitude and no loop. */
-static int running(const pendres_attractor *a)
+int pendres_response_running(const pendres_attractor *a)
 {
   /* The mean drift of a chaos that has none is within twice its error for certain. */
   return a->label == PENDRES_LABEL_CHAOTIC ? fabs(a->drift) > 2.0 * a->drift_error
@@ -51,7 +51,7 @@ static void add_extremes(sums *s, const pendres_attractor *a)
   const pendres_orbit *o = &a->orbit;
   s->least = fmin(s->least, o->loop_area);
   s->most = fmax(s->most, o->loop_area);
-  if (!running(a)) s->widest = fmax(s->widest, o->amplitude);
+  if (!pendres_response_running(a)) s->widest = fmax(s->widest, o->amplitude);
 }
 
 /* Errors along and across a first harmonic, as errors of its parts. */
@@ -74,7 +74,7 @@ static void add_attractor(sums *s, const pendres_attractor *a, double share)
   s->power += share * o->mean_power;
   s->power_error += share * o->mean_power_error;
   s->largest = fmax(s->largest, fabs(o->loop_area));
-  if (running(a)) return;
+  if (pendres_response_running(a)) return;
   s->amplitude_share += share;
   s->amplitude += share * o->amplitude;
   s->amplitude_error += share * o->amplitude_error;
@@ -150,7 +150,8 @@ static void average(pendres_response *r, const parted *p)
   }
   const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
   /* An uncertain member may belong to any state, but to one of those that are there. */
-  const double doubt = p->attractors > 1 ? (double)r->uncertain / members : 0.0;
+  const double doubt =
+    p->attractors > 1 ? (double)r->uncertain / members + r->sampling : 0.0;
   const double area_doubt = lost * s.largest + doubt * (s.most - s.least);
   r->mean_loop_area = s.area;
   /* A lost member may belong to any state. */
@@ -160,7 +161,8 @@ static void average(pendres_response *r, const parted *p)
   if (named > 0) {
     r->sa_fraction = sa / members;
     r->la_fraction = la / members;
-    r->sa_fraction_error = r->la_fraction_error = lost + doubt;
+    r->sa_fraction_error = r->la_fraction_error =
+      lost + (p->attractors > 1 ? doubt : r->sampling);
   }
   if (s.amplitude_share > 0.0) {
     r->mean_amplitude = s.amplitude / s.amplitude_share;
@@ -278,8 +280,7 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
     for (size_t k = 1; k <= e->members; k++) {
       const size_t i = s * e->members + k - 1;
       set[i] = s;
-      x[i] = pendres_ensemble_x(e, k);
-      v[i] = e->v;
+      pendres_ensemble_start(e, k, &x[i], &v[i]);
     }
   }
   status = pendres_settle_batch(ctx, sets, catalogues, 1, n, set, x, v, outcome);
@@ -295,6 +296,12 @@ done:
   return status;
 }
 
+const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e)
+{
+  const double v = e->shape == PENDRES_ENSEMBLE_LINE ? e->v : fmax(fabs(e->v), fabs(e->v_last));
+  return pendres_passage_refuses(p, fmax(fabs(e->x_first), fabs(e->x_last)), v);
+}
+
 pendres_status pendres_response_members(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, signed char *where,
@@ -302,15 +309,12 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
 {
   if (ensemble == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulums, ensemble and out");
-  if (ensemble->members < 1 || !isfinite(ensemble->x_first) || !isfinite(ensemble->x_last) ||
-      !isfinite(ensemble->v))
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "an ensemble needs members and finite starts");
+  const char *why = NULL;
+  if (pendres_ensemble_check(ensemble, &why) != PENDRES_OK)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   for (size_t i = 0; i < n; i++) {
-    const char *why = NULL;
     if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK) {
-      why = pendres_passage_refuses(&pendulums[i], fmax(fabs(ensemble->x_first),
-                                                       fabs(ensemble->x_last)), ensemble->v);
+      why = pendres_response_refuses(&pendulums[i], ensemble);
       if (pendulums[i].damping == 0.0) why = "without damping nothing settles";
     }
     if (why != NULL)
@@ -325,10 +329,27 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   return status;
 }
 
+/* A line is what it is; other starts are a sample, which each member's state tells of. */
+static pendres_status compute(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                              const pendres_ensemble *ensemble, pendres_response *out)
+{
+  if (ensemble == NULL || ensemble->shape == PENDRES_ENSEMBLE_LINE)
+    return pendres_response_members(ctx, n, pendulums, ensemble, NULL, out);
+  if (ensemble->members > SIZE_MAX / (n + 1))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "too many members");
+  signed char *where = malloc(n * ensemble->members + 1);
+  if (where == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
+  const pendres_status status = pendres_response_members(ctx, n, pendulums, ensemble, where, out);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    pendres_response_sample(ensemble, where + i * ensemble->members, &out[i]);
+  free(where);
+  return status;
+}
+
 pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, pendres_response *out)
 {
-  return PENDRES_CONTEXT_CALL(
-    ctx, pendres_response_members(ctx, n, pendulums, ensemble, NULL, out));
+  return PENDRES_CONTEXT_CALL(ctx, compute(ctx, n, pendulums, ensemble, out));
 }

@@ -15,4 +15,7 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
                                         const pendres_ensemble *ensemble, signed char *where,
                                         pendres_response *out);
 
+/* NULL if a pendulum can be started from all of the ensemble, or why not. */
+const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e);
+
 #endif

@@ -82,7 +82,7 @@ void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
   const size_t doubt = r->unresolved + r->unlisted + (r->states > 1 ? r->uncertain : 0);
   r->sa_fraction = (double)sa / members;
   r->la_fraction = (double)la / members;
-  r->sa_fraction_error = r->la_fraction_error = (double)doubt / members;
+  r->sa_fraction_error = r->la_fraction_error = (double)doubt / members + r->sampling;
 }
 
 static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response *responses)

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/mix.h"
+
 static const double half_pi = 1.57079632679489661923;
 static const double two_pi = 6.28318530717958647693;
 
@@ -156,8 +158,53 @@ pendres_ensemble pendres_ensemble_default(void)
   return (pendres_ensemble){.members = 200, .x_first = -half_pi, .x_last = 3.0 * half_pi};
 }
 
+pendres_status pendres_ensemble_check(const pendres_ensemble *e, const char **why)
+{
+  const char *wrong = NULL;
+  const int area = e != NULL && e->shape != PENDRES_ENSEMBLE_LINE;
+  if (e == NULL) wrong = "there is no ensemble";
+  else if (e->members < 1) wrong = "an ensemble needs members";
+  else if (!isfinite(e->x_first) || !isfinite(e->x_last) || !isfinite(e->v))
+    wrong = "an ensemble needs finite starts";
+  else if ((unsigned)e->shape >= PENDRES_ENSEMBLE_SHAPE_COUNT)
+    wrong = "an ensemble has one of the shapes line, rectangle and random";
+  else if (area && !(isfinite(e->v_last) && e->x_last > e->x_first && e->v_last > e->v))
+    wrong = "a rectangle of starts needs ascending, finite bounds of x and v";
+  else if (e->shape == PENDRES_ENSEMBLE_RECTANGLE && (e->rows < 1 || e->members % e->rows != 0))
+    wrong = "the members of a rectangle must make whole rows";
+  if (why != NULL && wrong != NULL) *why = wrong;
+  return wrong == NULL ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
+}
+
+/* The place of member k in a rectangle, as shares of its sides. */
+static void share_of_sides(const pendres_ensemble *e, size_t k, double *along, double *up)
+{
+  if (e->shape == PENDRES_ENSEMBLE_RANDOM) {
+    *along = pendres_mix_uniform(e->seed, 2 * (uint64_t)k);
+    *up = pendres_mix_uniform(e->seed, 2 * (uint64_t)k + 1);
+  } else {
+    const size_t columns = e->members / e->rows;
+    *along = ((double)((k - 1) % columns) + 0.5) / (double)columns;
+    *up = ((double)((k - 1) / columns) + 0.5) / (double)e->rows;
+  }
+}
+
+void pendres_ensemble_start(const pendres_ensemble *e, size_t k, double *x, double *v)
+{
+  double at_x = NAN, at_v = NAN, along = 0.0, up = 0.0;
+  if (pendres_ensemble_check(e, NULL) == PENDRES_OK && k >= 1 && k <= e->members) {
+    if (e->shape == PENDRES_ENSEMBLE_LINE) along = (double)k / (double)e->members;
+    else share_of_sides(e, k, &along, &up);
+    at_x = e->x_first + (e->x_last - e->x_first) * along;
+    at_v = e->shape == PENDRES_ENSEMBLE_LINE ? e->v : e->v + (e->v_last - e->v) * up;
+  }
+  if (x != NULL) *x = at_x;
+  if (v != NULL) *v = at_v;
+}
+
 double pendres_ensemble_x(const pendres_ensemble *e, size_t k)
 {
-  if (e == NULL) return NAN;
-  return e->x_first + (e->x_last - e->x_first) * ((double)k / (double)e->members);
+  double x = NAN;
+  pendres_ensemble_start(e, k, &x, NULL);
+  return x;
 }
