@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+#include <pendres/pendres.h>
+
 #include "orbits/catalogue.h"
 
 enum { ALL = 6 };
@@ -112,9 +114,59 @@ static void images_compared(void **state)
   check_near(found[2].orbit.loop_area_error, 1e-12, 0.0);
 }
 
+/*
+ * Long orbits of several parameter sets find their points side by side; what a set gets is what it
+ * gets alone, byte by byte. Doubled orbits and their mirror images, of two and of four periods
+ * (these run), and an orbit of one period between them.
+ */
+static void test_long_orbits(void **state)
+{
+  enum { SETS = 3, MEMBERS = 24, N = SETS * MEMBERS };
+  static const pendres_pendulum set[SETS] = {
+    {.damping = 0.5, .drive_amplitude = 1.07, .drive_frequency = 2.0 / 3.0},
+    {.damping = 0.3, .drive_amplitude = 0.2, .drive_frequency = 0.9},
+    {.damping = 0.5, .drive_amplitude = 1.47, .drive_frequency = 2.0 / 3.0}};
+  pendres_pendulum p[N];
+  double x[N], v[N];
+  pendres_outcome outcome[N];
+  pendres_attractors *all = NULL, *alone = NULL;
+  pendres_context *ctx = NULL;
+  size_t seen = 0, longs = 0;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  for (size_t i = 0; i < N; i++) {
+    p[i] = set[i / MEMBERS];
+    x[i] = -1.5 + 6.0 * (double)(i % MEMBERS) / MEMBERS;
+    v[i] = 0.0;
+  }
+  check_ok(pendres_settle(ctx, N, p, x, v, outcome, &all));
+  for (size_t s = 0; s < SETS; s++) {
+    const size_t at = s * MEMBERS;
+    check_ok(pendres_settle(ctx, MEMBERS, p + at, x + at, v + at, outcome + at, &alone));
+    for (size_t k = 0; k < pendres_attractors_count(alone); k++, seen++) {
+      const pendres_attractor *a = pendres_attractors_get(alone, k);
+      const pendres_attractor *b = pendres_attractors_get(all, seen);
+      assert_non_null(b);
+      assert_int_equal(a->orbit.period, b->orbit.period);
+      longs += a->orbit.period > 1;
+      check_near(b->orbit.x, a->orbit.x, 0.0);
+      check_near(b->orbit.v, a->orbit.v, 0.0);
+      check_near(b->orbit.loop_area, a->orbit.loop_area, 0.0);
+      check_near(b->orbit.multiplier_error, a->orbit.multiplier_error, 0.0);
+      check_near(b->trap_radius, a->trap_radius, 0.0);
+      assert_memory_equal(b->trap_metric, a->trap_metric, sizeof a->trap_metric);
+    }
+    pendres_attractors_free(alone);
+  }
+  assert_int_equal(seen, pendres_attractors_count(all));
+  assert_int_equal(longs, 4);
+  pendres_attractors_free(all);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(chaos_last),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(test_long_orbits), cmocka_unit_test(chaos_last),
                                     cmocka_unit_test(images_compared)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
