@@ -13,6 +13,7 @@
 #   make doc        reference manual from the public headers, with doxygen
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
+#   make figures    run every deck and draw every picture, into build/figures; some minutes
 #   make style      where lines or files are too long
 #   make clean
 #
@@ -165,7 +166,7 @@ ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
 .PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots deps-python doc decks-reference \
-        style clean \
+        style figures clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -340,6 +341,13 @@ man: $(PROGRAM)
 
 decks-reference: $(PROGRAM)
 	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
+
+# Every deck that computes a figure, and its picture, into build/figures.
+figures: $(PROGRAM)
+	@mkdir -p $(BUILD)/figures; cd $(BUILD)/figures && failed=0 && \
+	for deck in $(filter-out $(CURDIR)/input/workprec_%,$(wildcard $(CURDIR)/input/*.nml)); do \
+	  echo "$${deck##*/}"; $(abspath $(PROGRAM)) --quiet $$deck >/dev/null || [ $$? -eq 3 ] || failed=1; \
+	done; $${PYTHON:-/usr/bin/python3} $(CURDIR)/plots/plot.py *.h5 && exit $$failed
 
 style:
 	@tests/style.sh

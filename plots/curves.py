@@ -1,0 +1,253 @@
+"""Pictures of curves: free oscillation, resonance, response, orbits, branches, sweeps, switching."""
+import os
+
+import h5py
+import numpy as np
+
+from style import (EXACT, FREE, LA, SA, Run, around, drive_axis, figure, free_frequency,
+                   frequency, legend, parameter_axis, words)
+
+
+def draw_free_oscillation(h, path):
+    fig, ax = figure(h, 4.8, 3.6)
+    a = h["amplitude"]
+    ax.axhline(1, color=FREE, ls="-.", label="harmonic oscillator")
+    ax.plot(a, h["frequency_exact"], color=EXACT, label="exact (elliptic integral)")
+    ax.plot(a, h["frequency_kittel"], "--", color=SA, label="Kittel")
+    ax.plot(a, h["frequency_belendez"], ":", color=LA, label="Beléndez")
+    step = max(1, len(a) // 25)
+    ax.plot(a[::step], h["frequency_integrated"][::step], "o", ms=4, mfc="none", color=EXACT,
+            label="integrated")
+    ax.set(xlabel="amplitude $x_0$ (rad)", ylabel=r"frequency $\omega_1/\omega_0$")
+    ax.legend()
+    return fig
+
+
+def resonance_axes(ax, h, labels):
+    """Resonance frequency against amplitude; `labels` dampings are written beside their points."""
+    amplitude, peak, damping = h["mean_loop_amplitude"], h["peak"], h["damping"]
+    omega, label = frequency(h, h["resonance_frequency"])
+    x = np.linspace(0, max(0.5, np.nanmax(amplitude, initial=0.5) * 1.12), 400)
+    x = x[x < np.pi]
+    ax.plot(x, frequency(h, free_frequency(x))[0], "--", color=FREE, label="free oscillation")
+    ax.axhline(frequency(h, 1.0)[0], color=FREE, ls="-.", label="harmonic oscillator")
+    for kind, style, colour, name in ((0, "o", SA, "smooth peak"), (1, "s", LA, "edge: SA ends"),
+                                      (2, "x", "black", "ragged")):
+        if np.any(peak == kind):
+            ax.plot(amplitude[peak == kind], omega[peak == kind], style, ms=3, color=colour,
+                    label=name)
+    # Numbers stand outside of the arch: to the left of its rising part, above its falling one.
+    top = damping[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
+    for value in labels:
+        i = np.argmin(abs(damping - value))
+        if abs(damping[i] - value) > 1e-9 or not np.isfinite(amplitude[i]):
+            continue
+        beyond = damping[i] > top
+        ax.annotate(f"{value:g}", (amplitude[i], omega[i]), textcoords="offset points",
+                    xytext=(-6, 1) if beyond else (5, 1), ha="right" if beyond else "left",
+                    va="bottom", fontsize=7)
+    ax.set(xlim=(0, x[-1]), ylim=around(np.append(omega, frequency(h, 1.0)[0]), 0.12))
+    return label
+
+
+def draw_resonance_curve(h, path):
+    fig, ax = figure(h, 5.4, 4.0)
+    label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.5, 0.7, 1.0])
+    ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$ (rad)", ylabel="resonance: " + label)
+    beside = path[:-3] + "_inset.h5"
+    inset = os.path.exists(beside)
+    if inset:  # the free space is at the lower left, below the curve
+        low, high = ax.get_ylim()
+        ax.set_ylim(low - 0.75 * (high - low), high)
+        with h5py.File(beside, "r") as other:
+            small = ax.inset_axes([0.11, 0.1, 0.5, 0.36])
+            resonance_axes(small, Run(other, h.options), [0.099, 0.28])
+        small.set_title("$F_0 = 0.1$", fontsize=7.5, pad=2)
+        small.tick_params(labelsize=7)
+    legend(ax, loc="lower right" if inset else "lower left", title="numbers: damping",
+           title_fontsize=7.5)
+    return fig
+
+
+def draw_response(h, path):
+    """Amplitude above, phase lag below; with temperatures a curve each, without the resonance."""
+    name = h.axis_of("mean_loop_amplitude", -1)
+    drive, label = drive_axis(h, h[name], name)
+    fig, (top, below) = figure(h, 5.0, 5.2, 2, 1, sharex=True)
+    amplitude, lag, damping = h["mean_loop_amplitude"], h["phase_lag"], h["damping"]
+    noisy = amplitude.ndim == 3
+    if not noisy:
+        amplitude, lag = amplitude[None], lag[None]
+    styles = ["-", "--", ":", "-."]
+    marks = dict(marker=".", ms=4) if len(drive) < 30 else {}
+    for t in range(len(amplitude)):
+        for i, g in enumerate(damping):
+            text = rf"$\gamma = {g:g}$" + (f", $T = {h['temperature'][t]:g}$" if noisy else "")
+            top.plot(drive, amplitude[t, i], styles[t % 4], color=f"C{i % 6}", label=text, **marks)
+            below.plot(drive, lag[t, i] / np.pi, styles[t % 4], color=f"C{i % 6}", **marks)
+    for i, tau in enumerate(h["resonance_period"] if not noisy else []):
+        if not np.isfinite(tau):
+            continue
+        at = drive_axis(h, 2 * np.pi / tau if name == "drive_frequency" else tau, name)[0]
+        top.plot(at, h["resonance_amplitude"][i], "o", ms=5, mfc="none", color=f"C{i % 6}")
+        below.plot(at, h["resonance_phase_lag"][i] / np.pi, "o", ms=5, mfc="none",
+                   color=f"C{i % 6}", label=f"resonance, {at:.4f}")
+    top.set(ylabel=r"amplitude $\langle x_0\rangle$ (rad)")
+    top.set_ylim(bottom=0)
+    below.set(xlabel=label, ylabel=r"phase lag $\phi/\pi$", ylim=(0, 1))
+    top.legend()
+    if below.get_legend_handles_labels()[0]:
+        below.legend()
+    return fig
+
+
+def arrow_along(ax, x, y, colour):
+    """An arrow in the direction that a loop is gone through."""
+    k = len(x) // 8
+    ax.annotate("", (x[k + max(1, len(x) // 100)], y[k + max(1, len(x) // 100)]), (x[k], y[k]),
+                arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.2, "mutation_scale": 14})
+
+
+def orbit_title(h):
+    if np.isfinite(h["period"]):
+        return (rf"area {h['loop_area']:.6f}, amplitude {h['amplitude']:.4f}, "
+                rf"phase lag {h['phase_lag'] / np.pi:.4f}$\pi$")
+    if np.isfinite(h["lyapunov_exponent"]):
+        return f"chaotic, Lyapunov exponent {h['lyapunov_exponent']:.4f}"
+    return "no closed orbit"
+
+
+def draw_section(h):
+    """Chaos with one sample a period: its Poincaré section, x within one turn."""
+    fig, ax = figure(h, 5.0, 4.2)
+    x = np.mod(h["x"] + np.pi / 2, 2 * np.pi) - np.pi / 2
+    ax.plot(x / np.pi, h["v"], ".", ms=max(0.6, 4 - 0.7 * np.log10(len(x) + 1)), mew=0,
+            color=EXACT, rasterized=True)
+    ax.set(xlabel=r"$x/\pi$", ylabel="$v$")
+    ax.set_title("Poincaré points; " + orbit_title(h))
+    return fig
+
+
+def draw_orbit(h, path):
+    periods, x, drive = h["drive_phase"] / (2 * np.pi), h["x"], h["drive"]
+    closed = np.isfinite(h["period"])
+    if not closed and len(periods) > 1 and periods[1] - periods[0] > 0.99:  # one sample a period
+        return draw_section(h)
+    colour = {0: SA, 1: LA}.get(int(h["label"]), "#009E73")
+    fig, (top, bottom) = figure(h, 4.8, 5.6, 2, 1)
+    scale = 0.5 * np.ptp(x) / np.ptp(drive) if np.ptp(drive) > 0 and np.ptp(x) > 0 else 1.0
+    marks = dict(marker="o", ms=3) if len(x) < 16 else {}
+    top.plot(periods, x, color=colour, label="$x$", **marks)
+    top.plot(periods, np.mean(x) + scale * drive, "--", color=FREE,
+             label=f"drive, magnified {scale:.1f} times", **marks)
+    top.set(xlabel="drive periods", ylabel="$x$ (rad)", ylim=around(x, 0.25))
+    top.legend(loc="upper right", ncol=2, frameon=False)
+    label = "$x$ (rad)"
+    if closed and h["winding"] != 0:  # the mean rotation encloses no area
+        x, label = x - 2 * np.pi * h["winding"] / h["period"] * periods, "$x$ without rotation (rad)"
+    bottom.plot(drive, x, color=colour, **marks)
+    if len(x) >= 16:
+        arrow_along(bottom, drive, x, colour)
+    bottom.set(xlabel="drive $F$", ylabel=label, ylim=around(x))
+    bottom.set_title(orbit_title(h))
+    return fig
+
+
+def bifurcation_curves(h, what, x, y):
+    """Curves of folds or flips, one after the other: is it an end of SA or LA, x, y."""
+    if f"{what}_curve" not in h:
+        return
+    number = h[f"{what}_curve"]
+    for k in np.unique(number):
+        here = number == k
+        named = f"{what}_branch" in h and np.any(h[f"{what}_branch"][here] < 2)
+        yield named, h[f"{what}_{x}"][here], h[f"{what}_{y}"][here]
+
+
+def draw_branches(h, path):
+    """Frequency, or whatever the branches are followed along, against amplitude."""
+    fig, ax = figure(h, 5.0, 4.6)
+    name = h.axis_of("mean_loop_amplitude", -1)
+    along = name.replace("drive_", "")  # of the variables branch_..., fold_...
+    axis, label = parameter_axis(h, h[name], name)
+    number, damping, stable = h["branch_number"], h["branch_damping"], h["branch_stable"] == 1
+    value = h[f"branch_{along}"] if f"branch_{along}" in h else h["branch_frequency"]
+    for i, g in enumerate(h["damping"]):
+        colour = f"C{i % 6}"
+        ax.plot(h["mean_loop_amplitude"][i], axis, ".", ms=3, color=colour,
+                label=rf"$\gamma = {g:g}$, ensemble")
+        for k in np.unique(number[abs(damping - g) < 1e-9]):
+            here = number == k
+            a, w = h["branch_amplitude"][here], parameter_axis(h, value[here], name)[0]
+            for mask, style in ((stable[here], "-"), (~stable[here], ":")):
+                ax.plot(np.where(mask, a, np.nan), w, style, color=colour)
+    for style, text in (("-", "stable"), (":", "unstable")):
+        ax.plot([], [], style, color="black", label="branches, " + text)
+    limits = around(axis, 0.0)
+    if name == "drive_frequency":
+        for named, amplitude, omega in bifurcation_curves(h, "fold", "amplitude", "frequency"):
+            if named:
+                ax.plot(amplitude, frequency(h, omega)[0], color="black", lw=2.2, alpha=0.35,
+                        label="folds of all dampings")
+        if "free_amplitude" in h:
+            ax.plot(h["free_amplitude"], frequency(h, h["free_frequency"])[0], "--", color=FREE,
+                    lw=0.8, label="free pendulum")
+    amplitudes = np.concatenate([h["branch_amplitude"], h["mean_loop_amplitude"].ravel()])
+    ax.set(xlabel=r"amplitude $\langle x_0\rangle$ (rad)", ylabel=label, ylim=limits,
+           xlim=(0, around(amplitudes)[1]))
+    legend(ax)
+    return fig
+
+
+def draw_switching(h, path):
+    """Rates with confidence intervals, the fits, and the activation energies that they mean."""
+    fig, ax = figure(h, 4.8, 3.8)
+    t = h["temperature"]
+    inverse = np.linspace(0.95 / t.max(), 1.05 / t.min(), 60)
+    for what, colour, text, marker in (("sa_la", SA, "SA to LA", "o"), ("la_sa", LA, "LA to SA", "s"),
+                                       ("well_sa", SA, "SA to another well", "^"),
+                                       ("well_la", LA, "LA to another well", "v")):
+        if f"rate_{what}" not in h or not np.any(h[f"events_{what}"] > 0):
+            continue
+        rate = h[f"rate_{what}"]
+        spread = np.abs([rate - h[f"rate_{what}_lower"], h[f"rate_{what}_upper"] - rate])
+        energy = h[f"activation_energy_{what}"]
+        error = h[f"activation_energy_{what}_error"]
+        if np.isfinite(energy) and np.isfinite(error):
+            text += f", $E = {energy:.4f} \\pm {error:.4f}$"
+            at = h[f"fit_temperature_{what}"]
+            power = h[f"prefactor_exponent_{what}"]
+            fit = np.exp(h[f"log_prefactor_{what}"] - energy * inverse) * \
+                (1 / (inverse * at)) ** power
+            ax.plot(inverse, fit, color=colour, lw=0.8, ls="-" if marker in "os" else ":")
+        some = h[f"events_{what}"] > 0
+        ax.errorbar(1 / t[some], rate[some], yerr=spread[:, some], fmt=marker, ms=4, mfc="none",
+                    color=colour, label=text, capsize=2)
+    ax.set(xlabel="$1/T$", ylabel="switching rate a unit time", yscale="log")
+    legend(ax)
+    return fig
+
+
+def draw_hysteresis(h, path):
+    name = h.axis_of("amplitude", 1)
+    x, label = parameter_axis(h, h[name], name)
+    fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
+    for way, marker in enumerate("^v"):
+        top.plot(x, h["amplitude"][way], marker, ms=4, mfc="none", color=f"C{way}",
+                 label=f"{words(name)} goes {('up', 'down')[way]}")
+        below.plot(x, h["lyapunov"][way], marker, ms=4, mfc="none", color=f"C{way}")
+    gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
+    for value, way, slow in zip(h["jump_parameter"], h["jump_direction"], gradual):
+        for ax in (top, below):
+            ax.axvline(parameter_axis(h, value, name)[0], color=f"C{way}", lw=0.8,
+                       ls=":" if slow else "-")
+    velocity = h["mean_velocity"]
+    if np.nanmax(np.abs(velocity), initial=0) > 0:
+        right = top.twinx()
+        right.plot(x, velocity.T, lw=0.8)
+        right.set_ylabel("mean velocity")
+    top.set_ylabel("amplitude (rad)")
+    top.legend()
+    below.axhline(0, color="0.7", lw=0.8)
+    below.set(ylabel="Lyapunov\nexponent", xlabel=label)
+    return fig

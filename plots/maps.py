@@ -1,0 +1,187 @@
+"""Pictures of planes: basins of attraction, phase diagrams, the loop area as a surface."""
+import numpy as np
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from curves import bifurcation_curves
+from style import (COEXISTENCE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around, colours_of,
+                   figure, frequency, parameter_axis, plt)
+
+OUTLINE = [withStroke(linewidth=2, foreground="black")]
+MOST_PIXELS = 1500  # a side; finer grids are thinned
+
+
+def attractor_styles(h):
+    """A name and a colour for each attractor: SA and LA always the same, others in their order."""
+    labels, names, colours = h["attractor_label"], [], []
+    for i, label in enumerate(labels):
+        name = NAMED[label]
+        if name == "running":
+            name += f" {h['attractor_winding'][i]:+d}/{h['attractor_period'][i]}"
+        elif np.count_nonzero(labels == label) > 1:
+            name += f" {np.count_nonzero(labels[: i + 1] == label)}"
+        names.append(name)
+        others = sum(c not in (SA, LA) for c in colours)
+        colours.append((SA, LA)[label] if label < 2 and (SA, LA)[label] not in colours
+                       else MORE[others % len(MORE)])
+    return names, colours
+
+
+def label_plane(fig, ax, index, extent, names, colours):
+    """Numbers of attractors as coloured areas, with a bar of their names; -1 is unresolved."""
+    first = 0
+    if np.any(index < 0):
+        names, colours, first = ["unresolved"] + names, [UNRESOLVED] + colours, -1
+    n = max(len(names), 1)
+    mesh = ax.imshow(index.T, origin="lower", aspect="auto", interpolation="nearest",
+                     extent=extent, cmap=ListedColormap(colours or [UNRESOLVED]),
+                     norm=BoundaryNorm(np.arange(n + 1) + first - 0.5, n))
+    bar = fig.colorbar(mesh, ax=ax, ticks=np.arange(len(names)) + first)
+    bar.ax.set_yticklabels(names)
+
+
+def write_wells(ax, h, thin):
+    """The number of the well in the middle of each large area of one well, as in print."""
+    well, index = h["well"][:: thin[0], :: thin[1]], h["attractor_index"][:: thin[0], :: thin[1]]
+    x, v = h["x"][:: thin[0]] / np.pi, h["v"][:: thin[1]]
+    for number in np.unique(well[index >= 0]):
+        here = (well == number) & (index >= 0)
+        if np.count_nonzero(here) < 0.01 * here.size:
+            continue
+        # The longest run along x, in the row where it is longest, is inside of the area.
+        best = (0, 0, 0)
+        for j in range(len(v) // 25, len(v) - len(v) // 25, max(1, len(v) // 64)):
+            edges = np.flatnonzero(np.diff(np.concatenate(([0], here[:, j].astype(int), [0]))))
+            for a, b in zip(edges[::2], edges[1::2]):
+                best = max(best, (b - a, (a + b) // 2, j))
+        if best[0] > 0.03 * len(x):
+            ax.text(x[min(best[1], len(x) - 1)], v[best[2]], f"{number:d}", color="white",
+                    fontsize=8, ha="center", va="center", path_effects=OUTLINE)
+
+
+def draw_clouds(ax, h):
+    """Noisy Poincaré points: a marker and a grey each, which colours of basins do not hide."""
+    temperatures, handles = h["temperature"], []
+    greys = ["white", "black", "0.6"]
+    for t in reversed(range(len(temperatures))):  # the cold clouds on top
+        x, v = h["strobe_x"][t].ravel(), h["strobe_v"][t].ravel()
+        some = np.flatnonzero(np.isfinite(x))
+        some = some[:: max(1, len(some) // 3000)]
+        style = {"marker": "o+x"[t % 3], "color": greys[t % 3], "ls": ""}
+        ax.plot(x[some] / np.pi, v[some], ms=1.2 if t % 3 == 0 else 2.2, mew=0.4, rasterized=True,
+                **style)
+        handles.insert(0, Line2D([], [], ms=5, mec="black" if t % 3 == 0 else None, **style,
+                                 label=f"$T = {temperatures[t]:g}$"))
+    ax.legend(handles=handles, loc="lower right", facecolor="0.85")
+
+
+def draw_basins(h, path):
+    x, v, index = h["x"], h["v"], h["attractor_index"]
+    fig, ax = figure(h, 5.6, 3.8)
+    thin = tuple(max(1, -(-len(axis) // MOST_PIXELS)) for axis in (x, v))
+    names, colours = attractor_styles(h)
+    label_plane(fig, ax, index[:: thin[0], :: thin[1]],
+                (x[0] / np.pi, x[-1] / np.pi, v[0], v[-1]), names, colours)
+    if "boundary_x" in h and h.options.boundary:
+        gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
+        ax.plot(np.insert(h["boundary_x"] / np.pi, gaps, np.nan),
+                np.insert(h["boundary_v"], gaps, np.nan), color="black", lw=0.5)
+    if "strobe_x" in h:
+        draw_clouds(ax, h)
+    elif "well" in h:
+        write_wells(ax, h, thin)
+    for i, name in enumerate(names):
+        at = h["attractor_x"][i] / np.pi, h["attractor_v"][i]
+        if np.all(np.isfinite(at)) and x[0] / np.pi <= at[0] <= x[-1] / np.pi:
+            ax.plot(*at, "X", ms=6, mew=0.8, color="white", mec="black")
+            ax.annotate(name, at, color="white", fontsize=8, textcoords="offset points",
+                        xytext=(6, 6), path_effects=OUTLINE)
+    ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi),
+           ylim=(v[0], v[-1]))
+    return fig
+
+
+REGIMES = (["SA", "LA", "coexistence", "single", "other"], [SA, LA, COEXISTENCE, SINGLE, OTHER])
+
+
+def draw_one_damping(h):
+    """A phase diagram of a single damping is a line: shares and mean loop area."""
+    name = h.axis_of("mean_loop_area", 1)
+    drive, label = parameter_axis(h, h[name], name)
+    fig, (top, below) = figure(h, 5.0, 4.6, 2, 1, sharex=True)
+    top.plot(drive, h["sa_fraction"][0], color=SA, label="SA")
+    top.plot(drive, h["la_fraction"][0], color=LA, label="LA")
+    top.set(ylabel="share of the members", ylim=(-0.03, 1.03))
+    top.legend()
+    below.plot(drive, h["mean_loop_area"][0], color="black")
+    below.set(xlabel=label, ylabel="mean loop area", xlim=around(drive, 0.0))
+    below.set_ylim(bottom=0)
+    return fig
+
+
+def add_bifurcations(ax, h):
+    for named, omega, damping in bifurcation_curves(h, "fold", "frequency", "damping"):
+        ax.plot(frequency(h, omega)[0], damping, color="black", lw=1.4 if named else 0.4)
+    for _, omega, damping in bifurcation_curves(h, "flip", "frequency", "damping"):
+        ax.plot(frequency(h, omega)[0], damping, ":", color="black", lw=0.8)
+    if "cusp_frequency" in h:
+        ax.plot(frequency(h, np.atleast_1d(h["cusp_frequency"]))[0],
+                np.atleast_1d(h["cusp_damping"]), "*", color="black", ms=8)
+
+
+def draw_phase_diagram(h, path):
+    if len(h["damping"]) < 2 or len(h[h.axis_of("regime", 1)]) < 2:
+        return draw_one_damping(h)
+    if h.text("deck").startswith("f10") or h.options.surface:
+        return draw_surface(h)
+    name = h.axis_of("regime", 1)
+    drive, label = parameter_axis(h, h[name], name)
+    damping = h["damping"]
+    fig, axes = figure(h, 5.2, 7.0, 2, 1, sharex=True)
+    mesh = axes[0].pcolormesh(drive, damping, h["regime"], shading="nearest", rasterized=True,
+                              cmap=ListedColormap(REGIMES[1]),
+                              norm=BoundaryNorm(np.arange(-0.5, 5), 5))
+    bar = fig.colorbar(mesh, ax=axes[0], ticks=range(5))
+    bar.ax.set_yticklabels(REGIMES[0])
+    area = axes[1].pcolormesh(drive, damping, h["mean_loop_area"], shading="nearest",
+                              cmap="viridis", rasterized=True)
+    fig.colorbar(area, ax=axes[1], label="mean loop area")
+    for ax in axes:
+        if name in ("drive_frequency", "drive_period") and h.options.boundary:
+            add_bifurcations(ax, h)
+        ax.set(ylabel=r"damping $\gamma$", xlim=around(drive, 0.0), ylim=around(damping, 0.0))
+    axes[1].set_xlabel(label)
+    if h.options.boundary:
+        handles = [Line2D([], [], color="black", lw=w, ls=s, label=t) for w, s, t in (
+            (1.4, "-", "folds: SA or LA ends"), (0.4, "-", "folds of others"),
+            (0.8, ":", "doubling, symmetry breaking"))]
+        handles.append(Line2D([], [], marker="*", color="black", ms=8, ls="", label="cusp"))
+        axes[0].legend(handles=handles, loc="upper left", framealpha=0.9)
+    return fig
+
+
+def draw_surface(h):
+    """The mean loop area as a surface over frequency and damping, with sections beside it."""
+    name = h.axis_of("mean_loop_area", 1)
+    drive, label = parameter_axis(h, h[name], name)
+    damping, area = h["damping"], h["mean_loop_area"]
+    fig = plt.figure(figsize=h.options.size or (5.4, 7.2))
+    grid = fig.add_gridspec(2, 1, height_ratios=(3, 2))
+    top = fig.add_subplot(grid[0], projection="3d")
+    thin = max(1, len(damping) // 90), max(1, len(drive) // 120)
+    w, g = np.meshgrid(drive[:: thin[1]], damping[:: thin[0]])
+    top.plot_surface(w, g, area[:: thin[0], :: thin[1]], cmap="viridis", rstride=1, cstride=1,
+                     linewidth=0, antialiased=False, rasterized=True)
+    top.set(xlabel=label, ylabel=r"damping $\gamma$", zlabel="mean loop area")
+    top.view_init(elev=32, azim=-58)
+    top.set_box_aspect((4, 4, 2.8), zoom=0.9)
+    top.tick_params(labelsize=7)
+    below = fig.add_subplot(grid[1])
+    chosen = np.unique(np.linspace(0, len(damping) - 1, 8).round().astype(int))
+    for colour, i in zip(colours_of(chosen), chosen):
+        below.plot(drive, area[i], color=colour, label=rf"$\gamma = {damping[i]:.4g}$")
+    below.set(xlabel=label, ylabel="mean loop area", xlim=around(drive, 0.0))
+    below.set_ylim(bottom=0)
+    below.legend(ncol=2)
+    return fig

@@ -1,0 +1,122 @@
+"""What all pictures share: colours, sizes, the file that is drawn, and the axes of frequency.
+
+Colours are those of Okabe and Ito, which the colour-blind tell apart; SA and LA have one each in
+every picture. tests/plots_check.py measures how far apart they are.
+"""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+SA, LA = "#0072B2", "#D55E00"
+COEXISTENCE, OTHER, SINGLE, UNRESOLVED = "#F0E442", "#009E73", "#D9D9D9", "#999999"
+MORE = ["#009E73", "#F0E442", "#CC79A7", "#56B4E9", "#E69F00", "#332288", "#117733"]
+FREE, EXACT = "0.45", "black"
+NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved"]
+
+plt.rcParams.update({
+    "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
+    "legend.fontsize": 7.5, "lines.linewidth": 1.2, "savefig.bbox": None,
+    "axes.prop_cycle": plt.cycler(color=[SA, LA, "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]),
+})
+
+
+class Run:
+    """The variables of a file as arrays, read when they are asked for."""
+
+    def __init__(self, file, options):
+        self.file, self.options = file, options
+
+    def __contains__(self, name):
+        return name in self.file
+
+    def __getitem__(self, name):
+        return self.file[name][()]
+
+    def text(self, attribute):
+        value = self.file.attrs.get(attribute, "")
+        return value.decode() if isinstance(value, bytes) else str(value)
+
+    def axis_of(self, name, dimension):
+        """The name of one of a variable's dimensions."""
+        dimensions = self.file[name].dims
+        return dimensions[dimension % len(dimensions)][0].name.rsplit("/", 1)[-1]
+
+
+def strings(values):
+    return [v.decode() if isinstance(v, bytes) else str(v) for v in np.atleast_1d(values)]
+
+
+def figure(run, width, height, rows=1, columns=1, **more):
+    """Axes of a default size in inches, or of the one that the command line asks for."""
+    return plt.subplots(rows, columns, figsize=run.options.size or (width, height), **more)
+
+
+def legend(ax, **more):
+    """A legend beside the curves, or below the axes where a picture is too narrow for both."""
+    handles, texts = ax.get_legend_handles_labels()
+    once = dict(zip(texts, zip(handles, texts)))  # each text once
+    if not once:
+        return
+    if ax.figure.get_size_inches()[0] >= 4.5:
+        ax.legend(*zip(*once.values()), **more)
+    else:
+        more["loc"] = "upper center"
+        ax.legend(*zip(*once.values()), bbox_to_anchor=(0.5, -0.2), ncol=2, **more)
+
+
+def drive_axis(run, values, name):
+    """Values of an axis of drive frequencies or periods in the quantity and unit asked for."""
+    unit, periods = run.options.unit, name == "drive_period" and not run.options.frequency
+    values = np.asarray(values, dtype=float)
+    omega = values if name == "drive_frequency" else 2 * np.pi / values
+    if unit is None:
+        return (values, r"drive period $\tau$") if periods else (omega, r"drive frequency $\omega$")
+    if periods:
+        return 2 * np.pi / omega / unit, "drive period (s)"
+    return omega * unit, "drive frequency (Hz)"
+
+
+def frequency(run, omega):
+    """Drive frequencies in the unit asked for, with a label."""
+    return drive_axis(run, omega, "drive_frequency")
+
+
+def words(name):
+    """A label for an axis by its name in the file."""
+    symbols = {"damping": r"damping $\gamma$", "drive_amplitude": "drive amplitude $F_0$",
+               "torque": "torque $I$", "parametric_amplitude": "parametric amplitude $b$",
+               "temperature": "temperature $T$"}
+    return symbols.get(name, name.replace("_", " "))
+
+
+def parameter_axis(run, values, name):
+    """Values and label of an axis of any parameter."""
+    if name in ("drive_frequency", "drive_period"):
+        return drive_axis(run, values, name)
+    return np.asarray(values, dtype=float), words(name)
+
+
+def around(values, share=0.06):
+    """Limits that leave none of the values out, with a margin."""
+    values = np.asarray(values, dtype=float)
+    values = values[np.isfinite(values)]
+    if len(values) == 0:
+        return 0.0, 1.0
+    low, high = values.min(), values.max()
+    margin = share * (high - low) if high > low else 0.5 * abs(high) or 0.5
+    return low - margin, high + margin
+
+
+def free_frequency(amplitude):
+    """Exact frequency of the free undamped pendulum, by the arithmetic-geometric mean."""
+    a, b = np.ones_like(amplitude), np.cos(amplitude / 2)
+    for _ in range(20):
+        a, b = (a + b) / 2, np.sqrt(a * b)
+    return a
+
+
+def colours_of(numbers):
+    """A colour for each of a row of values, from dark to light."""
+    return plt.cm.viridis(np.linspace(0, 0.85, max(len(numbers), 1)))

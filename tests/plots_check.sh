@@ -1,0 +1,46 @@
+#!/bin/sh
+# plots_check.sh -- every kind of run that is quick to make is drawn, with and without options, what
+# cannot be drawn is told on one line, and the colours of states can be told apart by everybody.
+set -u
+top=$(cd "$(dirname "$0")/.." && pwd)
+python=${PYTHON:-/usr/bin/python3}
+"$python" -c 'import h5py, matplotlib' 2>/dev/null || exit 77
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+# deck NAME KIND GROUPS: run a small deck.
+deck()
+{
+  printf "&scene kind = '%s', title = '%s' /\n%s\n" "$2" "$1" "$3" >"$1.nml"
+  "$RESONANCE" --quiet "$1.nml" >"$1.txt" 2>&1 || { cat "$1.txt"; exit 1; }
+}
+p='&pendulum drive_amplitude = 0.2'
+e='&ensemble members = 8 /'
+deck free free_oscillation '&sweep amplitude = 0.5, 1, 2 /'
+deck curve resonance_curve "$p / &sweep damping = 0.2, 0.3, drive_frequency_range = 0.8, 1.1 / $e"
+cp curve.h5 curve_inset.h5
+deck strong resonance_curve '&pendulum drive_amplitude = 0.5 /
+  &sweep damping = 0.8, 1.2, drive_frequency_range = 0.5, 1.1 / &ensemble members = 8 /'
+deck response response "$p / &sweep damping = 0.3, 0.5, drive_period_range = 5, 9, 5 / $e"
+deck noisy response "$p / &sweep damping = 0.5, drive_period = 6, 7, temperature = 0, 0.01 / $e"
+deck orbit orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v = 0.0 /"
+deck one orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v = 0.0, samples = 1 /"
+deck basins basins "$p, damping = 0.12, drive_period = 8 /
+  &sweep x_range = -1.5, 4.5, 24, v_range = -2, 2, 16 /"
+deck line phase_diagram "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
+deck plane phase_diagram "$p / &sweep damping = 0.2, 0.3, drive_frequency = 0.7, 0.8, 0.9 / $e"
+deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
+
+plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
+plot ./*.h5 -o pictures || { cat err; exit 1; }
+plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 0.83Hz --frequency --no-boundary --surface ||
+  { cat err; exit 1; }
+[ "$(wc -l <out)" -eq "$(ls ./*.h5 | wc -l)" ] || { echo "not all were drawn"; exit 1; }
+
+# What cannot be drawn is a line, no traceback, and the others are drawn.
+echo nonsense >broken.h5
+plot missing.h5 broken.h5 free.h5 -o some && { echo "a missing file passed"; exit 1; }
+[ "$(wc -l <err)" -eq 2 ] && [ -f some/free.png ] || { cat err; exit 1; }
+
+"$python" "$top/tests/plots_colours.py"
