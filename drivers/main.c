@@ -68,6 +68,16 @@ static int override_output(job *j, deck *d)
   return DONE;
 }
 
+/* A name that promises text is none for HDF5. */
+static int check_extension(job *j, const deck *d)
+{
+  const size_t n = strlen(d->output);
+  if (n < 4 || strcmp(d->output + n - 4, ".csv") != 0) return DONE;
+  progress_error(&j->progress, "%s: results are an HDF5 file, which this name promises not to be",
+                 d->output);
+  return BAD_USAGE;
+}
+
 static int read_deck(job *j, const char *name, deck *d)
 {
   namelist_errors errors = { 0 };
@@ -82,7 +92,8 @@ static int read_deck(job *j, const char *name, deck *d)
     return FAILED;
   }
   if (status != PENDRES_OK) return BAD_USAGE;
-  if (override_output(j, d) != DONE || files_check(d, j->options.log, &j->progress) != DONE)
+  if (override_output(j, d) != DONE || check_extension(j, d) != DONE ||
+      files_check(d, j->options.log, &j->progress) != DONE)
     return BAD_USAGE;
   if (scene_precision(d, &precision, &why) != PENDRES_OK) {
     progress_error(&j->progress, "%s: &precision: %s", d->name, why);

@@ -122,6 +122,33 @@ static void test_standard_input(void **state)
   check_text("piped.h5", "provenance", "deck_resolved", "damping = 0.11\n");
 }
 
+/* A table under that name would not be one. */
+static void test_csv_is_no_hdf5(void **state)
+{
+  (void)state;
+  check_code(RUN("-o", "x.csv", "small.nml"), 2);
+  check_says(err, "x.csv: results are an HDF5 file");
+  assert_int_equal(count_names(".csv"), 0);
+}
+
+/* What a number is stands beside it. */
+static void test_measures_are_defined(void **state)
+{
+  pendres_store *store = NULL;
+  char *text = NULL;
+  (void)state;
+  check_code(RUN("-q", "orbit.nml"), DONE);
+  assert_int_equal(pendres_store_open("orbit.h5", &store), PENDRES_OK);
+  assert_int_equal(pendres_store_read_attribute_text(store, "", "x", "comment", &text), PENDRES_OK);
+  check_says(text, "x - pi/2");
+  free(text);
+  assert_int_equal(pendres_store_read_attribute_text(store, "", "loop_area", "comment", &text),
+                   PENDRES_OK);
+  check_says(text, "closed integral of F dx");
+  free(text);
+  pendres_store_free(store);
+}
+
 /* Replaced are results of the same deck, which can be had again; all else keeps a name. */
 static void test_results_are_kept(void **state)
 {
@@ -152,7 +179,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_settings),       TEST(test_bad_settings),     TEST(test_several_decks),
-    TEST(test_standard_input), TEST(test_results_are_kept),
+    TEST(test_standard_input), TEST(test_results_are_kept), TEST(test_csv_is_no_hdf5),
+    TEST(test_measures_are_defined),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -88,7 +88,7 @@ static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
   [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
   [DECK_AXIS_X] = { "initial position", "rad" },
   [DECK_AXIS_V] = { "initial velocity", "1" },
-  [DECK_AXIS_TEMPERATURE] = { "temperature in units of the depth of the potential", "1" },
+  [DECK_AXIS_TEMPERATURE] = { "temperature k T / (m g l)", "1" },
   [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
 };
 
@@ -133,7 +133,7 @@ pendres_status scene_write_identity(scene_run *run)
   }
   if (status == PENDRES_OK && coordinates[0] != '\0')
     status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return status == PENDRES_OK ? scene_define(run) : scene_store_failed(run, status);
 }
 
 pendres_ensemble scene_ensemble(const deck *d)

@@ -66,6 +66,9 @@ pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id a
  */
 pendres_status scene_write_identity(scene_run *run);
 
+/* What the measures in the file are, in their attributes `comment`; called by the above. */
+pendres_status scene_define(scene_run *run);
+
 /* The deck's ensemble. */
 pendres_ensemble scene_ensemble(const deck *d);
 
