@@ -11,8 +11,8 @@
 
 #include <pendres/attractor.h>
 
-#include "orbits/chaos.h"
 #include "engine/strobe_run.h"
+#include "orbits/chaos_cover.h"
 #include "orbits/trap.h"
 
 enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/student.h"
-#include "orbits/catalogue.h"
 #include "orbits/chaos_walk.h"
 #include "engine/context_internal.h"
 #include "orbits/recurrence.h"
@@ -43,37 +42,6 @@ static const double agreement = 2.0;
 /* Confidence of a mean's error, and of the escape rate that is excluded. */
 static const double confidence = 0.999, escape_confidence = 0.95;
 
-/* ---- covers ---- */
-
-static int cell_of(const pendres_cover *cover, double y, double w, int *row, int *column)
-{
-  const double a = y / two_pi + 0.5, b = 0.5 * (w / cover->w_most + 1.0);
-  /* Neither NaN nor what no int holds. */
-  if (!(isfinite(a) && b >= 0.0 && b < 1.0)) return 0;
-  *row = (int)floor((a - floor(a)) * PENDRES_COVER_CELLS);
-  *column = (int)floor(b * PENDRES_COVER_CELLS);
-  if (*row == PENDRES_COVER_CELLS) *row = 0;
-  return 1;
-}
-
-int pendres_cover_holds(const pendres_cover *cover, double y, double w)
-{
-  int row, column;
-  return cell_of(cover, y, w, &row, &column) && cover->cell[row][column];
-}
-
-/* A visited cell and its neighbours. */
-static void cover_add(pendres_cover *cover, double y, double w)
-{
-  int row, column;
-  if (!cell_of(cover, y, w, &row, &column)) return;
-  for (int i = -1; i <= 1; i++)
-    for (int j = -1; j <= 1; j++) {
-      const int r = (row + i + PENDRES_COVER_CELLS) % PENDRES_COVER_CELLS, s = column + j;
-      if (s >= 0 && s < PENDRES_COVER_CELLS) cover->cell[r][s] = 1;
-    }
-}
-
 /* ---- walkers that are watched ---- */
 
 typedef struct vigil {
@@ -103,7 +71,7 @@ static void widen(pendres_cover *cover, const vigil *v)
 {
   for (size_t i = 0; i < WALKERS; i++)
     for (size_t k = 0; k < points_of(v); k++)
-      cover_add(cover, v->y[i * KEPT + k], v->w[i * KEPT + k]);
+      pendres_cover_add(cover, v->y[i * KEPT + k], v->w[i * KEPT + k]);
 }
 
 static pendres_cover *create_cover(const vigil *v)

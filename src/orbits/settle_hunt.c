@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "orbits/chaos.h"
 #include "orbits/recurrence.h"
 
 enum {

@@ -15,7 +15,7 @@
 #define PENDRES_TRAP_RING_H
 
 #include "engine/strobe_run.h"
-#include "orbits/trap.h"
+#include "orbits/trap_ellipse.h"
 
 enum {
   PENDRES_TRAP_LOOKS = 24, /* strobes of the q-th iterate at most until a point is home */
