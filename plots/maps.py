@@ -161,6 +161,30 @@ def draw_phase_diagram(h, path):
     return fig
 
 
+def draw_lyapunov_map(h, path):
+    rows, columns = h.axis_of("lyapunov", 0), h.axis_of("lyapunov", 1)
+    across, below = parameter_axis(h, h[columns], columns)
+    up, beside = parameter_axis(h, h[rows], rows)
+    exponent, period = h["lyapunov"], h["period"]
+    fig, axes = figure(h, 9.5, 4.2, 1, 2, sharex=True, sharey=True)
+    most = np.nanpercentile(np.abs(exponent), 99)
+    shown = axes[0].pcolormesh(across, up, exponent, cmap="RdBu_r", vmin=-most, vmax=most,
+                               shading="nearest", rasterized=True)
+    fig.colorbar(shown, ax=axes[0], label="largest Lyapunov exponent")
+    closed = np.isfinite(period)
+    kind = np.where(closed, 1 + (h["winding"] != 0) + 2 * (period > 1), 0)
+    kind = np.where(h["label"] == NAMED.index("unresolved"), 5, kind)
+    names = ["chaotic", "period 1", "period 1, running", "longer", "longer, running", "unresolved"]
+    colours = ListedColormap(["black", SINGLE, MORE[4], SA, LA, UNRESOLVED])
+    shown = axes[1].pcolormesh(across, up, kind, cmap=colours, vmin=-0.5, vmax=5.5,
+                               shading="nearest", rasterized=True)
+    fig.colorbar(shown, ax=axes[1], ticks=range(6)).ax.set_yticklabels(names)
+    for ax in axes:
+        ax.set_xlabel(below)
+    axes[0].set_ylabel(beside)
+    return fig
+
+
 def draw_surface(h):
     """The mean loop area as a surface over frequency and damping, with sections beside it."""
     name = h.axis_of("mean_loop_area", 1)

@@ -378,6 +378,32 @@ static void hysteresis(void **state)
   assert_int_equal(f->wrong, 0);
 }
 
+static void exponents(void **state)
+{
+  fixture *f = *state;
+  f->wrong = 0;
+  const double zero = 0.0;
+  const pendres_lyapunov_options bad[] = { { .transient = -1 }, { .periods = -1 },
+                                           { .transient = LONG_MAX }, { .periods = LONG_MAX } };
+  pendres_pendulum undamped = good;
+  pendres_lyapunov l;
+  undamped.damping = 0.0;
+  REFUSED(pendres_lyapunov_find(f->ctx, 1, NULL, &zero, &zero, NULL, &l));
+  REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, NULL, &zero, NULL, &l));
+  REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, &zero, NULL, NULL, &l));
+  REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, &zero, &zero, NULL, NULL));
+  REFUSED(pendres_lyapunov_find(f->ctx, 1, &undamped, &zero, &zero, NULL, &l));
+  for (size_t i = 0; i < COUNT(bad); i++)
+    REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, &zero, &zero, &bad[i], &l));
+  for (size_t i = 0; i < COUNT(bad_pendulums); i++)
+    REFUSED(pendres_lyapunov_find(f->ctx, 1, &bad_pendulums[i], &zero, &zero, NULL, &l));
+  for (size_t i = 0; i < COUNT(bad_numbers); i++) {
+    REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, &bad_numbers[i], &zero, NULL, &l));
+    REFUSED(pendres_lyapunov_find(f->ctx, 1, &good, &zero, &bad_numbers[i], NULL, &l));
+  }
+  assert_int_equal(f->wrong, 0);
+}
+
 static void curves(void **state)
 {
   fixture *f = *state;
@@ -511,7 +537,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(strobes),  cmocka_unit_test(settling),   cmocka_unit_test(orbits),
     cmocka_unit_test(basins),   cmocka_unit_test(boundaries), cmocka_unit_test(branches),
-    cmocka_unit_test(hysteresis), cmocka_unit_test(curves),   cmocka_unit_test(ensembles),
+    cmocka_unit_test(curves),   cmocka_unit_test(ensembles),  cmocka_unit_test(hysteresis),
+    cmocka_unit_test(exponents),
   };
   return cmocka_run_group_tests_name("arguments", tests, make, clear);
 }

@@ -74,6 +74,7 @@ static void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->orbit.samples, b->orbit.samples);
   assert_int_equal(a->orbit.transient, b->orbit.transient);
   assert_memory_equal(&a->noise, &b->noise, sizeof a->noise);
+  assert_memory_equal(&a->lyapunov, &b->lyapunov, sizeof a->lyapunov);
   assert_int_equal(a->basins.refine, b->basins.refine);
   assert_int_equal(a->basins.boundary, b->basins.boundary);
   assert_int_equal(a->basins.statistics, b->basins.statistics);
@@ -125,7 +126,8 @@ static const char *const good[] = {
   "&scene kind='hysteresis' /\n&pendulum drive_period=8 damping=0.12 /\n"
   "&sweep drive_amplitude=0.1,0.3 /\n&hysteresis x=1 v=0.5 /\n",
   "&scene kind='lyapunov_map' /\n&pendulum drive_frequency=0.66 /\n"
-  "&sweep drive_amplitude_range=0.5,1.5,9 damping=0.2,0.5 /\n",
+  "&sweep drive_amplitude_range=0.5,1.5,9 damping=0.2,0.5 /\n"
+  "&lyapunov_map x=1 v=0.1 transient=50 periods=64 /\n",
   "&scene kind='phase_diagram' /\n&pendulum drive_amplitude=0.2 /\n"
   "&sweep damping=0.1 drive_frequency_range=0.7,0.9,200 /\n"
   "&ensemble shape='rectangle' members=64 rows=8 v=-1 v_last=1 /\n",

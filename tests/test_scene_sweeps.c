@@ -58,6 +58,42 @@ static void hysteresis(void **state)
   free(period);
 }
 
+/* A small map: what the library finds at a point, parts of it joined in their order. */
+static void lyapunov_map(void **state)
+{
+  (void)state;
+  static const char deck_text[] =
+    "&scene kind = 'lyapunov_map' /\n&pendulum drive_frequency = 0.66 /\n"
+    "&sweep drive_amplitude_range = 0.5, 1.5, 60, damping_range = 0.4, 0.6, 40 /\n"
+    "&lyapunov_map x = 1.2, periods = 32, transient = 40 /\n&precision tolerance = 1e-5 /\n";
+  size_t n = 0;
+  (void)scene_run_marked(NULL, deck_text, 1, "one");
+  (void)scene_run_marked(NULL, deck_text, 2, "two");
+  scene_check_same_bytes("one", "two");
+  pendres_store *store = scene_open("one");
+  double *exponent = scene_values(store, "lyapunov", &n);
+  double *label = scene_values(store, "label", &n), *period = scene_values(store, "period", &n);
+  double *damping = scene_values(store, "damping", &n);
+  double *drive = scene_values(store, "drive_amplitude", &n);
+  assert_int_equal(n, 60);
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-5}, &ctx));
+  for (size_t i = 0; i < 2400; i += 171) {
+    const pendres_pendulum p = {.damping = damping[i / 60], .drive_amplitude = drive[i % 60],
+                                .drive_frequency = 0.66};
+    const double x = 1.2, v = 0.0;
+    const pendres_lyapunov_options options = {.transient = 40, .periods = 32};
+    pendres_lyapunov l;
+    check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, &options, &l));
+    assert_int_equal(label[i], l.label);
+    assert_true(exponent[i] == l.exponent);
+    assert_true(l.period > 0 ? period[i] == l.period : isnan(period[i]));
+  }
+  pendres_context_free(ctx);
+  pendres_store_free(store);
+  free(exponent), free(label), free(period), free(damping), free(drive);
+}
+
 /* One parameter is swept, no more and no less; a start is needed. */
 static void wrong_decks(void **state)
 {
@@ -70,6 +106,8 @@ static void wrong_decks(void **state)
     {HYSTERESIS "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis start = 'sa', x = 1 /\n",
      "'x' is not used"},
     {HYSTERESIS "&sweep drive_period = 7, 8 /\n&hysteresis x = 1 /\n", "give 'drive_frequency'"},
+    {"&scene kind = 'lyapunov_map' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
+     "&sweep drive_amplitude = 0.7, 0.8 /\n", "a map has two axes"},
     {"&scene kind = 'hysteresis' /\n&pendulum damping = 0.1 /\n"
      "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis x = 1 /\n", "needs 'drive_amplitude'"},
   };
@@ -93,6 +131,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(hysteresis),
+    cmocka_unit_test(lyapunov_map),
     cmocka_unit_test(wrong_decks),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

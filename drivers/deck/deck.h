@@ -148,6 +148,10 @@ typedef struct deck {
     int transient;          /* nonzero: record from the start instead of after settling */
   } orbit;
 
+  struct {                  /* of the scene lyapunov_map; 0: the library's */
+    int64_t transient, periods;
+  } lyapunov;
+
   struct {
     int refine;
     int boundary;

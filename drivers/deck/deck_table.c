@@ -214,6 +214,16 @@ const deck_key deck_table[] = {
   { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
     .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
 
+  { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PI / 2,
+    SAYS("rad", "initial position of each pendulum, at the drive's maximum") },
+  { REAL("lyapunov_map", "v", orbit.v), IN(MAP), RANGE(-BIG, BIG), .number = 0,
+    SAYS("omega0", "initial velocity") },
+  { INTEGER("lyapunov_map", "transient", lyapunov.transient), IN(MAP), RANGE(0, 1e9), .number = 0,
+    SAYS(NULL, "drive periods before averages are taken; 0: 200, or more where damping is weak") },
+  { INTEGER("lyapunov_map", "periods", lyapunov.periods), IN(MAP), RANGE(0, 1e9), .number = 0,
+    SAYS(NULL, "drive periods of an average; 0: 512. What is not decided then is followed for "
+         "longer") },
+
   { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
     SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "
          "random sample of these") },

@@ -18,6 +18,7 @@ extern const scene_kind scene_branches;
 extern const scene_kind scene_switching;
 extern const scene_kind scene_hard_cases;
 extern const scene_kind scene_hysteresis;
+extern const scene_kind scene_lyapunov_map;
 
 static const scene_kind *const scenes[] = {
   &scene_free_oscillation,
@@ -31,6 +32,7 @@ static const scene_kind *const scenes[] = {
   &scene_switching,
   &scene_hard_cases,
   &scene_hysteresis,
+  &scene_lyapunov_map,
 };
 
 const scene_kind *scene_find(deck_kind kind)

@@ -17,6 +17,7 @@
 #include <pendres/resonance.h>
 #include <pendres/continuation.h>
 #include <pendres/hysteresis.h>
+#include <pendres/lyapunov.h>
 #include <pendres/phase_diagram.h>
 #include <pendres/boundary.h>
 #include <pendres/cloud.h>

@@ -95,8 +95,8 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
   for (int i = 0; i < TRIALS; i++) {
     const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
     p[i] = at->orbit.pendulum;
-    pendres_parameter_set(at->parameter,
-                          at->value + direction * scale * beyond[i % 2] * (1.0 + 0.5 * part), &p[i]);
+    const double distance = scale * beyond[i % 2] * (1.0 + 0.5 * part);
+    pendres_parameter_set(at->parameter, at->value + direction * distance, &p[i]);
     const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
     x[i] = at->orbit.x + off * cos(angle);
     v[i] = at->orbit.v + off * sin(angle);

@@ -1,0 +1,236 @@
+/*
+ * scene_lyapunov_map.c -- largest Lyapunov exponent, period and winding over two parameters, of the
+ * motion that one start leads to.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/scene_along.h"
+#include "scenes/scene_failed.h"
+
+enum {
+  AXES = 2,
+  CHUNK = 2048 /* points of a task: enough for full blocks */
+};
+
+/* What is written, as doubles: NaN where it does not exist. */
+enum { LYAPUNOV, ROTATION, PERIOD, WINDING, QUANTITIES };
+
+static const struct {
+  const char *name, *long_name;
+} quantities[QUANTITIES] = {
+  {"lyapunov", "largest Lyapunov exponent a unit time"},
+  {"rotation", "mean whole turns a drive period"},
+  {"period", "drive periods until the orbit closes"},
+  {"winding", "whole turns until the orbit closes"},
+};
+
+typedef struct work {
+  const deck *d;
+  pendres_pendulum pendulum;
+  deck_axis_id axis[AXES]; /* the second one runs fastest */
+  size_t count;
+  double *value[QUANTITIES], *error[QUANTITIES];
+  int8_t *label, *failed;
+} work;
+
+/* What a task finds. */
+typedef struct record {
+  double value[CHUNK][QUANTITIES], error[CHUNK][QUANTITIES];
+  int8_t label[CHUNK];
+} record;
+
+static size_t count_of(const work *w, size_t task)
+{
+  const size_t left = w->count - task * CHUNK;
+  return left < CHUNK ? left : CHUNK;
+}
+
+static double coordinate(const work *w, size_t point, int axis)
+{
+  const deck_axis *last = &w->d->axis[w->axis[AXES - 1]];
+  return axis == 0 ? w->d->axis[w->axis[0]].value[point / last->count]
+                   : last->value[point % last->count];
+}
+
+/* ---- computing ----------------------------------------------------------------------------- */
+
+static void keep(const pendres_lyapunov *l, double value[QUANTITIES], double error[QUANTITIES],
+                 int8_t *label)
+{
+  const double closed = l->period > 0 ? 0.0 : NAN;
+  value[LYAPUNOV] = l->exponent;
+  error[LYAPUNOV] = l->exponent_error;
+  value[ROTATION] = l->rotation;
+  error[ROTATION] = l->rotation_error;
+  value[PERIOD] = l->period + closed;
+  value[WINDING] = l->winding + closed;
+  error[PERIOD] = error[WINDING] = closed;
+  *label = (int8_t)l->label;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const work *w = arg;
+  record *r = out->data;
+  const size_t n = count_of(w, task), first = task * CHUNK;
+  const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
+                                            .periods = (long)w->d->lyapunov.periods};
+  pendres_pendulum *p = malloc(n * sizeof *p);
+  pendres_lyapunov *found = malloc(n * sizeof *found);
+  double *x = malloc(2 * n * sizeof *x);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n && p != NULL && x != NULL; i++) {
+    p[i] = w->pendulum;
+    for (int a = 0; a < AXES; a++)
+      scene_along_set(&p[i], w->axis[a], coordinate(w, first + i, a));
+    x[i] = w->d->orbit.x;
+    x[n + i] = w->d->orbit.v;
+  }
+  if (p != NULL && found != NULL && x != NULL)
+    status = pendres_lyapunov_find(ctx, n, p, x, x + n, &options, found);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    keep(&found[i], r->value[i], r->error[i], &r->label[i]);
+  free(p);
+  free(found);
+  free(x);
+  return status;
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const record *r = in->data;
+  for (size_t i = 0; i < count_of(w, task); i++) {
+    const size_t at = task * CHUNK + i;
+    for (int q = 0; q < QUANTITIES; q++) {
+      w->value[q][at] = r->value[i][q];
+      w->error[q][at] = r->error[i][q];
+    }
+    w->label[at] = r->label[i];
+    w->failed[at] =
+      r->label[i] == PENDRES_LABEL_UNRESOLVED ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
+  }
+  return PENDRES_OK;
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+static void tell_failed(scene_run *run, const work *w)
+{
+  for (size_t i = 0; i < w->count; i++) {
+    if (w->failed[i] == SCENE_FAILURE_NONE) continue;
+    run->failed_points++;
+    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, "neither an orbit nor chaos within its time",
+                       "%s %.10g, %s %.10g", deck_axis_name(w->axis[0]), coordinate(w, i, 0),
+                       deck_axis_name(w->axis[1]), coordinate(w, i, 1));
+  }
+}
+
+static pendres_status write_all(scene_run *run, const work *w)
+{
+  const char *meanings[PENDRES_LABEL_COUNT];
+  const char *const axes[AXES] = {deck_axis_name(w->axis[0]), deck_axis_name(w->axis[1])};
+  pendres_store_spec label = {.name = "label", .type = PENDRES_STORE_INT8,
+                              .dimensions = {axes[0], axes[1]}, .long_name = "kind of motion",
+                              .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings};
+  pendres_store_spec mark = {.name = "failed", .dimensions = {axes[0], axes[1]},
+                             .long_name = "why there is no verdict"};
+  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
+    meanings[i] = pendres_label_name((pendres_label)i);
+  scene_failure_flags(&mark);
+  pendres_status status = scene_dimension(run, NULL, w->axis[0]);
+  if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis[1]);
+  if (status != PENDRES_OK) return status;
+  for (int q = 0; q < QUANTITIES && status == PENDRES_OK; q++) {
+    const pendres_store_spec spec = {.name = quantities[q].name, .dimensions = {axes[0], axes[1]},
+                                     .long_name = quantities[q].long_name};
+    status = pendres_store_put_result(run->store, &spec, w->value[q], w->error[q], w->count);
+  }
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &label, w->label, w->count);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, w->failed, w->count);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+static void tabulate(FILE *out, const work *w)
+{
+  size_t counts[PENDRES_LABEL_COUNT] = {0}, most = 0;
+  if (out == NULL) return;
+  for (size_t i = 0; i < w->count; i++) {
+    counts[w->label[i]]++;
+    if (w->label[i] == PENDRES_LABEL_CHAOTIC &&
+        (w->label[most] != PENDRES_LABEL_CHAOTIC ||
+         w->value[LYAPUNOV][i] > w->value[LYAPUNOV][most]))
+      most = i;
+  }
+  fprintf(out, "%-12s %10s %8s\n", "motion", "points", "share");
+  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
+    if (counts[i] > 0)
+      fprintf(out, "%-12s %10zu %8.4f\n", pendres_label_name((pendres_label)i), counts[i],
+              (double)counts[i] / (double)w->count);
+  if (counts[PENDRES_LABEL_CHAOTIC] > 0)
+    fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", w->value[LYAPUNOV][most],
+            w->error[LYAPUNOV][most], deck_axis_name(w->axis[0]), coordinate(w, most, 0),
+            deck_axis_name(w->axis[1]), coordinate(w, most, 1));
+}
+
+/* ---- the scene ----------------------------------------------------------------------------- */
+
+static int create(work *w)
+{
+  int good = (w->label = malloc(w->count)) != NULL;
+  good = (w->failed = malloc(w->count)) != NULL && good;
+  for (int q = 0; q < QUANTITIES; q++) {
+    w->value[q] = malloc(w->count * sizeof(double));
+    w->error[q] = malloc(w->count * sizeof(double));
+    good = good && w->value[q] != NULL && w->error[q] != NULL;
+  }
+  return good;
+}
+
+static void destroy(work *w)
+{
+  for (int q = 0; q < QUANTITIES; q++) {
+    free(w->value[q]);
+    free(w->error[q]);
+  }
+  free(w->label);
+  free(w->failed);
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  work w = {.d = run->deck, .pendulum = scene_along_pendulum(run->deck)};
+  (void)deck_moving(run->deck, AXES, w.axis);
+  w.count = run->deck->axis[w.axis[0]].count * run->deck->axis[w.axis[1]].count;
+  const farm_stage stage = {.what = "parts of the map", .tasks = (w.count + CHUNK - 1) / CHUNK,
+                            .record_size = sizeof(record), .task = compute, .collect = collect,
+                            .arg = &w};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (!create(&w)) (void)scene_fail(run, status, "out of memory for %zu points", w.count);
+  else status = scene_compute(run, &stage);
+  if (status == PENDRES_OK) status = write_all(run, &w);
+  if (status == PENDRES_OK) tell_failed(run, &w);
+  if (status == PENDRES_OK) tabulate(run->table, &w);
+  destroy(&w);
+  return status;
+}
+
+static void plan(const deck *d, FILE *out)
+{
+  deck_axis_id axis[AXES] = {DECK_AXIS_DAMPING, DECK_AXIS_DAMPING};
+  (void)deck_moving(d, AXES, axis);
+  const deck_axis *a = &d->axis[axis[0]], *b = &d->axis[axis[1]];
+  fprintf(out, "largest Lyapunov exponent, period and winding at %zu x %zu points,\n"
+               "%s from %g to %g and %s from %g to %g; each from x = %g, v = %g\n",
+          a->count, b->count, deck_axis_name(axis[0]), a->value[0], a->value[a->count - 1],
+          deck_axis_name(axis[1]), b->value[0], b->value[b->count - 1], d->orbit.x, d->orbit.v);
+}
+
+const scene_kind scene_lyapunov_map = {
+  .kind = DECK_LYAPUNOV_MAP,
+  .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
+                "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
+  .plan = plan,
+  .run = run_scene,
+};

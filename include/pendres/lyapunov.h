@@ -1,0 +1,65 @@
+/*
+ * lyapunov.h -- largest Lyapunov exponents of many pendulums, each with its own parameters.
+ *
+ * Owns: what the exponent of each pendulum's own motion is, and how well it is known. For maps of
+ * a million points: of all attractors of a parameter set only the one that the start leads to is
+ * looked for, and nothing is shown to be trapped; see attractor.h for that.
+ *
+ * Method. A pendulum runs until its strobe points come back (Brent's cycle detection); the orbit
+ * nearby is found by Newton's method. If it is stable and the pendulum is next to it, exponent,
+ * period and winding are the orbit's, exact but for its error. What does not come back runs beside
+ * a neighbour, which is put back to a distance of 1e-8 once a period (Benettin, Galgani and
+ * Strelcyn, Physical Review A 14 (1976) 2338); the growth of that distance is averaged over
+ * batches of periods, whose scatter gives the error. It is chaotic if the exponent is above zero
+ * by five standard errors. What is neither, as next to a bifurcation, is followed for longer, and
+ * at last unresolved.
+ *
+ * Chaos that lasts for longer than it is watched, and then ends, is not told from chaos that lasts.
+ */
+#ifndef PENDRES_LYAPUNOV_H
+#define PENDRES_LYAPUNOV_H
+
+#include <pendres/attractor.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** How long to look. Zero in a field: its default. */
+typedef struct pendres_lyapunov_options {
+  long transient; /**< drive periods, at most, until an orbit is reached, and before averages are
+                       taken; default 200, and more where damping is weak */
+  long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 512 */
+} pendres_lyapunov_options;
+
+/** What a pendulum does in the long run. Plain data. */
+typedef struct pendres_lyapunov {
+  pendres_label label;   /**< PERIODIC, RUNNING, CHAOTIC or UNRESOLVED; SA and LA are not told
+                              apart */
+  double exponent;       /**< largest Lyapunov exponent a unit time */
+  double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
+                              the exponent is the mean so far */
+  double rotation, rotation_error; /**< mean whole turns a drive period, likewise */
+  int period, winding;   /**< of orbits; 0 of others */
+} pendres_lyapunov;
+
+/**
+ * The exponents of n pendulums that start from x[n], v[n] at drive phase 0. All arrays are the
+ * caller's; out[n] is written. Each result depends on its own pendulum and the tolerance alone. The
+ * drive's amplitude may be 0, the damping must be above 0.
+ *
+ * options may be NULL. Errors: PENDRES_INVALID_ARGUMENT (the message names the pendulum),
+ * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some
+ * are unresolved. Thread safety: as for the context.
+ */
+pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, const double *x,
+                                     const double *v, const pendres_lyapunov_options *options,
+                                     pendres_lyapunov *out);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

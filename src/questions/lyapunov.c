@@ -1,0 +1,370 @@
+/* lyapunov.c -- largest Lyapunov exponents of many pendulums; see lyapunov.h. */
+#include <pendres/lyapunov.h>
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "engine/rank.h"
+#include "engine/steps.h"
+#include "engine/strobe_run.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum {
+  BATCHES = 16,
+  TRANSIENT = 200,     /* drive periods, where damping is not weak */
+  PERIODS = 512,
+  WARM_UP = 16,        /* in which the tangent vector turns into the growing direction */
+  LONGEST_ORBIT = 128, /* drive periods of an orbit that is looked for */
+  ROUNDS = 4           /* of averages, each twice as long as the one before */
+};
+
+/* Errors of a period that means over time forgive; see chaos_walk.c. */
+static const double loosest = 1e-7;
+/* Strobe points that come back so closely are next to an orbit: at first, and once that orbit has
+   turned out not to attract the pendulum. */
+static const double close_by = 1e-4, very_close_by = 1e-7;
+/* An orbit found further from the point that came back is another one. */
+static const double same_orbit = 0.02;
+/* Neighbours are so far away: what they lose by rounding, and what they differ by from the linear
+   equation, is a 1e-8th of their distance. */
+static const double apart = 1e-8;
+/* Standard errors above zero that an exponent of chaos is, and its least growth a period. */
+static const double significance = 5.0, least_growth = 1e-3;
+
+typedef enum state { MOVING, CAUGHT, DONE } state;
+
+typedef struct runner {
+  pendres_strobe_lane lane;
+  state state;
+  double u[2];           /* in which direction its neighbour is, of length one */
+  /* Cycle detection: the strobe point that is compared with, and when the next takes its place. */
+  double ref_y, ref_w, near;
+  long ref_turns, ref_period, next;
+  int period, winding;   /* of the orbit that it seems to be near */
+  double growth[BATCHES], turned[BATCHES]; /* sums over the periods of each batch */
+} runner;
+
+typedef struct job {
+  size_t n;
+  runner *runner;
+  long transient, periods;
+} job;
+
+/* ---- coming back --------------------------------------------------------------------------- */
+
+static void look_from(runner *r, const pendres_strobe_lane *l)
+{
+  r->ref_y = l->y;
+  r->ref_w = l->w;
+  r->ref_turns = l->turns;
+  r->ref_period = l->period;
+}
+
+/* Whether the latest strobe point is next to the one that it is compared with. */
+static int comes_back(runner *r, const pendres_strobe_lane *l)
+{
+  const long lag = l->period - r->ref_period;
+  double dy = l->y - r->ref_y;
+  const double across = rint(dy / two_pi);
+  dy -= two_pi * across;
+  /* The more periods, the more often points come back by chance. */
+  if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * hypot(dy, l->w - r->ref_w) < r->near) {
+    const double turns = (double)(l->turns - r->ref_turns) + across;
+    r->period = (int)lag;
+    r->winding = fabs(turns) < 1e6 ? (int)turns : 0;
+    return 1;
+  }
+  if (l->period >= r->next) {
+    look_from(r, l);
+    r->next = 2 * l->period;
+  }
+  return 0;
+}
+
+/* Distances shrink as exp(-gamma t / 2) at best: forty times that fits into double precision. */
+static long transient_of(const job *j, const pendres_pendulum *p)
+{
+  if (j->transient > 0) return j->transient;
+  return (long)fmax(TRANSIENT, fmin(1e7, 80.0 * p->drive_frequency / (two_pi * p->damping)));
+}
+
+static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const job *j = arg;
+  runner *r = &j->runner[index];
+  if (comes_back(r, lane)) {
+    r->state = CAUGHT;
+    return 1;
+  }
+  return lane->period >= transient_of(j, lane->pendulum) ||
+         !(isfinite(lane->y) && isfinite(lane->w));
+}
+
+/* ---- orbits -------------------------------------------------------------------------------- */
+
+static void take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
+{
+  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  *out = (pendres_lyapunov){
+    .label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC,
+    .exponent = log(modulus) / time,
+    .exponent_error = o->multiplier_error / (modulus * time),
+    .rotation = (double)o->winding / o->period,
+    .rotation_error = 2.2e-16 * fabs((double)o->winding / o->period),
+    .period = o->period,
+    .winding = o->winding};
+}
+
+static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
+{
+  double dx = o->x - (l->y + 0.25 * two_pi);
+  dx -= two_pi * rint(dx / two_pi);
+  return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
+}
+
+/* The orbits that runners were caught near: those that are not stable, or not near, let them go. */
+static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapunov *out)
+{
+  size_t count = 0, k = 0;
+  for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == CAUGHT;
+  if (count == 0) return PENDRES_OK;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_orbit_guess *guess = malloc(count * sizeof *guess);
+  pendres_orbit *orbit = malloc(count * sizeof *orbit);
+  pendres_status *outcome = malloc(count * sizeof *outcome);
+  if (guess == NULL || orbit == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", count);
+    goto done;
+  }
+  for (size_t i = 0; i < j->n; i++) {
+    const runner *r = &j->runner[i];
+    if (r->state != CAUGHT) continue;
+    pendres_orbit_guess *g = &guess[k++];
+    const pendres_place at = {.y = r->lane.y, .w = r->lane.w};
+    *g = (pendres_orbit_guess){
+      .pendulum = *r->lane.pendulum, .period = r->period, .winding = r->winding};
+    pendres_passage_out(r->lane.pendulum, &at, &g->x, &g->v);
+  }
+  status = pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  k = 0;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    runner *r = &j->runner[i];
+    if (r->state != CAUGHT) continue;
+    const pendres_orbit *o = &orbit[k];
+    const int good = outcome[k++] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
+    r->state = good ? DONE : MOVING;
+    r->near = very_close_by;
+    if (good) take_orbit(o, &out[i]);
+  }
+done:
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+/* ---- averages ------------------------------------------------------------------------------ */
+
+static void arrive(const pendres_rows *rows, size_t lane, long step, long batch, runner *r)
+{
+  pendres_strobe_lane *l = &r->lane;
+  const double before = l->y;
+  l->y = pendres_rows_get(rows, PENDRES_ROW_Y, lane);
+  l->w = pendres_rows_get(rows, PENDRES_ROW_W, lane);
+  const double turned = (l->y - before) / two_pi;
+  const double u = (pendres_rows_get(rows, PENDRES_ROW_Y, lane + 1) - l->y) / apart;
+  const double v = (pendres_rows_get(rows, PENDRES_ROW_W, lane + 1) - l->w) / apart;
+  const double length = fmax(hypot(u, v), DBL_MIN);
+  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  l->period++;
+  r->u[0] = u / length;
+  r->u[1] = v / length;
+  if (step >= 0) {
+    r->growth[step / batch] += log(length);
+    r->turned[step / batch] += turned;
+  }
+  if (r->state == MOVING && comes_back(r, l)) r->state = CAUGHT;
+}
+
+/* Some runners of equal steps, side by side with their neighbours, over WARM_UP periods and BATCHES
+   batches. */
+static pendres_status average_block(pendres_block *block, size_t n, const pendres_rank *rank,
+                                    runner *runners, long batch)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_block_resize(block, 2 * n);
+  for (size_t i = 0; i < n; i++) {
+    runner *r = &runners[rank[i].index];
+    for (int b = 0; b < BATCHES; b++) r->growth[b] = r->turned[b] = 0.0;
+  }
+  for (long k = -WARM_UP; k < batch * BATCHES && status == PENDRES_OK; k++) {
+    for (size_t i = 0; i < n; i++) {
+      const runner *r = &runners[rank[i].index];
+      const pendres_strobe_lane *l = &r->lane;
+      pendres_block_load(block, 2 * i, l->pendulum, l->y, l->w);
+      pendres_block_load(block, 2 * i + 1, l->pendulum, l->y + apart * r->u[0],
+                         l->w + apart * r->u[1]);
+    }
+    status = pendres_block_period(block);
+    const pendres_rows rows = pendres_block_rows(block);
+    for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+      arrive(&rows, 2 * i, k, batch, &runners[rank[i].index]);
+  }
+  return status;
+}
+
+static pendres_status average(pendres_context *ctx, job *j, long batch)
+{
+  size_t count = 0;
+  pendres_status status = PENDRES_OK;
+  pendres_rank *rank = malloc((j->n + 1) * sizeof *rank);
+  if (rank == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
+  for (size_t i = 0; i < j->n; i++)
+    if (j->runner[i].state == MOVING)
+      rank[count++] = (pendres_rank){.steps = j->runner[i].lane.steps, .index = i};
+  pendres_rank_order(count, rank);
+  for (size_t first = 0, last; first < count && status == PENDRES_OK; first = last) {
+    pendres_block block;
+    status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[first].steps, &block);
+    if (status != PENDRES_OK) break;
+    const size_t most = first + pendres_block_capacity(&block) / 2;
+    for (last = first; last < count && last < most && rank[last].steps == rank[first].steps;)
+      last++;
+    status = average_block(&block, last - first, rank + first, j->runner, batch);
+  }
+  free(rank);
+  return status;
+}
+
+/* Mean of the sums of batches a period, and its standard error. */
+static double mean_of(const double sum[BATCHES], long batch, double *error)
+{
+  double mean = 0.0, square = 0.0;
+  for (int b = 0; b < BATCHES; b++) mean += sum[b] / (double)(batch * BATCHES);
+  for (int b = 0; b < BATCHES; b++) {
+    const double d = sum[b] / (double)batch - mean;
+    square += d * d;
+  }
+  *error = sqrt(square / (BATCHES * (BATCHES - 1.0)));
+  return mean;
+}
+
+/* What averages say; chaos is done with. */
+static void judge(job *j, long batch, pendres_lyapunov *out)
+{
+  for (size_t i = 0; i < j->n; i++) {
+    runner *r = &j->runner[i];
+    double error = 0.0, turned_error = 0.0;
+    if (r->state != MOVING) continue;
+    const double rate = r->lane.pendulum->drive_frequency / two_pi;
+    const double growth = mean_of(r->growth, batch, &error);
+    const double turned = mean_of(r->turned, batch, &turned_error);
+    const int chaotic = growth > significance * error && growth > least_growth;
+    out[i] = (pendres_lyapunov){
+      .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
+      .exponent = growth * rate, .exponent_error = error * rate,
+      .rotation = turned, .rotation_error = turned_error};
+    if (chaotic) r->state = DONE;
+  }
+}
+
+/* ---- the call ------------------------------------------------------------------------------ */
+
+/* Fast enough for what the drive can do, and for the way over a barrier. */
+static double speed_of(const pendres_pendulum *p, double v)
+{
+  return fmax(fabs(v), 2.0 + fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping));
+}
+
+static pendres_status start(pendres_context *ctx, const job *j, const pendres_pendulum *p,
+                            const double *x, const double *v)
+{
+  const double accuracy = fmax(loosest, ctx->options.tolerance);
+  for (size_t i = 0; i < j->n; i++) {
+    runner *r = &j->runner[i];
+    *r = (runner){.lane = pendres_strobe_lane_at(&p[i], x[i], v[i]), .u = {0.6, 0.8},
+                  .near = close_by, .next = 8};
+    const pendres_status status =
+      pendres_steps_choose(ctx, &p[i], speed_of(&p[i], v[i]), accuracy, &r->lane.steps);
+    if (status != PENDRES_OK) return status;
+    look_from(r, &r->lane);
+  }
+  return PENDRES_OK;
+}
+
+/* All lanes until they come back or their transient is over. */
+static pendres_status run_transient(pendres_context *ctx, job *j)
+{
+  pendres_strobe_lane *lanes = malloc((j->n + 1) * sizeof *lanes);
+  if (lanes == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
+  for (size_t i = 0; i < j->n; i++) lanes[i] = j->runner[i].lane;
+  const pendres_status status = pendres_strobe_run(ctx, j->n, lanes, visit, j);
+  for (size_t i = 0; i < j->n; i++) j->runner[i].lane = lanes[i];
+  free(lanes);
+  return status;
+}
+
+static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendulum *p,
+                               const double *x, const double *v, pendres_lyapunov *out)
+{
+  long batch = (j->periods + BATCHES - 1) / BATCHES;
+  pendres_status status = start(ctx, j, p, x, v);
+  if (status == PENDRES_OK) status = run_transient(ctx, j);
+  if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
+  for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++, batch *= 2) {
+    status = average(ctx, j, batch);
+    if (status == PENDRES_OK) judge(j, batch, out);
+    if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
+  }
+  return status;
+}
+
+static const char *refuses(const pendres_pendulum *p, double x, double v)
+{
+  const char *why = NULL;
+  if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
+  if (p->damping == 0.0) return "without damping nothing settles";
+  return pendres_passage_refuses(p, x, v);
+}
+
+static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                    const double *x, const double *v,
+                                    const pendres_lyapunov_options *options, pendres_lyapunov *out)
+{
+  static const pendres_lyapunov_options defaults = {0};
+  const pendres_lyapunov_options *o = options != NULL ? options : &defaults;
+  if (n > 0 && (p == NULL || x == NULL || v == NULL || out == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and out");
+  if (o->transient < 0 || o->periods < 0 || o->transient > LONG_MAX / 64 ||
+      o->periods > LONG_MAX / 64)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "transient and periods: numbers of drive periods, please");
+  for (size_t i = 0; i < n; i++) {
+    const char *why = refuses(&p[i], x[i], v[i]);
+    if (why != NULL)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
+  }
+  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner),
+           .transient = o->transient, .periods = o->periods > 0 ? o->periods : PERIODS};
+  if (j.runner == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  const pendres_status status = find_all(ctx, &j, p, x, v, out);
+  free(j.runner);
+  return status;
+}
+
+pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums, const double *x,
+                                     const double *v, const pendres_lyapunov_options *options,
+                                     pendres_lyapunov *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, lyapunov_find(ctx, n, pendulums, x, v, options, out));
+}

@@ -1,0 +1,181 @@
+/*
+ * test_lyapunov.c -- exponents of many pendulums at once: against what is exact, against orbits
+ * found otherwise, and against an integration of the variational equation written here.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/lyapunov.h>
+
+#include "check.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+static int create(void **state)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  *state = ctx;
+  return 0;
+}
+
+static int destroy(void **state)
+{
+  pendres_context_free(*state);
+  return 0;
+}
+
+/* Multipliers of orbits of small amplitude are complex, and their modulus is Liouville's. */
+static void weak_drives(void **state)
+{
+  enum { N = 40 };
+  pendres_pendulum p[N];
+  double x[N], v[N];
+  pendres_lyapunov l[N];
+  for (int i = 0; i < N; i++) {
+    p[i] = (pendres_pendulum){
+      .damping = 0.01 + 0.03 * i, .drive_amplitude = 0.001 * i, .drive_frequency = 0.5 + 0.02 * i};
+    x[i] = 1.6;
+    v[i] = 0.1;
+  }
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) {
+    assert_int_equal(l[i].label, PENDRES_LABEL_PERIODIC);
+    assert_true(l[i].period == 1 && l[i].winding == 0 && l[i].rotation == 0.0);
+    check_near(l[i].exponent, -0.5 * p[i].damping, l[i].exponent_error + 1e-12);
+    assert_true(l[i].exponent_error < 1e-6);
+  }
+}
+
+/* Periodic, doubled and running orbits, as settling finds them. */
+static void orbits(void **state)
+{
+  static const double drive[] = {0.9, 1.07, 1.081, 1.35, 1.45, 1.47};
+  enum { N = sizeof drive / sizeof *drive };
+  pendres_pendulum p[N];
+  double x[N], v[N];
+  pendres_lyapunov l[N];
+  for (int i = 0; i < N; i++) {
+    p[i] = (pendres_pendulum){
+      .damping = 0.5, .drive_amplitude = drive[i], .drive_frequency = 2.0 / 3.0};
+    x[i] = 1.8;
+    v[i] = 0.1;
+  }
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) {
+    pendres_attractors *set = NULL;
+    pendres_outcome outcome;
+    check_ok(pendres_settle(*state, 1, &p[i], &x[i], &v[i], &outcome, &set));
+    const pendres_attractor *a = pendres_attractors_get(set, (size_t)outcome.attractor);
+    assert_non_null(a);
+    assert_int_equal(l[i].label, a->label);
+    assert_int_equal(l[i].period, a->orbit.period);
+    assert_int_equal(l[i].winding, a->orbit.winding);
+    check_near(l[i].exponent, a->lyapunov, l[i].exponent_error + a->lyapunov_error);
+    assert_true(l[i].rotation == (double)a->orbit.winding / a->orbit.period);
+    pendres_attractors_free(set);
+  }
+}
+
+/* y'' and the derivative of a tangent vector, in time: s = (y, v, dy, dv). */
+static void slope(const pendres_pendulum *p, double t, const double s[4], double out[4])
+{
+  out[0] = s[1];
+  out[1] = p->drive_amplitude * cos(p->drive_frequency * t) - sin(s[0]) - p->damping * s[1];
+  out[2] = s[3];
+  out[3] = -cos(s[0]) * s[2] - p->damping * s[3];
+}
+
+/* By the classical Runge-Kutta method of fourth order: the exponent over so many periods, and its
+   standard error from batches of them. */
+static double by_hand(const pendres_pendulum *p, int batches, int length, double *error)
+{
+  enum { STEPS = 300 };
+  const double h = two_pi / p->drive_frequency / STEPS;
+  double s[4] = {0.7, 0.3, 1.0, 0.0}, mean = 0.0, square = 0.0, growth = 0.0;
+  for (int k = -200; k < batches * length; k++) {
+    for (int i = 0; i < STEPS; i++) {
+      double a[4], b[4], c[4], d[4], u[4];
+      slope(p, i * h, s, a);
+      for (int m = 0; m < 4; m++) u[m] = s[m] + 0.5 * h * a[m];
+      slope(p, (i + 0.5) * h, u, b);
+      for (int m = 0; m < 4; m++) u[m] = s[m] + 0.5 * h * b[m];
+      slope(p, (i + 0.5) * h, u, c);
+      for (int m = 0; m < 4; m++) u[m] = s[m] + h * c[m];
+      slope(p, (i + 1) * h, u, d);
+      for (int m = 0; m < 4; m++) s[m] += h / 6.0 * (a[m] + 2.0 * (b[m] + c[m]) + d[m]);
+    }
+    s[0] = remainder(s[0], two_pi);
+    const double size = hypot(s[2], s[3]);
+    s[2] /= size;
+    s[3] /= size;
+    if (k < 0) continue;
+    growth += log(size) / (STEPS * h * length);
+    if ((k + 1) % length != 0) continue;
+    mean += growth / batches;
+    square += growth * growth;
+    growth = 0.0;
+  }
+  *error = sqrt((square / batches - mean * mean) / (batches - 1));
+  return mean;
+}
+
+/* Within four combined standard errors, which sets that are fixed either are or are not: by chance
+   one of 16000 is not. */
+static void chaos(void **state)
+{
+  static const pendres_pendulum p[] = {
+    {.damping = 0.5, .drive_amplitude = 1.15, .drive_frequency = 2.0 / 3.0},
+    {.damping = 0.5, .drive_amplitude = 1.5, .drive_frequency = 2.0 / 3.0},
+    {.damping = 0.25, .drive_amplitude = 1.2, .drive_frequency = 0.6},
+  };
+  enum { N = sizeof p / sizeof *p };
+  static const double x[N] = {1.8, 1.8, 1.8}, v[N] = {0.1, 0.1, 0.1};
+  pendres_lyapunov l[N];
+  const pendres_lyapunov_options options = {.transient = 300, .periods = 1600};
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, l));
+  for (int i = 0; i < N; i++) {
+    double error = 0.0;
+    const double want = by_hand(&p[i], 20, 80, &error);
+    assert_int_equal(l[i].label, PENDRES_LABEL_CHAOTIC);
+    assert_true(l[i].period == 0 && l[i].winding == 0);
+    check_near(l[i].exponent, want, 4.0 * hypot(error, l[i].exponent_error));
+    assert_true(l[i].exponent_error < 0.1 * l[i].exponent);
+  }
+}
+
+/* A result is its own pendulum's alone, whoever is beside it. */
+static void neighbours(void **state)
+{
+  enum { N = 60 };
+  pendres_pendulum p[N];
+  double x[N], v[N];
+  pendres_lyapunov all[N], one;
+  const pendres_lyapunov_options options = {.periods = 64};
+  for (int i = 0; i < N; i++) {
+    p[i] = (pendres_pendulum){.damping = 0.5, .drive_amplitude = 0.9 + 0.01 * i,
+                              .drive_frequency = 0.5 + 0.007 * (i % 7)};
+    x[i] = 1.0;
+    v[i] = 0.0;
+  }
+  memset(all, 0, sizeof all);
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, all));
+  for (int i = 0; i < N; i += 7) {
+    memset(&one, 0, sizeof one);
+    check_ok(pendres_lyapunov_find(*state, 1, &p[i], &x[i], &v[i], &options, &one));
+    assert_int_equal(one.label, all[i].label);
+    assert_true(one.exponent == all[i].exponent && one.exponent_error == all[i].exponent_error);
+    assert_true(one.rotation == all[i].rotation && one.period == all[i].period);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(weak_drives, create, destroy),
+    cmocka_unit_test_setup_teardown(orbits, create, destroy),
+    cmocka_unit_test_setup_teardown(chaos, create, destroy),
+    cmocka_unit_test_setup_teardown(neighbours, create, destroy),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
