@@ -37,6 +37,11 @@ static const struct { const char *name, *definition; } definitions[] = {
   { "uncertain_members", "members whose state is not certain at the tolerance; errors allow for "
                          "any state of theirs" },
   { "lyapunov_exponent", "rate at which neighbours part, in omega0" },
+  { "lyapunov", "rate at which neighbours part, in omega0; of closed orbits that of the larger "
+                "multiplier" },
+  { "rotation", "mean whole turns of the angle a drive period" },
+  { "mean_velocity", "mean of dx/dt in the long run, in omega0; of an orbit that closes after q "
+                     "drive periods but for p turns, p omega / q" },
 };
 
 pendres_status scene_define(scene_run *run)
