@@ -41,6 +41,10 @@ def check_h5py(name):
             values, meanings = item.attrs["flag_values"], item.attrs["flag_meanings"].split()
             if values.dtype != item.dtype or len(values) != len(meanings):
                 wrong.append(f"{path}: flag_values and flag_meanings do not fit")
+            masks = item.attrs.get("flag_masks", None)
+            if masks is not None and (len(masks) != len(values) or
+                                      any(m == 0 or v & ~m for m, v in zip(masks, values))):
+                wrong.append(f"{path}: flag_masks and flag_values do not fit")
         if h5py.h5ds.is_scale(item.id):
             if item.ndim != 1 or item.shape is None:
                 wrong.append(f"{path}: a scale must be one-dimensional")

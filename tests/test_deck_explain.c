@@ -29,6 +29,7 @@ static void every_key_has_words(void **state)
   (void)state;
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i], *words = deck_table_words(key);
+    if (key->scenes == 0) fail_msg("&%s %s is of no scene", key->group, key->name);
     if (words == NULL || words->meaning == NULL || strlen(words->meaning) < 8)
       fail_msg("&%s %s has no meaning", key->group, key->name);
     const int is_number = key->type == DECK_REAL || key->type == DECK_BOUNDS ||

@@ -481,6 +481,31 @@ static void wrong_handles(void **state)
   pendres_store_free(store);
 }
 
+/* Sums of bits: each is looked at by its own bit, and that there is none by all of them. */
+static void bits_have_masks(void **state)
+{
+  static const int8_t values[] = { 0, 1, 4 }, wanted[] = { 5, 1, 4 }, sum = 5;
+  static const char *const meanings[] = { "none", "one", "four" };
+  const pendres_store_spec spec = { .name = "sums", .type = PENDRES_STORE_INT8,
+                                    .long_name = "sums", .flag_count = 3, .flag_values = values,
+                                    .flag_meanings = meanings, .flag_bits = 1 };
+  char path[PATH_ROOM];
+  int8_t found[3] = { 0 };
+  pendres_store *store = NULL;
+  (void)state;
+  in_folder(path, "bits.h5");
+  OK(pendres_store_create(path, NULL, &store));
+  OK(pendres_store_put(store, &spec, &sum, 1));
+  OK(pendres_store_close(store));
+  pendres_store_free(store);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t masks = H5Aopen_by_name(file, "sums", "flag_masks", H5P_DEFAULT, H5P_DEFAULT);
+  assert_true(masks >= 0 && H5Aread(masks, H5T_NATIVE_INT8, found) >= 0);
+  assert_memory_equal(found, wanted, sizeof wanted);
+  H5Aclose(masks);
+  H5Fclose(file);
+}
+
 static void text_becomes_utf8(void **state)
 {
   const char *const texts[][2] = {
@@ -526,6 +551,7 @@ int main(void)
     TEST(mistakes_leave_no_trace),
     TEST(result_is_made_whole_or_not),
     TEST(wrong_handles),
+    TEST(bits_have_masks),
     TEST(text_becomes_utf8),
     TEST(version_is_that_of_the_library),
   };

@@ -45,7 +45,8 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
   pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = c->long_name,
                              .units = c->units, .dimensions = {t->dimensions[0], t->dimensions[1]},
                              .flag_count = c->flags, .flag_meanings = c->meanings,
-                             .flag_values = c->codes};
+                             .flag_values = c->codes,
+                             .flag_bits = c->codes != NULL};
   (void)snprintf(name, sizeof name, "%s%s%s", t->prefix != NULL ? t->prefix : "",
                  t->prefix != NULL ? "_" : "", c->name);
   if (c->pairs) spec.dimensions[t->dimensions[1] != NULL ? 2 : 1] = t->inner;

@@ -23,7 +23,7 @@ typedef struct scene_column {
   size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
   int flags;                   /* of a SCENE_FLAG: how many values it has, */
   const char *const *meanings; /* their names, */
-  const int8_t *codes;         /* and their codes, if these are not 0, 1, 2, ... */
+  const int8_t *codes;         /* bits, if they are sums of such, else NULL */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
 } scene_column;
 

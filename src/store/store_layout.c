@@ -331,13 +331,15 @@ static pendres_status attach_scales(pendres_store *store, const pendres_store_sp
 
 static pendres_status set_flags(pendres_store *store, const pendres_store_spec *spec, hid_t id)
 {
-  int8_t values[128];
+  int8_t values[128], masks[128];
+  int8_t all = 0;
   size_t length = 1;
   char *meanings = NULL;
   pendres_status status;
 
   for (int i = 0; i < spec->flag_count; i++) {
     values[i] = spec->flag_values ? spec->flag_values[i] : (int8_t)i;
+    all = (int8_t)(all | values[i]);
     length += strlen(spec->flag_meanings[i]) + 1;
   }
   meanings = calloc(length, 1);
@@ -348,6 +350,11 @@ static pendres_status set_flags(pendres_store *store, const pendres_store_spec *
   }
   status = pendres_store_set(store, id, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8,
                              (size_t)spec->flag_count, values);
+  /* What is looked at for each: its own bit, and for none all of them. */
+  for (int i = 0; i < spec->flag_count; i++) masks[i] = values[i] ? values[i] : all;
+  if (!status && spec->flag_bits)
+    status = pendres_store_set(store, id, "flag_masks", H5T_STD_I8LE, H5T_NATIVE_INT8,
+                               (size_t)spec->flag_count, masks);
   if (!status) status = pendres_store_set_text(store, id, "flag_meanings", meanings);
   free(meanings);
   return status;
