@@ -56,7 +56,8 @@ def test_layout():
         for field, place in kind.fields:
             lines.append(f'printf("%zu\\n", offsetof({name}, {field}));')
             wanted.append(place.offset)
-            assert pendres.dtype(name).fields[field][1] == place.offset, (name, field)
+            element, offset = pendres.dtype(name).fields[field][:2]
+            assert offset == place.offset and element.itemsize == ffi.sizeof(place.type), field
     for constant in sorted(dir(lib)):
         if constant.startswith("PENDRES_"):
             lines.append(f'printf("%lld\\n", (long long){constant});')
