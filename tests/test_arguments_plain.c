@@ -137,6 +137,9 @@ static void models(void **state)
   assert_true(isnan(pendres_pendulum_acceleration(NULL, 0.0, 0.0, 0.0)));
   pendres_pendulum_jacobian(NULL, 0.0, 0.0, &x, &v);
   pendres_pendulum_jacobian(&good, 0.0, 0.0, NULL, NULL);
+  assert_null(pendres_model_of((pendres_force)77));
+  assert_false(pendres_pendulum_symmetric(NULL));
+  assert_true(isnan(pendres_pendulum_potential(NULL, 0.0)));
   pendres_pendulum_mirror(NULL, NULL);
   pendres_pendulum_mirror(&x, &v);
   INVALID(pendres_reference_advance(NULL, &y, &w, NULL, 1));
@@ -169,6 +172,7 @@ static void models(void **state)
     long double far = b;
     (void)pendres_pendulum_well(b);
     (void)pendres_pendulum_energy(b, b);
+    (void)pendres_pendulum_potential(&good, b);
     assert_true(isnan(pendres_free_frequency(b)));
     (void)pendres_free_frequency_kittel(b);
     (void)pendres_free_frequency_belendez(b);

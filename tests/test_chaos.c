@@ -352,23 +352,23 @@ static void recurrences(void **state)
     y[k] = 0.3 * (k % 3) - 2.0 * pi * k + pow(0.5, k);
     w[k] = 0.5 * (k % 3);
   }
-  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, y, w, &r));
+  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
   assert_int_equal(r.period, 3);
   assert_int_equal(r.winding, -3);
-  assert_false(pendres_recurrence_find(1, y, w, &r));
+  assert_false(pendres_recurrence_find(1, 6.28318530717958647693, y, w, &r));
   /* Of a long period only what comes back very closely: here by 1e-3, not by 0.1. */
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) {
     y[k] = 0.0;
     w[k] = k % 50 + 2e-5 * k;
   }
-  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, y, w, &r));
+  assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
   assert_int_equal(r.period, 50);
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k % 50 + 2e-3 * k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
   w[PENDRES_RECURRENCE_POINTS - 1] = NAN;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
 }
 
 int main(void)

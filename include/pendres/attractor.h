@@ -42,7 +42,7 @@ extern "C" {
 /**
  * Labels. Of the orbits of one drive period without winding that coexist at a pendulum's
  * parameters, the one of smallest amplitude is SA, those of larger amplitude are LA, whatever the
- * drive; a pair of mirror images counts as one. An orbit that is alone continues one of the two if
+ * drive; a pair of mirror images counts as one, where there is mirror symmetry. An orbit that is alone continues one of the two if
  * both coexist at other parameters: what is found at one set of parameters does not tell. Under the
  * weak drives of the paper (|F0| <= 0.25) it is SA if it lags less than pi/3 behind the drive (or
  * is at rest), else LA, which comes to the same; under stronger ones it is PERIODIC until

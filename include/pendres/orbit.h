@@ -9,8 +9,9 @@
  * angle grows by 2 pi p. Definitions, all a drive cycle (theta = omega t):
  *
  *   loop area     A = (1/q) closed integral of F dx, F = F0 cos theta
- *   dissipation   D = (gamma/q) closed integral of v^2 dt; equal to A on a closed
- *                 orbit: the difference is a free check (energy balance)
+ *   dissipation   D = (gamma/q) closed integral of v^2 dt; equal to A on a closed orbit, with a
+ *                 torque or a parametric drive to A and what these give: the difference is a free
+ *                 check (energy balance)
  *   mean power    P = A omega / (2 pi)
  *   amplitude     half the peak-to-peak of the angle (of its periodic part if p != 0)
  *   first harmonic of the angle, a cos theta + b sin theta = R cos(theta - phi):
@@ -57,7 +58,8 @@ typedef struct pendres_orbit {
   double amplitude, amplitude_error;
   double first_harmonic_amplitude, first_harmonic_amplitude_error;
   double phase_lag, phase_lag_error;
-  double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi] */
+  double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi]; of x
+                                  where the coordinate has no period */
   double cosine[PENDRES_ORBIT_HARMONICS]; /**< cosine[m-1], sine[m-1]: harmonic m of the angle, */
   double sine[PENDRES_ORBIT_HARMONICS];   /**< averaged over the orbit's q drive cycles */
   double frequency_derivative[2];  /**< d(x, v)/d omega of the strobe point; NaN unless asked for */
@@ -66,6 +68,8 @@ typedef struct pendres_orbit {
   int steps;                 /**< steps a period of the finer computation */
   double harmonics_rest;     /**< bounds what the harmonics that are not kept add to the angle,
                                   averaged over the drive cycles */
+  double torque_work;        /**< what the torque gives a drive cycle, 2 pi I p / q, exactly */
+  double parametric_work, parametric_work_error; /**< what the parametric drive gives a drive cycle */
 } pendres_orbit;
 
 /** Where to look for an orbit. */

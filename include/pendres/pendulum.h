@@ -1,5 +1,5 @@
 /*
- * pendulum.h -- the model: a damped, driven pendulum, and its exact neighbours.
+ * pendulum.h -- the models: a damped, driven pendulum, its relatives, and exact neighbours.
  *
  * Owns: the equation of motion, its Jacobian, energy, wells and mirror
  * symmetry, and two limits with closed forms: the driven harmonic oscillator
@@ -9,6 +9,15 @@
  *
  *     x'' + damping x' - cos x = drive_amplitude cos(drive_frequency t)
  *                                + sqrt(2 damping temperature) xi(t)
+ *
+ * and, with a constant torque, a parametric drive, and any force f,
+ *
+ *     x'' + damping x' + f(x) (1 + parametric_amplitude cos(drive_frequency t))
+ *       = torque + drive_amplitude cos(drive_frequency t)
+ *
+ * where f is -cos x or a polynomial a1 x + a2 x^2 + ... + a5 x^5. Fields that are zero leave these
+ * terms out. What serves which model is said by each function that does not serve all; which
+ * equations of the literature these are, in docs/models.md.
  *
  * All quantities are dimensionless: time in units of 1/omega_0 of small
  * oscillations, energy in units of the depth m omega_0^2 of the potential
@@ -28,14 +37,43 @@
 extern "C" {
 #endif
 
-/** The parameters of one pendulum. */
+/** The force of a pendulum, -f(x) without drive. */
+typedef enum pendres_force {
+  PENDRES_FORCE_PENDULUM = 0,   /**< f = -cos x, with the period 2 pi */
+  PENDRES_FORCE_POLYNOMIAL = 1, /**< f = a1 x + ... + a5 x^5, a_k = force_coefficients[k - 1] */
+  PENDRES_FORCE_COUNT
+} pendres_force;
+
+enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
+
+/** What is true of all pendulums of a force. Static. */
+typedef struct pendres_model {
+  const char *name;  /**< in decks and messages: "pendulum", "polynomial" */
+  double period;     /**< of the coordinate: 2 pi; 0 where x and no x + period are the same */
+  double origin;     /**< what x - origin = y, the angle of the pendulum, is counted from: pi/2, 0 */
+  int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
+  const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
+} pendres_model;
+
+/** The parameters of one pendulum. Zero in all fields after temperature: the plain pendulum. */
 typedef struct pendres_pendulum {
   double damping;         /**< gamma >= 0, friction coefficient */
   double drive_amplitude; /**< F0, any finite value */
   double drive_frequency; /**< omega > 0, rad per unit time; also the clock of
                                the stroboscopic map when drive_amplitude is 0 */
   double temperature;     /**< T >= 0; used by langevin.h alone */
+  double torque;          /**< I, any finite value: constant, on the side of the drive */
+  double parametric_amplitude; /**< b, any finite value: f is multiplied by 1 + b cos(omega t) */
+  pendres_force force;    /**< f */
+  double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< of a polynomial; else zero */
 } pendres_pendulum;
+
+/** What is true of a force; NULL if out of range. */
+const pendres_model *pendres_model_of(pendres_force force);
+
+/** Whether p has the mirror symmetry, y -> -y half a drive period later: no torque, no parametric
+    drive, and no even power in a polynomial. 0 if p is NULL. */
+int pendres_pendulum_symmetric(const pendres_pendulum *p);
 
 /**
  * Check parameters. On failure *why (if not NULL) is a static sentence.
@@ -46,12 +84,17 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 /** Acceleration x'' at position x, velocity v, time t, without noise. */
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t);
 
-/** Its derivatives with respect to x and v: *dx = -sin x, *dv = -damping. */
+/** Its derivatives with respect to x and v: *dx = -f'(x), *dv = -damping. A parametric drive
+    multiplies the former by 1 + parametric_amplitude cos(drive_frequency t); this is without it. */
 void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v,
                                double *dx, double *dv);
 
-/** Energy v^2/2 - sin x; the barrier top has energy 1, a well's bottom -1. */
+/** Energy v^2/2 - sin x of the plain pendulum; the barrier top has energy 1, a well's bottom -1. */
 double pendres_pendulum_energy(double x, double v);
+
+/** Potential of p without drives, the integral of f - torque: -sin x - torque x, or
+    a1 x^2/2 + ... + a5 x^6/6 - torque x. NaN if p is NULL. */
+double pendres_pendulum_potential(const pendres_pendulum *p, double x);
 
 /** Number of the well that x lies in: n for -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and
     beyond 1e15. */

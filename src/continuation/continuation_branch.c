@@ -293,7 +293,7 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   if (o->parameter == PENDRES_DAMPING && !(o->low >= 0.0)) return "damping must not be negative";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   for (size_t i = 0; i < n; i++) {
-    const char *why = pendres_orbit_refuses(&starts[i]);
+    const char *why = pendres_orbit_refuses_others(&starts[i]);
     if (why != NULL) return why;
   }
   return NULL;

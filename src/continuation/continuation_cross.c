@@ -91,7 +91,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "no branch crosses at a bifurcation of this kind");
-  const char *why = pendres_orbit_refuses(&at->orbit);
+  const char *why = pendres_orbit_refuses_others(&at->orbit);
   if ((unsigned)at->parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   double u[PENDRES_U_COUNT];

@@ -242,7 +242,7 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
         (unsigned)starts[i].kind > PENDRES_SYMMETRY_BREAKING)
       return "a start is no bifurcation";
     if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
-    const char *why = pendres_orbit_refuses(&starts[i].orbit);
+    const char *why = pendres_orbit_refuses_others(&starts[i].orbit);
     if (why != NULL) return why;
     if (starts[i].parameter == o->second) return "the second parameter is the first once more";
   }
@@ -387,7 +387,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
   if (near->kind != PENDRES_FOLD)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
-  const char *no_orbit = pendres_orbit_refuses(&near->orbit);
+  const char *no_orbit = pendres_orbit_refuses_others(&near->orbit);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", no_orbit);
   if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter ||

@@ -56,7 +56,7 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
 static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
 {
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
-  const char *no_orbit = pendres_orbit_refuses(near);
+  const char *no_orbit = pendres_orbit_refuses_others(near);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", no_orbit);
   double u[PENDRES_U_COUNT], approach[2];

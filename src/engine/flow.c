@@ -26,7 +26,19 @@ typedef struct drive_memo {
   size_t size, next;
 } drive_memo;
 
-enum { COEFFICIENTS = 4, CARRIED = 6 /* rows */ };
+/* Arrays of coefficients, an entry a lane. */
+enum {
+  STIFFNESS,
+  DRIVE,
+  FRICTION,
+  INVERSE,
+  TORQUE,
+  MODULATION,
+  POWERS,
+  COEFFICIENTS = POWERS + PENDRES_FORCE_COEFFICIENTS
+};
+
+enum { CARRIED = 6 /* rows */ };
 
 struct pendres_flow {
   pendres_lanes_shape shape;
@@ -36,7 +48,7 @@ struct pendres_flow {
   double end, half;         /* ARKODE's clock after a period and half of one */
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
-  double *coefficient[4]; /* stiffness, drive, friction, inverse */
+  double *coefficient[COEFFICIENTS];
   double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
   drive_memo memo;
   pendres_lanes_replays *replays; /* of periods with fixed steps */
@@ -104,8 +116,10 @@ static int count_steps(pendres_flow *flow, int steps)
 static int after_step(sunrealtype theta, N_Vector y, void *arg)
 {
   pendres_flow *flow = arg;
-  (void)theta;
-  if (flow->shape.off.yy != NULL) pendres_lanes_carry(y, two_pi / flow->steps);
+  if (flow->shape.off.yy != NULL) {
+    const int driven = flow->shape.model != PENDRES_MODEL_PLAIN;
+    pendres_lanes_carry(y, two_pi / flow->steps, driven ? cos(phase_meant(flow, theta)) : 1.0);
+  }
   return count_steps(flow, 1);
 }
 
@@ -193,13 +207,19 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   flow->stop_arg = options->stop_arg;
   flow->next_asked = steps_between;
   flow->tolerance = options->tolerance;
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < COEFFICIENTS; i++) {
     flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
     if (flow->coefficient[i] == NULL) goto fail;
   }
   flow->shape.coefficients =
-    (pendres_coefficients){.stiffness = flow->coefficient[0], .drive = flow->coefficient[1],
-                           .friction = flow->coefficient[2], .inverse = flow->coefficient[3]};
+    (pendres_coefficients){.stiffness = flow->coefficient[STIFFNESS],
+                           .drive = flow->coefficient[DRIVE],
+                           .friction = flow->coefficient[FRICTION],
+                           .inverse = flow->coefficient[INVERSE],
+                           .torque = flow->coefficient[TORQUE],
+                           .modulation = flow->coefficient[MODULATION]};
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    flow->shape.coefficients.power[i] = flow->coefficient[POWERS + i];
   flow->replays = pendres_lanes_replays_create();
   if (flow->replays == NULL) goto fail;
   flow->state = pendres_lanes_create(&flow->shape, sun);
@@ -247,6 +267,12 @@ pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
   return PENDRES_OK;
 }
 
+void pendres_flow_clear(pendres_flow *flow)
+{
+  pendres_flow_resize(flow, 0);
+  flow->shape.model = PENDRES_MODEL_PLAIN;
+}
+
 void pendres_flow_resize(pendres_flow *flow, size_t lanes)
 {
   const size_t old = flow->shape.stride;
@@ -285,10 +311,16 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
   const double omega = p->drive_frequency;
   double *data = flow->rows;
 
-  flow->coefficient[0][lane] = 1.0 / (omega * omega);
-  flow->coefficient[1][lane] = p->drive_amplitude / (omega * omega);
-  flow->coefficient[2][lane] = p->damping / omega;
-  flow->coefficient[3][lane] = 1.0 / omega;
+  flow->coefficient[STIFFNESS][lane] = 1.0 / (omega * omega);
+  flow->coefficient[DRIVE][lane] = p->drive_amplitude / (omega * omega);
+  flow->coefficient[FRICTION][lane] = p->damping / omega;
+  flow->coefficient[INVERSE][lane] = 1.0 / omega;
+  flow->coefficient[TORQUE][lane] = p->torque / (omega * omega);
+  flow->coefficient[MODULATION][lane] = p->parametric_amplitude;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    flow->coefficient[POWERS + i][lane] = p->force_coefficients[i];
+  const pendres_model_terms model = pendres_model_kind(p);
+  if (model > flow->shape.model) flow->shape.model = model;
   for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + lane] = 0.0;
   pendres_flow_put_state(flow, lane, y, w);
   if (flow->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
@@ -330,9 +362,9 @@ void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_
   flow->off[2][lane] = error->ww;
   flow->off[3][lane] = added;
   /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
-  const double step = two_pi / flow->steps, drag = 0.5 * step * flow->coefficient[2][lane];
+  const double step = two_pi / flow->steps, drag = 0.5 * step * flow->coefficient[FRICTION][lane];
   flow->off[4][lane] = (1.0 - drag) / (1.0 + drag);
-  flow->off[5][lane] = step * flow->coefficient[0][lane] / (1.0 + drag);
+  flow->off[5][lane] = step * flow->coefficient[STIFFNESS][lane] / (1.0 + drag);
 }
 
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
@@ -373,7 +405,8 @@ enum { SPAN_PERIOD, SPAN_HALF, SPAN_SAMPLED };
 static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
 {
   return (pendres_lanes_replay_kind){
-    .steps = flow->steps, .span = span, .carried = flow->shape.off.yy != NULL};
+    .steps = flow->steps, .span = span, .carried = flow->shape.off.yy != NULL,
+    .driven = flow->shape.off.yy != NULL && flow->shape.model != PENDRES_MODEL_PLAIN};
 }
 
 /* What is known of such a period. In wide blocks nothing would be gained, and nobody be asked

@@ -10,6 +10,7 @@
 
 #include <string.h>
 
+#include "engine/force_polynomial.h"
 #include "engine/kernels_vector.h"
 
 #ifndef PENDRES_KERNELS
@@ -52,29 +53,61 @@ static void sum(const pendres_sum *q, size_t at, size_t n)
   for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
 }
 
+/* y[v] = f(y[v]) of a model; lane: where the vectors' coefficients begin. */
+PENDRES_VECTOR_INLINE void forces(pendres_model_terms model, int count,
+                                  const pendres_coefficients *k, size_t lane, vec *y)
+{
+  if (model == PENDRES_MODEL_POLYNOMIAL)
+    pendres_polynomial_forces(count, k->power, lane, y);
+  else
+    pendres_vector_sines(count, y);
+}
+
+/* f and its derivative at a lane's y: the same f, bit by bit. */
+PENDRES_VECTOR_INLINE void force_of(pendres_model_terms model, const pendres_coefficients *k,
+                                    size_t i, double y, double *f, double *slope)
+{
+  if (model == PENDRES_MODEL_POLYNOMIAL)
+    pendres_polynomial_force(k->power, i, y, f, slope);
+  else
+    pendres_kernels_sincos(y, f, slope);
+}
+
 /*
  * The slope of w of `count` vectors, y given and used up. w is read again: in registers it would
- * push out what the sine needs.
+ * push out what the force needs.
  */
-PENDRES_VECTOR_INLINE void accelerate(int count, const pendres_coefficients *k, size_t lane,
+PENDRES_VECTOR_INLINE void accelerate(pendres_model_terms model, int count,
+                                      const pendres_coefficients *k, size_t lane,
                                       double cos_theta, vec *y, const double *w, double *slope)
 {
   const double *stiffness = k->stiffness + lane, *drive = k->drive + lane;
   const double *friction = k->friction + lane;
   const vec f = pendres_vector_set(cos_theta);
-  pendres_vector_sines(count, y);
+  forces(model, count, k, lane, y);
+  if (model != PENDRES_MODEL_PLAIN) {
+    const vec one = pendres_vector_set(1.0);
+    PENDRES_VECTOR_EACH
+    {
+      const vec b = pendres_vector_load(k->modulation + lane + v * LANES);
+      y[v] = y[v] * pendres_vector_fma(b, f, one);
+    }
+  }
   PENDRES_VECTOR_EACH
   {
     const size_t i = v * LANES;
     const vec drag = pendres_vector_load(friction + i) * pendres_vector_load(w + i);
-    const vec force = pendres_vector_fma(pendres_vector_load(drive + i), f, -drag);
+    vec rest = -drag;
+    if (model != PENDRES_MODEL_PLAIN) rest = pendres_vector_load(k->torque + lane + i) - drag;
+    const vec force = pendres_vector_fma(pendres_vector_load(drive + i), f, rest);
     y[v] = pendres_vector_fma(-pendres_vector_load(stiffness + i), y[v], force);
   }
   PENDRES_VECTOR_EACH pendres_vector_store(slope + v * LANES, y[v]);
 }
 
 /* A stage of `count` vectors of a strip from `lane` on: the sum, and the slope at it. */
-PENDRES_VECTOR_INLINE void stage_vectors(int count, const pendres_strip *s, size_t lane,
+PENDRES_VECTOR_INLINE void stage_vectors(pendres_model_terms model, int count,
+                                         const pendres_strip *s, size_t lane,
                                          const pendres_operation *o, int keep)
 {
   vec y[GROUP], w[GROUP];
@@ -98,10 +131,11 @@ PENDRES_VECTOR_INLINE void stage_vectors(int count, const pendres_strip *s, size
     PENDRES_VECTOR_EACH pendres_vector_store(q->z + at_w + v * LANES, w[v]);
   }
   PENDRES_VECTOR_EACH pendres_vector_store(o->slope + at_y + v * LANES, w[v]);
-  accelerate(count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+  accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
 }
 
-PENDRES_VECTOR_INLINE void slope_vectors(int count, const pendres_strip *s, size_t lane,
+PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
+                                         const pendres_strip *s, size_t lane,
                                          const pendres_operation *o)
 {
   vec y[GROUP];
@@ -109,57 +143,87 @@ PENDRES_VECTOR_INLINE void slope_vectors(int count, const pendres_strip *s, size
 
   PENDRES_VECTOR_EACH y[v] = pendres_vector_load(o->from + at_y + v * LANES);
   copy_vectors(count, o->from + at_w, o->slope + at_y);
-  accelerate(count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+  accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
+}
+
+/* What a lane feels: w's slope of the state, and what multiplies an error of y in it. */
+typedef struct felt {
+  double slope, spring;
+  double force; /* f (1 + b cos theta) */
+  double bare;  /* f */
+  double modulation; /* 1 + b cos theta */
+} felt;
+
+PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coefficients *k, size_t i,
+                                double cos_theta, double y, double w)
+{
+  const double drag = k->friction[i] * w;
+  felt a = {.modulation = 1.0};
+  double by_y;
+  force_of(model, k, i, y, &a.bare, &by_y);
+  a.force = a.bare;
+  double rest = -drag;
+  if (model != PENDRES_MODEL_PLAIN) {
+    a.modulation = FMA(k->modulation[i], cos_theta, 1.0);
+    a.force = a.bare * a.modulation;
+    by_y *= a.modulation;
+    rest = k->torque[i] - drag;
+  }
+  a.slope = FMA(-k->stiffness[i], a.force, FMA(k->drive[i], cos_theta, rest));
+  a.spring = -k->stiffness[i] * by_y;
+  return a;
 }
 
 /* stride: lanes, the distance between two rows. */
-static void rhs_variational(size_t stride, const pendres_coefficients *k, double cos_theta,
-                            const double *restrict s, double *restrict d)
+PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t stride,
+                                           const pendres_coefficients *coefficients,
+                                           double cos_theta, const double *restrict s,
+                                           double *restrict d)
 {
-  const double *restrict stiffness = k->stiffness, *restrict drive = k->drive,
-               *restrict friction = k->friction;
+  const pendres_coefficients k = *coefficients;
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
     const double y = s[i], w = s[stride + i];
-    double sine, cosine;
-    pendres_kernels_sincos(y, &sine, &cosine);
-    const double force = FMA(drive[i], cos_theta, -(friction[i] * w));
-    const double spring = -stiffness[i] * cosine, drag = -friction[i];
+    const felt a = feel(model, &k, i, cos_theta, y, w);
+    const double drag = -k.friction[i];
     d[i] = w;
-    d[stride + i] = FMA(-stiffness[i], sine, force);
+    d[stride + i] = a.slope;
     d[2 * stride + i] = s[3 * stride + i];
-    d[3 * stride + i] = FMA(spring, s[2 * stride + i], drag * s[3 * stride + i]);
+    d[3 * stride + i] = FMA(a.spring, s[2 * stride + i], drag * s[3 * stride + i]);
     d[4 * stride + i] = s[5 * stride + i];
-    d[5 * stride + i] = FMA(spring, s[4 * stride + i], drag * s[5 * stride + i]);
+    d[5 * stride + i] = FMA(a.spring, s[4 * stride + i], drag * s[5 * stride + i]);
   }
 }
 
-static void rhs_sensitivity(size_t stride, const pendres_coefficients *k, double cos_theta,
-                            const double *restrict s, double *restrict d)
+PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t stride,
+                                           const pendres_coefficients *coefficients,
+                                           double cos_theta, const double *restrict s,
+                                           double *restrict d)
 {
-  const double *restrict stiffness = k->stiffness, *restrict drive = k->drive,
-               *restrict friction = k->friction, *restrict inverse = k->inverse;
+  const pendres_coefficients k = *coefficients;
 
-  rhs_variational(stride, k, cos_theta, s, d);
+  rhs_variational(model, stride, &k, cos_theta, s, d);
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
     const double w = s[stride + i];
-    double sine, cosine;
-    pendres_kernels_sincos(s[i], &sine, &cosine);
-    const double spring = -stiffness[i] * cosine, drag = -friction[i];
-    /* d/domega of the slope at fixed state: (2 (stiffness sin y - drive cos) + friction w)/omega */
+    const felt a = feel(model, &k, i, cos_theta, s[i], w);
+    const double drag = -k.friction[i];
+    /* d/domega of the slope at fixed state:
+       (2 (stiffness f - drive cos - torque) + friction w)/omega */
+    const double push = k.drive[i] * cos_theta;
+    const double held = model == PENDRES_MODEL_PLAIN ? push : push + k.torque[i];
     const double by_frequency =
-      inverse[i] * FMA(2.0, FMA(stiffness[i], sine, -(drive[i] * cos_theta)), friction[i] * w);
-    const double by_damping = -inverse[i] * w;
-    const double by_amplitude = stiffness[i] * cos_theta;
+      k.inverse[i] * FMA(2.0, FMA(k.stiffness[i], a.force, -held), k.friction[i] * w);
+    const double by_damping = -k.inverse[i] * w;
+    const double by_amplitude = k.stiffness[i] * cos_theta;
     d[6 * stride + i] = s[7 * stride + i];
     d[7 * stride + i] =
-      FMA(spring, s[6 * stride + i], FMA(drag, s[7 * stride + i], by_frequency));
+      FMA(a.spring, s[6 * stride + i], FMA(drag, s[7 * stride + i], by_frequency));
     d[8 * stride + i] = s[9 * stride + i];
-    d[9 * stride + i] = FMA(spring, s[8 * stride + i], FMA(drag, s[9 * stride + i], by_damping));
+    d[9 * stride + i] = FMA(a.spring, s[8 * stride + i], FMA(drag, s[9 * stride + i], by_damping));
     d[10 * stride + i] = s[11 * stride + i];
     d[11 * stride + i] =
-      FMA(spring, s[10 * stride + i], FMA(drag, s[11 * stride + i], by_amplitude));
+      FMA(a.spring, s[10 * stride + i], FMA(drag, s[11 * stride + i], by_amplitude));
   }
 }
 
@@ -167,16 +231,25 @@ static void rhs_sensitivity(size_t stride, const pendres_coefficients *k, double
  * Errors over the step from half a step before a state to half a step after it: half a step's
  * drift, what spring and drag at the state make of it, and the other half.
  */
-static void carry(const pendres_strip *s, const pendres_operation *o)
+PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip *s,
+                                 const pendres_operation *o)
 {
   const double *restrict y = o->from + s->at, *restrict added = s->off.added;
   const double *restrict keep = s->off.keep, *restrict kick = s->off.kick;
-  const double *restrict stiffness = s->k.stiffness;
+  const pendres_coefficients k = s->k;
   double *restrict yy = s->off.yy, *restrict yw = s->off.yw, *restrict ww = s->off.ww;
-  const double half = 0.5 * o->carry;
+  const double half = 0.5 * o->carry, cos_theta = o->cos_theta;
 #pragma omp simd
   for (size_t i = 0; i < s->lanes; i++) {
-    const double pull = kick[i] * pendres_kernels_cos_roughly(y[i]), left = keep[i];
+    double by_y;
+    if (model == PENDRES_MODEL_POLYNOMIAL) {
+      double unused;
+      pendres_polynomial_force(k.power, i, y[i], &unused, &by_y);
+    } else {
+      by_y = pendres_kernels_cos_roughly(y[i]);
+    }
+    if (model != PENDRES_MODEL_PLAIN) by_y *= FMA(k.modulation[i], cos_theta, 1.0);
+    const double pull = kick[i] * by_y, left = keep[i];
     double b = FMA(half, ww[i], yw[i]);
     double a = FMA(half, yw[i] + b, yy[i]);
     const double mixed = FMA(left, b, -(pull * a));
@@ -185,7 +258,7 @@ static void carry(const pendres_strip *s, const pendres_operation *o)
     a = FMA(half, mixed + b, a);
     yy[i] = a + added[i];
     yw[i] = b;
-    ww[i] = FMA(stiffness[i], added[i], c);
+    ww[i] = FMA(k.stiffness[i], added[i], c);
   }
 }
 
@@ -207,81 +280,113 @@ static void set(const pendres_operation *o, size_t at, size_t n)
  * group. Comparisons and not a switch: its indirect jump costs a tenth of the time where
  * processors may not speculate over one.
  */
-PENDRES_VECTOR_INLINE void run_state(int count, const pendres_strip *s, const pendres_operation *o,
-                                     size_t n)
+PENDRES_VECTOR_INLINE void run_state(pendres_model_terms model, int count, const pendres_strip *s,
+                                     const pendres_operation *o, size_t n)
 {
   const size_t step = (size_t)count * LANES, size = PENDRES_ROWS_STATE * s->lanes;
   for (const pendres_operation *end = o + n; o < end; o++) {
     size_t lane = 0;
     if (o->sum != NULL && o->slope != NULL) {
       if (o->keep) {
-        for (; lane + step <= s->lanes; lane += step) stage_vectors(count, s, lane, o, 1);
-        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(REST, s, lane, o, 1);
+        for (; lane + step <= s->lanes; lane += step) stage_vectors(model, count, s, lane, o, 1);
+        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(model, REST, s, lane, o, 1);
       } else {
-        for (; lane + step <= s->lanes; lane += step) stage_vectors(count, s, lane, o, 0);
-        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(REST, s, lane, o, 0);
+        for (; lane + step <= s->lanes; lane += step) stage_vectors(model, count, s, lane, o, 0);
+        for (; lane < s->lanes; lane += REST * LANES) stage_vectors(model, REST, s, lane, o, 0);
       }
     } else if (o->sum != NULL) {
       sum(o->sum, s->at, size);
     } else if (o->slope != NULL) {
-      for (; lane + step <= s->lanes; lane += step) slope_vectors(count, s, lane, o);
-      for (; lane < s->lanes; lane += REST * LANES) slope_vectors(REST, s, lane, o);
+      for (; lane + step <= s->lanes; lane += step) slope_vectors(model, count, s, lane, o);
+      for (; lane < s->lanes; lane += REST * LANES) slope_vectors(model, REST, s, lane, o);
     } else if (o->carry != 0.0) {
-      carry(s, o);
+      carry(model, s, o);
     } else {
       set(o, s->at, size);
     }
   }
 }
 
-#define RUN_STATE(COUNT)                                                                   \
-  static void run_state_##COUNT(const pendres_strip *s, const pendres_operation *o, size_t n) \
-  {                                                                                        \
-    run_state(COUNT, s, o, n);                                                             \
+#define RUN_STATE(MODEL, COUNT)                                                     \
+  static void run_state_##MODEL##_##COUNT(const pendres_strip *s, const pendres_operation *o, \
+                                          size_t n)                                 \
+  {                                                                                 \
+    run_state(PENDRES_MODEL_##MODEL, COUNT, s, o, n);                               \
   }
 #if defined(__AVX512F__)
-RUN_STATE(1)
-RUN_STATE(2)
-RUN_STATE(3)
-RUN_STATE(4)
-RUN_STATE(5)
-RUN_STATE(6)
-RUN_STATE(7)
-RUN_STATE(8)
-RUN_STATE(9)
-RUN_STATE(10)
-#else
-RUN_STATE(4)
+RUN_STATE(PLAIN, 1)
+RUN_STATE(PLAIN, 2)
+RUN_STATE(PLAIN, 3)
+RUN_STATE(PLAIN, 5)
+RUN_STATE(PLAIN, 6)
+RUN_STATE(PLAIN, 7)
+RUN_STATE(PLAIN, 8)
+RUN_STATE(PLAIN, 9)
+RUN_STATE(PLAIN, 10)
 #endif
+RUN_STATE(PLAIN, 4)
+RUN_STATE(PENDULUM, 4)
+RUN_STATE(POLYNOMIAL, 4)
 
 /* The same for the other equations. */
-static void run_rows(size_t rows, const pendres_strip *s, const pendres_operation *o, size_t n)
+PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, const pendres_strip *s,
+                                    const pendres_operation *o, size_t n)
 {
   const size_t size = rows * s->lanes;
   for (const pendres_operation *end = o + n; o < end; o++) {
     const double *from = o->sum != NULL ? o->sum->z : o->from;
     if (o->sum != NULL) sum(o->sum, s->at, size);
     if (o->slope != NULL && rows == PENDRES_ROWS_VARIATIONAL)
-      rhs_variational(s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
+      rhs_variational(model, s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
     else if (o->slope != NULL)
-      rhs_sensitivity(s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
+      rhs_sensitivity(model, s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
     else if (o->sum == NULL)
       set(o, s->at, size);
   }
 }
 
-static void run(size_t rows, const pendres_strip *s, const pendres_operation *o, size_t n)
+#define RUN_ROWS(MODEL)                                                          \
+  static void run_rows_##MODEL(size_t rows, const pendres_strip *s,              \
+                               const pendres_operation *o, size_t n)             \
+  {                                                                              \
+    run_rows(PENDRES_MODEL_##MODEL, rows, s, o, n);                              \
+  }
+RUN_ROWS(PLAIN)
+RUN_ROWS(PENDULUM)
+RUN_ROWS(POLYNOMIAL)
+
+static void run_states(const pendres_strip *s, const pendres_operation *o, size_t n)
 {
+  if (s->model == PENDRES_MODEL_POLYNOMIAL) {
+    run_state_POLYNOMIAL_4(s, o, n);
+    return;
+  }
+  if (s->model == PENDRES_MODEL_PENDULUM) {
+    run_state_PENDULUM_4(s, o, n);
+    return;
+  }
 #if defined(__AVX512F__)
   static void (*const states[GROUP])(const pendres_strip *, const pendres_operation *, size_t) = {
-    run_state_1, run_state_2, run_state_3, run_state_4, run_state_5,
-    run_state_6, run_state_7, run_state_8, run_state_9, run_state_10};
+    run_state_PLAIN_1, run_state_PLAIN_2, run_state_PLAIN_3, run_state_PLAIN_4,
+    run_state_PLAIN_5, run_state_PLAIN_6, run_state_PLAIN_7, run_state_PLAIN_8,
+    run_state_PLAIN_9, run_state_PLAIN_10};
   const size_t vectors = s->lanes / LANES;
-  if (rows == PENDRES_ROWS_STATE) states[(vectors < GROUP ? vectors : GROUP) - 1](s, o, n);
+  states[(vectors < GROUP ? vectors : GROUP) - 1](s, o, n);
 #else
-  if (rows == PENDRES_ROWS_STATE) run_state_4(s, o, n);
+  run_state_PLAIN_4(s, o, n);
 #endif
-  if (rows != PENDRES_ROWS_STATE) run_rows(rows, s, o, n);
+}
+
+static void run(size_t rows, const pendres_strip *s, const pendres_operation *o, size_t n)
+{
+  if (rows == PENDRES_ROWS_STATE)
+    run_states(s, o, n);
+  else if (s->model == PENDRES_MODEL_POLYNOMIAL)
+    run_rows_POLYNOMIAL(rows, s, o, n);
+  else if (s->model == PENDRES_MODEL_PENDULUM)
+    run_rows_PENDULUM(rows, s, o, n);
+  else
+    run_rows_PLAIN(rows, s, o, n);
 }
 
 #define TEXT_(a) #a

@@ -12,12 +12,22 @@
  *     dy/dtheta = w
  *     dw/dtheta = -stiffness sin y + drive cos theta - friction w
  *
- * with stiffness = 1/omega^2, drive = F0/omega^2, friction = gamma/omega.
+ * with stiffness = 1/omega^2, drive = F0/omega^2, friction = gamma/omega; with a torque, a
+ * parametric drive, and any force f,
+ *
+ *     dw/dtheta = -stiffness f(y) (1 + modulation cos theta) + drive cos theta + torque - friction w
+ *
+ * Each model (model.h) has kernels of its own, so that none pays for terms that it has not. Those
+ * for a pendulum with torque or parametric drive do for a plain one what its own do, bit by bit.
  */
 #ifndef PENDRES_KERNELS_H
 #define PENDRES_KERNELS_H
 
 #include <stddef.h>
+
+#include <pendres/pendulum.h>
+
+#include "model/model.h"
 
 /* Coefficients of the equation, one array entry a lane. */
 typedef struct pendres_coefficients {
@@ -25,6 +35,10 @@ typedef struct pendres_coefficients {
   const double *drive;     /* F0/omega^2 */
   const double *friction;  /* gamma/omega */
   const double *inverse;   /* 1/omega; read by the sensitivities alone */
+  /* Read for the models that have them: */
+  const double *torque;     /* I/omega^2 */
+  const double *modulation; /* b */
+  const double *power[PENDRES_FORCE_COEFFICIENTS]; /* a1 .. a5 of a polynomial force */
 } pendres_coefficients;
 
 /*
@@ -101,7 +115,7 @@ typedef struct pendres_operation {
   const double *from;
   double *to, *slope;
   double cos_theta;
-  double carry; /* 0: errors are not carried */
+  double carry; /* 0: errors are not carried; else cos_theta is that of the step's end */
   int keep;
 } pendres_operation;
 
@@ -126,6 +140,7 @@ typedef struct pendres_flow_error {
 /* A few lanes side by side: where in each vector they are, and their coefficients. */
 typedef struct pendres_strip {
   size_t lanes; /* a multiple of 8 */
+  pendres_model_terms model;
   size_t at;    /* a vector's rows are at x + at, x + at + lanes, ... */
   pendres_coefficients k;
   pendres_carried off; /* read and written where errors are carried */

@@ -64,7 +64,8 @@ void pendres_lanes_replays_free(pendres_lanes_replays *r)
 
 static int same_kind(const pendres_lanes_replay_kind *a, const pendres_lanes_replay_kind *b)
 {
-  return a->steps == b->steps && a->span == b->span && a->carried == b->carried;
+  return a->steps == b->steps && a->span == b->span && a->carried == b->carried &&
+         a->driven == b->driven;
 }
 
 /* The kind's entry; NULL if it has none. */

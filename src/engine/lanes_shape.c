@@ -30,8 +30,15 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
     const pendres_carried *off = &s->off;
     pendres_strip strip = {
       .lanes = lanes,
+      .model = s->model,
       .at = s->rows * lane,
-      .k = {k->stiffness + lane, k->drive + lane, k->friction + lane, k->inverse + lane}};
+      .k = {.stiffness = k->stiffness + lane, .drive = k->drive + lane,
+            .friction = k->friction + lane, .inverse = k->inverse + lane}};
+    if (s->model != PENDRES_MODEL_PLAIN) {
+      strip.k.torque = k->torque + lane;
+      strip.k.modulation = k->modulation + lane;
+      for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) strip.k.power[i] = k->power[i] + lane;
+    }
     if (off->yy != NULL)
       strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,
                                     off->added + lane, off->keep + lane, off->kick + lane};

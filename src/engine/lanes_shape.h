@@ -29,6 +29,7 @@ typedef struct pendres_lanes_shape {
   size_t wider;    /* ... and of those below this lane 8 more */
   int norm_unused; /* fixed steps: nobody reads the norm, so do not compute it */
   const pendres_kernels *kernels;
+  pendres_model_terms model; /* of all lanes */
   pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */
   pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
   size_t vectors;                    /* made so far, for their place in the cache */

@@ -52,7 +52,8 @@ void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope
                               double cos_theta);
 
 /* The errors of the lanes over a step that has ended at y. */
-void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step);
+void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step,
+                              double cos_theta);
 
 /* Do all that was put off: before anybody looks at a number or changes one. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);

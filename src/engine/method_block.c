@@ -50,6 +50,7 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
   size_t next = 0;
   const size_t capacity = pendres_flow_capacity(b->flow);
   pendres_status status = PENDRES_OK;
+  pendres_flow_clear(b->flow);
   if (queue[0].steps > 0) status = pendres_flow_set_steps(b->flow, queue[0].steps);
   if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);
 
@@ -102,7 +103,9 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind 
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    queue[i] = (pendres_rank){.steps = adaptive ? 0 : lanes[i].steps, .index = i};
+    queue[i] = (pendres_rank){.steps = adaptive ? 0 : lanes[i].steps,
+                              .model = pendres_model_kind(lanes[i].pendulum),
+                              .index = i};
   pendres_rank_order(n, queue);
 
   b.carry = !adaptive && lanes[0].added > 0.0;
@@ -111,7 +114,7 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind 
     (void)pendres_context_fail(ctx, status, "out of memory for the errors of %zu lanes", n);
   for (size_t first = 0; first < n && status == PENDRES_OK;) {
     size_t last = first;
-    while (last < n && queue[last].steps == queue[first].steps) last++;
+    while (last < n && pendres_rank_equal(&queue[last], &queue[first])) last++;
     status = run_class(&b, queue + first, last - first);
     first = last;
   }

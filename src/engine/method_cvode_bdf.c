@@ -7,16 +7,20 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "engine/method_cvode.h"
+#include "model/model.h"
 
 static int jacobian(sunrealtype theta, N_Vector state, N_Vector f, SUNMatrix j, void *arg,
                     N_Vector t1, N_Vector t2, N_Vector t3)
 {
   const pendres_one *b = arg;
   const double omega = b->p->drive_frequency;
-  (void)theta, (void)f, (void)t1, (void)t2, (void)t3;
+  double force, by_y;
+  pendres_model_force(b->p, N_VGetArrayPointer(state)[0], &force, &by_y);
+  by_y *= 1.0 + b->p->parametric_amplitude * cos(theta);
+  (void)f, (void)t1, (void)t2, (void)t3;
   SM_ELEMENT_D(j, 0, 0) = 0.0;
   SM_ELEMENT_D(j, 0, 1) = 1.0;
-  SM_ELEMENT_D(j, 1, 0) = -cos(N_VGetArrayPointer(state)[0]) / (omega * omega);
+  SM_ELEMENT_D(j, 1, 0) = -by_y / (omega * omega);
   SM_ELEMENT_D(j, 1, 1) = -b->p->damping / omega;
   return 0;
 }

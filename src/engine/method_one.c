@@ -6,6 +6,7 @@
 #include <nvector/nvector_serial.h>
 
 #include "engine/passage.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -22,7 +23,15 @@ int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one
     b->stopped = pendres_context_stops(b->ctx);
   if (b->stopped) return -1;
   d[0] = s[1];
-  d[1] = (b->p->drive_amplitude * cos(theta) - sin(s[0])) / (omega * omega) -
+  if (pendres_model_kind(b->p) == PENDRES_MODEL_PLAIN) {
+    d[1] = (b->p->drive_amplitude * cos(theta) - sin(s[0])) / (omega * omega) -
+           b->p->damping / omega * s[1];
+    return 0;
+  }
+  double force, by_y;
+  pendres_model_force(b->p, s[0], &force, &by_y);
+  d[1] = (b->p->torque + b->p->drive_amplitude * cos(theta) -
+          force * (1.0 + b->p->parametric_amplitude * cos(theta))) / (omega * omega) -
          b->p->damping / omega * s[1];
   return 0;
 }
@@ -36,7 +45,8 @@ int pendres_one_weights(N_Vector state, N_Vector out, void *one)
   const pendres_one *b = one;
   const double *s = N_VGetArrayPointer(state), tolerance = b->ctx->options.tolerance;
   double *w = N_VGetArrayPointer(out);
-  const double asked = tolerance * (1.0 + fmin(fabs(s[0]), 3.14159265358979323846));
+  const double turn = pendres_model_turn(b->p);
+  const double asked = tolerance * (1.0 + fmin(fabs(s[0]), 0.5 * turn));
   w[0] = 1.0 / fmax(asked, 2e-15 * fabs(s[0]));
   w[1] = 1.0 / (tolerance * (1.0 + fabs(s[1])));
   return 0;
@@ -91,7 +101,7 @@ static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver, 
     lane->period++;
     lane->turns = turns;
     solver->read(b, &lane->y, &lane->w);
-    pendres_passage_wrap(&lane->y, &lane->turns);
+    pendres_passage_wrap(b->p, &lane->y, &lane->turns);
     done = visit(arg, index, lane);
   }
   return status;

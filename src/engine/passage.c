@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "engine/flow.h"
+#include "model/model.h"
 
-static const double half_pi = 1.57079632679489661923;
 /* 2 pi in two parts, so that taking out many turns costs no digits. */
 static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
 /* A position beyond is not known to a tenth of a radian. */
@@ -23,16 +23,19 @@ const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double 
     return "so fast a pendulum is beyond 1e15 within a period, where its angle is not known";
   if (!(fabs(p->drive_amplitude) / w / slowest <= farthest))
     return "so strong a drive shakes the pendulum farther than 1e15, where its angle is not known";
+  if (!(fabs(p->torque) / w / slowest <= farthest))
+    return "so strong a torque turns the pendulum farther than 1e15, where its angle is not known";
   if (!(p->damping / w <= farthest))
     return "so strong a damping acts within less of a period than double precision can tell";
-  if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w))))
+  if (!(isfinite(1.0 / (w * w)) && isfinite(p->drive_amplitude / (w * w)) &&
+        isfinite(p->torque / (w * w))))
     return "so low a drive frequency has a square that is zero in double precision";
   return NULL;
 }
 
-void pendres_passage_wrap(double *y, long *turns)
+void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns)
 {
-  if (fabs(*y) <= 3.14159265358979323846) return;
+  if (fabs(*y) <= 3.14159265358979323846 || pendres_model_of(p->force)->period == 0.0) return;
   const double k = rint(*y / two_pi_high);
   if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
     *y = NAN;
@@ -46,31 +49,32 @@ pendres_place pendres_passage_in(const pendres_pendulum *p, double x, double v)
 {
   pendres_place s = {.y = NAN, .w = v / p->drive_frequency};
   if (!(fabs(x) <= farthest)) return s;
+  const double origin = pendres_model_origin(p);
   /* Whole turns first: of a large x the digits would be lost in the difference. */
-  const double k = rint((x - half_pi) / two_pi_high);
+  const double k = rint((x - origin) / pendres_model_turn(p));
   s.turns = (long)k;
-  s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - half_pi;
-  pendres_passage_wrap(&s.y, &s.turns);
+  s.y = fma(-k, two_pi_low, fma(-k, two_pi_high, x)) - origin;
+  pendres_passage_wrap(p, &s.y, &s.turns);
   return s;
 }
 
 pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, double v)
 {
-  return (pendres_place){.y = x - half_pi, .w = v / p->drive_frequency};
+  return (pendres_place){.y = x - pendres_model_origin(p), .w = v / p->drive_frequency};
 }
 
 void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v)
 {
   const double turns = (double)s->turns;
-  *x = fma(two_pi_high, turns, fma(two_pi_low, turns, s->y + half_pi));
+  *x = fma(two_pi_high, turns, fma(two_pi_low, turns, s->y + pendres_model_origin(p)));
   if (v != NULL) *v = s->w * p->drive_frequency;
 }
 
 void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, long *turns)
 {
   static const double nothing = 1e-290;
-  pendres_passage_wrap(y, turns);
-  if (p->drive_amplitude == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
+  pendres_passage_wrap(p, y, turns);
+  if (p->drive_amplitude == 0.0 && p->torque == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
     *y = *w = 0.0;
 }
 
@@ -82,6 +86,7 @@ pendres_status pendres_block_open(pendres_context *ctx, pendres_flow_kind kind, 
   *out = (pendres_block){.ctx = ctx};
   pendres_status status = pendres_context_flow(ctx, kind, &out->flow);
   if (status != PENDRES_OK) return status;
+  pendres_flow_clear(out->flow);
   status = pendres_flow_set_steps(out->flow, steps);
   return status == PENDRES_OK ? status : pendres_context_flow_failed(ctx, out->flow, status);
 }

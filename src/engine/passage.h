@@ -6,7 +6,8 @@
  * Nobody outside the engine touches a flow.
  *
  * Outside, a state is (x, v) as in pendulum.h. Inside it is (y, w): y = x - pi/2 is the angle, kept
- * within half a turn of zero while whole turns are counted apart, and w = dy/dtheta = v/omega.
+ * within half a turn of zero while whole turns are counted apart (y = x where the coordinate has no
+ * period), and w = dy/dtheta = v/omega.
  */
 #ifndef PENDRES_PASSAGE_H
 #define PENDRES_PASSAGE_H
@@ -37,8 +38,9 @@ pendres_place pendres_passage_in_whole(const pendres_pendulum *p, double x, doub
 /* Out; v may be NULL. */
 void pendres_passage_out(const pendres_pendulum *p, const pendres_place *s, double *x, double *v);
 
-/* Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond 1e15. */
-void pendres_passage_wrap(double *y, long *turns);
+/* Take whole turns out of an angle: -pi <= y <= pi afterwards, or NaN where it is beyond 1e15. A
+   coordinate without a period has none. */
+void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns);
 
 /*
  * A state at the end of a period: whole turns are taken out. A damped pendulum without a drive dies

@@ -6,6 +6,7 @@
 static int by_steps(const void *a, const void *b)
 {
   const pendres_rank *p = a, *q = b;
+  if (p->model != q->model) return p->model < q->model ? -1 : 1;
   if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
   return p->index < q->index ? -1 : p->index > q->index;
 }
@@ -13,6 +14,6 @@ static int by_steps(const void *a, const void *b)
 void pendres_rank_order(size_t n, pendres_rank *rank)
 {
   size_t i = 1;
-  while (i < n && rank[i - 1].steps <= rank[i].steps) i++;
+  while (i < n && by_steps(&rank[i - 1], &rank[i]) < 0) i++;
   if (i < n) qsort(rank, n, sizeof *rank, by_steps);
 }

@@ -1,18 +1,27 @@
 /*
- * rank.h -- lanes in the order of their steps, as they share blocks.
+ * rank.h -- lanes in the order in which they share blocks: of equal models and steps.
  */
 #ifndef PENDRES_RANK_H
 #define PENDRES_RANK_H
 
 #include <stddef.h>
 
-/* A lane's place in a list, and its steps. */
+#include "model/model.h"
+
+/* A lane's place in a list, its steps and the kernels that it needs. */
 typedef struct pendres_rank {
   int steps;
+  pendres_model_terms model;
   size_t index;
 } pendres_rank;
 
-/* Lanes in the order of their steps, those of equal steps in their own order. */
+/* Lanes in the order of their models, then their steps, and those that may share a block in their
+   own order. */
 void pendres_rank_order(size_t n, pendres_rank *rank);
+
+static inline int pendres_rank_equal(const pendres_rank *a, const pendres_rank *b)
+{
+  return a->steps == b->steps && a->model == b->model;
+}
 
 #endif

@@ -49,13 +49,29 @@ static const double frequency_least = 1e-4, frequency_ratio = 1.06;
 static const double drive_least = 0.25, drive_ratio = 1.25;
 static const double speed_least = 2.0, speed_ratio = 1.5;
 
+/* Of terms that most pendulums do not have: -1 for none. */
+static int lattice_or_none(double value)
+{
+  return value != 0.0 ? lattice(fabs(value), drive_least, drive_ratio) : -1;
+}
+
+static double lattice_or_none_upper(int index)
+{
+  return index >= 0 ? lattice_upper(index, drive_least, drive_ratio) : 0.0;
+}
+
 static pendres_steps_cell cell_of(const pendres_pendulum *p, double speed, double tolerance)
 {
-  return (pendres_steps_cell){.damping = lattice(p->damping, damping_least, damping_ratio),
+  pendres_steps_cell c = {.damping = lattice(p->damping, damping_least, damping_ratio),
                 .frequency = lattice(p->drive_frequency, frequency_least, frequency_ratio),
                 .drive = lattice(fabs(p->drive_amplitude), drive_least, drive_ratio),
                 .speed = lattice(speed, speed_least, speed_ratio),
-                .tolerance = lattice(tolerance, 1e-18, 1.25)};
+                .tolerance = lattice(tolerance, 1e-18, 1.25),
+                .torque = lattice_or_none(p->torque),
+                .parametric = lattice_or_none(p->parametric_amplitude),
+                .force = p->force};
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) c.coefficients[i] = p->force_coefficients[i];
+  return c;
 }
 
 /* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
@@ -65,19 +81,73 @@ static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *s
     .damping = lattice_upper(c->damping, damping_least, damping_ratio),
     .drive_frequency =
       c->frequency > 0 ? lattice_upper(c->frequency - 1, frequency_least, frequency_ratio) : 0.0,
-    .drive_amplitude = lattice_upper(c->drive, drive_least, drive_ratio)};
+    .drive_amplitude = lattice_upper(c->drive, drive_least, drive_ratio),
+    .torque = lattice_or_none_upper(c->torque),
+    .parametric_amplitude = lattice_or_none_upper(c->parametric),
+    .force = c->force};
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) p->force_coefficients[i] = c->coefficients[i];
   /* Up to the least damping the cell has none. */
   if (c->damping == 0) p->damping = 0.0;
   *speed = lattice_upper(c->speed, speed_least, speed_ratio);
   *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
 }
 
+/* ---- the scale of a polynomial force ---- */
+
+/* What V(x) would be if all its terms added up. */
+static double heap(const pendres_pendulum *p, double x)
+{
+  double sum = 0.0;
+  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+    sum = fma(sum, fabs(x), fabs(p->force_coefficients[i]) / (i + 2));
+  return sum * x * x;
+}
+
+/* How far out a speed leads, at most where the force is that of its terms added up. */
+static double reach_of(const pendres_pendulum *p, double speed)
+{
+  const double energy = 0.5 * speed * speed;
+  double low = 0.0, high = 1.0;
+  while (heap(p, high) < energy && high < 1e15) high *= 2.0;
+  for (int i = 0; i < 60; i++) {
+    const double middle = 0.5 * (low + high);
+    if (heap(p, middle) < energy) low = middle;
+    else high = middle;
+  }
+  return high;
+}
+
+/* The frequency of oscillations as fast as the stiffest spring up to there, parametric drive and
+   all. */
+static double pace_of(const pendres_pendulum *p, double speed)
+{
+  const double modulation = 1.0 + fabs(p->parametric_amplitude);
+  if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / 4.0);
+  const double reach = reach_of(p, speed);
+  double spring = 0.0;
+  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+    spring = fma(spring, reach, (i + 1) * fabs(p->force_coefficients[i]));
+  return sqrt(modulation * spring);
+}
+
+double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
+{
+  if (p->force == PENDRES_FORCE_PENDULUM) return fabs(v);
+  /* A drive may in time lead as fast as friction lets it at resonance; beyond some speed it rather
+     is the oscillation that gets out of step. */
+  const double most = 4.0, driven = fmin(most, fabs(p->drive_amplitude) / p->damping);
+  return fmax(driven, sqrt(fma(v, v, 2.0 * heap(p, x))));
+}
+
+/* ---- probes ---- */
+
 static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendulum *p,
                        double speed)
 {
   /* Half start at rest over the well, half at the largest speed either way. */
   const int half = PROBES / 2, k = i % half;
-  const double y = -2.75 + 5.5 * k / (half - 1);
+  const double reach = p->force == PENDRES_FORCE_PENDULUM ? 2.75 : reach_of(p, speed);
+  const double y = -reach + 2.0 * reach * k / (half - 1);
   const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
   pendres_block_load(b, lane, p, y, v / p->drive_frequency);
 }
@@ -90,6 +160,7 @@ static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendu
 typedef struct sight {
   int steps, stride, dense, points;
   int growing;
+  int unbound; /* probes may be on their way to infinity: what is wild from the start is left out */
   size_t first, lanes; /* probes in the block */
   double omega;
   double y[POINTS][PROBES], v[POINTS][PROBES], growth[POINTS][PROBES];
@@ -97,16 +168,18 @@ typedef struct sight {
 
 static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
 {
-  sight s = {.steps = steps, .stride = stride, .growing = growing, .omega = p->drive_frequency};
+  sight s = {.steps = steps, .stride = stride, .growing = growing,
+             .unbound = p->force != PENDRES_FORCE_PENDULUM, .omega = p->drive_frequency};
   s.dense = steps / stride < POINTS - 1 ? steps / stride : POINTS - 1;
   s.points = s.dense + (s.dense * stride < steps);
   return s;
 }
 
 /* Steps in half a unit of time, in which errors grow by no more than e^(1/2). */
-static int stride_of(const pendres_pendulum *p, int steps)
+static int stride_of(const pendres_pendulum *p, double speed, int steps)
 {
-  const double period = 6.28318530717958647693 / p->drive_frequency;
+  double period = 6.28318530717958647693 / p->drive_frequency;
+  if (p->force != PENDRES_FORCE_PENDULUM) period *= pace_of(p, speed);
   return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
 }
 
@@ -161,12 +234,13 @@ static double probe_error(const sight *coarse, const sight *fine, size_t i)
   double largest = 0.0;
   int k = 0;
   for (; k < coarse->points; k++) {
-    if (k > 0 && !(fine->growth[k][i] <= wild)) break;
+    if ((k > 0 || coarse->unbound) && !(fine->growth[k][i] <= wild)) break;
     const double dy = fabs(coarse->y[k][i] - fine->y[k][i]);
     const double dv = fabs(coarse->v[k][i] - fine->v[k][i]);
     if (!(dy + dv < INFINITY)) return INFINITY;
     largest = fmax(largest, fmax(dy, dv));
   }
+  if (k == 0) return 0.0; /* on its way to infinity at once */
   return k == coarse->points ? largest : largest * coarse->steps / ((double)k * coarse->stride);
 }
 
@@ -183,13 +257,14 @@ static double least_steps(const pendres_pendulum *p, double speed)
   const double two_pi = 6.28318530717958647693;
   const double period = two_pi / p->drive_frequency;
   /* The real stability interval of the order-8 tables is about 4 to 5. */
-  return fmax(period * p->damping / 4.0, period * fmax(1.0, speed / 4.0) / 1.5);
+  return fmax(period * p->damping / 4.0, period * pace_of(p, speed) / 1.5);
 }
 
 /* A drive that swings a pendulum so far in a period leaves it less than two steps a turn. */
 static int shaken(const pendres_pendulum *p)
 {
-  const double speed = fabs(p->drive_amplitude) / fmax(p->drive_frequency, p->damping);
+  const double push = fabs(p->drive_amplitude) + fabs(p->torque);
+  const double speed = push / fmax(p->drive_frequency, p->damping);
   return speed / p->drive_frequency > 0.5 * MOST_STEPS;
 }
 
@@ -205,7 +280,7 @@ static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, i
   double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
-    const int stride = stride_of(&p, n);
+    const int stride = stride_of(&p, speed, n);
     sight coarse = sight_of(&p, n, stride, 0), fine = sight_of(&p, 2 * n, 2 * stride, 1);
     pendres_status status = run_probes(ctx, &p, speed, &coarse);
     if (status == PENDRES_OK) status = run_probes(ctx, &p, speed, &fine);

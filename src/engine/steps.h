@@ -16,7 +16,14 @@
 int pendres_steps_rung(int n);
 
 /*
- * Steps a period so that one period's error of a pendulum with |v| up to `speed` stays below
+ * How fast a pendulum in a state is or may soon be, the measure of states that steps are chosen by:
+ * |v|; with a polynomial force the speed whose energy would be that of the state if all terms of
+ * the potential added up.
+ */
+double pendres_steps_speed(const pendres_pendulum *p, double x, double v);
+
+/*
+ * Steps a period so that one period's error of a pendulum with such a speed up to `speed` stays below
  * `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy helps.
  */
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,

@@ -30,8 +30,12 @@ void pendres_steps_memo_free(pendres_steps_memo *memo)
 
 static int same(const pendres_steps_cell *a, const pendres_steps_cell *b)
 {
-  return a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
-         a->speed == b->speed && a->tolerance == b->tolerance;
+  int equal = a->damping == b->damping && a->frequency == b->frequency && a->drive == b->drive &&
+              a->speed == b->speed && a->tolerance == b->tolerance && a->torque == b->torque &&
+              a->parametric == b->parametric && a->force == b->force;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS && equal; i++)
+    equal = a->coefficients[i] == b->coefficients[i];
+  return equal;
 }
 
 int pendres_steps_memo_find(const pendres_steps_memo *memo, const pendres_steps_cell *cell)

@@ -4,11 +4,15 @@
 #ifndef PENDRES_STEPS_MEMO_H
 #define PENDRES_STEPS_MEMO_H
 
+#include <pendres/pendulum.h>
 #include <pendres/status.h>
 
-/* A cell of the lattice: indices of damping, frequency, drive, speed and tolerance. */
+/* A cell of the lattice: indices of damping, frequency, drive, speed, tolerance, torque (-1: none),
+   and parametric drive (likewise); and the force itself. */
 typedef struct pendres_steps_cell {
-  int damping, frequency, drive, speed, tolerance;
+  int damping, frequency, drive, speed, tolerance, torque, parametric;
+  pendres_force force;
+  double coefficients[PENDRES_FORCE_COEFFICIENTS];
 } pendres_steps_cell;
 
 typedef struct pendres_steps_memo pendres_steps_memo;

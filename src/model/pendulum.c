@@ -7,6 +7,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_ellint.h>
 
+#include "model/model.h"
+
 static const double half_pi = 1.57079632679489661923;
 static const double two_pi = 6.28318530717958647693;
 
@@ -21,6 +23,7 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
     reason = "the drive frequency must be finite and positive";
   else if (!(isfinite(p->temperature) && p->temperature >= 0.0))
     reason = "the temperature must be finite and not negative";
+  else reason = pendres_model_check(p);
   if (reason == NULL) return PENDRES_OK;
   if (why != NULL) *why = reason;
   return PENDRES_INVALID_ARGUMENT;
@@ -29,14 +32,26 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t)
 {
   if (p == NULL) return NAN;
-  return cos(x) - p->damping * v + p->drive_amplitude * cos(p->drive_frequency * t);
+  const double drive = cos(p->drive_frequency * t);
+  if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN)
+    return cos(x) - p->damping * v + p->drive_amplitude * drive;
+  double force, slope;
+  pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, &slope);
+  return p->torque + p->drive_amplitude * drive - p->damping * v -
+         force * (1.0 + p->parametric_amplitude * drive);
 }
 
 void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, double *dx,
                                double *dv)
 {
   (void)v;
-  if (dx != NULL) *dx = -sin(x);
+  if (dx != NULL && p != NULL && p->force == PENDRES_FORCE_POLYNOMIAL) {
+    double force;
+    pendres_model_force(p, x, &force, dx);
+    *dx = -*dx;
+  } else if (dx != NULL) {
+    *dx = -sin(x);
+  }
   if (dv != NULL) *dv = p != NULL ? -p->damping : NAN;
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/passage.h"
+#include "model/model.h"
 
 /* A position beyond is not known to a tenth of a radian; see passage.h. */
 static const double farthest = 1e15;
@@ -49,7 +50,7 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
   if (steps < 2 || steps > MOST_STEPS)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the steps a period must be 2 to %d", MOST_STEPS);
-  if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
+  if (pendres_model_check_plain(p, &why) == PENDRES_OK) {
     why = pendres_passage_refuses(p, x, v);
     if (why == NULL) why = pendres_langevin_block_refuses(p, steps);
   }

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "model/model.h"
+
 #include "engine/passage.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -99,7 +101,7 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
                                               double v, int cycle, pendres_langevin_linear *out)
 {
   pendres_langevin_linear coarse;
-  if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
+  if (out == NULL || pendres_model_check_plain(pendulum, NULL) != PENDRES_OK ||
       pendres_passage_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
   /* 128 steps a unit of time in the finer computation: an error near 1e-11, rounding well below. */

@@ -8,17 +8,11 @@
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
 #include "engine/passage.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 enum { BATCH_SETS = 64 /* parameter sets worked on at a time */ };
-
-static int same_parameters(const pendres_pendulum *a, const pendres_pendulum *b)
-{
-  return a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&
-         a->drive_frequency == b->drive_frequency;
-}
 
 static pendres_status check_states(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                    size_t stride, const double *x, const double *v)
@@ -83,13 +77,14 @@ static int index_sets(pendres_attractors *set)
 }
 
 /* Scouts that see the whole of a well, at rest and moving. */
-static size_t default_scouts(double x[64], double v[64])
+static size_t default_scouts(const pendres_pendulum *p, double x[64], double v[64])
 {
   size_t n = 0;
+  const double scale = pendres_model_scale(p);
   for (int i = 0; i < 12; i++)
     for (int j = -1; j <= 1; j++) {
-      x[n] = half_pi + two_pi * (i - 5.5) / 12.0;
-      v[n++] = 1.3 * j;
+      x[n] = pendres_model_origin(p) + scale * two_pi * (i - 5.5) / 12.0;
+      v[n++] = 1.3 * j * scale;
     }
   return n;
 }
@@ -102,7 +97,7 @@ static pendres_status attractors_find(pendres_context *ctx, const pendres_pendul
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
   *out = NULL;
   if (n == 0) {
-    n = default_scouts(default_x, default_v);
+    n = default_scouts(p, default_x, default_v);
     x = default_x;
     v = default_v;
   }
@@ -182,7 +177,7 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
 static size_t count_sets(size_t n, const pendres_pendulum *p)
 {
   size_t sets = n > 0;
-  for (size_t i = 1; i < n; i++) sets += !same_parameters(&p[i], &p[i - 1]);
+  for (size_t i = 1; i < n; i++) sets += !pendres_model_same(&p[i], &p[i - 1]);
   return sets;
 }
 
@@ -206,7 +201,7 @@ static pendres_status settle_all(pendres_context *ctx, size_t n,
   for (size_t first = 0, last, next_set = 0; first < n && status == PENDRES_OK; first = last) {
     const size_t base = next_set;
     for (last = first; last < n; last++) {
-      if (last == first || !same_parameters(&pendulums[last], &pendulums[last - 1])) {
+      if (last == first || !pendres_model_same(&pendulums[last], &pendulums[last - 1])) {
         if (next_set - base == BATCH_SETS) break;
         all->catalogues[next_set++].pendulum = pendulums[last];
       }

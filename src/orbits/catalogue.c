@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "model/model.h"
 #include "orbits/label.h"
 
 static const double two_pi = 6.28318530717958647693;
@@ -41,7 +43,7 @@ int pendres_catalogue_locate(const pendres_catalogue *c, const pendres_strobe_la
 {
   const pendres_trap *t = pendres_catalogue_trap(c, lane);
   if (t == NULL) return -1;
-  *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / two_pi);
+  *well = t->winding != 0 ? 0 : lane->turns + (long)rint((lane->y - t->y) / t->turn);
   return c->owner[t - c->trap];
 }
 
@@ -118,7 +120,7 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
     &o.amplitude_error, &o.first_harmonic_amplitude, &o.first_harmonic_amplitude_error,
     &o.phase_lag, &o.phase_lag_error, &o.mean_angle, &o.loop_area_slope, &o.loop_area_slope_error,
     &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0], &o.multiplier_im[1],
-    &o.frequency_derivative[0], &o.frequency_derivative[1], &o.monodromy[0][0],
+    &o.torque_work, &o.parametric_work, &o.parametric_work_error, &o.frequency_derivative[0], &o.frequency_derivative[1], &o.monodromy[0][0],
     &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) *numbers[i] = NAN;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) o.cosine[m] = o.sine[m] = NAN;

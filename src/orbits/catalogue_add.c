@@ -9,9 +9,10 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 /* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
    unless they are about to annihilate in a fold, where neither is an attractor much longer. */
@@ -24,8 +25,9 @@ static const double same_guess = 0.05;
 /* From a Poincaré point of an orbit to another one. */
 static double distance(const pendres_orbit *o, double x, double v)
 {
+  const double turn = pendres_model_turn(&o->pendulum);
   double dx = x - o->x;
-  dx -= two_pi * rint(dx / two_pi);
+  dx -= turn * rint(dx / turn);
   return hypot(dx, v - o->v);
 }
 
@@ -34,7 +36,9 @@ static int known(const pendres_catalogue *c, const pendres_orbit *o)
 {
   for (size_t t = 0; t < c->traps; t++) {
     const pendres_trap *at = &c->trap[t];
-    const double x = at->y + half_pi, v = at->w * o->pendulum.drive_frequency;
+    const pendres_place place = {.y = at->y, .w = at->w};
+    double x, v;
+    pendres_passage_out(&o->pendulum, &place, &x, &v);
     if (at->period == o->period && at->winding == o->winding && distance(o, x, v) < same_point)
       return 1;
   }
@@ -309,20 +313,21 @@ static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_c
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &c[s[i].set].pendulum;
-    int new = 1;
+    int new = pendres_passage_refuses(p, s[i].y, s[i].w * p->drive_frequency) == NULL;
     for (size_t j = count; j-- > 0 && set[j] == s[i].set && new;) {
-      double dx = g[j].x - half_pi - s[i].y;
-      dx -= two_pi * rint(dx / two_pi);
+      const double turn = pendres_model_turn(p);
+      double dx = g[j].x - pendres_model_origin(p) - s[i].y;
+      dx -= turn * rint(dx / turn);
       new = g[j].period != s[i].period || g[j].winding != s[i].winding ||
             hypot(dx, g[j].v - s[i].w * p->drive_frequency) > same_guess;
     }
     if (!new) continue;
     set[count] = s[i].set;
-    g[count++] = (pendres_orbit_guess){.pendulum = *p,
-                                       .x = s[i].y + half_pi,
-                                       .v = s[i].w * p->drive_frequency,
-                                       .period = s[i].period,
-                                       .winding = s[i].winding};
+    const pendres_place at = {.y = s[i].y, .w = s[i].w};
+    g[count] = (pendres_orbit_guess){
+      .pendulum = *p, .period = s[i].period, .winding = s[i].winding};
+    pendres_passage_out(p, &at, &g[count].x, &g[count].v);
+    count++;
   }
   return count;
 }
@@ -356,7 +361,7 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
   if (status == PENDRES_OK)
     *out = (pendres_scout){.set = set,
-                           .y = half_pi - x[1],
+                           .y = pendres_model_origin(&o->pendulum) - x[1],
                            .w = -v[1] / o->pendulum.drive_frequency,
                            .period = o->period,
                            .winding = -o->winding};
@@ -408,7 +413,7 @@ static pendres_status add_guesses(pendres_context *ctx, pendres_catalogue *catal
                         .done = marks, .added = marks + n};
   if (status == PENDRES_OK) status = add_orbits(ctx, catalogues, &k);
   for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-    if (k.added[i] && !orbits[i].symmetric)
+    if (k.added[i] && !orbits[i].symmetric && pendres_pendulum_symmetric(&orbits[i].pendulum))
       status = mirror_guess(ctx, set[i], &orbits[i], &mirrors[(*more)++]);
 done:
   free(g);

@@ -6,6 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/steps.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -24,12 +25,15 @@ static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   const scouting *s = arg;
   pendres_scout *me = &s->scouts[index];
   const double angle = lane->y + two_pi * (double)lane->turns;
-  const double advance = angle - s->angle[index], turns = rint(advance / two_pi);
-  const double moved = hypot(advance - two_pi * turns, lane->w - me->w);
+  const double turn = pendres_model_turn(lane->pendulum);
+  const double advance = angle - s->angle[index], turns = rint(advance / turn);
+  const double moved = hypot(advance - turn * turns, lane->w - me->w);
   s->angle[index] = angle;
   me->y = lane->y;
   me->w = lane->w;
   me->period = 1;
+  /* One on its way to infinity finds nothing: what it leaves behind is no guess. */
+  if (!isfinite(advance)) return 1;
   me->winding = (int)turns;
   return moved < at_rest || lane->period >= s->periods[me->set];
 }
@@ -60,8 +64,9 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
     lanes[i] = (pendres_strobe_lane){.pendulum = p, .y = scouts[i].y, .w = scouts[i].w};
     angle[i] = scouts[i].y;
     /* Scouts only have to come near: Newton's method does the rest. */
-    status = pendres_steps_choose(ctx, p, fabs(scouts[i].w) * p->drive_frequency, 1e-4,
-                                  &lanes[i].steps);
+    const double speed = pendres_steps_speed(p, scouts[i].y + pendres_model_origin(p),
+                                             scouts[i].w * p->drive_frequency);
+    status = pendres_steps_choose(ctx, p, speed, 1e-4, &lanes[i].steps);
   }
   scouting s = {.scouts = scouts, .angle = angle, .periods = periods};
   if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, lanes, scout_look, &s);

@@ -8,6 +8,7 @@
 #include "base/student.h"
 #include "orbits/chaos_walk.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/recurrence.h"
 #include "orbits/settle_lanes.h"
 
@@ -74,8 +75,9 @@ static void widen(pendres_cover *cover, const vigil *v)
       pendres_cover_add(cover, v->y[i * KEPT + k], v->w[i * KEPT + k]);
 }
 
-static pendres_cover *create_cover(const vigil *v)
+static pendres_cover *create_cover(const pendres_pendulum *p, const vigil *v)
 {
+  const double turn = pendres_model_turn(p);
   const double share = 1.0 / (double)(WALKERS * points_of(v));
   pendres_cover *cover = calloc(1, sizeof *cover);
   if (cover == NULL) return NULL;
@@ -83,7 +85,8 @@ static pendres_cover *create_cover(const vigil *v)
     for (size_t k = 0; k < points_of(v); k++) {
       const double y = v->y[i * KEPT + k], w = v->w[i * KEPT + k];
       cover->w_most = fmax(cover->w_most, 1.1 * fabs(w));
-      cover->mean_y += share * (y - two_pi * rint(y / two_pi));
+      cover->mean_y += share * (y - turn * rint(y / turn));
+      if (turn > two_pi) cover->span = fmax(cover->span, 2.2 * fabs(y));
       cover->mean_w += share * w;
     }
   widen(cover, v);
@@ -197,7 +200,7 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, co
       y[k] = v->y[at];
       w[k] = v->w[at];
     }
-    if (!pendres_recurrence_find((int)points, y, w, &r)) continue;
+    if (!pendres_recurrence_find((int)points, pendres_model_turn(&c->pendulum), y, w, &r)) continue;
     ++*settled;
     if (n < MOST_GUESSES)
       guesses[n++] = (pendres_scout){.y = r.y, .w = r.w, .period = r.period, .winding = r.winding};
@@ -365,7 +368,7 @@ pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, si
   if (status == PENDRES_OK && together) status = watch(ctx, c, v, verdict);
   if (status == PENDRES_OK && *verdict == PENDRES_CHAOS_NEW) {
     const pendres_chaos_measures m = measures_of(c, v);
-    pendres_cover *cover = create_cover(v);
+    pendres_cover *cover = create_cover(&c->pendulum, v);
     status = cover != NULL
                ? pendres_catalogue_add_chaos(ctx, c, &m, cover)
                : pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaos");

@@ -7,9 +7,11 @@ static const double two_pi = 6.28318530717958647693;
 
 static int cell_of(const pendres_cover *cover, double y, double w, int *row, int *column)
 {
-  const double a = y / two_pi + 0.5, b = 0.5 * (w / cover->w_most + 1.0);
+  const double span = cover->span > 0.0 ? cover->span : two_pi;
+  const double a = y / span + 0.5, b = 0.5 * (w / cover->w_most + 1.0);
   /* Neither NaN nor what no int holds. */
   if (!(isfinite(a) && b >= 0.0 && b < 1.0)) return 0;
+  if (cover->span > 0.0 && !(a >= 0.0 && a < 1.0)) return 0;
   *row = (int)floor((a - floor(a)) * PENDRES_COVER_CELLS);
   *column = (int)floor(b * PENDRES_COVER_CELLS);
   if (*row == PENDRES_COVER_CELLS) *row = 0;

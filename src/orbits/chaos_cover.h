@@ -12,6 +12,7 @@ enum { PENDRES_COVER_CELLS = 128 /* a side */ };
 typedef struct pendres_cover {
   int attractor;                 /* whose it is */
   double w_most;                 /* cells span |w| <= w_most, and all angles */
+  double span;                   /* of y, about 0; 0: a whole turn */
   double mean_y, mean_w;         /* over the attractor */
   unsigned char cell[PENDRES_COVER_CELLS][PENDRES_COVER_CELLS];
 } pendres_cover;

@@ -7,6 +7,7 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -111,7 +112,7 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
   a->y = y;
   a->w = pendres_rows_get(rows, PENDRES_ROW_W, i);
   a->sum[PENDRES_WALK_SPEED] += a->w;
-  pendres_passage_wrap(&a->y, &a->turns);
+  pendres_passage_wrap(&c->pendulum, &a->y, &a->turns);
   for (int k = 0; k < 2; k++) {
     /* Of a period that was not watched its end is all that is known. */
     a->low[k] = watched ? a->low[k] + (a->y - y) : a->y;
@@ -154,9 +155,11 @@ pendres_status pendres_walk(pendres_context *ctx, const pendres_catalogue *c, si
   pendres_block block;
   int steps = 0;
   double fastest = 0.0;
-  for (size_t i = 0; i < n; i++) fastest = fmax(fastest, fabs(a[i].w));
+  const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
+  for (size_t i = 0; i < n; i++)
+    fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
   pendres_status status = pendres_steps_choose(
-    ctx, &c->pendulum, fastest * c->pendulum.drive_frequency, accuracy, &steps);
+    ctx, &c->pendulum, fastest, accuracy, &steps);
   if (status == PENDRES_OK)
     status = pendres_block_open(ctx, PENDRES_FLOW_VARIATIONAL, steps, &block);
   if (status != PENDRES_OK) return status;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "model/model.h"
+
 static const double pi = 3.14159265358979323846;
 
 /* The drives of the paper, 0.1 and 0.2, and somewhat beyond: where an orbit alone has a name by its
@@ -46,6 +48,7 @@ size_t pendres_label_extreme(const pendres_label_states *s, int most)
 static pendres_label lone(const pendres_label_border *b, const pendres_orbit *o)
 {
   if (b == NULL) {
+    if (pendres_model_kind(&o->pendulum) != PENDRES_MODEL_PLAIN) return PENDRES_LABEL_PERIODIC;
     if (!(fabs(o->pendulum.drive_amplitude) <= strongest_by_lag)) return PENDRES_LABEL_PERIODIC;
     /* At rest there is no phase lag, and no amplitude. */
     return o->phase_lag >= pi / 3.0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA;

@@ -265,14 +265,17 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
     if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK) {
       why = pendres_passage_refuses(&g->pendulum, g->x, g->v);
       if (g->period < 1) why = "a guess needs a period of at least 1";
+      if (g->winding != 0 && pendres_model_of(g->pendulum.force)->period == 0.0)
+        why = "a coordinate without a period has no winding orbits";
     }
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
+    const double speed = pendres_steps_speed(&g->pendulum, g->x, g->v);
     const pendres_place s = pendres_passage_in(&g->pendulum, g->x, g->v);
     c[i] = (pendres_newton_candidate){.guess = g, .index = i, .y = s.y, .w = s.w};
     /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
        tell whether it was enough. */
-    const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, fabs(g->v),
+    const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, speed,
                                                        10.0 * ctx->options.tolerance, &c[i].steps);
     if (status != PENDRES_OK) return status;
   }

@@ -26,13 +26,13 @@ double pendres_orbit_error(double coarse, double fine, double sensitivity,
  * An orbit about the top has the mean pi by symmetry: which way its error points must not decide
  * to which well it belongs.
  */
-static long turns_of_mean(double mean)
+static long turns_of_mean(const pendres_pendulum *p, double mean)
 {
   static const double tie = 0.01;
   long turns = 0;
   double inside = mean;
-  pendres_passage_wrap(&inside, &turns);
-  return inside <= tie - pi ? turns - 1 : turns;
+  pendres_passage_wrap(p, &inside, &turns);
+  return inside <= tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
 }
 
 long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
@@ -42,7 +42,7 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
   const pendres_pendulum *p = &o->pendulum;
   const pendres_orbit_measures *a = coarse, *b = fine;
   const double omega = p->drive_frequency, drive = fabs(p->drive_amplitude);
-  const long turns = turns_of_mean(b->mean_angle);
+  const long turns = turns_of_mean(p, b->mean_angle);
 
   o->mean_angle = b->mean_angle - two_pi * (double)turns;
   o->loop_area = b->loop_area;
@@ -51,9 +51,16 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
   o->dissipation = b->dissipation;
   o->dissipation_error = pendres_orbit_error(
     a->dissipation, b->dissipation, 2.0 * two_pi * p->damping * omega * b->rms_speed, doubt);
-  /* What the drive gives is dissipated, so the two are known to be equal: what they differ by is
+  o->torque_work = b->torque_work;
+  o->parametric_work = b->parametric_work;
+  o->parametric_work_error = pendres_orbit_error(a->parametric_work, b->parametric_work,
+                                                 b->parametric_sensitivity, doubt);
+  /* What the drives give is dissipated, so the two are known to be equal: what they differ by is
      an error of one of them at least. */
-  const double balance = 0.5 * fabs(b->loop_area - b->dissipation);
+  const double given = b->loop_area + b->torque_work + b->parametric_work;
+  const double balance = 0.5 * fabs(given - b->dissipation);
+  if (p->parametric_amplitude != 0.0)
+    o->parametric_work_error = fmax(o->parametric_work_error, balance);
   o->loop_area_error = fmax(o->loop_area_error, balance);
   o->dissipation_error = fmax(o->dissipation_error, balance);
   o->mean_power = o->loop_area * omega / two_pi;
@@ -72,7 +79,8 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
   o->phase_lag_error =
     pendres_orbit_error(o->phase_lag + remainder(earlier - o->phase_lag, two_pi), o->phase_lag,
                         1.0 / o->first_harmonic_amplitude, doubt);
-  o->symmetric = o->winding == 0 && b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
+  o->symmetric = o->winding == 0 && pendres_pendulum_symmetric(p) &&
+                 b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
   return turns;
 }
 

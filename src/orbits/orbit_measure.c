@@ -4,7 +4,36 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/model.h"
+
 static const double two_pi = 6.28318530717958647693;
+
+/* Of everything but friction, at a drive of that cosine. */
+static double force_on(const pendres_pendulum *p, double y, double cosine)
+{
+  double force, slope;
+  pendres_model_force(p, y, &force, &slope);
+  return p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
+}
+
+/* What torque and parametric drive give a drive cycle, -b cos theta f being the latter's force. */
+static void works(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                  pendres_orbit_measures *out)
+{
+  double sum = 0.0, springs = 0.0, forces = 0.0;
+  out->torque_work = two_pi * p->torque * s->winding / s->period;
+  if (p->parametric_amplitude == 0.0) return;
+  for (size_t k = 0; k < s->n; k++) {
+    double force, slope;
+    pendres_model_force(p, s->y[k], &force, &slope);
+    sum += cos(two_pi * s->period * (double)k / (double)s->n) * force * s->w[k];
+    springs += slope * slope * s->w[k] * s->w[k];
+    forces += force * force;
+  }
+  const double cycle = two_pi * fabs(p->parametric_amplitude), n = (double)s->n;
+  out->parametric_work = -two_pi * p->parametric_amplitude * sum / n;
+  out->parametric_sensitivity = cycle * (sqrt(springs / n) + sqrt(forces / n));
+}
 
 pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
                                             const pendres_orbit_samples *s, double *work,
@@ -13,11 +42,13 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
   const size_t n = s->n;
   const double spacing = two_pi * s->period / (double)n, q = s->period;
   const double square = p->drive_frequency * p->drive_frequency;
+  const int plain = pendres_model_kind(p) == PENDRES_MODEL_PLAIN;
   double *y = work, *slope = work + n, *curvature = work + 2 * n;
 
   for (size_t k = 0; k < n; k++) {
     const double theta = spacing * (double)k;
-    const double force = p->drive_amplitude * cos(theta) - sin(s->y[k]);
+    const double force = plain ? p->drive_amplitude * cos(theta) - sin(s->y[k])
+                               : force_on(p, s->y[k], cos(theta));
     y[k] = s->y[k] - s->winding * theta / q;
     slope[k] = q * s->w[k] - s->winding;
     curvature[k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
@@ -86,6 +117,7 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
   keep_harmonics(&series, s->period, out);
   out->loop_area = 0.5 * two_pi * p->drive_amplitude * out->sine[0];
   out->dissipation = p->damping * p->drive_frequency * two_pi * square;
+  works(p, s, out);
   out->mean_angle = series.re[0];
   /* At rest rounding may put the top below the bottom. */
   out->amplitude = fmax(0.0, 0.5 * (highest - lowest));

@@ -29,6 +29,8 @@ typedef struct pendres_orbit_measures {
   double harmonics_rest;  /* bounds what harmonics beyond those add to the angle */
   double unresolved;      /* what harmonics that the samples do not tell may add to the angle */
   double rms_speed;       /* root mean square of w */
+  double torque_work, parametric_work; /* a drive cycle */
+  double parametric_sensitivity; /* of the latter, to an error of y and w along the orbit */
   double symmetry_defect; /* largest harmonic of the angle that mirror symmetry forbids */
   double spectrum[2 * PENDRES_ORBIT_SPECTRUM]; /* re, im of coefficients m >= 0 */
 } pendres_orbit_measures;

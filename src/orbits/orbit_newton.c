@@ -6,6 +6,7 @@
 
 #include "engine/context_internal.h"
 #include "engine/passage.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -24,6 +25,12 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
   if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
   return pendres_passage_refuses(&o->pendulum, o->x, o->v);
+}
+
+const char *pendres_orbit_refuses_others(const pendres_orbit *o)
+{
+  const char *why = pendres_model_refuses_others(&o->pendulum);
+  return why != NULL ? why : pendres_orbit_refuses(o);
 }
 
 void pendres_newton_tape_free(pendres_newton_tape *tape)
@@ -111,11 +118,13 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
     ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
   if (status != PENDRES_OK) return status;
 
+  const pendres_model_terms model = pendres_model_kind(&c[first].guess->pendulum);
   const int companions = tape != NULL && tape->bends ? 2 : 0;
   const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
   size_t lanes = 0;
   while (first + lanes < n && lanes < most &&
-         c[first + lanes].steps == steps && c[first + lanes].guess->period == q)
+         c[first + lanes].steps == steps && c[first + lanes].guess->period == q &&
+         pendres_model_kind(&c[first + lanes].guess->pendulum) == model)
     lanes++;
   *last = first + lanes;
 
@@ -198,6 +207,9 @@ static int in_order(const void *a, const void *b)
   const pendres_newton_candidate *p = a, *q = b;
   const int pa = p->state == PENDRES_NEWTON_ACTIVE, qa = q->state == PENDRES_NEWTON_ACTIVE;
   if (pa != qa) return pa ? -1 : 1;
+  const pendres_model_terms pm = pendres_model_kind(&p->guess->pendulum);
+  const pendres_model_terms qm = pendres_model_kind(&q->guess->pendulum);
+  if (pm != qm) return pm < qm ? -1 : 1;
   if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
   if (p->guess->period != q->guess->period)
     return p->guess->period < q->guess->period ? -1 : 1;

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-static const double two_pi = 6.28318530717958647693;
-
 enum { SHORT_PERIOD = 32, LONGEST_PERIOD = PENDRES_RECURRENCE_POINTS - 1 };
 
 /* Points that come back closer than this may be near an orbit; near one of a long period ... */
@@ -22,14 +20,15 @@ static double least(const double *distance, int first, int last)
   return closest;
 }
 
-int pendres_recurrence_find(int points, const double *y, const double *w, pendres_recurrence *out)
+int pendres_recurrence_find(int points, double turn, const double *y, const double *w,
+                            pendres_recurrence *out)
 {
   double distance[LONGEST_PERIOD + 1];
   const int now = points - 1, longest = now < LONGEST_PERIOD ? now : LONGEST_PERIOD;
   const int few = longest < SHORT_PERIOD ? longest : SHORT_PERIOD;
   for (int q = 1; q <= longest; q++) {
     const double dy = y[now] - y[now - q];
-    distance[q] = hypot(dy - two_pi * rint(dy / two_pi), w[now] - w[now - q]);
+    distance[q] = hypot(dy - turn * rint(dy / turn), w[now] - w[now - q]);
   }
   double closest = least(distance, 1, few);
   const double far = least(distance, few + 1, longest);
@@ -42,7 +41,7 @@ int pendres_recurrence_find(int points, const double *y, const double *w, pendre
   for (int q = first; q <= longest; q++) {
     if (!(distance[q] <= fmax(as_close * closest, rounding))) continue;
     *out = (pendres_recurrence){.y = y[now], .w = w[now], .period = q,
-                                .winding = (int)rint((y[now] - y[now - q]) / two_pi)};
+                                .winding = (int)rint((y[now] - y[now - q]) / turn)};
     return 1;
   }
   return 0;

@@ -19,6 +19,7 @@ typedef struct pendres_recurrence {
  * come back very closely: by chance some of so many are always close. Returns 0 if they do not
  * come near.
  */
-int pendres_recurrence_find(int points, const double *y, const double *w, pendres_recurrence *out);
+int pendres_recurrence_find(int points, double turn, const double *y, const double *w,
+                            pendres_recurrence *out);
 
 #endif

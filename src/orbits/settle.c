@@ -181,7 +181,7 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
   }
   status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    status = steps_of(ctx, p, fabs(v[i]), accuracy, table, &steps[i]);
+    status = steps_of(ctx, p, pendres_steps_speed(p, x[i], v[i]), accuracy, table, &steps[i]);
   if (status != PENDRES_OK) goto done;
   order_by_steps(n, steps, order);
   for (size_t k = 0; k < n; k++) {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/chaos.h"
 #include "orbits/recurrence.h"
 
@@ -13,7 +14,7 @@ enum {
 };
 
 /* The orbit that a history, a ring buffer, comes back to; 0 if it does not. */
-static int recurrence(const pendres_settle_history *h, pendres_scout *s)
+static int recurrence(const pendres_settle_history *h, double turn, pendres_scout *s)
 {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
   pendres_recurrence r;
@@ -23,7 +24,7 @@ static int recurrence(const pendres_settle_history *h, pendres_scout *s)
     y[k] = h->y[at];
     w[k] = h->w[at];
   }
-  if (!pendres_recurrence_find((int)points, y, w, &r)) return 0;
+  if (!pendres_recurrence_find((int)points, turn, y, w, &r)) return 0;
   s->y = r.y;
   s->w = r.w;
   s->period = r.period;
@@ -82,7 +83,8 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
     if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
     if (l->outcome[i].attractor >= 0 || l->histories[i].filled == 0) continue;
     l->guesses[n].set = l->set[i];
-    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], &l->guesses[n])) {
+    const double turn = pendres_model_turn(&catalogues[l->set[i]].pendulum);
+    if (in_set < MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
       n++;
       in_set++;
     }

@@ -58,7 +58,7 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum 
                                    double v, double accuracy, pendres_strobe_lane *lane)
 {
   *lane = pendres_strobe_lane_at(p, x, v);
-  const pendres_status status = pendres_steps_choose(ctx, p, fabs(v), accuracy, &lane->steps);
+  const pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x, v), accuracy, &lane->steps);
   if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
   return status;
 }

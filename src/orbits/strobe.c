@@ -60,7 +60,7 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
     *l = pendres_strobe_lane_at(&p[i], x[i], v[i]);
     if (!pendres_method_of(ctx)->fixed_steps) continue;
     const pendres_status status =
-      pendres_steps_choose(ctx, &p[i], fabs(v[i]),
+      pendres_steps_choose(ctx, &p[i], pendres_steps_speed(&p[i], x[i], v[i]),
                            ctx->options.tolerance / periods_that_count(&p[i], periods), &l->steps);
     if (status != PENDRES_OK) return status;
     if (refinement != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * refinement));

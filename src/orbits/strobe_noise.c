@@ -77,7 +77,9 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    rank[i] = (pendres_rank){.steps = lanes[i].steps, .index = i};
+    rank[i] = (pendres_rank){.steps = lanes[i].steps,
+                             .model = pendres_model_kind(lanes[i].pendulum),
+                             .index = i};
   pendres_rank_order(n, rank);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     pendres_block b;
@@ -85,7 +87,8 @@ pendres_status pendres_strobe_noise_run(pendres_context *ctx, size_t n,
     status = pendres_block_open(ctx, PENDRES_FLOW_VARIATIONAL, rank[first].steps, &b);
     if (status != PENDRES_OK) break;
     const size_t capacity = pendres_block_capacity(&b);
-    while (last < n && last - first < capacity && rank[last].steps == rank[first].steps) last++;
+    while (last < n && last - first < capacity && pendres_rank_equal(&rank[last], &rank[first]))
+      last++;
     pendres_block_resize(&b, last - first);
     for (long k = 0; k < periods && status == PENDRES_OK; k++)
       status = turn(&b, rank + first, lanes, sum);

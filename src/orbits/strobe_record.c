@@ -149,7 +149,7 @@ static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum 
   pendres_status status = check(ctx, &what);
   if (status == PENDRES_OK)
     /* Errors of all periods may add up. */
-    status = pendres_steps_choose(ctx, pendulum, fabs(v0),
+    status = pendres_steps_choose(ctx, pendulum, pendres_steps_speed(pendulum, x0, v0),
                                   ctx->options.tolerance / fmax(1.0, (double)periods), &steps);
   if (status != PENDRES_OK) return status;
   const int stretch = (steps + samples - 1) / samples;

@@ -7,9 +7,9 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
+#include "model/model.h"
 #include "orbits/trap_ring.h"
 
-static const double two_pi = 6.28318530717958647693;
 
 enum {
   BASE_POINTS = 12, /* of a ring that only tells whether the linear map rules */
@@ -147,7 +147,7 @@ static void point_departure(const pendres_trap_ring *r, const pendres_trap_point
   double at[2] = {p->y[0] - t->y, p->w[0] - t->w};
   linear_image(o, r->looks, at);
   const double y = p->y[r->looks] - t->y - at[0];
-  d[0] = y - two_pi * rint(y / two_pi);
+  d[0] = y - t->turn * rint(y / t->turn);
   d[1] = p->w[r->looks] - t->w - at[1];
 }
 
@@ -318,7 +318,11 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
     for (int k = 0; k < s[i].rings && status == PENDRES_OK; k++) {
       pendres_trap_ring *r = rings[count++] = &s[i].ring[k];
       r->pendulum = &orbits[s[i].orbit].pendulum;
-      status = pendres_steps_choose(ctx, r->pendulum, 0.0, ring_tolerance(r->margin), &r->steps);
+      const pendres_trap *t = r->trap;
+      const double speed = r->pendulum->force == PENDRES_FORCE_PENDULUM
+                             ? 0.0
+                             : pendres_steps_speed(r->pendulum, t->y, t->w * r->pendulum->drive_frequency);
+      status = pendres_steps_choose(ctx, r->pendulum, speed, ring_tolerance(r->margin), &r->steps);
     }
   if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, lanes);
   if (status == PENDRES_OK)
@@ -340,7 +344,8 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
     const pendres_orbit *o = &orbits[i];
     const pendres_place at = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
     traps[i] = (pendres_trap){
-      .y = at.y, .w = at.w, .period = o->period, .winding = o->winding};
+      .y = at.y, .w = at.w, .period = o->period, .winding = o->winding,
+      .turn = pendres_model_turn(&o->pendulum)};
     if (!o->stable || !metric_of(o->monodromy, o->pendulum.drive_frequency, traps[i].metric))
       continue;
     const int looks = contraction_looks(&traps[i], o);

@@ -17,15 +17,15 @@ typedef struct pendres_trap {
   double radius;    /* 0: none could be shown */
   int period;       /* of the orbit */
   int winding;
+  double turn;      /* of the coordinate: model.h */
 } pendres_trap;
 
 /* (z - centre)' P (z - centre), the angle taken modulo whole turns. */
 static inline double pendres_trap_norm2(const pendres_trap *t, double y, double w)
 {
-  const double two_pi = 6.28318530717958647693;
   double dy = y - t->y;
   const double dw = w - t->w;
-  dy -= two_pi * rint(dy / two_pi);
+  dy -= t->turn * rint(dy / t->turn);
   return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
 }
 

@@ -58,7 +58,8 @@ static void chord_of(const pendres_trap_point *a, const pendres_trap_point *b, i
                      double chord[2])
 {
   const double dy = b->y[k] - a->y[k];
-  chord[0] = dy - two_pi * rint(dy / two_pi);
+  const double turn = a->of->trap->turn;
+  chord[0] = dy - turn * rint(dy / turn);
   chord[1] = b->w[k] - a->w[k];
 }
 

@@ -214,7 +214,7 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
                                     const pendres_boundary_options *options, pendres_boundary **out)
 {
   if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
-  const char *no_orbit = pendres_orbit_refuses(saddle);
+  const char *no_orbit = pendres_orbit_refuses_others(saddle);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", no_orbit);
   *out = NULL;

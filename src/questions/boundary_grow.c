@@ -354,7 +354,7 @@ static pendres_status next_generation(pendres_context *ctx, front *f)
                                     .y = f->node[i].y,
                                     .w = -f->node[i].w,
                                     .steps = f->seed->steps};
-    pendres_passage_wrap(&lane[i].y, &lane[i].turns);
+    pendres_passage_wrap(lane[i].pendulum, &lane[i].y, &lane[i].turns);
     periods[i] = f->seed->iterates;
   }
   status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);

@@ -66,7 +66,7 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
                                   pendres_orbit *out)
 {
   if (attractor == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractor and out");
-  const char *no_orbit = pendres_orbit_refuses(attractor);
+  const char *no_orbit = pendres_orbit_refuses_others(attractor);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: %s", no_orbit);
   pendres_status status = PENDRES_NOT_FOUND;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "questions/response_members.h"
 #include "questions/small_end.h"
 
@@ -188,7 +189,7 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
     return "lines go along the drive frequency or the drive amplitude";
   if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
   for (size_t i = 0; i < n; i++) {
-    if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
+    if (pendres_model_check_plain(&p[i], &why) != PENDRES_OK) return why;
     why = pendres_response_refuses(&p[i], e);
     if (why != NULL) return why;
     if (!on_one_line(o->parameter, &p[0], p[i]))

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "questions/response_members.h"
 #include "questions/response_sampling.h"
 #include "questions/resonance_gap.h"
@@ -355,7 +356,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   for (int i = 0; i < 2 && why == NULL; i++) {
     pendres_pendulum at = *p;
     at.drive_frequency = i == 0 ? lowest : highest;
-    if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
+    if (pendres_model_check_plain(&at, &why) == PENDRES_OK)
       why = pendres_response_refuses(&at, ensemble);
   }
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);

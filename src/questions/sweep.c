@@ -140,7 +140,9 @@ static void set(pendres_quantity quantity, double value, pendres_pendulum *p, do
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v)
 {
-  if (sweep == NULL) return (pendres_pendulum){NAN, NAN, NAN, NAN};
+  if (sweep == NULL)
+    return (pendres_pendulum){.damping = NAN, .drive_amplitude = NAN, .drive_frequency = NAN,
+                              .temperature = NAN};
   pendres_pendulum p = sweep->pendulum;
   double position = sweep->x, velocity = sweep->v;
   for (size_t i = sweep->axes; i-- > 0;) {

@@ -6,12 +6,14 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "model/model.h"
+
 #include "reference/reference_taylor.h"
 
 static pendres_status check_start(const pendres_pendulum *p, long double y, long double v,
                                   long periods)
 {
-  if (pendres_pendulum_check(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
+  if (pendres_model_check_plain(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
   if (!(fabsl(y) <= 1e9L) || !isfinite(v) || periods < 0) return PENDRES_INVALID_ARGUMENT;
   return PENDRES_OK;
 }

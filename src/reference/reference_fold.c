@@ -14,6 +14,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "model/model.h"
+
 #include "reference/reference_orbit.h"
 
 /* The unknowns in their order; a fold has the first three. */
@@ -156,7 +158,7 @@ static int valid_guess(const pendres_pendulum *p, long double frequency, long do
   pendres_pendulum checked = *p;
   checked.drive_frequency = (double)frequency;
   checked.damping = (double)damping;
-  return pendres_pendulum_check(&checked, NULL) == PENDRES_OK;
+  return pendres_model_check_plain(&checked, NULL) == PENDRES_OK;
 }
 
 pendres_status pendres_reference_fold(const pendres_pendulum *p, long double frequency,

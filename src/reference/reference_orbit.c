@@ -13,6 +13,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "model/model.h"
+
 int pendres_reference_orbit_solve(int n, long double a[][4], long double b[])
 {
   for (int i = 0; i < n; i++) {
@@ -227,7 +229,7 @@ static pendres_status close_and_measure(pendres_reference_target *target,
 pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y, long double v,
                                        long period, long winding, pendres_reference_cycle *out)
 {
-  if (out == NULL || pendres_pendulum_check(p, NULL) != PENDRES_OK || period < 1 ||
+  if (out == NULL || pendres_model_check_plain(p, NULL) != PENDRES_OK || period < 1 ||
       !(fabsl(y) <= 1e9L) || !isfinite(v))
     return PENDRES_INVALID_ARGUMENT;
   pendres_reference_target target = {
@@ -261,9 +263,9 @@ pendres_status pendres_reference_resonance(const pendres_pendulum *p, long doubl
                                            pendres_reference_cycle *out)
 {
   enum { MOST = 200 };
-  pendres_pendulum checked = p != NULL ? *p : (pendres_pendulum){ 0.0, 0.0, 0.0, 0.0 };
+  pendres_pendulum checked = p != NULL ? *p : (pendres_pendulum){ .damping = 0.0 };
   checked.drive_frequency = (double)frequency;
-  if (p == NULL || out == NULL || pendres_pendulum_check(&checked, NULL) != PENDRES_OK ||
+  if (p == NULL || out == NULL || pendres_model_check_plain(&checked, NULL) != PENDRES_OK ||
       !(fabsl(y) <= 1e9L) || !isfinite(v))
     return PENDRES_INVALID_ARGUMENT;
   pendres_reference_target target = { { p->damping, p->drive_amplitude, frequency }, y, v, 1, 0,

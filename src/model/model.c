@@ -1,0 +1,127 @@
+/* model.c -- what follows from a pendulum's force; see model.h and pendulum.h. */
+#include "model/model.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double half_pi = 1.57079632679489661923;
+static const double two_pi = 6.28318530717958647693;
+
+static const pendres_model models[PENDRES_FORCE_COUNT] = {
+  [PENDRES_FORCE_PENDULUM] = {.name = "pendulum",
+                              .period = 6.28318530717958647693,
+                              .origin = 1.57079632679489661923},
+  [PENDRES_FORCE_POLYNOMIAL] = {.name = "polynomial",
+                                .coefficients = PENDRES_FORCE_COEFFICIENTS,
+                                .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}}};
+
+const pendres_model *pendres_model_of(pendres_force force)
+{
+  return (unsigned)force < PENDRES_FORCE_COUNT ? &models[force] : NULL;
+}
+
+pendres_model_terms pendres_model_kind(const pendres_pendulum *p)
+{
+  if (p->force == PENDRES_FORCE_POLYNOMIAL) return PENDRES_MODEL_POLYNOMIAL;
+  return p->torque != 0.0 || p->parametric_amplitude != 0.0 ? PENDRES_MODEL_PENDULUM
+                                                            : PENDRES_MODEL_PLAIN;
+}
+
+const char *pendres_model_check(const pendres_pendulum *p)
+{
+  if (!isfinite(p->torque)) return "the torque must be finite";
+  if (!isfinite(p->parametric_amplitude)) return "the parametric amplitude must be finite";
+  if ((unsigned)p->force >= PENDRES_FORCE_COUNT) return "the force is of no kind that there is";
+  const int used = models[p->force].coefficients;
+  int any = 0;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) {
+    const double a = p->force_coefficients[i];
+    if (!isfinite(a)) return "coefficients of the force must be finite";
+    if (i >= used && a != 0.0) return "this force has no such coefficients: leave them at zero";
+    any |= a != 0.0;
+  }
+  if (used > 0 && !any) return "a polynomial force needs a coefficient that is not zero";
+  return NULL;
+}
+
+int pendres_pendulum_symmetric(const pendres_pendulum *p)
+{
+  if (p == NULL || p->torque != 0.0 || p->parametric_amplitude != 0.0) return 0;
+  return p->force == PENDRES_FORCE_PENDULUM ||
+         (p->force_coefficients[1] == 0.0 && p->force_coefficients[3] == 0.0);
+}
+
+void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope)
+{
+  if (p->force == PENDRES_FORCE_PENDULUM) {
+    *force = sin(y);
+    *slope = cos(y);
+    return;
+  }
+  const double *a = p->force_coefficients;
+  double sum = a[PENDRES_FORCE_COEFFICIENTS - 1], by = 0.0;
+  for (int i = PENDRES_FORCE_COEFFICIENTS - 2; i >= 0; i--) {
+    by = fma(by, y, sum);
+    sum = fma(sum, y, a[i]);
+  }
+  *force = sum * y;
+  *slope = fma(by, y, sum);
+}
+
+double pendres_pendulum_potential(const pendres_pendulum *p, double x)
+{
+  if (p == NULL) return NAN;
+  if (p->force == PENDRES_FORCE_PENDULUM) return -sin(x) - p->torque * x;
+  double sum = 0.0;
+  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+    sum = fma(sum, x, p->force_coefficients[i] / (i + 2));
+  return x * fma(sum, x, -p->torque);
+}
+
+double pendres_model_turn(const pendres_pendulum *p)
+{
+  return p->force == PENDRES_FORCE_PENDULUM ? two_pi : 0x1p1000;
+}
+
+double pendres_model_origin(const pendres_pendulum *p)
+{
+  return p->force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0;
+}
+
+double pendres_model_scale(const pendres_pendulum *p)
+{
+  double scale = 0.0;
+  if (p->force == PENDRES_FORCE_PENDULUM) return 1.0;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    for (int j = i + 1; j < PENDRES_FORCE_COEFFICIENTS; j++) {
+      const double low = fabs(p->force_coefficients[i]), high = fabs(p->force_coefficients[j]);
+      if (low > 0.0 && high > 0.0) scale = fmax(scale, pow(low / high, 1.0 / (j - i)));
+    }
+  return scale > 0.0 ? scale : 1.0;
+}
+
+int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
+{
+  int same = a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&
+             a->drive_frequency == b->drive_frequency && a->torque == b->torque &&
+             a->parametric_amplitude == b->parametric_amplitude && a->force == b->force;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    same = same && a->force_coefficients[i] == b->force_coefficients[i];
+  return same;
+}
+
+const char *pendres_model_refuses_others(const pendres_pendulum *p)
+{
+  const char *why = NULL;
+  if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
+  if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN) return NULL;
+  return "only the pendulum without torque and parametric drive is served here so far";
+}
+
+pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why)
+{
+  const char *reason = pendres_model_refuses_others(p);
+  if (reason == NULL) return PENDRES_OK;
+  if (why != NULL) *why = reason;
+  return PENDRES_INVALID_ARGUMENT;
+}

@@ -1,0 +1,49 @@
+/*
+ * model.h -- what follows from a pendulum's force: asked of the model, never assumed.
+ *
+ * y = x - origin is the angle that the engine works with: from the bottom of the well of a plain
+ * pendulum, x itself of a polynomial.
+ */
+#ifndef PENDRES_MODEL_H
+#define PENDRES_MODEL_H
+
+#include <pendres/pendulum.h>
+
+/* Which terms a pendulum has, and so which kernels it needs. */
+typedef enum pendres_model_terms {
+  PENDRES_MODEL_PLAIN,     /* the pendulum without torque or parametric drive */
+  PENDRES_MODEL_PENDULUM,  /* with one of them */
+  PENDRES_MODEL_POLYNOMIAL /* a polynomial force, with or without */
+} pendres_model_terms;
+
+pendres_model_terms pendres_model_kind(const pendres_pendulum *p);
+
+/* NULL, or what is wrong with the parameters that not every pendulum has: a static sentence. */
+const char *pendres_model_check(const pendres_pendulum *p);
+
+/* f at y, without parametric drive, and its derivative. */
+void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope);
+
+/*
+ * A turn: what y and y + turn have in common is everything. Where the coordinate has no period this
+ * is so much that y never is a part of it, so that y - turn rint(y / turn) is y.
+ */
+double pendres_model_turn(const pendres_pendulum *p);
+
+/* Where y is counted from. */
+double pendres_model_origin(const pendres_pendulum *p);
+
+/* A length of the force: half the distance of the barriers over pi; of a polynomial the largest
+   length at which two of its terms are alike, 1 if it has one alone. */
+double pendres_model_scale(const pendres_pendulum *p);
+
+/* Whether two pendulums have the same parameters, but for the temperature. */
+int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
+
+/* As pendres_pendulum_check where only the plain pendulum is served, NULL instead of the sentence if
+   all is well. */
+const char *pendres_model_refuses_others(const pendres_pendulum *p);
+/* The same with a status, as its model. */
+pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why);
+
+#endif
