@@ -90,8 +90,8 @@ typedef struct pendres_store_spec {
   int flag_count;                   /**< int8 only: number of labels */
   const int8_t *flag_values;        /**< their codes; default 0, 1, 2, ... */
   const char *const *flag_meanings; /**< their names, without blanks; required with flag_count */
-  int flag_bits;           /**< nonzero: labels are sums of flag_values, each of them a bit, or 0 for
-                                none of them; flag_masks then stands beside them (CF, 3.5) */
+  int flag_bits;           /**< nonzero: labels are sums of flag_values, each of them a bit, or 0
+                                for none of them; flag_masks then stands beside them (CF, 3.5) */
   int deflate;             /**< compression 1 to 9, default 4; -1 for none. Arrays of less than
                                 4 KiB, and strings, are never compressed */
   size_t chunk_rows;       /**< rows a chunk; default one, or as many as make 64 KiB; a chunk
