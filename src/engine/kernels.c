@@ -31,10 +31,17 @@ PENDRES_VECTOR_INLINE void copy_vectors(int count, const double *from, double *t
   PENDRES_VECTOR_EACH pendres_vector_store(to + v * LANES, pendres_vector_load(from + v * LANES));
 }
 
+/*
+ * Sums that are in registers at once: the rows of 8 lanes with derivatives are so many vectors with
+ * AVX2, two and four times as many with 2 lanes to a vector, half as many with AVX-512. Fewer at a
+ * time wait for each other.
+ */
+enum { SUMMED = 12 };
+
 /* Sums of `count` vectors from `at` on, all in registers at once. */
 PENDRES_VECTOR_INLINE void sum_vectors(int count, const pendres_sum *q, size_t at)
 {
-  vec sum[2 * GROUP];
+  vec sum[SUMMED];
   const double *p = pendres_vector_address(q->term[0].x, at);
   vec f = pendres_vector_set(q->term[0].c);
   PENDRES_VECTOR_EACH sum[v] = f * pendres_vector_load(p + v * LANES);
@@ -49,7 +56,8 @@ PENDRES_VECTOR_INLINE void sum_vectors(int count, const pendres_sum *q, size_t a
 static void sum(const pendres_sum *q, size_t at, size_t n)
 {
   const size_t end = at + n;
-  for (; at + 8 * LANES <= end; at += 8 * LANES) sum_vectors(8, q, at);
+  for (; at + SUMMED * LANES <= end; at += SUMMED * LANES) sum_vectors(SUMMED, q, at);
+  for (; at + 4 * LANES <= end; at += 4 * LANES) sum_vectors(4, q, at);
   for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
 }
 
