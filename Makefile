@@ -18,7 +18,7 @@
 #   make clean
 #
 # Yours to set: CC CFLAGS CPPFLAGS LDFLAGS PREFIX DESTDIR SUNDIALS_DIR HDF5_DIR GSL_DIR BUILD,
-# WERROR=1 (warnings are errors), SANITIZE=address,undefined (in a build directory of its own).
+# MPI=1 (the program runs under mpirun; make deps-mpi), WERROR=1 (warnings are errors), SANITIZE=address,undefined (in a build directory of its own).
 #
 # Conventions:
 # - src/*/*.c make the library. src/*/kernels*.c are compiled once for each instruction set, with
@@ -79,7 +79,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-plots deps-python clean uninstall doc style help,$(GOALS))
+BUILDING := $(filter-out deps deps-mpi deps-plots deps-python clean uninstall doc style help,$(GOALS))
 
 ifneq ($(BUILDING),)
 have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
@@ -103,6 +103,15 @@ else ifneq ($(and $(SUNDIALS_CORE),$(filter mpi=1,$(SUNDIALS_FACTS))),)
 MPI_PC := $(firstword $(foreach p,mpi-c ompi-c mpich mpi,$(if $(call have,$(p)),$(p))))
 MPI_CFLAGS := $(if $(MPI_PC),$(call cflags_of,$(MPI_PC)),$(shell mpicc --showme:compile))
 MPI_LIBS := $(if $(MPI_PC),$(call libs_of,$(MPI_PC)),$(shell mpicc --showme:link))
+endif
+# The program over MPI, `make MPI=1`: the library itself knows nothing of it.
+ifneq ($(filter-out 0,$(MPI))$(filter %/resonance-mpi,$(GOALS)),)
+RANKS_PC := $(firstword $(foreach p,mpi-c ompi-c mpich mpi,$(if $(call have,$(p)),$(p))))
+RANKS_CFLAGS := $(if $(RANKS_PC),$(call cflags_of,$(RANKS_PC)),$(shell mpicc --showme:compile))
+RANKS_LIBS := $(if $(RANKS_PC),$(call libs_of,$(RANKS_PC)),$(shell mpicc --showme:link))
+ifeq ($(RANKS_LIBS),)
+$(error MPI=1, and no MPI was found: run `make deps-mpi`)
+endif
 endif
 SUNDIALS_LIBS := $(if $(SUNDIALS_DIR),$(call folder_libs,$(SUNDIALS_DIR))) \
                  -lsundials_arkode -lsundials_cvode -lsundials_nvecserial \
@@ -135,7 +144,7 @@ endif
 SETS := base $(if $(X86_64),avx2 avx512)
 LIBS = $(SUNDIALS_LIBS) $(MPI_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
 # The program alone keeps journals, with checksums of zlib, which HDF5 asks for anyway.
-DRIVER_LIBS = $(LIBS) -lz
+DRIVER_LIBS = $(LIBS) $(if $(filter-out 0,$(MPI)),$(RANKS_LIBS)) -lz
 ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(MPI_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
 LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
@@ -143,7 +152,10 @@ LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 
 KERNEL_SOURCES := $(wildcard src/*/kernels*.c)
 LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c))
-DRIVER_SOURCES := $(filter-out drivers/main.c,$(wildcard drivers/*.c drivers/*/*.c))
+# One of these is the program's: drivers/farm/ranks.h.
+RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)
+OTHER_RANKS := $(filter-out %_$(RANKS).c,$(wildcard drivers/farm/ranks_*.c))
+DRIVER_SOURCES := $(filter-out drivers/main.c $(OTHER_RANKS),$(wildcard drivers/*.c drivers/*/*.c))
 HEADERS := $(wildcard include/pendres/*.h)
 OBJ := $(BUILD)/obj
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(OBJ)/%.o) \
@@ -167,8 +179,8 @@ ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-plots deps-python doc decks-reference \
-        style figures clean \
+.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-mpi \
+        deps-plots deps-python doc decks-reference style figures clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -195,7 +207,7 @@ $(OBJ)/src/%.o: src/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc)
 
 $(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
-	$(call COMPILE,-Idrivers $(THREADS))
+	$(call COMPILE,-Idrivers $(THREADS) $(RANKS_CFLAGS))
 
 $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP) $(TERSE))
@@ -231,6 +243,12 @@ $(PROGRAM): $(OBJ)/drivers/main.o $(DRIVER) $(STATIC)
 	@echo "  LD  $@"
 	@$(LINK) $(THREADS) -o $@ $^ $(DRIVER_LIBS)
 endif
+
+# For a test, beside the program without MPI: the archive's own ranks are passed over.
+$(BUILD)/resonance-mpi: $(OBJ)/drivers/main.o drivers/farm/ranks_mpi.c $(DRIVER) $(STATIC)
+	@echo "  LD  $@"
+	@$(LINK) $(ALL_CPPFLAGS) -Idrivers $(RANKS_CFLAGS) $(NEEDED) $(THREADS) -o $@ $^ $(DRIVER_LIBS) \
+	  $(RANKS_LIBS)
 
 # ---- Tests and benchmarks --------------------------------------------------------------------
 
@@ -368,11 +386,15 @@ endif
 
 PACKAGES := gcc make pkg-config libc6-dev libsundials-dev libhdf5-dev libgsl-dev libcmocka-dev \
             librandom123-dev zlib1g-dev
+MPI_PACKAGES := openmpi-bin libopenmpi-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
 PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
 
 deps:
 	@.ci/packages $(PACKAGES)
+
+deps-mpi:
+	@.ci/packages $(MPI_PACKAGES)
 
 deps-plots:
 	@.ci/packages $(PLOT_PACKAGES)

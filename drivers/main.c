@@ -12,12 +12,14 @@
 #include <unistd.h>
 
 #include "ending.h"
+#include "farm/ranks.h"
 #include "deck/deck_explain.h"
 #include "files.h"
 #include "options.h"
 #include "provenance.h"
 #include "resume.h"
 #include "shard.h"
+#include "together.h"
 #include "terminal/safe_text.h"
 #include "scenes/scene.h"
 #include "terminal/signals.h"
@@ -29,6 +31,7 @@ typedef struct job {
   options options;
   progress progress;
   deck *decks;     /* as many as there are names; those that had their turn are empty */
+  size_t turn;     /* of decks */
   int watched;     /* nonzero: ending_watch() was called */
 
   /* Of the deck whose turn it is. */
@@ -126,6 +129,13 @@ static int read_decks(job *j)
   return code;
 }
 
+/* Another rank than 0 gets them from there. */
+static int await_decks(job *j)
+{
+  j->decks = calloc(j->options.deck_count, sizeof *j->decks);
+  return j->decks != NULL ? DONE : FAILED;
+}
+
 static int find_scene(job *j)
 {
   j->scene = scene_find(j->deck.kind);
@@ -185,6 +195,7 @@ static int start_farm(job *j)
   const farm_options options = { .library = j->precision,
                                  .threads = j->options.threads,
                                  .stop = signals_stop,
+                                 .run = ++j->turn,
                                  .progress = &j->progress };
   if (farm_create(&options, &j->farm) == PENDRES_OK) return DONE;
   progress_error(&j->progress, "out of memory for threads");
@@ -212,6 +223,7 @@ static int open_output(job *j)
   char output[DECK_PATH + SHARD_NAME], suffix[SHARD_NAME] = "";
   if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
   snprintf(output, sizeof output, "%s%s", d->output, suffix);
+  if (together_helping()) together_output(output, sizeof output);
   if (pendres_store_create(output, &options, &j->run.store) != PENDRES_OK) {
     progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
     return FAILED;
@@ -260,6 +272,7 @@ static int compute(job *j)
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
   tell_method(j);
   pendres_status status = j->scene->run(&j->run);
+  farm_dismiss(j->farm);
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
   if (status == PENDRES_INTERRUPTED) {
@@ -380,10 +393,12 @@ static int run_deck(job *j)
   if (code == DONE) code = start_farm(j);                            /* 4 threads */
   if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return dry_run(j);
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
-  if (code == DONE) code = open_log(j);                              /* 6 the log */
+  if (code == DONE && !together_helping()) code = open_log(j);       /* 6 the log */
   if (code == DONE) code = open_output(j);                           /* 7 the file */
-  if (code == DONE) code = open_journal(j);                          /* 8 what is done already */
+  if (code == DONE && !together_helping()) code = open_journal(j);   /* 8 what is done already */
+  code = together_agree(code);
   if (code == DONE) code = compute(j);                               /* 9 all the work */
+  if (together_helping()) return DONE;
   if (code == DONE && j->options.shards > 0) return leave_part(j);
   if (code == DONE) code = finish_output(j);                         /* 10 whole, in its place */
   if (code == FAILED) tell_kept(j);
@@ -405,8 +420,11 @@ static int worse(int one, int other)
 static int run_decks(void *arg)
 {
   job *j = arg;
-  int code = read_decks(j);                                          /* 2 the decks */
+  int code = together_helping() ? await_decks(j) : read_decks(j);    /* 2 the decks */
+  code = together_agree(code);
   if (code != DONE) return code;
+  for (size_t i = 0; i < j->options.deck_count; i++)
+    if (!together_deck(&j->decks[i])) return FAILED;
   for (size_t i = 0; i < j->options.deck_count && code != STOPPED; i++) {
     if (i > 0) let_go(j);
     j->deck = j->decks[i];
@@ -416,10 +434,9 @@ static int run_decks(void *arg)
   return code;
 }
 
-int main(int argc, char **argv)
+static int run_program(int argc, char **argv)
 {
   job j = { 0 };
-  if (hold_streams() != DONE) return FAILED;
   int code = options_parse(argc, argv, &j.options);                  /* 1 the command line */
   if (code != DONE) return code;
   if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);
@@ -430,5 +447,20 @@ int main(int argc, char **argv)
   ending_told(code);
   let_go_all(&j);
   ending_done();
+  return code;
+}
+
+int main(int argc, char **argv)
+{
+  char words[RANKS_WORDS];
+  if (hold_streams() != DONE) return FAILED;
+  if (!ranks_start(&argc, &argv, words)) {
+    fprintf(stderr, "resonance: error: %s\n", words);
+    ranks_end();
+    return FAILED;
+  }
+  if (together_helping()) together_silence();
+  const int code = together_agree(run_program(argc, argv)); /* nobody ends before rank 0 */
+  ranks_end();
   return code;
 }

@@ -1,16 +1,11 @@
 /* crew.c -- the tasks of a stage on threads; see farm.h. */
-#include "farm/farm_internal.h"
+#include "farm/crew_internal.h"
 
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A record that waits for its turn to be collected. */
-typedef struct kept {
-  void *data;
-  size_t size;
-} kept;
+#include "farm/deal.h"
 
 /* Whether a task's record is there: in memory; in the journal alone, from this run or from an
    earlier one; or another shard's to compute. */
@@ -18,26 +13,6 @@ enum { NOT_DONE, DONE, KEPT, JOURNALED, OTHERS };
 
 /* Bytes of records that wait in memory for their turn, where the journal holds them as well. */
 enum { MOST_WAITING = 64 << 20 };
-
-/* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
-typedef struct crew {
-  farm *farm;
-  const farm_stage *stage;
-  size_t number;        /* of the stage */
-  journal *journal;     /* of the stage's records; NULL: none */
-  int hired;            /* threads that work; those with higher numbers go home */
-  pthread_mutex_t lock;
-  size_t next;          /* not yet taken */
-  size_t finished;
-  size_t waiting;       /* bytes of records in memory */
-  size_t others;        /* tasks that are left to other shards */
-  size_t collected;     /* tasks 0 .. collected-1 */
-  int collecting;       /* a thread is at it */
-  char *done;           /* NOT_DONE, ... */
-  kept *record;         /* of tasks that are done and not yet collected */
-  atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
-  pendres_status status;
-} crew;
 
 /* A thread at a task, for the question whether to go on with it. */
 typedef struct worker {
@@ -49,7 +24,8 @@ typedef struct worker {
 static int worker_stop(void *arg)
 {
   const worker *w = arg;
-  return farm_stop(w->crew->farm) || w->task > atomic_load(&w->crew->limit);
+  const crew *c = w->crew;
+  return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted);
 }
 
 /* What a context has spent outside of tasks goes to the farm's sum: the next is a task's. */
@@ -72,7 +48,7 @@ static void fail(crew *c, size_t task, pendres_status status, const char *messag
            message[0] != '\0' ? message : pendres_status_message(status));
 }
 
-static int take(crew *c, size_t *task)
+int crew_take(crew *c, size_t *task)
 {
   pthread_mutex_lock(&c->lock);
   while (c->next < c->stage->tasks && c->done[c->next] != NOT_DONE) c->next++;
@@ -100,6 +76,7 @@ static pendres_status collect_next(crew *c)
     if (status != PENDRES_OK) return status;
     if (c->done[c->collected] == JOURNALED) farm_spend(c->farm, &record.cost);
   }
+  deal_share(c, c->collected, &record);
   if (c->stage->collect != NULL) status = c->stage->collect(c->stage->arg, c->collected, &record);
   free(record.data);
   *k = (kept){ 0 };
@@ -159,8 +136,14 @@ static void collect_ready(crew *c)
   pthread_mutex_unlock(&c->lock);
 }
 
-/* Note a task's end. */
-static void finish(crew *c, size_t task, pendres_status status, farm_record *record)
+void crew_fail(crew *c, size_t task, pendres_status status, const char *message)
+{
+  pthread_mutex_lock(&c->lock);
+  fail(c, task, status, message);
+  pthread_mutex_unlock(&c->lock);
+}
+
+void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record)
 {
   const int on_disk = status == PENDRES_OK && keep(c, task, record, &status);
   pthread_mutex_lock(&c->lock);
@@ -190,11 +173,11 @@ static void work(crew *c, int thread)
 {
   pendres_context *ctx = NULL;
   worker w = { .crew = c };
-  while (take(c, &w.task)) {
+  while (deal_take(c, thread, &w.task)) {
     farm_record record = { 0 };
     pendres_status status = farm_context_of(c->farm, thread, &ctx);
     if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
-    finish(c, w.task, status, &record);
+    deal_finish(c, w.task, status, &record);
     free(record.data);
   }
   if (ctx != NULL) pendres_context_set_interrupt(ctx, farm_stopped, c->farm);
@@ -275,6 +258,7 @@ static pendres_status check_complete(crew *c)
 static pendres_status outcome(crew *c)
 {
   farm *f = c->farm;
+  if (atomic_load(&c->ended)) return deal_outcome(c);
   if (c->status != PENDRES_OK || c->collected == c->stage->tasks) return c->status;
   f->left = c->others > 0 && c->finished + c->others == c->stage->tasks;
   snprintf(f->message, sizeof f->message, "interrupted after %zu of %zu %s", c->finished,
@@ -330,10 +314,14 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
   pendres_status status = check_complete(&c);
   if (status == PENDRES_OK) {
     progress_start(f->options.progress, stage->what, stage->tasks - c.others, c.finished);
-    collect_ready(&c);
-    work_together(&c, threads, hands);
+    status = deal_begin(&c);
+    if (status == PENDRES_OK) {
+      collect_ready(&c);
+      work_together(&c, threads, hands);
+      deal_end(&c);
+      status = outcome(&c);
+    }
     progress_end(f->options.progress);
-    status = outcome(&c);
   }
   crew_free(&c);
   free(hands);

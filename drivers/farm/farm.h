@@ -30,6 +30,7 @@ typedef struct farm_options {
   int (*stop)(void *arg);  /* asked now and then; nonzero: stop. May be NULL */
   void *stop_arg;
   progress *progress;      /* told of finished tasks; may be NULL. Not owned */
+  size_t run;              /* the same number in all ranks, another for each farm of a rank */
 } farm_options;
 
 /* On failure *out is NULL. */
@@ -52,6 +53,7 @@ typedef struct farm_stage {
   const char *what;      /* names the tasks in the progress line, e.g. "dampings" */
   size_t tasks;
   size_t record_size;    /* bytes */
+  int last;              /* nothing that the run computes after it reads its records */
   int cheap;             /* so little to do that every shard does all of it */
   int timed;             /* tasks look at the clock: one at a time, so that each is alone */
   farm_task *task;
@@ -87,6 +89,9 @@ typedef struct farm_share {
  */
 void farm_set_share(farm *f, farm_share share);
 int farm_left(const farm *f);
+
+/* Rank 0 goes on alone, or not at all: the others leave the stage that they are in. */
+void farm_dismiss(farm *f);
 
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there

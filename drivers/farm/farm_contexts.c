@@ -34,6 +34,7 @@ pendres_status farm_create(const farm_options *options, farm **out)
   *out = NULL;
   if (f == NULL) return PENDRES_OUT_OF_MEMORY;
   f->options = *options;
+  f->run = options->run;
   f->threads = options->threads > 0 ? options->threads : processors();
   f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
   if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {

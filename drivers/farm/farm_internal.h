@@ -17,7 +17,7 @@ struct farm {
   journal *journal;          /* NULL: none */
   farm_share share;
   int left;                  /* a stage was left to other shards */
-  size_t stages;             /* that were run */
+  size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];
 };
 

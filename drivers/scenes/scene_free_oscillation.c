@@ -138,7 +138,7 @@ static pendres_status run(scene_run *r)
     return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
   }
 
-  status = scene_compute(r, &(farm_stage){ .what = "blocks of amplitudes",
+  status = scene_compute(r, &(farm_stage){ .what = "blocks of amplitudes", .last = 1,
                                            .tasks = (n + CHUNK - 1) / CHUNK, .task = integrate,
                                            .record_size = sizeof(record), .collect = collect,
                                            .arg = &w });

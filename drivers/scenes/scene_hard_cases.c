@@ -168,7 +168,7 @@ static pendres_status run_scene(scene_run *run)
   if (status != PENDRES_OK)
     (void)scene_fail(run, status, "%s", pendres_status_message(status));
   else
-    status = scene_compute(run, &(farm_stage){ .what = "cases", .tasks = w.count,
+    status = scene_compute(run, &(farm_stage){ .what = "cases", .last = 1, .tasks = w.count,
                                                .task = run_case, .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = report(run, &w);
   free(w.row);

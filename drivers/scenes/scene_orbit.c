@@ -366,7 +366,7 @@ static pendres_status run_scene(scene_run *run)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", w.points);
   place_samples(&w, memory);
   pendres_status status =
-    scene_compute(run, &(farm_stage){ .what = "orbits", .tasks = 1, .task = compute,
+    scene_compute(run, &(farm_stage){ .what = "orbits", .last = 1, .tasks = 1, .task = compute,
                                       .record_size = sizeof(found) + bytes, .collect = collect,
                                       .arg = &w });
   if (status == PENDRES_OK) status = write_all(run, &w);

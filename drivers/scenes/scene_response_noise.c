@@ -194,7 +194,7 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
     free(w.points);
     return scene_fail(run, status, "out of memory for %zu points", n);
   }
-  status = scene_compute(run, &(farm_stage){ .what = "points with noise", .tasks = n,
+  status = scene_compute(run, &(farm_stage){ .what = "points with noise", .last = 1, .tasks = n,
                                              .task = compute, .record_size = sizeof(point),
                                              .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = write_results(run, &w);

@@ -205,7 +205,7 @@ static pendres_status compute(scene_run *run, work *w)
                                       .arg = w });
   w->survey.steps_per_period = steps_of(w);
   if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "chunks", .task = count,
+    status = scene_compute(run, &(farm_stage){ .what = "chunks", .last = 1, .task = count,
                                                .tasks = w->temperatures * w->parts,
                                                .record_size = sizeof(part),
                                                .collect = collect_part, .arg = w });

@@ -1,0 +1,52 @@
+/*
+ * crew_internal.h -- the tasks of a stage while they are computed, on threads and on other ranks:
+ * crew.c knows which are done, deal.c hands them to other ranks.
+ */
+#ifndef CREW_INTERNAL_H
+#define CREW_INTERNAL_H
+
+#include <stdatomic.h>
+
+#include "farm/farm_internal.h"
+
+/* A record that waits for its turn to be collected. */
+typedef struct kept {
+  void *data;
+  size_t size;
+} kept;
+
+/* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
+typedef struct crew {
+  farm *farm;
+  const farm_stage *stage;
+  size_t number;        /* of the stage */
+  journal *journal;     /* of the stage's records; NULL: none */
+  int hired;            /* threads that work; those with higher numbers go home */
+  pthread_mutex_t lock;
+  size_t next;          /* not yet taken */
+  size_t finished;
+  size_t waiting;       /* bytes of records in memory */
+  size_t others;        /* tasks that are left to other shards */
+  size_t collected;     /* tasks 0 .. collected-1 */
+  int collecting;       /* a thread is at it */
+  char *done;           /* NOT_DONE, ... */
+  kept *record;         /* of tasks that are done and not yet collected */
+  atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
+  pendres_status status;
+  /* deal.c's: */
+  pthread_t server;
+  atomic_int idle;      /* of rank 0: its own threads have no more to do */
+  atomic_int halted;    /* of another rank: rank 0 wants no more of it */
+  atomic_int ended;     /* of another rank: rank 0 has told how the stage ended */
+} crew;
+
+/* The next task that nobody has; 0: there is none. */
+int crew_take(crew *c, size_t *task);
+
+/* Note a task's end; takes over the record's data. */
+void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record);
+
+/* Note a failure: the first, in the order of tasks, is that of the stage. */
+void crew_fail(crew *c, size_t task, pendres_status status, const char *message);
+
+#endif

@@ -1,0 +1,260 @@
+/* deal.c -- tasks dealt to the ranks of a run; see deal.h. */
+#define _POSIX_C_SOURCE 200809L /* nanosleep */
+#include "farm/deal.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "farm/ranks.h"
+
+/* Tags: to rank 0, from rank 0 to all threads of a rank, and to thread number t of a rank. */
+enum { TO_ROOT, TO_ALL, TO_THREAD };
+
+typedef enum kind {
+  ASK,    /* for a task */
+  RESULT, /* of a task: its record follows, and the words of a failure */
+  TASK,   /* to be computed */
+  NONE,   /* there is none any more */
+  SHARE,  /* a record that all ranks collect follows */
+  HALT,   /* no more is wanted of the stage */
+  END,    /* of the stage, with its status */
+  QUIT    /* of the run */
+} kind;
+
+/* What stands before the data of every parcel. */
+typedef struct note {
+  int32_t kind, thread, status, unused;
+  uint64_t run, stage, task, size;
+  pendres_cost cost;
+  char message[512];
+} note;
+
+static void nap(void)
+{
+  const struct timespec t = { 0, 200000 };
+  (void)nanosleep(&t, NULL);
+}
+
+static note note_of(const crew *c, kind what)
+{
+  return (note){ .kind = (int32_t)what, .run = c->farm->run, .stage = c->number };
+}
+
+static int is_of(const crew *c, const note *n)
+{
+  return n->run == c->farm->run && n->stage == c->number;
+}
+
+/* A note and what follows it, in one parcel. */
+static int send_note(int to, int tag, const note *n, const void *data)
+{
+  if (n->size == 0 || data == NULL) return ranks_send(to, tag, n, sizeof *n);
+  char *bytes = malloc(sizeof *n + (size_t)n->size);
+  if (bytes == NULL) return 0;
+  memcpy(bytes, n, sizeof *n);
+  memcpy(bytes + sizeof *n, data, (size_t)n->size);
+  const int sent = ranks_send(to, tag, bytes, sizeof *n + (size_t)n->size);
+  free(bytes);
+  return sent;
+}
+
+static void send_to_others(const note *n, const void *data)
+{
+  for (int r = 1; r < ranks_count(); r++) (void)send_note(r, TO_ALL, n, data);
+}
+
+/* ---- rank 0 -------------------------------------------------------------------------------- */
+
+/* A record that came from another rank. */
+static void take_result(crew *c, const note *n, const char *data)
+{
+  farm_record record = { .cost = n->cost };
+  pendres_status status = (pendres_status)n->status;
+  snprintf(record.message, sizeof record.message, "%s", n->message);
+  if (status == PENDRES_OK && farm_record_resize(&record, (size_t)n->size) == NULL)
+    status = PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) memcpy(record.data, data, (size_t)n->size);
+  farm_spend(c->farm, &n->cost);
+  crew_finish(c, (size_t)n->task, status, &record);
+  free(record.data);
+}
+
+/* Answer one parcel; the tasks that it adds to those under way elsewhere. */
+static int answer(crew *c, const ranks_parcel *p)
+{
+  const note *n = p->data;
+  const char *data = (const char *)p->data + sizeof *n;
+  size_t task = 0;
+  if (p->size < sizeof *n || p->size != sizeof *n + n->size) return 0;
+  if (n->kind == RESULT) {
+    if (!is_of(c, n)) return 0;
+    take_result(c, n, data);
+    return -1;
+  }
+  note reply = { .kind = NONE, .run = n->run, .stage = n->stage };
+  if (is_of(c, n) && crew_take(c, &task)) {
+    reply.kind = TASK;
+    reply.task = task;
+  }
+  (void)ranks_send(p->from, TO_THREAD + n->thread, &reply, sizeof reply);
+  return reply.kind == TASK;
+}
+
+/* Until all that was dealt has come back, and nobody here is at work. */
+static void *serve(void *arg)
+{
+  crew *c = arg;
+  int under_way = 0, halted = 0;
+  while (under_way > 0 || !atomic_load(&c->idle)) {
+    ranks_parcel p;
+    if (ranks_receive(TO_ROOT, &p)) {
+      under_way += answer(c, &p);
+      free(p.data);
+      continue;
+    }
+    const int failed = atomic_load(&c->limit) < c->stage->tasks;
+    if (!halted && (failed || farm_stop(c->farm))) {
+      const note n = note_of(c, HALT);
+      send_to_others(&n, NULL);
+      halted = 1;
+    }
+    nap();
+  }
+  return NULL;
+}
+
+void deal_share(crew *c, size_t task, const farm_record *record)
+{
+  if (ranks_count() == 1 || ranks_own() != 0 || c->stage->last) return;
+  note n = note_of(c, SHARE);
+  n.task = task;
+  n.size = record->size;
+  send_to_others(&n, record->data);
+}
+
+void farm_dismiss(farm *f)
+{
+  const note n = { .kind = QUIT, .run = f->run };
+  if (ranks_own() == 0 && ranks_count() > 1) send_to_others(&n, NULL);
+}
+
+/* ---- the others ---------------------------------------------------------------------------- */
+
+/* Collect what rank 0 has collected. */
+static void collect_shared(crew *c, const note *n, char *data)
+{
+  const farm_record record = { .data = data, .size = (size_t)n->size };
+  if (c->stage->collect == NULL || n->task != c->collected) return;
+  const pendres_status status = c->stage->collect(c->stage->arg, (size_t)n->task, &record);
+  if (status == PENDRES_OK) c->collected++;
+}
+
+/* Hear what rank 0 has to say to all, until it is the end. */
+static void *listen(void *arg)
+{
+  crew *c = arg;
+  for (int ended = 0; !ended;) {
+    ranks_parcel p;
+    if (!ranks_receive(TO_ALL, &p)) {
+      nap();
+      continue;
+    }
+    const note *n = p.data;
+    if (n->run == c->farm->run && n->kind == QUIT) {
+      c->status = PENDRES_INTERRUPTED;
+      ended = 1;
+    } else if (is_of(c, n) && n->kind == SHARE) {
+      collect_shared(c, n, (char *)p.data + sizeof *n);
+    } else if (is_of(c, n) && n->kind == END) {
+      c->status = (pendres_status)n->status;
+      ended = 1;
+    }
+    if (ended || (is_of(c, n) && n->kind == HALT)) atomic_store(&c->halted, 1);
+    free(p.data);
+    atomic_store(&c->ended, ended);
+  }
+  return NULL;
+}
+
+/* Rank 0 answers every question until it ends the stage, and waits for what it has dealt: an answer
+   is waited for even where no more is wanted. Tasks that look at the clock are rank 0's own. */
+static int ask(crew *c, int thread, size_t *task)
+{
+  note n = note_of(c, ASK);
+  n.thread = thread;
+  if (c->stage->timed || farm_stop(c->farm)) return 0;
+  if (!ranks_send(0, TO_ROOT, &n, sizeof n)) return 0;
+  while (!atomic_load(&c->ended)) {
+    ranks_parcel p;
+    if (!ranks_receive(TO_THREAD + thread, &p)) {
+      nap();
+      continue;
+    }
+    memcpy(&n, p.data, sizeof n);
+    free(p.data);
+    if (!is_of(c, &n)) continue; /* to a question of an earlier stage */
+    *task = (size_t)n.task;
+    return n.kind == TASK;
+  }
+  return 0;
+}
+
+/* The record of a task; without it, as where it is too long to be sent, why. */
+static void hand_in(crew *c, size_t task, pendres_status status, const farm_record *record)
+{
+  note n = note_of(c, RESULT);
+  n.task = task;
+  n.status = (int32_t)status;
+  n.cost = record->cost;
+  snprintf(n.message, sizeof n.message, "%s", record->message);
+  n.size = status == PENDRES_OK ? record->size : 0;
+  if (send_note(0, TO_ROOT, &n, record->data)) return;
+  n.size = 0;
+  n.status = (int32_t)PENDRES_OUT_OF_MEMORY;
+  (void)send_note(0, TO_ROOT, &n, NULL);
+}
+
+pendres_status deal_outcome(crew *c)
+{
+  if (c->status == PENDRES_OK && !c->stage->last && c->collected == c->stage->tasks)
+    return PENDRES_OK;
+  c->farm->left = 1;
+  return PENDRES_INTERRUPTED;
+}
+
+/* ---- all ------------------------------------------------------------------------------------ */
+
+int deal_take(crew *c, int thread, size_t *task)
+{
+  return ranks_own() == 0 ? crew_take(c, task) : ask(c, thread, task);
+}
+
+void deal_finish(crew *c, size_t task, pendres_status status, farm_record *record)
+{
+  if (ranks_own() == 0) crew_finish(c, task, status, record);
+  else hand_in(c, task, status, record);
+}
+
+pendres_status deal_begin(crew *c)
+{
+  if (ranks_count() == 1) return PENDRES_OK;
+  const int error =
+    farm_start_thread(&c->server, ranks_own() == 0 ? serve : listen, c);
+  return error == 0 ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
+}
+
+void deal_end(crew *c)
+{
+  if (ranks_count() == 1) return;
+  atomic_store(&c->idle, 1);
+  (void)pthread_join(c->server, NULL);
+  if (ranks_own() != 0) return;
+  note n = note_of(c, END);
+  n.status = (int32_t)(c->status == PENDRES_OK && c->collected < c->stage->tasks
+                         ? PENDRES_INTERRUPTED
+                         : c->status);
+  send_to_others(&n, NULL);
+}

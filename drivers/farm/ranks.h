@@ -1,0 +1,43 @@
+/*
+ * ranks.h -- processes that a launcher of MPI has started together, numbered from 0.
+ *
+ * Owns: everything of MPI. ranks_mpi.c and ranks_serial.c have the same functions, the latter for
+ * one process; which of them is built in, `make MPI=1` decides. Any thread may send and receive.
+ */
+#ifndef RANKS_H
+#define RANKS_H
+
+#include <stddef.h>
+
+enum { RANKS_WORDS = 256 };
+
+/* To be called first, on the main thread. 0 on failure, and words[RANKS_WORDS] say why: as where a
+   launcher has started several processes that know nothing of each other. */
+int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS]);
+
+/* The last call; on the main thread. */
+void ranks_end(void);
+
+int ranks_own(void);   /* from 0 */
+int ranks_count(void); /* 1: no others */
+
+/* "Open MPI v4.1.4, ..." or NULL. */
+const char *ranks_library(void);
+
+/* All ranks call it, and get what rank 0 has in data[size]. */
+void ranks_broadcast(void *data, size_t size);
+
+/* Bytes with a tag from 0 to 32000, in order between two ranks for each tag; it waits until `data`
+   may be reused. 0 on failure. */
+int ranks_send(int to, int tag, const void *data, size_t size);
+
+/* What came with a tag, from any rank: 1 and data that are to be freed; 0: nothing is there yet, or
+   no memory. Never waits for anything to come. */
+typedef struct ranks_parcel {
+  int from;
+  size_t size;
+  void *data;
+} ranks_parcel;
+int ranks_receive(int tag, ranks_parcel *out);
+
+#endif

@@ -1,0 +1,54 @@
+#!/bin/sh
+# ranks_check.sh -- the program over MPI: the same bytes from 1, 2 and 4 ranks, and a program without
+# MPI refuses to be started several times. Skipped where there is no MPI, or no h5py to compare with.
+set -u
+mpirun=$(command -v mpirun) && command -v mpicc >/dev/null || { echo "no MPI here"; exit 77; }
+python=${PYTHON:-/usr/bin/python3}
+"$python" -c 'import h5py' 2>/dev/null || { echo "no h5py here"; exit 77; }
+${MAKE:-make} -s "$BUILD/resonance-mpi" || exit 1
+program=$PWD/$BUILD/resonance-mpi
+case $BUILD in /*) program=$BUILD/resonance-mpi ;; esac
+same=$PWD/tests/same_bytes.py
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failed=0
+complain()
+{
+  echo "ranks_check: $*"
+  failed=1
+}
+
+# A stage whose records later ones read, and one whose records are only written.
+cat >lines.nml <<'DECK'
+&scene kind = 'phase_diagram' /
+&pendulum drive_amplitude = 0.2 /
+&sweep damping_range = 0.10, 0.16, 4, drive_frequency_range = 0.7, 0.9, 4 /
+&ensemble members = 8 /
+DECK
+cat >curve.nml <<'DECK'
+&scene kind = 'resonance_curve' /
+&pendulum drive_amplitude = 0.2 /
+&sweep damping = 0.3, 0.5, 0.9, 1.5 /
+&ensemble members = 8 /
+DECK
+for deck in lines curve; do
+  "$RESONANCE" -q -o whole.h5 $deck.nml >table.txt || complain "$deck fails without MPI"
+  for ranks in 1 2 4; do
+    timeout 100 "$mpirun" -n $ranks "$program" -q -t1 -o ranks.h5 $deck.nml >ranks.txt 2>err.txt ||
+      { complain "$deck fails on $ranks ranks:"; cat err.txt; continue; }
+    cmp -s table.txt ranks.txt || complain "another table of $deck on $ranks ranks"
+    "$python" "$same" whole.h5 ranks.h5 >same.txt || { complain "$deck, $ranks ranks"; cat same.txt; }
+  done
+done
+
+# What rank 0 refuses ends all; a program without MPI does not start the same run twice.
+echo "&scene kind = 'nothing' /" >bad.nml
+timeout 100 "$mpirun" -n 2 "$program" bad.nml >bad.txt 2>&1
+grep -c "nothing" bad.txt | grep -qx 2 || complain "a bad deck is told otherwise than once"
+timeout 100 "$mpirun" -n 2 "$RESONANCE" curve.nml >alone.txt 2>&1 && complain "two single runs went on"
+grep -q "built without MPI" alone.txt || complain "two single runs are not told apart"
+exit $failed
