@@ -73,6 +73,7 @@ static void nothing(void **state)
   assert_int_equal(pendres_branch_bifurcations(NULL), 0);
   assert_null(pendres_branch_bifurcation(NULL, 0));
   (void)pendres_branch_end_of(NULL, 7);
+  assert_int_equal(pendres_branch_parts(NULL, 4, NULL), 0);
   pendres_branches_free(NULL);
   pendres_hysteresis_free(NULL);
   assert_int_equal(pendres_hysteresis_count(NULL), 0);

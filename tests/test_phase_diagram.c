@@ -81,12 +81,53 @@ static void regimes_of_the_paper(void **state)
     assert_int_equal(isnan(p->la_amplitude), want[i] == PENDRES_REGIME_SA);
     assert_true(p->mean_loop_area_error <= 1e-8);
   }
+  /* The branch attracts up to SA's fold, and from LA's on. */
+  pendres_branch_part part[3];
+  const pendres_branch *b = pendres_branches_get(branches, 0);
+  assert_int_equal(pendres_branch_parts(b, 3, part), 2);
+  assert_int_equal(pendres_branch_parts(b, 0, NULL), 2);
+  assert_true(part[0].begins == PENDRES_REGULAR && part[1].ends == PENDRES_REGULAR);
+  assert_true(part[0].ends == PENDRES_FOLD && part[1].begins == PENDRES_FOLD);
+  const double end = pendres_branch_get(b, part[0].last)->orbit.pendulum.drive_frequency;
+  const double begin = pendres_branch_get(b, part[1].first)->orbit.pendulum.drive_frequency;
+  check_near(end, sa_fold, 1e-8);
+  check_near(begin, la_fold, 1e-8);
   /* An orbit with the phase lag of LA by the rule of pi/3, but on SA's side of its fold, is SA. */
   assert_int_equal(point_at(ctx, 0.163, 0.86, 50).regime, PENDRES_REGIME_SA);
   const pendres_phase_point above = point_at(ctx, 0.17, 0.86, 50);
   assert_int_equal(above.regime, PENDRES_REGIME_SINGLE);
   assert_int_equal(above.exact, PENDRES_REGIME_SINGLE);
   assert_true(isnan(above.sa_fraction) && isnan(above.la_amplitude));
+  pendres_branches_free(branches);
+  pendres_context_free(ctx);
+}
+
+/* LA at damping 0.08 ceases to attract at frequency 0.537944036 by losing its symmetry, not in a
+   fold; the pair that is born there goes on below. */
+static void branches_end_otherwise(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1e-8);
+  const pendres_pendulum p = {.damping = 0.08, .drive_amplitude = 0.2, .drive_frequency = 0.65};
+  pendres_ensemble e = pendres_ensemble_default();
+  pendres_phase_point point;
+  pendres_branches *branches = NULL;
+  e.members = 100;
+  check_ok(pendres_phase_line(ctx, 1, &p, with(&e), &point, &branches));
+  int seen = 0;
+  for (size_t k = 0; k < pendres_branches_count(branches); k++) {
+    const pendres_branch *b = pendres_branches_get(branches, k);
+    pendres_branch_part part[8];
+    const size_t n = pendres_branch_parts(b, 8, part);
+    for (size_t i = 0; i < n && i < 8; i++)
+      for (int side = 0; side < 2; side++) {
+        const size_t at = side ? part[i].last : part[i].first;
+        const double value = pendres_branch_get(b, at)->orbit.pendulum.drive_frequency;
+        if ((side ? part[i].ends : part[i].begins) == PENDRES_SYMMETRY_BREAKING)
+          seen += fabs(value - 0.537944036) < 1e-8;
+      }
+  }
+  assert_true(seen > 0);
   pendres_branches_free(branches);
   pendres_context_free(ctx);
 }
@@ -502,7 +543,7 @@ int main(void)
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(curves_change_nothing_else),
     cmocka_unit_test(curves_tell_where_sa_ends),
     cmocka_unit_test(above_the_cusp_there_is_no_distinction), cmocka_unit_test(mistakes_are_told),
-    cmocka_unit_test(whole_diagrams), cmocka_unit_test(points_fail_alone),
+    cmocka_unit_test(branches_end_otherwise), cmocka_unit_test(whole_diagrams), cmocka_unit_test(points_fail_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,6 +123,55 @@ static void branches_hold_the_figures(void **state)
   pendres_store_free(store);
 }
 
+/* Lines along the drive amplitude, and lines of frequencies at several of them: the fold and the cusp
+   that lines of frequencies have at 0.2 (the reference's) lie at 0.2. */
+static void drives_are_axes(void **state)
+{
+  (void)state;
+  size_t n = 0, folds = 0;
+  scene_run_deck("&scene kind = 'branches' /\n"
+                 "&pendulum damping = 0.13, drive_frequency = 0.84492519754233728 /\n"
+                 "&sweep drive_amplitude = 0.15, 0.25 /\n"
+                 "&ensemble members = 10 /\n", 1, "tower");
+  pendres_store *store = scene_open("tower");
+  double *regime = scene_values(store, "regime", &n);
+  assert_int_equal(n, 2);
+  assert_int_equal((int)regime[0], PENDRES_REGIME_SA);
+  assert_int_equal((int)regime[1], PENDRES_REGIME_LA);
+  free(regime);
+  double *drive = scene_values(store, "bifurcation_drive_amplitude", &n);
+  double *error = scene_values(store, "bifurcation_drive_amplitude_error", &n);
+  double *curvature = scene_values(store, "bifurcation_curvature", &n);
+  for (size_t i = 0; i < n; i++)
+    if (curvature[i] < 0.0) {
+      folds++;
+      check_near(drive[i], 0.2, error[i] + 1e-15);
+      assert_true(error[i] < 1e-8);
+    }
+  assert_int_equal(folds, 1);
+  free(drive);
+  free(error);
+  free(curvature);
+  pendres_store_free(store);
+
+  scene_run_deck("&scene kind = 'phase_diagram' /\n"
+                 "&pendulum damping = 0.16365690203117257 /\n"
+                 "&sweep drive_amplitude = 0.18, 0.22, drive_frequency = 0.84, 0.862 /\n"
+                 "&ensemble members = 10 /\n", 1, "tongue");
+  store = scene_open("tongue");
+  check_near(scene_scalar(store, "cusp_drive_amplitude"), 0.2,
+             scene_scalar(store, "cusp_drive_amplitude_error") + 1e-15);
+  check_near(scene_scalar(store, "cusp_frequency"), 0.862157913509009358,
+             scene_scalar(store, "cusp_frequency_error") + 1e-15);
+  regime = scene_values(store, "regime", &n);
+  assert_int_equal(n, 4);
+  assert_int_equal((int)regime[0], PENDRES_REGIME_SINGLE);
+  assert_int_equal((int)regime[1], PENDRES_REGIME_SINGLE);
+  assert_int_not_equal((int)regime[2], PENDRES_REGIME_SINGLE);
+  free(regime);
+  pendres_store_free(store);
+}
+
 static void diagram_holds_the_regimes(void **state)
 {
   (void)state;
@@ -245,7 +294,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
-    cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes),
+    cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes), cmocka_unit_test(drives_are_axes),
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(edges_name_their_fold),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

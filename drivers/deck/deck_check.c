@@ -51,17 +51,15 @@ static int in_scene(const deck_builder *b, const char *group, const char *name)
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
-/* Given, or tried in vain; for an axis, in &sweep or in &pendulum. */
+/* Given, or tried in vain, itself or, of an axis in &sweep and its value in &pendulum, the other. */
 static int was_tried(const deck_builder *b, size_t row)
 {
   const deck_key *key = &deck_table[row];
-  const int axis = key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
+  const int value = strcmp(key->group, "pendulum") == 0;
   if (b->given[row].given || b->given[row].broken) return 1;
-  for (size_t i = 0; axis && i < deck_table_size; i++)
-    if ((deck_table[i].type == DECK_SWEEP_VALUE || deck_table[i].type == DECK_SWEEP) &&
-        deck_table[i].axis == key->axis && (b->given[i].given || b->given[i].broken))
-      return 1;
-  return 0;
+  if (!value && key->type != DECK_SWEEP) return 0;
+  const deck_given *other = given(b, value ? "sweep" : "pendulum", key->name);
+  return other->given || other->broken;
 }
 
 /* One message for a group that is absent altogether: it names all keys that are missed. */
@@ -149,7 +147,7 @@ static void check_axis_sources(deck_builder *b)
 {
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if (key->type != DECK_SWEEP_VALUE || (key->scenes & b->scene) == 0) continue;
+    if (strcmp(key->group, "pendulum") != 0 || (key->scenes & b->scene) == 0) continue;
     const deck_given *sweep = given(b, "sweep", key->name);
     if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
     namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
@@ -172,7 +170,8 @@ static void check_idle_keys(deck_builder *b)
   const deck_given *x = given(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
-    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD)
+    if (!b->given[i].given || key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD ||
+        key->when == DECK_UNLESS_AXIS)
       continue;
     if (key->when == DECK_WITH_NOISE && given(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
@@ -283,6 +282,21 @@ static void check_ensemble(deck_builder *b)
              "'members' must make whole 'rows' of a rectangle");
 }
 
+/* Results have two axes: where the drive amplitude is one, another has one value. */
+static void check_plane(deck_builder *b)
+{
+  const deck *d = b->d;
+  const deck_axis *frequency = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
+  const deck_axis *period = &d->axis[DECK_AXIS_DRIVE_PERIOD];
+  if (d->kind != DECK_RESPONSE && d->kind != DECK_PHASE_DIAGRAM && d->kind != DECK_BRANCHES) return;
+  if (d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count == 0 || d->axis[DECK_AXIS_DAMPING].count < 2 ||
+      (frequency->count < 2 && period->count < 2))
+    return;
+  const deck_given *at = given(b, "sweep", "drive_amplitude");
+  complain(b, at, "drive_amplitude", "results have two axes: beside 'drive_amplitude' give either "
+                                     "'damping' or the drive one value");
+}
+
 static void check_output(deck_builder *b)
 {
   const char *output = b->d->output;
@@ -306,6 +320,7 @@ void deck_check(deck_builder *b)
   check_idle_keys(b);
   if (b->errors->count == 0) check_moving(b);
   check_size(b);
+  check_plane(b);
   check_output(b);
   check_ensemble(b);
   if (d->precision.block_lanes % 8 != 0)

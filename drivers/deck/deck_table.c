@@ -58,6 +58,7 @@
 #define POSITIVE .low = 0.0, .high = BIG, .open = 1
 #define NOT_NEGATIVE .low = 0.0, .high = BIG
 #define FREQUENCY .low = 1e-6, .high = 1e6
+#define UNLESS(a) .when = DECK_UNLESS_AXIS, .axis = DECK_AXIS_##a
 #define SAYS(u, words) .unit = u, .meaning = words
 #define EXAMPLE(values) .example = values
 
@@ -104,10 +105,12 @@ const deck_key deck_table[] = {
     SAYS(NULL, "file of results; without it the deck's name with .h5, in the working directory") },
 
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
-    NEEDED_IN(DRIVEN & ~BRANCHES), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
+    NEEDED_IN(DRIVEN & ~(RESPONSE | GRID)), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
     SAYS("m g l", "amplitude F0 of the torque that drives the pendulum") },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(RESPONSE | PHASE),
+    NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"), UNLESS(DRIVE_AMPLITUDE) },
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(BRANCHES),
-    POSITIVE, .number = NAN, EXAMPLE("0.2") },
+    POSITIVE, .number = NAN, EXAMPLE("0.2"), UNLESS(DRIVE_AMPLITUDE) },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE,
     .number = NAN, EXAMPLE("0.12"),
     SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
@@ -149,8 +152,10 @@ const deck_key deck_table[] = {
   { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
     SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(HYSTERESIS), NOT_NEGATIVE,
-    SAYS("m g l", "amplitude F0 of the drive") },
+    SAYS("m g l", "amplitude F0 of the drive; where results have two axes it is one of them "
+         "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(RESPONSE | GRID), POSITIVE },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
     SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },

@@ -103,15 +103,41 @@ pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id a
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
+void scene_plane(const deck *d, deck_axis_id axis[2])
+{
+  const deck_axis_id drive = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
+                                                                       : DECK_AXIS_DRIVE_FREQUENCY;
+  const int amplitude = d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0;
+  const int tongue = amplitude && d->axis[DECK_AXIS_DAMPING].count == 1 && d->axis[drive].count > 1;
+  axis[0] = tongue ? DECK_AXIS_DRIVE_AMPLITUDE : DECK_AXIS_DAMPING;
+  axis[1] = amplitude && !tongue ? DECK_AXIS_DRIVE_AMPLITUDE : drive;
+}
+
+double scene_fixed(const deck *d, deck_axis_id axis)
+{
+  deck_axis_id plane[2];
+  scene_plane(d, plane);
+  if (d->axis[axis].count > 0) {
+    /* A scene of which some parameters move has the others as axes of one value. */
+    const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_LYAPUNOV_MAP;
+    const int left_out = d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0 && axis != plane[0] &&
+                         axis != plane[1];
+    return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;
+  }
+  switch (axis) {
+  case DECK_AXIS_DRIVE_AMPLITUDE: return d->pendulum.drive_amplitude;
+  case DECK_AXIS_DAMPING: return d->pendulum.damping;
+  case DECK_AXIS_DRIVE_FREQUENCY: return d->pendulum.drive_frequency;
+  case DECK_AXIS_DRIVE_PERIOD: return d->pendulum.drive_period;
+  default: return NAN;
+  }
+}
+
 pendres_status scene_write_identity(scene_run *run)
 {
   const deck *d = run->deck;
-  const struct { deck_axis_id axis; double value; } fixed[] = {
-    { DECK_AXIS_DRIVE_AMPLITUDE, d->pendulum.drive_amplitude },
-    { DECK_AXIS_DAMPING, d->pendulum.damping },
-    { DECK_AXIS_DRIVE_FREQUENCY, d->pendulum.drive_frequency },
-    { DECK_AXIS_DRIVE_PERIOD, d->pendulum.drive_period },
-  };
+  static const deck_axis_id parameters[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
+                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD };
   char coordinates[4 * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
   pendres_status status =
@@ -119,13 +145,10 @@ pendres_status scene_write_identity(scene_run *run)
   if (status == PENDRES_OK)
     status = pendres_store_attribute_text(run->store, "", NULL, "deck",
                                           slash != NULL ? slash + 1 : d->name);
-  for (size_t i = 0; i < sizeof fixed / sizeof *fixed && status == PENDRES_OK; i++) {
-    const deck_axis_id axis = fixed[i].axis;
-    /* A scene of which some parameters move has the others as axes of one value. */
-    const int alone = d->axis[axis].count == 1 && (d->kind == DECK_HYSTERESIS ||
-                                                   d->kind == DECK_LYAPUNOV_MAP);
-    const double value = alone ? d->axis[axis].value[0] : fixed[i].value;
-    if (isnan(value) || (d->axis[axis].count > 0 && !alone)) continue;
+  for (size_t i = 0; i < sizeof parameters / sizeof *parameters && status == PENDRES_OK; i++) {
+    const deck_axis_id axis = parameters[i];
+    const double value = scene_fixed(d, axis);
+    if (isnan(value)) continue;
     const pendres_store_spec spec = { .name = deck_axis_name(axis),
                                       .long_name = about[axis].words,
                                       .units = about[axis].units };
@@ -159,6 +182,7 @@ pendres_sweep scene_sweep(const deck *d)
 {
   static const struct { deck_axis_id id; pendres_quantity quantity; } axes[] = {
     { DECK_AXIS_DAMPING, PENDRES_QUANTITY_DAMPING },
+    { DECK_AXIS_DRIVE_AMPLITUDE, PENDRES_QUANTITY_DRIVE_AMPLITUDE },
     { DECK_AXIS_DRIVE_FREQUENCY, PENDRES_QUANTITY_DRIVE_FREQUENCY },
     { DECK_AXIS_DRIVE_PERIOD, PENDRES_QUANTITY_DRIVE_PERIOD },
   };

@@ -69,10 +69,18 @@ pendres_status scene_write_identity(scene_run *run);
 /* What the measures in the file are, in their attributes `comment`; called by the above. */
 pendres_status scene_define(scene_run *run);
 
+/* The two axes of a scene's points, the slower first: damping and the drive's frequency or period;
+   where the drive amplitude is an axis it takes the place of the one that has one value. */
+void scene_plane(const deck *d, deck_axis_id axis[2]);
+
+/* The value of a parameter that the scene holds fixed; NaN if it is an axis, or unknown. */
+double scene_fixed(const deck *d, deck_axis_id axis);
+
 /* The deck's ensemble. */
 pendres_ensemble scene_ensemble(const deck *d);
 
-/* The deck's dampings by its drive frequencies or periods, as far as it has them as axes. */
+/* The deck's dampings by its drive amplitudes by its drive frequencies or periods, as far as it has
+   them as axes. */
 pendres_sweep scene_sweep(const deck *d);
 
 /* `uncertain_members` beside the means of an ensemble; count[] over one or two axes. */

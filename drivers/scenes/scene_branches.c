@@ -11,7 +11,7 @@
 
 #include "scenes/scene_curves.h"
 
-enum { BACKBONE = 101, FREE = 156 };
+enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
 
 static void plan(const deck *d, FILE *out)
 {
@@ -253,17 +253,50 @@ static pendres_status write_free(scene_run *run)
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
+static void print_end(FILE *out, const scene_lines *l, const pendres_branch_point *p,
+                      const char *why)
+{
+  fprintf(out, "  %.12f +- %.0e %-17s",
+          pendres_parameter_get(l->grid.options.parameter, &p->orbit.pendulum), p->parameter_error,
+          why);
+}
+
+/* A part of a branch that attracts, from its lower value of the parameter to the higher one. */
+static void print_part(FILE *out, const scene_lines *l, const pendres_branch *b,
+                       const pendres_branch_part *part)
+{
+  static const char *const ends[] = {"range", "closed", "too wild", "too long", "stuck"};
+  const pendres_branch_point *p[2] = {pendres_branch_get(b, part->first),
+                                      pendres_branch_get(b, part->last)};
+  const pendres_special kind[2] = {part->begins, part->ends};
+  const pendres_parameter along = l->grid.options.parameter;
+  const int back = pendres_parameter_get(along, &p[0]->orbit.pendulum) >
+                   pendres_parameter_get(along, &p[1]->orbit.pendulum);
+  for (int i = 0; i < 2; i++) {
+    const int k = back ? 1 - i : i;
+    print_end(out, l, p[k], kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
+                                                       : ends[pendres_branch_end_of(b, k)]);
+  }
+  fputc('\n', out);
+}
+
+/* Wherever branches attract: all of it, and what ends it. */
 static void print_table(FILE *out, const scene_lines *l)
 {
-  fprintf(out, "damping   LA from omega          SA up to omega\n");
+  fprintf(out, "%-15s  branch  period  attracts from %s                  to\n",
+          scene_lines_words(l->grid.across), scene_lines_words(l->grid.options.parameter));
   for (size_t i = 0; i < l->grid.lines; i++) {
-    const pendres_bifurcation *la = pendres_phase_diagram_fold(l->diagram, i, PENDRES_LABEL_LA);
-    const pendres_bifurcation *sa = pendres_phase_diagram_fold(l->diagram, i, PENDRES_LABEL_SA);
-    fprintf(out, "%-9.4g", l->grid.line_value[i]);
-    if (la != NULL) fprintf(out, " %.12f +- %.0e", la->value, la->value_error);
-    else fprintf(out, " no fold               ");
-    if (sa != NULL) fprintf(out, " %.12f +- %.0e\n", sa->value, sa->value_error);
-    else fprintf(out, " no fold\n");
+    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    for (size_t k = 0; k < pendres_branches_count(all); k++) {
+      const pendres_branch *b = pendres_branches_get(all, k);
+      pendres_branch_part part[MOST_PARTS];
+      const size_t n = pendres_branch_parts(b, MOST_PARTS, part);
+      for (size_t m = 0; m < n && m < MOST_PARTS; m++) {
+        fprintf(out, "%-15.6g  %-6zu  %-6d", l->grid.line_value[i], k,
+                pendres_branch_get(b, part[m].first)->orbit.period);
+        print_part(out, l, b, &part[m]);
+      }
+    }
   }
   scene_lines_print(l, out);
 }
@@ -275,7 +308,10 @@ static pendres_status write_results(const scene_lines *l)
   if (status == PENDRES_OK) status = write_branches(l);
   if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
   if (status == PENDRES_OK) status = scene_curves_write(l);
-  if (status == PENDRES_OK) status = write_backbone(l);
+  /* The backbone is one over damping, at one drive amplitude. */
+  if (status == PENDRES_OK && l->axis[0] == DECK_AXIS_DAMPING &&
+      l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+    status = write_backbone(l);
   if (status == PENDRES_OK) status = write_free(l->run);
   if (status == PENDRES_OK) status = scene_curves_write_paper(l);
   return status;

@@ -1,6 +1,7 @@
 /* scene_lines.c -- lines of points and their branches; see scene_lines.h. */
 #include "scenes/scene_lines.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,38 +26,50 @@ static pendres_parameter parameter_of(deck_axis_id axis)
   }
 }
 
-static void choose_axes(const deck *d, deck_axis_id axis[2])
-{
-  (void)d;
-  axis[0] = DECK_AXIS_DAMPING;
-  axis[1] = DECK_AXIS_DRIVE_FREQUENCY;
-}
-
 static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], double spacing)
 {
   const deck_axis *across = &d->axis[axis[0]], *along = &d->axis[axis[1]];
-  return (pendres_phase_grid){.pendulum = {.damping = d->pendulum.damping,
-                                           .drive_amplitude = d->pendulum.drive_amplitude,
-                                           .drive_frequency = d->pendulum.drive_frequency},
-                              .options = {.ensemble = scene_ensemble(d),
-                                          .parameter = parameter_of(axis[1]),
-                                          .spacing = spacing},
-                              .values = along->count,
-                              .value = along->value,
-                              .across = parameter_of(axis[0]),
-                              .lines = across->count,
-                              .line_value = across->value};
+  return (pendres_phase_grid){
+    .pendulum = {.damping = scene_fixed(d, DECK_AXIS_DAMPING),
+                 .drive_amplitude = scene_fixed(d, DECK_AXIS_DRIVE_AMPLITUDE),
+                 .drive_frequency = scene_fixed(d, DECK_AXIS_DRIVE_FREQUENCY)},
+    .options = {.ensemble = scene_ensemble(d),
+                .parameter = parameter_of(axis[1]),
+                .spacing = spacing},
+    .values = along->count,
+    .value = along->value,
+    .across = parameter_of(axis[0]),
+    .lines = across->count,
+    .line_value = across->value};
+}
+
+const char *scene_lines_words(pendres_parameter parameter)
+{
+  return parameter == PENDRES_DAMPING           ? "damping"
+         : parameter == PENDRES_DRIVE_AMPLITUDE ? "drive amplitude"
+                                                : "drive frequency";
 }
 
 void scene_lines_plan(const deck *d, FILE *out)
 {
-  const deck_axis *damping = &d->axis[DECK_AXIS_DAMPING];
-  const deck_axis *drive = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
-  fprintf(out, "%lld members at %zu dampings, %g to %g, and %zu drive frequencies, %g to %g,\n"
-               "drive amplitude %g",
-          (long long)d->ensemble.members, damping->count, damping->value[0],
-          damping->value[damping->count - 1], drive->count, drive->value[0],
-          drive->value[drive->count - 1], d->pendulum.drive_amplitude);
+  static const deck_axis_id parameters[] = {DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
+                                            DECK_AXIS_DRIVE_FREQUENCY};
+  deck_axis_id axis[2];
+  scene_plane(d, axis);
+  fprintf(out, "%lld members at ", (long long)d->ensemble.members);
+  for (int i = 0; i < 2; i++) {
+    const deck_axis *a = &d->axis[axis[i]];
+    const char *words = axis[i] == DECK_AXIS_DAMPING           ? "dampings"
+                        : axis[i] == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitudes"
+                                                               : "drive frequencies";
+    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, words, a->value[0],
+            a->value[a->count - 1], i == 0 ? "" : "\n");
+  }
+  for (int i = 0; i < 3; i++) {
+    const double value = scene_fixed(d, parameters[i]);
+    if (!isnan(value))
+      fprintf(out, "%s %g", scene_lines_words(parameter_of(parameters[i])), value);
+  }
 }
 
 /* ---- tasks --------------------------------------------------------------------------------- */
@@ -160,7 +173,7 @@ static void judge_curves(scene_lines *l)
 pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
 {
   *l = (scene_lines){.run = run};
-  choose_axes(run->deck, l->axis);
+  scene_plane(run->deck, l->axis);
   l->grid = grid_of(run->deck, l->axis, spacing);
   l->n = l->grid.lines * l->grid.values;
   l->points = malloc((l->n + 1) * sizeof *l->points);
@@ -250,11 +263,12 @@ void scene_lines_print(const scene_lines *l, FILE *out)
   const pendres_branch_point *p = NULL;
   const int32_t doubts = count_doubts(l, &p);
   if (c != NULL)
-    fprintf(out, "cusp: damping %.12f +- %.0e, drive frequency %.12f +- %.0e\n", c->value[1],
-            c->value_error[1], c->value[0], c->value_error[0]);
+    fprintf(out, "cusp: %s %.12f +- %.0e, %s %.12f +- %.0e\n", scene_lines_words(l->grid.across),
+            c->value[1], c->value_error[1], scene_lines_words(l->grid.options.parameter),
+            c->value[0], c->value_error[0]);
   if (doubts > 0)
     fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at damping "
-            "%.9g, drive frequency %.9g (period %d): a bifurcation is missed or misnamed there\n",
-            (long)doubts, p->orbit.pendulum.damping, p->orbit.pendulum.drive_frequency,
-            p->orbit.period);
+            "%.9g, drive amplitude %.9g, drive frequency %.9g (period %d): a bifurcation is missed "
+            "or misnamed there\n", (long)doubts, p->orbit.pendulum.damping,
+            p->orbit.pendulum.drive_amplitude, p->orbit.pendulum.drive_frequency, p->orbit.period);
 }

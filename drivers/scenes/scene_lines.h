@@ -45,6 +45,9 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
 
+/* "damping", "drive amplitude", "drive frequency". */
+const char *scene_lines_words(pendres_parameter parameter);
+
 /* One line on what is computed, for --dry-run: axes and what is fixed. */
 void scene_lines_plan(const deck *d, FILE *out);
 

@@ -172,6 +172,28 @@ const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *bran
 /** How the branch ends at its first (which = 0) and its last point (1). */
 pendres_branch_end pendres_branch_end_of(const pendres_branch *branch, int which);
 
+/** A part of a branch along which its orbits attract. */
+typedef struct pendres_branch_part {
+  size_t first;               /**< number of the point at which it begins, in the branch's order */
+  size_t last;                /**< number of the point at which it ends */
+  pendres_special begins;     /**< the bifurcation at `first`; PENDRES_REGULAR: the branch begins
+                                   there, or is not known before */
+  pendres_special ends;       /**< the bifurcation at `last`; PENDRES_REGULAR: the branch ends there,
+                                   or is not known beyond */
+} pendres_branch_part;
+
+/**
+ * The parts of a branch that attract, in its order, from wherever orbits become stable to wherever
+ * they cease to be, whatever the reason: folds, symmetry breakings, period doublings. A branch that
+ * closes (PENDRES_END_CLOSED) may have one part cut in two at its first point.
+ *
+ * @param branch read; NULL has no parts
+ * @param room   how many parts out has room for
+ * @param out    [room], the first of them are written; may be NULL if room is 0
+ * @return the number of parts, which may be more than room. Thread safe.
+ */
+size_t pendres_branch_parts(const pendres_branch *branch, size_t room, pendres_branch_part *out);
+
 /**
  * All orbits of a branch at a value of its parameter, in the order of the branch; *found is their
  * number, and the first `room` of them are written to out. Next to a fold, within the errors, an

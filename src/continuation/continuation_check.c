@@ -1,4 +1,4 @@
-/* continuation_check.c -- whether a branch's points and its bifurcations agree. */
+/* continuation_check.c -- where a branch attracts, and whether its points and bifurcations agree. */
 #include "continuation/continuation_branch.h"
 
 #include <math.h>
@@ -104,4 +104,45 @@ void pendres_branch_check(pendres_branch *b)
   check_signs(b, 1.0);
   check_signs(b, -1.0);
   check_turns(b);
+}
+
+/* ---- parts that attract ---- */
+
+/* The bifurcation at a point. */
+static pendres_special kind_at(const pendres_branch *b, size_t i)
+{
+  return b->point[i].kind;
+}
+
+/* The part from point i on, a stable one; *next: where to go on. */
+static pendres_branch_part part_from(const pendres_branch *b, size_t i, size_t *next)
+{
+  pendres_branch_part part = {.first = i, .last = i};
+  if (i > 0 && !regular(b, i - 1)) part.first = i - 1;
+  size_t k = i;
+  while (k < b->count && (!regular(b, k) || b->point[k].orbit.stable)) {
+    if (regular(b, k)) part.last = k;
+    k++;
+  }
+  /* Beyond the last stable point: the bifurcation next to it, if there is one. */
+  if (part.last + 1 < b->count && !regular(b, part.last + 1)) part.last++;
+  part.begins = kind_at(b, part.first);
+  part.ends = kind_at(b, part.last);
+  *next = k;
+  return part;
+}
+
+size_t pendres_branch_parts(const pendres_branch *b, size_t room, pendres_branch_part *out)
+{
+  size_t n = 0;
+  for (size_t i = 0; b != NULL && i < b->count;) {
+    if (!regular(b, i) || !b->point[i].orbit.stable) {
+      i++;
+      continue;
+    }
+    const pendres_branch_part part = part_from(b, i, &i);
+    if (n < room && out != NULL) out[n] = part;
+    n++;
+  }
+  return n;
 }
