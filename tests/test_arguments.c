@@ -320,6 +320,10 @@ static void branches(void **state)
   bad[6].wildest = NAN;
   REFUSED(pendres_fold_find(f->ctx, NULL, &fold));
   REFUSED(pendres_fold_find(f->ctx, &f->orbit, NULL));
+  REFUSED(pendres_fold_find_along(f->ctx, NULL, PENDRES_DAMPING, &fold));
+  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, PENDRES_DAMPING, NULL));
+  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, PENDRES_PARAMETER_COUNT, &fold));
+  REFUSED(pendres_fold_find_along(f->ctx, &f->orbit, (pendres_parameter)-1, &fold));
   REFUSED(pendres_branch_follow(f->ctx, 1, NULL, &options, &branch));
   REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, NULL, &branch));
   REFUSED(pendres_branch_follow(f->ctx, 1, &f->orbit, &options, NULL));

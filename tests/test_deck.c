@@ -508,6 +508,17 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { CURVE "&sweep damping_range=0.1,1,10.0 /", { "3:28 wants a whole number" } },
   { CURVE "&sweep damping=1 drive_frequency_range=0.5,1.2,10 /", { "3:48 takes two values here" } },
   { CURVE "&sweep damping=1 drive_frequency_range=1.2,0.5 /", { "3:44 must ascend" } },
+  { CURVE "&sweep damping=1 drive_amplitude=0.1 /",
+    { "3:18 'drive_amplitude' in &sweep is not used by scene 'resonance_curve' (only by: response, "
+      "phase_diagram, branches, hysteresis, lyapunov_map)" } },
+  { "&scene kind='branches' /\n&sweep damping=0.13 drive_frequency=0.8 /",
+    { "1:13 needs a group &pendulum with 'drive_amplitude'" } },
+  { "&scene kind='branches' /\n&pendulum drive_amplitude=0.2 /\n"
+    "&sweep damping=0.13 drive_frequency=0.8 drive_amplitude=0.1 /",
+    { "2:11 'drive_amplitude' is given in &sweep too" } },
+  { "&scene kind='phase_diagram' /\n"
+    "&sweep damping=0.1,0.2 drive_frequency=0.8,0.9 drive_amplitude=0.1,0.2 /",
+    { "2:48 results have two axes" } },
   { CURVE "&sweep damping=1 drive_frequency=1 /", { "3:18 'drive_frequency' in &sweep is not used" } },
   { BASINS "&sweep x_range=0,1,100000 v_range=0,1,100000 /", { "1:13 multiply to 1e+10 pendulums; at most 2^32 are possible without refine" } },
   { CURVE "&sweep damping_range=0.1,1,1000000 /\n&ensemble members=1000000 /", { "1:13 the axes and members multiply to 1e+12" } },

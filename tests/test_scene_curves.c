@@ -172,6 +172,37 @@ static void drives_are_axes(void **state)
   pendres_store_free(store);
 }
 
+/* A response over frequencies tells its resonance as a frequency; over drive amplitudes it has that of
+   the same pendulum, bit by bit. */
+static void responses_have_axes(void **state)
+{
+  (void)state;
+  size_t n = 0, m = 0;
+  scene_run_deck("&scene kind = 'response' /\n"
+                 "&pendulum drive_amplitude = 0.2, damping = 0.24 /\n"
+                 "&sweep drive_frequency = 0.8, 0.9 /\n"
+                 "&ensemble members = 10 /\n", 1, "frequencies");
+  scene_run_deck("&scene kind = 'response' /\n"
+                 "&pendulum drive_frequency = 0.8, damping = 0.24 /\n"
+                 "&sweep drive_amplitude = 0.2, 0.3 /\n"
+                 "&ensemble members = 10 /\n", 1, "drives");
+  pendres_store *one = scene_open("frequencies"), *other = scene_open("drives");
+  double *frequency = scene_values(one, "resonance_frequency", &n);
+  double *period = scene_values(one, "resonance_period", &m);
+  assert_true(n == 1 && m == 1);
+  check_near(frequency[0] * period[0], 6.283185307179586, 1e-14);
+  double *a = scene_values(one, "mean_loop_area", &n), *b = scene_values(other, "mean_loop_area", &m);
+  assert_true(n == 2 && m == 2);
+  assert_memory_equal(&a[0], &b[0], sizeof a[0]);
+  assert_true(b[1] > b[0]);
+  free(frequency);
+  free(period);
+  free(a);
+  free(b);
+  pendres_store_free(one);
+  pendres_store_free(other);
+}
+
 static void diagram_holds_the_regimes(void **state)
 {
   (void)state;
@@ -295,6 +326,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
     cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes), cmocka_unit_test(drives_are_axes),
+    cmocka_unit_test(responses_have_axes),
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(edges_name_their_fold),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

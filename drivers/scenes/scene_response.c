@@ -1,55 +1,58 @@
 /*
- * scene_response.c -- amplitude and phase lag of the mean loop against the drive period.
+ * scene_response.c -- amplitude and phase lag of the mean loop along lines of pendulums.
  *
- * The paper's Figs. 3 and 4. One task a damping and handful of drive periods, and one a damping
- * for its resonance. With temperatures in the deck the results have one more dimension: see
+ * The paper's Figs. 3 and 4: a line a damping, along the drive period or frequency. One task a
+ * handful of its points, and one for its resonance. A line may be one of a drive amplitude instead,
+ * or go along the drive amplitude: then it has no resonance. With temperatures in the deck the results have one more dimension: see
  * scene_response_noise.c.
  */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 #include "scenes/scene_response_noise.h"
 
 static const double two_pi = 6.28318530717958647693;
 
-enum { CHUNK = 16 /* drive periods a task */ };
+enum { CHUNK = 16 /* points a task */ };
 
 typedef struct grid {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  size_t dampings, drives;    /* sizes of the axes */
-  size_t chunks;              /* tasks a damping */
-  pendres_response *points;   /* [damping][drive] */
-  pendres_resonance *peaks;   /* [damping] */
+  deck_axis_id axis[2];       /* from line to line, and along them */
+  size_t lines, values;       /* sizes of the axes */
+  size_t chunks;              /* tasks a line */
+  int peaked;                 /* whether lines have resonances: along the drive's frequency */
+  pendres_response *points;   /* [line][value] */
+  pendres_resonance *peaks;   /* [line] */
   pendres_status *outcome;    /* of the peaks */
-  scene_failures failed;      /* [damping][drive] */
-  scene_failures peak_failed; /* [damping] */
+  scene_failures failed;      /* [line][value] */
+  scene_failures peak_failed; /* [line] */
 } grid;
 
-/* The scene's second axis: the drive period, or the frequency where the deck says so. */
-static deck_axis_id drive_axis(const deck *d)
+static int is_peaked(const deck_axis_id axis[2])
 {
-  return d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
-                                                   : DECK_AXIS_DRIVE_FREQUENCY;
+  return axis[1] == DECK_AXIS_DRIVE_FREQUENCY || axis[1] == DECK_AXIS_DRIVE_PERIOD;
 }
 
 static void plan(const deck *d, FILE *out)
 {
-  const deck_axis *drive = &d->axis[drive_axis(d)];
-  fprintf(out,
-          "mean response of %lld members at %zu dampings and %zu values of %s, %g to %g,\n"
-          "drive amplitude %g; and the resonance of each damping\n",
-          (long long)d->ensemble.members, d->axis[DECK_AXIS_DAMPING].count, drive->count,
-          deck_axis_name(drive_axis(d)), drive->value[0], drive->value[drive->count - 1],
-          d->pendulum.drive_amplitude);
+  deck_axis_id axis[2];
+  scene_plane(d, axis);
+  const deck_axis *along = &d->axis[axis[1]];
+  fprintf(out, "mean response of %lld members at %zu values of %s and %zu values of %s, %g to %g",
+          (long long)d->ensemble.members, d->axis[axis[0]].count, deck_axis_name(axis[0]),
+          along->count, deck_axis_name(axis[1]), along->value[0], along->value[along->count - 1]);
+  fprintf(out, is_peaked(axis) ? ";\nand the resonance of each %s\n" : "\n",
+          deck_axis_name(axis[0]));
 }
 
-static pendres_pendulum pendulum_at(const grid *g, size_t damping, size_t drive)
+static pendres_pendulum pendulum_at(const grid *g, size_t line, size_t k)
 {
-  return pendres_sweep_pendulum(&g->sweep, damping * g->drives + drive, NULL, NULL);
+  return pendres_sweep_pendulum(&g->sweep, line * g->values + k, NULL, NULL);
 }
 
 /* What a task finds: a handful of points, or, of the tasks after these, a resonance. */
@@ -135,9 +138,9 @@ static void judge_point(const grid *g, const pendres_response *p, scene_verdict 
 /* The points of a task: *n of them from the first on. */
 static size_t first_of(const grid *g, size_t task, size_t *n)
 {
-  const size_t drive = task % g->chunks * CHUNK;
-  *n = g->drives - drive < CHUNK ? g->drives - drive : CHUNK;
-  return task / g->chunks * g->drives + drive;
+  const size_t place = task % g->chunks * CHUNK;
+  *n = g->values - place < CHUNK ? g->values - place : CHUNK;
+  return task / g->chunks * g->values + place;
 }
 
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
@@ -145,10 +148,10 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   const grid *g = arg;
   pendres_pendulum pendulums[CHUNK] = { 0 };
   size_t n;
-  if (task >= g->dampings * g->chunks) {
+  if (task >= g->lines * g->chunks) {
     peak_record *peak = farm_record_resize(out, sizeof *peak);
     return peak == NULL ? PENDRES_OUT_OF_MEMORY
-                        : compute_peak(g, task - g->dampings * g->chunks, ctx, peak);
+                        : compute_peak(g, task - g->lines * g->chunks, ctx, peak);
   }
   point_record *r = farm_record_resize(out, sizeof *r);
   if (r == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -165,9 +168,9 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
   size_t n;
-  if (task >= g->dampings * g->chunks) {
+  if (task >= g->lines * g->chunks) {
     const peak_record *r = in->data;
-    const size_t i = task - g->dampings * g->chunks;
+    const size_t i = task - g->lines * g->chunks;
     g->outcome[i] = r->outcome;
     g->peaks[i] = r->peak;
     scene_failures_take(&g->peak_failed, i, &r->verdict);
@@ -180,155 +183,139 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return PENDRES_OK;
 }
 
-/* States that are alone at a point have their names from the others of its damping: the record is
-   the damping's points anew. */
+/* States that are alone at a point have their names from the others of its line: the record is the
+   line's points anew. */
 static pendres_status name_states(const void *arg, size_t task, pendres_context *ctx,
                                   farm_record *out)
 {
   const grid *g = arg;
-  memcpy(out->data, g->points + task * g->drives, out->size);
-  return pendres_response_name(ctx, g->drives, out->data);
+  memcpy(out->data, g->points + task * g->values, out->size);
+  return pendres_response_name(ctx, g->values, out->data);
 }
 
 static pendres_status collect_names(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
-  memcpy(g->points + task * g->drives, in->data, in->size);
+  memcpy(g->points + task * g->values, in->data, in->size);
   return PENDRES_OK;
 }
 
-#define FIELD(name, text, unit)                                                              \
-  {#name, text, unit, offsetof(pendres_response, name), offsetof(pendres_response, name##_error)}
-
-static const struct {
-  const char *name, *long_name, *units;
-  size_t value, error;
-} fields[] = {
-  FIELD(mean_loop_area, "mean loop area of the ensemble", "1"),
-  FIELD(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
-  FIELD(mean_amplitude, "mean of the members' amplitudes", "rad"),
-  FIELD(phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  FIELD(mean_power, "mean power taken up from the drive", "1"),
-  FIELD(sa_fraction, "share of the members on the small-amplitude state", "1"),
-  FIELD(la_fraction, "share of the members on the large-amplitude state", "1"),
+static const scene_column columns[] = {
+  SCENE_COLUMN(pendres_response, mean_loop_area, "mean loop area of the ensemble", "1"),
+  SCENE_COLUMN(pendres_response, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
+               "rad"),
+  SCENE_COLUMN(pendres_response, mean_amplitude, "mean of the members' amplitudes", "rad"),
+  SCENE_COLUMN(pendres_response, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  SCENE_COLUMN(pendres_response, mean_power, "mean power taken up from the drive", "1"),
+  SCENE_COLUMN(pendres_response, sa_fraction, "share of the members on the small-amplitude state",
+               "1"),
+  SCENE_COLUMN(pendres_response, la_fraction, "share of the members on the large-amplitude state",
+               "1"),
 };
 
-static double field(const pendres_response *r, size_t offset)
+static pendres_status write_points(scene_run *run, const grid *g)
 {
-  double value;
-  memcpy(&value, (const char *)r + offset, sizeof value);
-  return value;
-}
-
-static pendres_status write_points(scene_run *run, const grid *g, double *value, double *error)
-{
-  const char *drive = deck_axis_name(drive_axis(g->d));
-  const size_t n = g->dampings * g->drives;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof fields / sizeof fields[0] && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {.name = fields[k].name, .dimensions = {"damping", drive},
-                                     .long_name = fields[k].long_name, .units = fields[k].units};
-    for (size_t i = 0; i < n; i++) {
-      value[i] = field(&g->points[i], fields[k].value);
-      error[i] = field(&g->points[i], fields[k].error);
-    }
-    status = pendres_store_put_result(run->store, &spec, value, error, n);
-  }
-  return status;
+  const scene_table table = {
+    .dimensions = {deck_axis_name(g->axis[0]), deck_axis_name(g->axis[1])},
+    .n = g->lines * g->values, .stride = sizeof *g->points, .rows = g->points};
+  return scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
 }
 
 static pendres_status write_uncertain(scene_run *run, const grid *g)
 {
-  const deck_axis_id axes[] = {DECK_AXIS_DAMPING, drive_axis(g->d)};
-  const size_t n = g->dampings * g->drives;
+  const size_t n = g->lines * g->values;
   int64_t *count = malloc(n * sizeof *count);
   if (count == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) count[i] = (int64_t)g->points[i].uncertain;
-  const pendres_status status = scene_write_uncertain(run, 2, axes, count);
+  const pendres_status status = scene_write_uncertain(run, 2, g->axis, count);
   free(count);
   return status;
 }
 
-static void peak_value(const pendres_resonance *r, int which, double *value, double *error)
+/* ---- resonances ---------------------------------------------------------------------------- */
+
+typedef struct peak_row {
+  double period, period_error, frequency, frequency_error, loop_area, loop_area_error;
+  double amplitude, amplitude_error, phase_lag, phase_lag_error;
+} peak_row;
+
+static const scene_column by_period =
+  SCENE_COLUMN(peak_row, period, "drive period of the largest mean loop area", "1");
+static const scene_column by_frequency =
+  SCENE_COLUMN(peak_row, frequency, "drive frequency of the largest mean loop area", "1");
+static const scene_column of_peaks[] = {
+  SCENE_COLUMN(peak_row, loop_area, "mean loop area at resonance", "1"),
+  SCENE_COLUMN(peak_row, amplitude, "amplitude of the ensemble-averaged loop at resonance", "rad"),
+  SCENE_COLUMN(peak_row, phase_lag, "phase lag of the ensemble-averaged loop at resonance", "rad"),
+};
+
+static peak_row peak_of(const grid *g, size_t line)
 {
+  const pendres_resonance *r = &g->peaks[line];
   const pendres_response *a = &r->response;
-  switch (which) {
-  case 0:
-    *value = two_pi / r->frequency;
-    *error = *value * r->frequency_error / r->frequency;
-    break;
-  case 1: *value = r->loop_area, *error = r->loop_area_error; break;
-  case 2: *value = a->mean_loop_amplitude, *error = a->mean_loop_amplitude_error; break;
-  default: *value = a->phase_lag, *error = a->phase_lag_error; break;
-  }
+  if (g->outcome[line] != PENDRES_OK)
+    return (peak_row){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+  const double period = two_pi / r->frequency;
+  return (peak_row){.period = period,
+                    .period_error = period * r->frequency_error / r->frequency,
+                    .frequency = r->frequency, .frequency_error = r->frequency_error,
+                    .loop_area = r->loop_area, .loop_area_error = r->loop_area_error,
+                    .amplitude = a->mean_loop_amplitude,
+                    .amplitude_error = a->mean_loop_amplitude_error,
+                    .phase_lag = a->phase_lag, .phase_lag_error = a->phase_lag_error};
 }
 
-static pendres_status write_peaks(scene_run *run, const grid *g, double *value, double *error)
+static pendres_status write_peaks(scene_run *run, const grid *g)
 {
-  static const struct {
-    const char *name, *long_name, *units;
-  } results[] = {
-    {"resonance_period", "drive period of the largest mean loop area", "1"},
-    {"resonance_loop_area", "mean loop area at resonance", "1"},
-    {"resonance_amplitude", "amplitude of the ensemble-averaged loop at resonance", "rad"},
-    {"resonance_phase_lag", "phase lag of the ensemble-averaged loop at resonance", "rad"},
-  };
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < 4 && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {.name = results[k].name, .dimensions = {"damping"},
-                                     .long_name = results[k].long_name, .units = results[k].units};
-    for (size_t i = 0; i < g->dampings; i++) {
-      value[i] = error[i] = NAN;
-      if (g->outcome[i] == PENDRES_OK) peak_value(&g->peaks[i], k, &value[i], &error[i]);
-    }
-    status = pendres_store_put_result(run->store, &spec, value, error, g->dampings);
-  }
+  peak_row *rows = malloc(g->lines * sizeof *rows);
+  if (rows == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu resonances", g->lines);
+  for (size_t i = 0; i < g->lines; i++) rows[i] = peak_of(g, i);
+  const scene_table table = {.dimensions = {deck_axis_name(g->axis[0])}, .prefix = "resonance",
+                             .n = g->lines, .stride = sizeof *rows, .rows = rows};
+  pendres_status status = scene_columns_write(run, &table, 1, &by_period);
+  /* Who asked for frequencies gets the frequency too. */
+  if (status == PENDRES_OK && g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+    status = scene_columns_write(run, &table, 1, &by_frequency);
+  if (status == PENDRES_OK)
+    status = scene_columns_write(run, &table, sizeof of_peaks / sizeof *of_peaks, of_peaks);
+  free(rows);
   return status;
 }
 
 static pendres_status write_failures(scene_run *run, const grid *g)
 {
-  const deck_axis_id axes[] = { DECK_AXIS_DAMPING, drive_axis(g->d) };
   const pendres_status status =
-    scene_failures_write(run, &g->failed, "failed", "response", 2, axes);
-  return status != PENDRES_OK ? status
-                              : scene_failures_write(run, &g->peak_failed, "resonance_failed",
-                                                     "resonance", 1, axes);
+    scene_failures_write(run, &g->failed, "failed", "response", 2, g->axis);
+  if (status != PENDRES_OK || !g->peaked) return status;
+  return scene_failures_write(run, &g->peak_failed, "resonance_failed", "resonance", 1, g->axis);
+}
+
+static pendres_status write_axis(scene_run *run, deck_axis_id axis)
+{
+  const deck_axis *a = &run->deck->axis[axis];
+  const char *words = axis == DECK_AXIS_DAMPING           ? "damping"
+                      : axis == DECK_AXIS_DRIVE_PERIOD    ? "drive period"
+                      : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitude"
+                                                          : "drive frequency";
+  return pendres_store_dimension(run->store, "", deck_axis_name(axis), a->count, a->value, words,
+                                 "1");
 }
 
 static pendres_status write_results(scene_run *run, const grid *g)
 {
-  const deck_axis *damping = &g->d->axis[DECK_AXIS_DAMPING];
-  const deck_axis_id axis = drive_axis(g->d);
-  const size_t n = g->dampings * g->drives;
-  double *value = malloc(n * sizeof *value), *error = malloc(n * sizeof *error);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (value == NULL || error == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu results", n);
-    goto done;
-  }
-  status = pendres_store_dimension(run->store, "", "damping", g->dampings, damping->value,
-                                   "damping", "1");
+  const scene_response_grid noisy = {
+    .dampings = g->lines, .drives = g->values, .damping = deck_axis_name(g->axis[0]),
+    .drive = deck_axis_name(g->axis[1]), .points = g->points};
+  pendres_status status = write_axis(run, g->axis[0]);
+  if (status == PENDRES_OK) status = write_axis(run, g->axis[1]);
   if (status == PENDRES_OK)
-    status = pendres_store_dimension(run->store, "", deck_axis_name(axis), g->drives,
-                                     g->d->axis[axis].value,
-                                     axis == DECK_AXIS_DRIVE_PERIOD ? "drive period"
-                                                                    : "drive frequency",
-                                     "1");
-  const scene_response_grid grid = {
-    .dampings = g->dampings, .drives = g->drives, .damping = "damping",
-    .drive = deck_axis_name(axis), .points = g->points};
-  if (status == PENDRES_OK)
-    status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &grid)
-                                                         : write_points(run, g, value, error);
+    status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &noisy)
+                                                         : write_points(run, g);
   if (status == PENDRES_OK) status = write_uncertain(run, g);
-  if (status == PENDRES_OK) status = write_peaks(run, g, value, error);
+  if (status == PENDRES_OK && g->peaked) status = write_peaks(run, g);
   if (status == PENDRES_OK) status = write_failures(run, g);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-done:
-  free(value);
-  free(error);
-  return status;
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
 /* Resonant periods that the paper prints in the captions of Figs. 3 and 4, F0 = 0.2. */
@@ -345,29 +332,32 @@ static pendres_status write_paper(scene_run *run, const grid *g)
   };
   scene_printed values[4];
   size_t n = 0;
-  if (fabs(g->d->pendulum.drive_amplitude - 0.2) > 1e-12) return PENDRES_OK;
+  if (!g->peaked || !(fabs(g->d->pendulum.drive_amplitude - 0.2) <= 1e-12)) return PENDRES_OK;
   for (size_t k = 0; k < 4; k++)
-    for (size_t i = 0; i < g->dampings; i++) {
+    for (size_t i = 0; i < g->lines; i++) {
       const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
       if (fabs(damping - printed[k].damping) > 1e-12 || g->outcome[i] != PENDRES_OK) continue;
-      values[n] = (scene_printed){.name = printed[k].name, .printed = printed[k].period};
-      peak_value(&g->peaks[i], 0, &values[n].computed, &values[n].error);
-      n++;
+      const peak_row peak = peak_of(g, i);
+      values[n++] = (scene_printed){.name = printed[k].name, .printed = printed[k].period,
+                                    .computed = peak.period, .error = peak.period_error};
     }
   return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
 }
 
 static void print_table(FILE *out, const grid *g)
 {
-  fprintf(out, "damping   resonant period  amplitude  phase lag  loop area\n");
-  for (size_t i = 0; i < g->dampings; i++) {
-    const pendres_resonance *r = &g->peaks[i];
-    const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
+  const int frequencies = g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY;
+  const deck_axis *across = &g->d->axis[g->axis[0]];
+  if (!g->peaked) return;
+  fprintf(out, "%-9s resonant %s  amplitude  phase lag  loop area\n",
+          g->axis[0] == DECK_AXIS_DAMPING ? "damping" : "drive", frequencies ? "freq. " : "period");
+  for (size_t i = 0; i < g->lines; i++) {
+    const peak_row r = peak_of(g, i);
     if (g->outcome[i] == PENDRES_OK)
-      fprintf(out, "%-9.4g %.9f      %.6f   %.6f   %.8f\n", damping, two_pi / r->frequency,
-              r->response.mean_loop_amplitude, r->response.phase_lag, r->loop_area);
+      fprintf(out, "%-9.4g %.9f      %.6f   %.6f   %.8f\n", across->value[i],
+              frequencies ? r.frequency : r.period, r.amplitude, r.phase_lag, r.loop_area);
     else
-      fprintf(out, "%-9.4g %s\n", damping,
+      fprintf(out, "%-9.4g %s\n", across->value[i],
               g->outcome[i] == PENDRES_NOT_FOUND ? "no peak in the range" : "failed");
   }
 }
@@ -378,26 +368,29 @@ static pendres_status run_scene(scene_run *run)
   grid g = {.d = d,
             .sweep = scene_sweep(d),
             .ensemble = scene_ensemble(d),
-            .dampings = d->axis[DECK_AXIS_DAMPING].count,
-            .drives = d->axis[drive_axis(d)].count};
+            .axis = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY}};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  g.chunks = (g.drives + CHUNK - 1) / CHUNK;
-  g.points = calloc(g.dampings * g.drives, sizeof *g.points);
-  g.peaks = calloc(g.dampings, sizeof *g.peaks);
-  g.outcome = calloc(g.dampings, sizeof *g.outcome);
+  scene_plane(d, g.axis);
+  g.lines = d->axis[g.axis[0]].count;
+  g.values = d->axis[g.axis[1]].count;
+  g.peaked = is_peaked(g.axis);
+  g.chunks = (g.values + CHUNK - 1) / CHUNK;
+  g.points = calloc(g.lines * g.values, sizeof *g.points);
+  g.peaks = calloc(g.lines, sizeof *g.peaks);
+  g.outcome = calloc(g.lines, sizeof *g.outcome);
   if (g.points == NULL || g.peaks == NULL || g.outcome == NULL ||
-      scene_failures_create(g.dampings * g.drives, &g.failed) != PENDRES_OK ||
-      scene_failures_create(g.dampings, &g.peak_failed) != PENDRES_OK) {
-    (void)scene_fail(run, status, "out of memory for %zu points", g.dampings * g.drives);
+      scene_failures_create(g.lines * g.values, &g.failed) != PENDRES_OK ||
+      scene_failures_create(g.lines, &g.peak_failed) != PENDRES_OK) {
+    (void)scene_fail(run, status, "out of memory for %zu points", g.lines * g.values);
     goto done;
   }
   status = scene_compute(run, &(farm_stage){ .what = "chunks", .task = compute,
-                                             .tasks = g.dampings * (g.chunks + 1),
+                                             .tasks = g.lines * (g.chunks + (g.peaked ? 1 : 0)),
                                              .collect = collect, .arg = &g });
   if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "dampings", .tasks = g.dampings, .cheap = 1,
+    status = scene_compute(run, &(farm_stage){ .what = "lines", .tasks = g.lines, .cheap = 1,
                                                .task = name_states, .collect = collect_names,
-                                               .record_size = g.drives * sizeof *g.points,
+                                               .record_size = g.values * sizeof *g.points,
                                                .arg = &g });
   if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK) status = write_paper(run, &g);

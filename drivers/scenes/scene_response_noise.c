@@ -177,9 +177,8 @@ static void print_table(FILE *out, const work *w)
 
 static pendres_status write_failed(scene_run *run, const work *w)
 {
-  const int by_period = w->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0;
-  const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE, DECK_AXIS_DAMPING,
-                                by_period ? DECK_AXIS_DRIVE_PERIOD : DECK_AXIS_DRIVE_FREQUENCY };
+  deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE, DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY };
+  scene_plane(w->d, axes + 1);
   return scene_failures_write(run, &w->failed, "noise_failed", "response with noise", 3, axes);
 }
 

@@ -86,19 +86,26 @@ typedef struct pendres_bifurcation {
   pendres_orbit orbit; /**< the orbit there, its pendulum with the value; slopes are NaN */
 } pendres_bifurcation;
 
-/** A fold in the drive frequency. */
+/** A bifurcation that is a fold. */
 typedef pendres_bifurcation pendres_fold;
 
 /**
- * The fold in drive frequency at the end of the branch that `near` lies on: follows it, first in
+ * The fold at the end of the branch that `near` lies on, as a parameter changes: followed first in
  * the direction in which its leading multiplier approaches +1, then in the other.
  *
- * near may be stable or not; it is read only. value of *out is the drive frequency of the fold.
- * Errors: PENDRES_NOT_FOUND if the branch has no fold between a third of and three times the
- * drive frequency of near, PENDRES_NOT_CONVERGED if near is no orbit,
- * PENDRES_TOLERANCE_UNREACHABLE if value_error exceeds the tolerance (*out is complete), and those
- * of the integration.
+ * @param ctx       belongs to one thread at a time
+ * @param near      an orbit, stable or not; read
+ * @param parameter what changes along the branch
+ * @param out       written: value is the parameter's at the fold
+ * @return PENDRES_NOT_FOUND if the branch has no fold between a third of and three times the
+ *         parameter's value for near, PENDRES_NOT_CONVERGED if near is no orbit,
+ *         PENDRES_TOLERANCE_UNREACHABLE if value_error exceeds the tolerance (*out is complete),
+ *         PENDRES_INVALID_ARGUMENT, and failures of the integration
  */
+pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit *near,
+                                       pendres_parameter parameter, pendres_fold *out);
+
+/** pendres_fold_find_along() the drive frequency. */
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near,
                                  pendres_fold *out);
 

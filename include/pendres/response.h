@@ -95,8 +95,8 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
 void pendres_response_average(pendres_response *r);
 
 /**
- * Names for what is alone: of n responses of one damping and drive amplitude, at frequencies in any
- * order, those with a single orbit of one drive period and no name for it yet (see pendres_label)
+ * Names for what is alone: of n responses of one damping, and of one drive amplitude at
+ * frequencies in any order or of one frequency at drive amplitudes in any order, those with a single orbit of one drive period and no name for it yet (see pendres_label)
  * are named SA or LA by the fold at which SA ends, if SA and LA coexist at any of the n; labels,
  * shares and their errors are brought up to date. Otherwise nothing changes.
  *

@@ -9,10 +9,8 @@
 #include "continuation/continuation_walk.h"
 
 enum { MOST_ADVANCES = 200 };
-static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
+static const double widest_range = 3.0; /* of the parameter, as a ratio */
 static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
-
-static const int by_frequency[] = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA};
 
 /* Locate the fold between two points of opposite determinants. */
 static pendres_status between(pendres_context *ctx, const pendres_walk *w,
@@ -24,14 +22,15 @@ static pendres_status between(pendres_context *ctx, const pendres_walk *w,
   const double part = ga / (ga - gb);
   double u[PENDRES_U_COUNT];
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  return pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_FOLD, by_frequency, u,
+  return pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_FOLD, w->unknown, u,
                                      2.0 * (b->arclength - a->arclength), out);
 }
 
 /* Walk until the determinant changes its sign. */
 static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendres_located *out)
 {
-  const double start = w->here.u[PENDRES_U_OMEGA];
+  const int place = w->unknown[2];
+  const double start = w->here.u[place];
   pendres_walk_point last = w->here;
   for (int i = 0; i < MOST_ADVANCES; i++) {
     pendres_status status = pendres_walk_advance(ctx, 1, w);
@@ -46,19 +45,23 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
       }
       last = *p;
     }
-    const double omega = w->here.u[PENDRES_U_OMEGA];
-    if (omega > widest_range * start || omega * widest_range < start) break;
+    const double value = w->here.u[place];
+    if (value > widest_range * start || value * widest_range < start) break;
     if (w->here.growth > wildest) break;
   }
   return PENDRES_NOT_FOUND;
 }
 
-static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
+static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
+                                pendres_parameter parameter, pendres_fold *out)
 {
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
   const char *no_orbit = pendres_orbit_refuses_others(near);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", no_orbit);
+  if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: unknown parameter");
+  const double from = pendres_parameter_get(parameter, &near->pendulum);
   double u[PENDRES_U_COUNT], approach[2];
   pendres_located located;
   pendres_walk walk[2], ahead[2];
@@ -67,13 +70,13 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
     walk[i] = (pendres_walk){.map = pendres_continuation_map_of(near, u),
                              .condition = PENDRES_CONDITION_NONE,
                              .unknowns = 3,
-                             .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA},
+                             .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA + (int)parameter},
                              .tolerance = 1e-7,
                              .longest = 0.1};
     status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
     if (status == PENDRES_NOT_CONVERGED)
-      return pendres_context_fail(ctx, status, "no orbit to start from at drive frequency %g",
-                                  near->pendulum.drive_frequency);
+      return pendres_context_fail(ctx, status, "no orbit to start from at %s %g",
+                                  pendres_parameter_name(parameter), from);
     if (status != PENDRES_OK) return status;
     ahead[i] = walk[i];
   }
@@ -91,11 +94,11 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   if (status == PENDRES_NOT_FOUND) status = walk_to_fold(ctx, &walk[1 - first], &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status,
-                                "the branch through drive frequency %g has no fold near",
-                                near->pendulum.drive_frequency);
+                                "the branch through %s %g has no fold near",
+                                pendres_parameter_name(parameter), from);
   if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
   const pendres_status measured = pendres_continuation_locate_finish(
-    ctx, PENDRES_CONDITION_FOLD, PENDRES_DRIVE_FREQUENCY, &located, out);
+    ctx, PENDRES_CONDITION_FOLD, parameter, &located, out);
   if (measured != PENDRES_OK) return measured;
   if (status == PENDRES_TOLERANCE_UNREACHABLE)
     return pendres_context_fail(ctx, status, "the fold at %.12g is known to %.1e only", out->value,
@@ -103,7 +106,13 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   return status;
 }
 
+pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit *near,
+                                       pendres_parameter parameter, pendres_fold *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, parameter, out));
+}
+
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, out));
+  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, PENDRES_DRIVE_FREQUENCY, out));
 }

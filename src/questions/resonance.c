@@ -297,7 +297,8 @@ static pendres_status name_states(const pendres_search *s, pendres_response *r)
   pendres_small_end end;
   if (!pendres_response_nameless(r)) return PENDRES_OK;
   for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
-  const pendres_status status = pendres_response_small_end(s->ctx, s->count, line, &end);
+  const pendres_status status =
+    pendres_response_small_end(s->ctx, s->count, line, PENDRES_DRIVE_FREQUENCY, &end);
   if (status == PENDRES_OK) pendres_response_name_by(&end, r);
   return status;
 }

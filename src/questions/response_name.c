@@ -28,31 +28,34 @@ static const pendres_orbit *small_of(const pendres_response *r)
   return NULL;
 }
 
-/* The SA of the highest frequency below `limit`. */
+/* The SA of the highest value of the line's parameter below *limit, which becomes that value. */
 static const pendres_orbit *highest_below(size_t n, const pendres_response *const *line,
-                                          double limit)
+                                          pendres_parameter parameter, double *limit)
 {
   const pendres_orbit *best = NULL;
+  double highest = -INFINITY;
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit *o = small_of(line[i]);
-    if (o == NULL || !(o->pendulum.drive_frequency < limit)) continue;
-    if (best == NULL || o->pendulum.drive_frequency > best->pendulum.drive_frequency) best = o;
+    const double value = o != NULL ? pendres_parameter_get(parameter, &o->pendulum) : NAN;
+    if (!(value < *limit && value > highest)) continue;
+    highest = value;
+    best = o;
   }
+  *limit = highest;
   return best;
 }
 
 pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
                                           const pendres_response *const *line,
-                                          pendres_small_end *end)
+                                          pendres_parameter parameter, pendres_small_end *end)
 {
   *end = (pendres_small_end){.known = 0};
   double limit = INFINITY;
   for (int k = 0; k < MOST_TRIES && !end->known; k++) {
-    const pendres_orbit *o = highest_below(n, line, limit);
+    const pendres_orbit *o = highest_below(n, line, parameter, &limit);
     pendres_fold fold;
     if (o == NULL) break;
-    limit = o->pendulum.drive_frequency;
-    const pendres_status status = pendres_fold_find(ctx, o, &fold);
+    const pendres_status status = pendres_fold_find_along(ctx, o, parameter, &fold);
     if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) continue;
     if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
     if (!(fold.curvature < 0.0 && fold.value >= limit && fold.orbit.amplitude >= o->amplitude))
@@ -88,21 +91,26 @@ void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
 static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response *responses)
 {
   pendres_small_end end;
-  size_t nameless = 0;
+  size_t nameless = 0, drives = 0, amplitudes = 0;
   if (n > 0 && responses == NULL) return PENDRES_CONTEXT_NULL(ctx, "responses");
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &responses[i].pendulum, *first = &responses[0].pendulum;
-    if (p->damping != first->damping || p->drive_amplitude != first->drive_amplitude)
+    drives += p->drive_frequency != first->drive_frequency;
+    amplitudes += p->drive_amplitude != first->drive_amplitude;
+    if (p->damping != first->damping || (drives > 0 && amplitudes > 0))
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                  "names need responses of one damping and drive amplitude");
+                                  "names need responses of one damping, and of one drive amplitude "
+                                  "or one drive frequency");
     nameless += pendres_response_nameless(&responses[i]) != 0;
   }
+  const pendres_parameter parameter =
+    amplitudes > 0 ? PENDRES_DRIVE_AMPLITUDE : PENDRES_DRIVE_FREQUENCY;
   if (nameless == 0) return PENDRES_OK;
   const pendres_response **line = malloc(n * sizeof *line);
   if (line == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu responses", n);
   for (size_t i = 0; i < n; i++) line[i] = &responses[i];
-  const pendres_status status = pendres_response_small_end(ctx, n, line, &end);
+  const pendres_status status = pendres_response_small_end(ctx, n, line, parameter, &end);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     pendres_response_name_by(&end, &responses[i]);
   free(line);

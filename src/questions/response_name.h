@@ -1,5 +1,5 @@
 /*
- * response_name.h -- names of states that are alone, from their neighbours in frequency.
+ * response_name.h -- names of states that are alone, from their neighbours along a parameter.
  */
 #ifndef PENDRES_RESPONSE_NAME_H
 #define PENDRES_RESPONSE_NAME_H
@@ -15,7 +15,7 @@ int pendres_response_nameless(const pendres_response *response);
    known if they show none. */
 pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
                                           const pendres_response *const *line,
-                                          pendres_small_end *end);
+                                          pendres_parameter parameter, pendres_small_end *end);
 
 /* Name what is alone; shares are brought up to date. */
 void pendres_response_name_by(const pendres_small_end *end, pendres_response *response);
