@@ -1,4 +1,5 @@
-/*
+/**
+ * @file
  * basin.h -- basins of attraction over a grid of initial states, and their statistics.
  *
  * Owns: labelling of grids in pieces, adaptive refinement, basin fractions, boundary basin
@@ -30,8 +31,10 @@ extern "C" {
 
 /** States (x[i], v[j]) at drive phase 0, 0 <= i < nx, 0 <= j < nv; number i * nv + j. */
 typedef struct pendres_basin_grid {
-  size_t nx, nv;
-  const double *x, *v; /**< not owned */
+  size_t nx;       /**< how many positions */
+  size_t nv;       /**< how many velocities */
+  const double *x; /**< [nx] positions, rad; not owned */
+  const double *v; /**< [nv] velocities; not owned */
 } pendres_basin_grid;
 
 /** How a state was found. */
@@ -111,6 +114,7 @@ typedef struct pendres_basin_plan pendres_basin_plan;
  *  grid's arrays must outlive the plan. */
 pendres_status pendres_basin_plan_create(const pendres_basin_grid *grid, size_t first,
                                          size_t rows, int stride, pendres_basin_plan **out);
+/** NULL is allowed. */
 void pendres_basin_plan_free(pendres_basin_plan *plan);
 
 /**
@@ -131,6 +135,8 @@ pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
+/** Take over what the states drawn by pendres_basin_plan_sample() are; *missed: how many of them
+    had been filled in wrongly. */
 pendres_status pendres_basin_plan_verify(pendres_basin_plan *plan,
                                          const pendres_basin_state *state, size_t *missed);
 
@@ -157,28 +163,34 @@ enum {
 
 /** Statistics of a grid. Two states are alike when they have the same attractor. */
 typedef struct pendres_basin_statistics {
-  size_t states, unresolved;
-  double entropy, entropy_error;   /**< basin entropy: mean over boxes of 5 x 5 states of
+  size_t states;                   /**< how many were looked at */
+  size_t unresolved;               /**< those of them without an attractor */
+  double entropy;                  /**< basin entropy: mean over boxes of 5 x 5 states of
                                         -sum p log p, p the shares of attractors in the box */
-  double boundary_entropy, boundary_entropy_error; /**< the same over boxes with unlike states; more
-                                        than log 2: a fractal boundary. NaN without any */
+  double entropy_error;            /**< its error */
+  double boundary_entropy;         /**< the same over boxes with unlike states; more than log 2: a
+                                        fractal boundary. NaN without any */
+  double boundary_entropy_error;   /**< its error */
   double boundary_boxes;           /**< share of boxes with unlike states */
-  double uncertainty_exponent, uncertainty_exponent_error; /**< alpha in f ~ distance^alpha over the
-                                        smallest usable distances; NaN without a boundary. Strands
-                                        that accumulate at a curve make f ~ d log 1/d: alpha is then
-                                        below its limit 1 by 1 / log(1/d) at any distance d */
-  int scales;
-  double distance[PENDRES_BASIN_SCALES];  /**< in v */
-  double uncertain[PENDRES_BASIN_SCALES]; /**< f: share of states with an unlike one so far away */
-  double uncertain_error[PENDRES_BASIN_SCALES];
+  double uncertainty_exponent;     /**< alpha in f ~ distance^alpha over the smallest usable
+                                        distances; NaN without a boundary. Strands that accumulate
+                                        at a curve make f ~ d log 1/d: alpha is then below its
+                                        limit 1 by 1 / log(1/d) at any distance d */
+  double uncertainty_exponent_error; /**< its error */
+  int scales;                      /**< how many distances there are */
+  double distance[PENDRES_BASIN_SCALES];  /**< [scales] distances d in v */
+  double uncertain[PENDRES_BASIN_SCALES]; /**< [scales] f: share of states with an unlike one so far
+                                               away */
+  double uncertain_error[PENDRES_BASIN_SCALES]; /**< [scales] errors of these */
   size_t uncertain_states;         /**< integrated ones that may belong to another basin */
 } pendres_basin_statistics;
 
 /** A well that states of a basin settle in. */
 typedef struct pendres_basin_well {
-  int attractor;
-  long well;     /**< 0 alone for running and chaotic attractors */
-  size_t states;
+  int attractor; /**< its number in the set */
+  long well;     /**< number of the well, at x = pi/2 + 2 pi well; 0 alone for running and chaotic
+                      attractors */
+  size_t states; /**< how many states of the grid settle in it */
 } pendres_basin_well;
 
 /**
@@ -197,8 +209,11 @@ typedef struct pendres_basin_well {
  */
 typedef struct pendres_basin_sums pendres_basin_sums;
 
+/** Sums of which no row is added yet, for so many attractors. *out is to be freed by
+    pendres_basin_sums_free(). PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: *out is NULL. */
 pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
                                          pendres_basin_sums **out);
+/** NULL is allowed. */
 void pendres_basin_sums_free(pendres_basin_sums *sums);
 /** Add the next rows, in their order from row 0 on. */
 pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
@@ -230,7 +245,10 @@ pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
 
 /** A window of initial states. */
 typedef struct pendres_basin_window {
-  double x_low, x_high, v_low, v_high;
+  double x_low;  /**< lowest position, rad */
+  double x_high; /**< highest position, rad */
+  double v_low;  /**< lowest velocity */
+  double v_high; /**< highest velocity */
 } pendres_basin_window;
 
 /**

@@ -1,4 +1,5 @@
-/*
+/**
+ * @file
  * boundary.h -- basin boundaries as curves: stable manifolds of unstable orbits.
  *
  * Owns: the unstable orbit between two attractors, and its stable manifold as a polyline. Where
@@ -25,8 +26,11 @@ extern "C" {
 
 /** What is wanted. Zero in a field means the default. */
 typedef struct pendres_boundary_options {
-  double x_low, x_high; /**< window, kept points lie in it; default one turn around well 0 */
-  double v_low, v_high; /**< default -2.5, 2.5 */
+  double x_low;         /**< window in which points are kept, rad; where x_low and x_high are 0: one
+                             turn around well 0 */
+  double x_high;        /**< its other side */
+  double v_low;         /**< the same in v; where v_low and v_high are 0: -2.5 to 2.5 */
+  double v_high;        /**< its other side */
   double spacing;       /**< neighbours on a piece are no further apart in x or v; default 0.05 */
   double deviation;     /**< of the polyline from the curve between its points; default 1e-5 */
   size_t most_points;   /**< grown before giving up; default 400000 */
@@ -56,11 +60,14 @@ pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *at
 pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
                                      const pendres_boundary_options *options,
                                      pendres_boundary **out);
+/** NULL is allowed. */
 void pendres_boundary_free(pendres_boundary *boundary);
 
-/** Number of points, and the points: piece after piece, in order along each. Owned by boundary. */
+/** How many points a boundary has; 0 for NULL. They stand piece after piece, in order along each. */
 size_t pendres_boundary_count(const pendres_boundary *boundary);
+/** x of every point, rad; owned by the boundary; NULL for NULL. */
 const double *pendres_boundary_x(const pendres_boundary *boundary);
+/** v of every point; owned by the boundary; NULL for NULL. */
 const double *pendres_boundary_v(const pendres_boundary *boundary);
 /** Number of the piece (0, 1, ...) that each point belongs to. */
 const int *pendres_boundary_piece(const pendres_boundary *boundary);

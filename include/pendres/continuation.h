@@ -1,4 +1,5 @@
-/*
+/**
+ * @file
  * continuation.h -- branches of periodic orbits, and where they end.
  *
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
@@ -74,15 +75,17 @@ const char *pendres_special_name(pendres_special special);
 
 /** A fold, period doubling or symmetry breaking. Plain data. */
 typedef struct pendres_bifurcation {
-  pendres_special kind;
+  pendres_special kind;        /**< which of the three */
   pendres_parameter parameter; /**< what was varied to find it */
-  double value, value_error;   /**< of that parameter; all others are as given */
+  double value;                /**< of that parameter; all others are as given */
+  double value_error;          /**< its error */
   /**
    * For a fold: second derivative of the parameter by arclength of the Poincaré point in
    * the (x, v) plane along the branch. Negative: the two orbits exist below `value`, positive:
    * above. 0 at a cusp. NaN for the other kinds.
    */
-  double curvature, curvature_error;
+  double curvature;
+  double curvature_error;      /**< its error */
   pendres_orbit orbit; /**< the orbit there, its pendulum with the value; slopes are NaN */
 } pendres_bifurcation;
 
@@ -113,8 +116,9 @@ pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near
 
 /** Along which parameter, how far and how finely. Zero in a field of the last three: default. */
 typedef struct pendres_branch_options {
-  pendres_parameter parameter;
-  double low, high;     /**< of the parameter: the branch is followed while it lies within */
+  pendres_parameter parameter; /**< what changes along the branch */
+  double low;           /**< lowest value of the parameter to which the branch is followed */
+  double high;          /**< highest value */
   double spacing;       /**< of points in arclength, up to twice this in bends; default 0.05 */
   double wildest;       /**< growth of errors in one map at which a branch is given up; 1e3 */
   size_t most_points;   /**< each way from the start; default 2000 */
@@ -145,7 +149,7 @@ typedef enum pendres_doubt {
 
 /** A point of a branch. */
 typedef struct pendres_branch_point {
-  pendres_special kind;
+  pendres_special kind;   /**< what happens there; PENDRES_REGULAR: nothing */
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
   double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are,
                                the drive frequency in units of 0.3, damping and drive amplitude
@@ -169,12 +173,16 @@ typedef struct pendres_branch pendres_branch;
  */
 pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
                                      const pendres_branch_options *options, pendres_branch **out);
+/** NULL is allowed. */
 void pendres_branch_free(pendres_branch *branch);
 
+/** How many points a branch has; 0 for NULL. */
 size_t pendres_branch_count(const pendres_branch *branch);
 /** Point number i, owned by the branch; NULL out of range. */
 const pendres_branch_point *pendres_branch_get(const pendres_branch *branch, size_t i);
+/** How many bifurcations lie on a branch; 0 for NULL. */
 size_t pendres_branch_bifurcations(const pendres_branch *branch);
+/** Bifurcation number i in the order of the branch, owned by it; NULL out of range. */
 const pendres_bifurcation *pendres_branch_bifurcation(const pendres_branch *branch, size_t i);
 /** How the branch ends at its first (which = 0) and its last point (1). */
 pendres_branch_end pendres_branch_end_of(const pendres_branch *branch, int which);
@@ -185,8 +193,8 @@ typedef struct pendres_branch_part {
   size_t last;                /**< number of the point at which it ends */
   pendres_special begins;     /**< the bifurcation at `first`; PENDRES_REGULAR: the branch begins
                                    there, or is not known before */
-  pendres_special ends;       /**< the bifurcation at `last`; PENDRES_REGULAR: the branch ends there,
-                                   or is not known beyond */
+  pendres_special ends;       /**< the bifurcation at `last`; PENDRES_REGULAR: the branch ends
+                                   there, or is not known beyond */
 } pendres_branch_part;
 
 /**
@@ -243,10 +251,13 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_bifurcation *bifurcations,
                                        const pendres_branch_options *options,
                                        pendres_branches *branches);
+/** NULL is allowed; frees the branches of the set too. */
 void pendres_branches_free(pendres_branches *branches);
+/** How many branches a set has; 0 for NULL. */
 size_t pendres_branches_count(const pendres_branches *branches);
 /** Branch number i, owned by the set; NULL out of range. */
 const pendres_branch *pendres_branches_get(const pendres_branches *branches, size_t i);
+/** How many orbits and bifurcations no branch could be followed from; 0 for NULL. */
 size_t pendres_branches_skipped(const pendres_branches *branches);
 
 /**
@@ -280,15 +291,17 @@ pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
 
 /** Where two folds meet and vanish. Plain data. */
 typedef struct pendres_cusp {
-  pendres_parameter parameter[2];
-  double value[2], value_error[2];
-  pendres_orbit orbit; /**< the orbit there; slopes are NaN */
+  pendres_parameter parameter[2]; /**< what was varied to find it */
+  double value[2];                /**< of these parameters, in their order */
+  double value_error[2];          /**< their errors */
+  pendres_orbit orbit;            /**< the orbit there; slopes are NaN */
 } pendres_cusp;
 
 /** How far and how finely. Zero in one of the last three: default. */
 typedef struct pendres_curve_options {
   pendres_parameter second;      /**< beside the one that the start was found in */
-  double low[2], high[2];        /**< of the start's parameter and of the second */
+  double low[2];                 /**< lowest values of the start's parameter and of the second */
+  double high[2];                /**< highest values: the curve is followed while both lie within */
   double spacing;                /**< of points in arclength, as for branches; default 0.05 */
   double wildest;                /**< growth of errors in a map at which a curve is given up; 300 */
   size_t most_points;            /**< each way from the start; default 2000 */
@@ -297,10 +310,12 @@ typedef struct pendres_curve_options {
 /** A point of a curve. */
 typedef struct pendres_curve_point {
   int cusp;                      /**< its number in the curve's list; -1: not a cusp */
-  double arclength;
-  double value[2], value_error[2]; /**< both parameters; the errors are those across the curve */
-  double curvature; /**< of folds, as in pendres_bifurcation; it changes its sign at a cusp */
-  pendres_orbit orbit;
+  double arclength;              /**< from the first point, in the units of branches */
+  double value[2];               /**< of both parameters */
+  double value_error[2];         /**< their errors across the curve */
+  double curvature;              /**< of folds, as in pendres_bifurcation; it changes its sign at a
+                                      cusp; NaN on curves of other bifurcations */
+  pendres_orbit orbit;           /**< the orbit there; slopes are NaN */
 } pendres_curve_point;
 
 /** Opaque: a curve of folds, period doublings or symmetry breakings, in order. */
@@ -314,13 +329,18 @@ typedef struct pendres_curve pendres_curve;
 pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
                                     const pendres_bifurcation *starts,
                                     const pendres_curve_options *options, pendres_curve **out);
+/** NULL is allowed. */
 void pendres_curve_free(pendres_curve *curve);
 
+/** What happens all along a curve; PENDRES_REGULAR for NULL. */
 pendres_special pendres_curve_kind(const pendres_curve *curve);
+/** How many points a curve has; 0 for NULL. */
 size_t pendres_curve_count(const pendres_curve *curve);
 /** Point number i, owned by the curve; NULL out of range. */
 const pendres_curve_point *pendres_curve_get(const pendres_curve *curve, size_t i);
+/** How many cusps lie on a curve; 0 for NULL. */
 size_t pendres_curve_cusps(const pendres_curve *curve);
+/** Cusp number i in the order of the curve, owned by it; NULL out of range. */
 const pendres_cusp *pendres_curve_cusp(const pendres_curve *curve, size_t i);
 /** The parameter that the curve's starts were found in (which = 0), and the second (1). */
 pendres_parameter pendres_curve_parameter(const pendres_curve *curve, int which);
@@ -348,7 +368,9 @@ pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
 pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
                                      const pendres_bifurcation *bifurcations,
                                      const pendres_curve_options *options, pendres_curves *curves);
+/** NULL is allowed; frees the curves of the set too. */
 void pendres_curves_free(pendres_curves *curves);
+/** How many curves a set has; 0 for NULL. */
 size_t pendres_curves_count(const pendres_curves *curves);
 /** Curve number i, owned by the set; NULL out of range. */
 const pendres_curve *pendres_curves_get(const pendres_curves *curves, size_t i);

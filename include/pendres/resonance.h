@@ -1,4 +1,5 @@
-/*
+/**
+ * @file
  * resonance.h -- the drive frequency at which an ensemble dissipates most in a cycle.
  *
  * Owns: the search for the largest mean loop area over drive frequency at given damping and
@@ -25,6 +26,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
+/** What kind of maximum a resonance is. */
 typedef enum pendres_peak {
   PENDRES_PEAK_SMOOTH = 0, /**< a maximum with a vanishing slope */
   PENDRES_PEAK_EDGE = 1,   /**< the largest mean area where it jumps */
@@ -35,13 +37,16 @@ typedef enum pendres_peak {
 
 /** A resonance. */
 typedef struct pendres_resonance {
-  pendres_peak peak;
-  double frequency, frequency_error; /**< omega; period is 2 pi / frequency */
-  double loop_area, loop_area_error; /**< mean loop area there: the largest in the range */
+  pendres_peak peak;                 /**< what kind of maximum it is */
+  double frequency;                  /**< drive frequency omega; the period is 2 pi / omega */
+  double frequency_error;            /**< its error */
+  double loop_area;                  /**< mean loop area there, the largest in the range: the work
+                                          of the drive in one of its periods, in m g l */
+  double loop_area_error;            /**< its error */
   pendres_response response;         /**< everything else there; at an edge, on its upper side */
   double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
                                           at an edge made by basins alone */
-  double fold_frequency_error;
+  double fold_frequency_error;       /**< its error; NaN where there is none */
   int complete;                      /**< 0: the search ended at its budget of work, and what it has
                                           not looked into may hold more */
 } pendres_resonance;
