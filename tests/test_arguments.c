@@ -382,6 +382,22 @@ static void hysteresis(void **state)
   assert_int_equal(f->wrong, 0);
 }
 
+static void cascades(void **state)
+{
+  fixture *f = *state;
+  f->wrong = 0;
+  const pendres_parameter along = PENDRES_DRIVE_AMPLITUDE;
+  pendres_cascade c;
+  REFUSED(pendres_cascade_find(f->ctx, NULL, along, 0.3, &c));
+  REFUSED(pendres_cascade_find(f->ctx, &f->orbit, along, 0.3, NULL));
+  REFUSED(pendres_cascade_find(f->ctx, &f->orbit, (pendres_parameter)-1, 0.3, &c));
+  REFUSED(pendres_cascade_find(f->ctx, &f->orbit, PENDRES_PARAMETER_COUNT, 0.3, &c));
+  REFUSED(pendres_cascade_find(f->ctx, &f->orbit, along, NAN, &c));
+  for (size_t i = 0; i < f->bad; i++)
+    REFUSED(pendres_cascade_find(f->ctx, &f->bad_orbits[i], along, 0.3, &c));
+  assert_int_equal(f->wrong, 0);
+}
+
 static void exponents(void **state)
 {
   fixture *f = *state;
@@ -542,7 +558,7 @@ int main(void)
     cmocka_unit_test(strobes),  cmocka_unit_test(settling),   cmocka_unit_test(orbits),
     cmocka_unit_test(basins),   cmocka_unit_test(boundaries), cmocka_unit_test(branches),
     cmocka_unit_test(curves),   cmocka_unit_test(ensembles),  cmocka_unit_test(hysteresis),
-    cmocka_unit_test(exponents),
+    cmocka_unit_test(exponents), cmocka_unit_test(cascades),
   };
   return cmocka_run_group_tests_name("arguments", tests, make, clear);
 }

@@ -16,6 +16,7 @@
 #include <pendres/response.h>
 #include <pendres/resonance.h>
 #include <pendres/continuation.h>
+#include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>
 #include <pendres/phase_diagram.h>

@@ -1,0 +1,95 @@
+/* cascade.c -- doublings of a period, one after another; see cascade.h. */
+#include <pendres/cascade.h>
+
+#include <math.h>
+
+#include "engine/context_internal.h"
+#include "orbits/orbit_newton.h"
+#include "questions/stretch.h"
+
+/* Feigenbaum's first constant. */
+static const double feigenbaum = 4.66920160910299067;
+
+enum { MOST_FORKS = PENDRES_CASCADE_DOUBLINGS + 4 };
+
+/* What the doublings up to that one tend to. */
+static double extrapolate(const pendres_cascade *c, int last)
+{
+  return c->value[last] + (c->value[last] - c->value[last - 1]) / (feigenbaum - 1.0);
+}
+
+static double ratio_at(const pendres_cascade *c, int last)
+{
+  return (c->value[last - 1] - c->value[last - 2]) / (c->value[last] - c->value[last - 1]);
+}
+
+/*
+ * Both converge by a factor of Feigenbaum's ratio or more from one doubling to the next, so that
+ * what they changed by last is more than they are off by; what the doublings are off by comes on top.
+ */
+static void finish(pendres_cascade *c)
+{
+  const int last = c->doublings - 1;
+  c->limit = c->limit_error = c->ratio = c->ratio_error = NAN;
+  if (c->doublings < 4) return;
+  double off = 0.0;
+  for (int i = last - 2; i <= last; i++) off = fmax(off, c->value_error[i]);
+  c->limit = extrapolate(c, last);
+  c->limit_error = fabs(c->limit - extrapolate(c, last - 1)) + 2.0 * off;
+  c->ratio = ratio_at(c, last);
+  c->ratio_error = fabs(c->ratio - ratio_at(c, last - 1)) +
+                   4.0 * c->ratio * off / fabs(c->value[last] - c->value[last - 1]);
+}
+
+static void note(const pendres_bifurcation *b, pendres_cascade *c)
+{
+  c->period[c->doublings] = b->orbit.period;
+  c->x[c->doublings] = b->orbit.x;
+  c->v[c->doublings] = b->orbit.v;
+  c->value[c->doublings] = b->value;
+  c->value_error[c->doublings++] = b->value_error;
+}
+
+static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
+                             pendres_parameter parameter, double limit, pendres_cascade *out)
+{
+  pendres_stretch s = pendres_stretch_none;
+  pendres_status status = pendres_stretch_from(ctx, orbit, parameter, limit, &s);
+  for (int fork = 0; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
+    const pendres_bifurcation end = s.bifurcation;
+    if (s.end != PENDRES_STRETCH_BIFURCATION || end.kind == PENDRES_FOLD) break;
+    if (end.kind == PENDRES_PERIOD_DOUBLING) note(&end, out);
+    if (out->doublings == PENDRES_CASCADE_DOUBLINGS) break;
+    pendres_stretch_free(&s);
+    status = pendres_stretch_born(ctx, &end, limit, &s);
+  }
+  pendres_stretch_free(&s);
+  return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+}
+
+static pendres_status cascade_find(pendres_context *ctx, const pendres_orbit *orbit,
+                                   pendres_parameter parameter, double limit, pendres_cascade *out)
+{
+  const char *why = NULL;
+  if (orbit == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
+  *out = (pendres_cascade){.doublings = 0};
+  finish(out);
+  why = pendres_orbit_refuses(orbit);
+  if (why == NULL && (unsigned)parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  if (why == NULL && !orbit->stable) why = "the orbit must be stable";
+  if (why == NULL && !isfinite(limit)) why = "the limit must be finite";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cascade: %s", why);
+  const pendres_status status = follow(ctx, orbit, parameter, limit, out);
+  finish(out);
+  if (status == PENDRES_OK && out->doublings == 0)
+    return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
+                                "the orbit does not double its period in the range");
+  return status;
+}
+
+pendres_status pendres_cascade_find(pendres_context *ctx, const pendres_orbit *orbit,
+                                    pendres_parameter parameter, double limit,
+                                    pendres_cascade *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, cascade_find(ctx, orbit, parameter, limit, out));
+}
