@@ -238,6 +238,35 @@ static void test_stop(void **state)
   }
 }
 
+/* Where there is no line for long, one says what is being worked on. */
+static void test_long_task(void **state)
+{
+  char text[20000] = "";
+  scene *s = new_scene();
+  farm *f = NULL;
+  progress p;
+  (void)state;
+  progress_init(&p, tmpfile(), 0);
+  assert_non_null(p.stream);
+  p.every = 0.0; /* whenever somebody looks, which is each millisecond then */
+  const farm_options options = { .threads = 2, .stop = stop, .stop_arg = s, .progress = &p };
+  check_ok(farm_create(&options, &f));
+  s->failing = 1;      /* ends the endless one after 1000 periods, and others' time */
+  s->failing_too = 2;
+  s->endless = 3;
+  (void)run(f, TASKS, collect, s);
+  progress_start(&p, "things", 10, 0);
+  progress_tick(&p, 4, 7, 400.0);
+  rewind(p.stream);
+  assert_true(fread(text, 1, sizeof text - 1, p.stream) > 0);
+  assert_non_null(strstr(text, " of 200 tasks after 0 s; the longest at work is number "));
+  assert_non_null(strstr(text, "4 of 10 things after 0 s; "));
+  assert_non_null(strstr(text, "number 7, for 400 s"));
+  fclose(p.stream);
+  farm_free(f);
+  free(s);
+}
+
 /* The context outside of tasks stops at a signal as well. */
 static void test_context(void **state)
 {
@@ -267,6 +296,7 @@ int main(void)
     cmocka_unit_test(test_few_threads),
 #endif
     cmocka_unit_test(test_context),
+    cmocka_unit_test(test_long_task),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

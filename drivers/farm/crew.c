@@ -1,9 +1,11 @@
 /* crew.c -- the tasks of a stage on threads; see farm.h. */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "farm/crew_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "farm/deal.h"
 
@@ -16,15 +18,48 @@ enum { MOST_WAITING = 64 << 20 };
 
 /* A thread at a task, for the question whether to go on with it. */
 typedef struct worker {
-  const crew *crew;
+  crew *crew;
   size_t task;
 } worker;
+
+static long long milliseconds(void)
+{
+  struct timespec t = { 0 };
+  (void)clock_gettime(CLOCK_MONOTONIC, &t);
+  return 1000LL * t.tv_sec + t.tv_nsec / 1000000;
+}
+
+/* Where nothing has been told for long, say what is being worked on. */
+static void look_at_clock(crew *c)
+{
+  progress *p = c->farm->options.progress;
+  const long long t = milliseconds();
+  if (p == NULL || t < atomic_load(&c->look)) return;
+  pthread_mutex_lock(&c->lock);
+  const at_work *first = NULL;
+  for (int i = 0; i < c->threads; i++) {
+    const at_work *w = &c->bench[i];
+    if (w->since > 0 && (first == NULL || w->since < first->since)) first = w;
+  }
+  if (first != NULL && t >= atomic_load(&c->look))
+    progress_tick(p, c->finished, first->task, 1e-3 * (double)(t - first->since));
+  atomic_store(&c->look, t + (p->every < 4.0 ? 1 : 1000));
+  pthread_mutex_unlock(&c->lock);
+}
+
+static void note_work(crew *c, int thread, at_work what)
+{
+  pthread_mutex_lock(&c->lock);
+  c->bench[thread] = what;
+  pthread_mutex_unlock(&c->lock);
+}
 
 /* Stop at a signal, and where an earlier task has failed already. */
 static int worker_stop(void *arg)
 {
   const worker *w = arg;
-  const crew *c = w->crew;
+  crew *c = w->crew;
+  look_at_clock(c);
   return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted);
 }
 
@@ -175,8 +210,10 @@ static void work(crew *c, int thread)
   worker w = { .crew = c };
   while (deal_take(c, thread, &w.task)) {
     farm_record record = { 0 };
+    note_work(c, thread, (at_work){ w.task, milliseconds() });
     pendres_status status = farm_context_of(c->farm, thread, &ctx);
     if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
+    note_work(c, thread, (at_work){ 0 });
     deal_finish(c, w.task, status, &record);
     free(record.data);
   }
@@ -267,19 +304,23 @@ static pendres_status outcome(crew *c)
 }
 
 /* Room for the records of a stage; free it in any case. */
-static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage)
+static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage, int threads)
 {
   *c = (crew){ .farm = f, .stage = stage, .number = f->stages,
                .journal = stage->timed ? NULL : f->journal };
   atomic_init(&c->limit, stage->tasks);
   c->done = calloc(stage->tasks, 1);
   c->record = calloc(stage->tasks, sizeof *c->record);
-  if (c->done != NULL && c->record != NULL && pthread_mutex_init(&c->lock, NULL) == 0) {
+  c->bench = calloc((size_t)threads, sizeof *c->bench);
+  c->threads = threads;
+  if (c->done != NULL && c->record != NULL && c->bench != NULL &&
+      pthread_mutex_init(&c->lock, NULL) == 0) {
     look_up(c);
     return PENDRES_OK;
   }
   free(c->done);
   free(c->record);
+  free(c->bench);
   return PENDRES_OUT_OF_MEMORY;
 }
 
@@ -288,6 +329,7 @@ static void crew_free(crew *c)
   for (size_t i = c->collected; i < c->stage->tasks; i++) free(c->record[i].data);
   free(c->record);
   free(c->done);
+  free(c->bench);
   (void)pthread_mutex_destroy(&c->lock);
 }
 
@@ -306,7 +348,7 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
   f->message[0] = '\0';
   if (stage->tasks == 0) return PENDRES_OK;
   hand *hands = calloc((size_t)threads, sizeof *hands);
-  if (hands == NULL || crew_create(&c, f, stage) != PENDRES_OK) {
+  if (hands == NULL || crew_create(&c, f, stage, threads) != PENDRES_OK) {
     free(hands);
     snprintf(f->message, sizeof f->message, "out of memory for %zu %s", stage->tasks, stage->what);
     return PENDRES_OUT_OF_MEMORY;

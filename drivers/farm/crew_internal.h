@@ -15,6 +15,12 @@ typedef struct kept {
   size_t size;
 } kept;
 
+/* A thread's task, and since when; 0: it has none. */
+typedef struct at_work {
+  size_t task;
+  long long since; /* milliseconds */
+} at_work;
+
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
   farm *farm;
@@ -33,6 +39,9 @@ typedef struct crew {
   kept *record;         /* of tasks that are done and not yet collected */
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
+  at_work *bench;       /* what each thread is at */
+  int threads;          /* of them */
+  atomic_llong look;    /* when somebody is to look at the clock again, milliseconds */
   /* deal.c's: */
   pthread_t server;
   atomic_int idle;      /* of rank 0: its own threads have no more to do */

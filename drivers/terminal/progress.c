@@ -38,7 +38,7 @@ static void log_line(progress *p, const char *text)
 void progress_init(progress *p, FILE *stream, int quiet)
 {
   const char *terminal = getenv("TERM");
-  *p = (progress){ .stream = stream, .quiet = quiet };
+  *p = (progress){ .stream = stream, .quiet = quiet, .every = 300.0 };
   p->terminal = isatty(fileno(stream)) && (terminal == NULL || strcmp(terminal, "dumb") != 0);
 }
 
@@ -73,8 +73,27 @@ void progress_start(progress *p, const char *what, size_t total, size_t done)
   p->total = total;
   p->before = done;
   p->percent = (int)(100.0 * (double)done / (double)total);
-  p->start = now();
+  p->start = p->spoken = now();
   p->drawn = -1.0;
+}
+
+/* A line on what is under way; a terminal has its bar. */
+static void tell(progress *p, const char *text)
+{
+  p->spoken = now();
+  log_line(p, text);
+  if (p->terminal || p->quiet) return;
+  fprintf(p->stream, "resonance: %s\n", text);
+  fflush(p->stream);
+}
+
+void progress_tick(progress *p, size_t done, size_t task, double seconds)
+{
+  char text[240];
+  if (p == NULL || p->total == 0 || now() - p->spoken < p->every) return;
+  snprintf(text, sizeof text, "%zu of %zu %s after %.0f s; the longest at work is number %zu, for "
+           "%.0f s", done, p->total, p->what, now() - p->start, task, seconds);
+  tell(p, text);
 }
 
 void progress_step(progress *p, size_t done)
@@ -91,11 +110,7 @@ void progress_step(progress *p, size_t done)
   p->percent = percent;
   if (elapsed < first_line_after) return;
   snprintf(text, sizeof text, "%d %% of %zu %s after %.1f s", percent, p->total, p->what, elapsed);
-  log_line(p, text);
-  if (!p->terminal && !p->quiet) {
-    fprintf(p->stream, "resonance: %s\n", text);
-    fflush(p->stream);
-  }
+  tell(p, text);
 }
 
 void progress_end(progress *p)

@@ -2,7 +2,7 @@
  * progress.h -- what a user sees of a run under way: stderr and the log.
  *
  * Owns: a bar where stderr is a terminal, else a line each 10 % of whatever takes longer than a
- * second; notes and errors; the log file with the time before each line. --quiet leaves errors
+ * second, and at least every five minutes; notes and errors; the log file with the time before each line. --quiet leaves errors
  * alone, the log gets everything.
  *
  * Thread safety: one thread at a time; the farm takes care of that.
@@ -23,7 +23,8 @@ typedef struct progress {
   size_t before;     /* were done at the start */
   int percent;       /* shown last */
   int width;         /* of the bar's line as it stands; 0: none */
-  double start, drawn; /* seconds */
+  double start, drawn, spoken; /* seconds: of what is under way, of the bar, of the last line */
+  double every;      /* seconds after which a line comes in any case */
 } progress;
 
 /* A progress without a log; the stream decides between bar and lines. */
@@ -34,6 +35,10 @@ void progress_init(progress *p, FILE *stream, int quiet);
 void progress_start(progress *p, const char *what, size_t total, size_t done);
 void progress_step(progress *p, size_t done);
 void progress_end(progress *p);
+
+/* To be called now and then while `done` of them are: where there was no line for five minutes one
+   says so, and which has been at work for the longest, number `task`, for so many seconds. */
+void progress_tick(progress *p, size_t done, size_t task, double seconds);
 
 /* A line on the run; an error. A line break is added. */
 void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
