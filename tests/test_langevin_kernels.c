@@ -121,20 +121,26 @@ static void generator_is_random123(void **state)
 /* Inputs of all kernels from the generator, and all outputs one after another. */
 static void exercise(const pendres_kernels_langevin *k, double *out)
 {
-  enum { LANES = 24 };
+  enum { LANES = 24, ROWS = 18 };
   const uint32_t key[2] = {5, 6};
   uint64_t *id = aligned(LANES), *words = aligned(4 * LANES);
-  double *rows = aligned(12 * LANES);
+  double *rows = aligned(ROWS * LANES);
   for (size_t i = 0; i < LANES; i++) id[i] = i;
   k->words(LANES, id, 1, 2, key, words);
   k->gauss(LANES, words, out);
-  for (size_t i = 0; i < 12 * LANES; i++)
+  for (size_t i = 0; i < ROWS * LANES; i++)
     rows[i] = (double)(words[i % (4 * LANES)] % 1000003) * 1e-5 * (i % 3 == 0 ? -1.0 : 1.0);
-  const pendres_langevin_rows r = {.u = rows, .w = rows + LANES, .pivot_cos = rows + 2 * LANES,
+  pendres_langevin_rows r = {.u = rows, .w = rows + LANES, .pivot_cos = rows + 2 * LANES,
                                    .pivot_sin = rows + 3 * LANES, .push = rows + 4 * LANES,
                                    .spread = rows + 5 * LANES, .bend = rows + 6 * LANES};
   const double *reach = rows + 7 * LANES, *decay = rows + 8 * LANES;
-  k->kick(LANES, &r, reach, decay, 0.3, -0.9, out);
+  r.torque = rows + 11 * LANES;
+  r.parametric = rows + 12 * LANES;
+  for (size_t j = 0; j < PENDRES_FORCE_COEFFICIENTS; j++) r.coefficient[j] = rows + (13 + j) * LANES;
+  for (int f = 0; f < PENDRES_LANGEVIN_FORCES; f++) {
+    k->kick[f](LANES, &r, reach, decay, 0.3, -0.9, out);
+    memcpy(out + (size_t)(16 + 2 * f) * LANES, rows, 2 * LANES * sizeof *out);
+  }
   k->sample(LANES, &r, reach, 0.7, 0.2, rows + 9 * LANES, rows + 10 * LANES);
   k->drift(LANES, reach, decay, rows, rows + LANES);
   memcpy(out + 4 * LANES, rows, 12 * LANES * sizeof *out);
@@ -146,7 +152,7 @@ static void exercise(const pendres_kernels_langevin *k, double *out)
 static void variants_give_the_same_bytes(void **state)
 {
   (void)state;
-  enum { SIZE = 16 * 24 };
+  enum { SIZE = 22 * 24 };
   const pendres_kernels_langevin *kernels[3];
   const size_t n = variants(kernels);
   double first[SIZE], other[SIZE];

@@ -54,7 +54,7 @@ static const char *refuse(const pendres_cloud_request *q)
     return "the strobes of each trajectory must be 1 to 4294967295";
   if (q->trajectories > SIZE_MAX / sizeof(double) / (size_t)q->record)
     return "there are more strobe points than memory has room for";
-  return NULL;
+  return pendres_noise_refuses(&pendres_attractors_get(q->set, q->attractor)->orbit.pendulum);
 }
 
 /* The same for trajectories; `home` is used as long as the request. */

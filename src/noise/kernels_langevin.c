@@ -157,27 +157,63 @@ static void drift(size_t stride, const double *restrict reach, const double *res
   }
 }
 
+/* f(y) (1 + b cos theta) - I, and its derivative, for lane i. A plain pendulum has f = sin y alone. */
+static inline __attribute__((always_inline)) void
+force(pendres_model_terms terms, const pendres_langevin_rows *rows, size_t i, double y,
+      double cosine, double *pull, double *stiffness)
+{
+  if (terms == PENDRES_MODEL_POLYNOMIAL) {
+    double sum = rows->coefficient[PENDRES_FORCE_COEFFICIENTS - 1][i], by = 0.0;
+    for (int k = PENDRES_FORCE_COEFFICIENTS - 2; k >= 0; k--) {
+      by = FMA(by, y, sum);
+      sum = FMA(sum, y, rows->coefficient[k][i]);
+    }
+    *stiffness = FMA(by, y, sum);
+    *pull = sum * y;
+  } else {
+    pendres_kernels_sincos(y, pull, stiffness);
+  }
+  if (terms != PENDRES_MODEL_PLAIN) {
+    const double drive = FMA(rows->parametric[i], cosine, 1.0);
+    *stiffness *= drive;
+    *pull = FMA(*pull, drive, -rows->torque[i]);
+  }
+}
+
 /* Force and noise take the same correction: langevin_block.c says why. */
-static void kick(size_t stride, const pendres_langevin_rows *rows, const double *restrict reach,
-                 const double *restrict decay, double cosine, double sine,
-                 const double *restrict noise)
+static inline __attribute__((always_inline)) void
+kick_by(pendres_model_terms terms, size_t stride, const pendres_langevin_rows *rows,
+        const double *restrict reach, const double *restrict decay, double cosine, double sine,
+        const double *restrict noise)
 {
   double *restrict u = rows->u, *restrict w = rows->w;
   const double *restrict pivot_cos = rows->pivot_cos, *restrict pivot_sin = rows->pivot_sin;
   const double *restrict push = rows->push, *restrict spread = rows->spread,
                *restrict bend = rows->bend;
+  const pendres_langevin_rows own = *rows;
 
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
-    double sin_y, cos_y;
+    double pull, stiffness;
     const double v = w[i] * decay[i], x = FMA(reach[i], w[i], u[i]);
     const double y = x + FMA(pivot_cos[i], cosine, pivot_sin[i] * sine);
-    pendres_kernels_sincos(y, &sin_y, &cos_y);
-    const double bare = FMA(spread[i], noise[i], -(push[i] * sin_y));
+    force(terms, &own, i, y, cosine, &pull, &stiffness);
+    const double bare = FMA(spread[i], noise[i], -(push[i] * pull));
     u[i] = x;
-    w[i] = FMA(FMA(-bend[i], cos_y, 1.0), bare, v);
+    w[i] = FMA(FMA(-bend[i], stiffness, 1.0), bare, v);
   }
 }
+
+#define KICK(name, terms)                                                                      \
+  static void name(size_t stride, const pendres_langevin_rows *rows, const double *reach,      \
+                   const double *decay, double cosine, double sine, const double *noise)       \
+  {                                                                                            \
+    kick_by(terms, stride, rows, reach, decay, cosine, sine, noise);                           \
+  }
+KICK(kick_plain, PENDRES_MODEL_PLAIN)
+KICK(kick_pendulum, PENDRES_MODEL_PENDULUM)
+KICK(kick_polynomial, PENDRES_MODEL_POLYNOMIAL)
+#undef KICK
 
 static void sample(size_t stride, const pendres_langevin_rows *rows,
                    const double *restrict reach, double cosine, double sine,
@@ -196,4 +232,10 @@ static void sample(size_t stride, const pendres_langevin_rows *rows,
 }
 
 const pendres_kernels_langevin JOIN(pendres_kernels_langevin, PENDRES_KERNELS) = {
-  TEXT(PENDRES_KERNELS), words, gauss, drift, kick, sample};
+  .name = TEXT(PENDRES_KERNELS),
+  .words = words,
+  .gauss = gauss,
+  .drift = drift,
+  .kick = {[PENDRES_MODEL_PLAIN] = kick_plain, [PENDRES_MODEL_PENDULUM] = kick_pendulum,
+           [PENDRES_MODEL_POLYNOMIAL] = kick_polynomial},
+  .sample = sample};

@@ -14,8 +14,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "model/model.h"
+
 /* How many random words one call of the generator yields for each lane. */
 enum { PENDRES_LANGEVIN_WORDS = 4 };
+
+/* How many kinds of forces there are, and kicks by them. */
+enum { PENDRES_LANGEVIN_FORCES = PENDRES_MODEL_POLYNOMIAL + 1 };
 
 /*
  * A block in the frame of a free particle that the drive shakes: y = u + pivot, where
@@ -27,7 +32,10 @@ typedef struct pendres_langevin_rows {
   const double *pivot_cos, *pivot_sin;
   const double *push;   /* the duration of a kick: half a step */
   const double *spread; /* the standard deviation of a kick's noise */
-  const double *bend;   /* the coefficient c of the fourth-order correction 1 - c cos y */
+  const double *bend;   /* the coefficient c of the fourth-order correction 1 - c f'(y) */
+  const double *torque; /* I; this and the next are not read where all pendulums are plain */
+  const double *parametric;                              /* b */
+  const double *coefficient[PENDRES_FORCE_COEFFICIENTS]; /* of polynomial forces: a1, a2, ... */
 } pendres_langevin_rows;
 
 typedef struct pendres_kernels_langevin {
@@ -40,9 +48,11 @@ typedef struct pendres_kernels_langevin {
   void (*gauss)(size_t stride, const uint64_t *words, double *gauss);
   /* Move freely: u += reach w, w *= decay. */
   void (*drift)(size_t stride, const double *reach, const double *decay, double *u, double *w);
-  /* Move freely, then kick at the drive phase whose cosine and sine are given. */
-  void (*kick)(size_t stride, const pendres_langevin_rows *rows, const double *reach,
-               const double *decay, double cosine, double sine, const double *gauss);
+  /* Move freely, then kick at the drive phase whose cosine and sine are given: for each of the
+   * forces that pendres_model_terms lists, since all pendulums of a block have the same. */
+  void (*kick[PENDRES_LANGEVIN_FORCES])(size_t stride, const pendres_langevin_rows *rows,
+                                        const double *reach, const double *decay, double cosine,
+                                        double sine, const double *gauss);
   /* Add y cos theta and y sin theta to sums, with the y that free motion of the given reach leads
    * to at the phase whose cosine and sine are given. The state itself is not changed. */
   void (*sample)(size_t stride, const pendres_langevin_rows *rows, const double *reach,

@@ -50,7 +50,7 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
   if (steps < 2 || steps > MOST_STEPS)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the steps a period must be 2 to %d", MOST_STEPS);
-  if (pendres_model_check_plain(p, &why) == PENDRES_OK) {
+  if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
     why = pendres_passage_refuses(p, x, v);
     if (why == NULL) why = pendres_langevin_block_refuses(p, steps);
   }
@@ -102,12 +102,17 @@ static pendres_status follow(pendres_context *ctx, pendres_langevin_block *b, si
   return PENDRES_OK;
 }
 
-/* Trajectories from number `first` on, as many as the block has room for. */
+/* Trajectories from number `first` on, as many as have the same terms in their force and as the
+ * block has room for. */
 static void load(pendres_langevin_block *b, size_t first, const pendres_langevin_run *run,
                  const double *x, const double *v)
 {
-  const size_t rest = run->n - first;
-  pendres_langevin_block_resize(b, rest < b->capacity ? rest : b->capacity);
+  const pendres_model_terms terms = pendres_model_kind(&run->pendulums[first]);
+  size_t count = 1;
+  while (count < b->capacity && first + count < run->n &&
+         pendres_model_kind(&run->pendulums[first + count]) == terms)
+    count++;
+  pendres_langevin_block_resize(b, count);
   for (size_t i = 0; i < b->count; i++)
     pendres_langevin_block_load(b, i, &run->pendulums[first + i],
                                 run->ids != NULL ? run->ids[first + i] : first + i, x[first + i],

@@ -3,15 +3,17 @@
  *
  * The generator of the motion is A + B. A is free motion with friction and drive,
  * v d/dx + (F0 cos theta - gamma v) d/dv + d/dt; B kicks by force and noise,
- * f d/dv + gamma T d^2/dv^2 with f = -sin y. Chin's scheme 4B for a step h is
+ * f d/dv + gamma T d^2/dv^2, where f is all other force: -sin y for a plain pendulum, else a torque
+ * less some g(y) (1 + b cos theta). Chin's scheme 4B for a step h is
  *
  *     exp(a h A) exp(h/2 B') exp(h/sqrt 3 A) exp(h/2 B') exp(a h A),  a = (1 - 1/sqrt 3)/2,
  *     B' = B + h^2 (2 - sqrt 3)/24 [B, [A, B]].
  *
- * [B, [A, B]] = 2 f f' d/dv + 4 gamma T f' d^2/dv^2: neither friction, drive nor the order
- * of derivatives add to it. So B' is a kick again, with f (1 + c f') for force and
- * (1 + 2 c f') for variance, c = h^2 (2 - sqrt 3)/12; and 1 + 2 c f' = (1 + c f')^2 to the
- * order that counts, so that both parts of a kick take the one factor 1 + c f' = 1 - c cos y.
+ * [B, [A, B]] = 2 f f' d/dv + 4 gamma T f' d^2/dv^2 with f' = df/dy: neither friction, drive,
+ * the time in f, nor the order of derivatives add to it. So B' is a kick again, with f (1 + c f')
+ * for force and (1 + 2 c f') for variance, c = h^2 (2 - sqrt 3)/12; and 1 + 2 c f' = (1 + c f')^2
+ * to the order that counts, so that both parts of a kick take the one factor 1 + c f', which is
+ * 1 - c cos y for a plain pendulum.
  *
  * A is solved exactly. With y = u + pivot, pivot'' + gamma pivot' = F0 cos theta, u is free:
  * u += (1 - exp(-gamma t))/gamma w, w *= exp(-gamma t).
@@ -30,10 +32,9 @@
 #include "engine/kernels_sine.h"
 
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
-enum { ALIGN = 64, ROWS = 25 };
+enum { ALIGN = 64, ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
 
 /* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
@@ -79,7 +80,10 @@ pendres_status pendres_langevin_block_make(pendres_langevin_block *b, size_t cap
   b->rows.pivot_sin = row, row += capacity;
   b->rows.push = row, row += capacity;
   b->rows.spread = row, row += capacity;
-  b->rows.bend = row;
+  b->rows.bend = row, row += capacity;
+  b->rows.torque = row, row += capacity;
+  b->rows.parametric = row, row += capacity;
+  for (int k = 0; k < COEFFICIENTS; k++) b->rows.coefficient[k] = row, row += capacity;
   return PENDRES_OK;
 }
 
@@ -133,8 +137,13 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
    * drive frequency and the damping. */
   if (!(sqrt(p->temperature) <= largest_pivot * fmax(p->drive_frequency, p->damping)))
     return "so hot a pendulum is beyond 1e7 within a period";
+  /* The speed that a torque leads to within a period, or against friction. */
+  const double period = two_pi / p->drive_frequency;
+  const double speed = fabs(p->torque) * fmin(period, 1.0 / p->damping);
+  if (!(speed * period <= largest_pivot))
+    return "with noise, the torque must not move a free particle farther than 1e7 within a period";
   /* The correction 1 - bend cos y must stay positive; the motion is not resolved well before. */
-  if (!(two_pi / p->drive_frequency / steps <= 3.0))
+  if (!(period / steps <= 3.0))
     return "with noise, a step must not be longer than 3: more steps a period are needed";
   return NULL;
 }
@@ -161,6 +170,13 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
   b->memory[pivot_cos + 2 * apart] = 0.5 * h;
   b->memory[pivot_cos + 3 * apart] = sqrt(g * p->temperature * h);
   b->memory[pivot_cos + 4 * apart] = h * h * (2.0 - 3.0 * root_third) / 12.0;
+  b->memory[pivot_cos + 5 * apart] = p->torque;
+  b->memory[pivot_cos + 6 * apart] = p->parametric_amplitude;
+  for (size_t k = 0; k < COEFFICIENTS; k++)
+    b->memory[pivot_cos + (7 + k) * apart] = p->force_coefficients[k];
+  b->terms = pendres_model_kind(p);
+  b->origin = pendres_model_origin(p);
+  b->turn = pendres_model_turn(p);
   if (p->temperature > 0.0 && g > 0.0) b->noisy = 1;
 }
 
@@ -178,7 +194,7 @@ static void enter(pendres_langevin_block *b)
 {
   pendres_langevin_rows *r = &b->rows;
   for (size_t i = 0; i < b->stride; i++) {
-    b->base[i] = half_pi + two_pi * rint((b->x[i] - half_pi) / two_pi);
+    b->base[i] = b->origin + b->turn * rint((b->x[i] - b->origin) / b->turn);
     const double y = b->x[i] - b->base[i];
     r->u[i] = y - r->pivot_cos[i];
     r->w[i] = b->v[i] - b->pivot_speed[i];
@@ -224,7 +240,7 @@ static void kick(pendres_langevin_block *b, int k, const double *gauss)
   if (b->harmonics && d == PENDRES_LANGEVIN_BETWEEN)
     b->kernels->sample(b->stride, &b->rows, b->reach[PENDRES_LANGEVIN_EDGE], start[0], start[1],
                        b->cosine, b->sine);
-  b->kernels->kick(b->stride, &b->rows, b->reach[d], b->decay[d], at[0], at[1], gauss);
+  b->kernels->kick[b->terms](b->stride, &b->rows, b->reach[d], b->decay[d], at[0], at[1], gauss);
 }
 
 /* The Gaussian numbers of kick k; one call of the generator serves four kicks. */

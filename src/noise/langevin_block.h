@@ -26,6 +26,8 @@ typedef struct pendres_langevin_block {
   size_t count;    /* how many are in use; the rest of the last eight hold copies of lane 0 */
   size_t stride;   /* count rounded up to a multiple of 8 */
   int steps;       /* in a drive period */
+  pendres_model_terms terms; /* the force, which all lanes have in common */
+  double origin, turn;       /* where y is counted from, and what a turn is */
   int noisy;       /* whether any lane has a temperature */
   int harmonics;   /* whether first harmonics and work are to be summed up */
   uint32_t key[2];
@@ -51,7 +53,8 @@ void pendres_langevin_block_clear(pendres_langevin_block *b);
 /* Choose the steps; this comes before lanes are loaded. */
 pendres_status pendres_langevin_block_set_steps(pendres_langevin_block *b, int steps);
 
-/* Begin to load: resize to the number of lanes, load each from 0 to count - 1, then finish. */
+/* Begin to load: resize to the number of lanes, load each from 0 to count - 1, then finish. All
+ * pendulums of a block have the same terms in their force (pendres_model_kind). */
 void pendres_langevin_block_resize(pendres_langevin_block *b, size_t count);
 void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p,
                                  uint64_t id, double x, double v);

@@ -1,7 +1,8 @@
 /*
  * langevin_linear.c -- linear noise theory around a closed orbit; see langevin.h.
  *
- * Around an orbit (x, v) small deviations obey d' = J d + noise, J = [0 1; -sin x, -gamma].
+ * Around an orbit (x, v) small deviations obey d' = J d + noise, with J = [0 1; -sin x, -gamma] for
+ * a plain pendulum, else with the slope of its own force.
  * With M the fundamental matrix of one cycle and C the covariance that noise adds over it,
  * the cloud settles to sigma = M sigma M^T + C (van Kampen, Stochastic Processes in Physics
  * and Chemistry, chapter VIII.6, for periodic coefficients).
@@ -11,9 +12,8 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "model/model.h"
-
 #include "engine/passage.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -24,6 +24,8 @@ static void slope(const pendres_pendulum *p, double t, const double s[SIZE], dou
 {
   double jx, jv;
   pendres_pendulum_jacobian(p, s[X], s[V], &jx, &jv);
+  if (p->parametric_amplitude != 0.0)
+    jx *= 1.0 + p->parametric_amplitude * cos(p->drive_frequency * t);
   d[X] = s[V];
   d[V] = pendres_pendulum_acceleration(p, s[X], s[V], t);
   d[MXX] = s[MVX];
@@ -93,23 +95,39 @@ static pendres_status theory(const pendres_pendulum *p, double x, double v, int 
   integrate(p, cycle, steps, s);
   for (int i = 0; i < 4; i++) out->monodromy[i] = s[MXX + i];
   out->injected = (pendres_langevin_covariance){s[CXX], s[CXV], s[CVV]};
-  out->closure = hypot(remainder(s[X] - x, two_pi), s[V] - v);
+  out->closure = hypot(remainder(s[X] - x, pendres_model_turn(p)), s[V] - v);
   return pendres_langevin_lyapunov(out->monodromy, &out->injected, &out->covariance);
+}
+
+/* By Liouville's theorem the determinant of M is exp(-gamma t): where it is not, the steps are too
+ * long for the force. */
+static int is_resolved(const pendres_pendulum *p, int cycle, const pendres_langevin_linear *l)
+{
+  const double *m = l->monodromy, ad = m[0] * m[3], bc = m[1] * m[2];
+  const double want = exp(-p->damping * cycle * two_pi / p->drive_frequency);
+  return fabs(ad - bc - want) <= 1e-6 * (1.0 + fabs(ad) + fabs(bc));
 }
 
 pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, double x,
                                               double v, int cycle, pendres_langevin_linear *out)
 {
+  const double most = 1e8; /* steps in all */
   pendres_langevin_linear coarse;
-  if (out == NULL || pendres_model_check_plain(pendulum, NULL) != PENDRES_OK ||
+  if (out == NULL || pendres_pendulum_check(pendulum, NULL) != PENDRES_OK ||
       pendres_passage_refuses(pendulum, x, v) != NULL || cycle < 1)
     return PENDRES_INVALID_ARGUMENT;
   /* 128 steps a unit of time in the finer computation: an error near 1e-11, rounding well below. */
   const double unit = two_pi / pendulum->drive_frequency * fmax(1.0, pendulum->damping);
-  const int steps = (int)fmin(1e6, ceil(64.0 * unit));
-  if (!((double)cycle * steps <= 1e8)) return PENDRES_TOLERANCE_UNREACHABLE;
-  pendres_status status = theory(pendulum, x, v, cycle, steps, &coarse);
-  if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, 2 * steps, out);
+  const double fewest = fmin(1e6, ceil(64.0 * unit));
+  double steps = fewest;
+  if (!(cycle * steps <= most)) return PENDRES_TOLERANCE_UNREACHABLE;
+  pendres_status status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
+  while (!is_resolved(pendulum, cycle, &coarse)) {
+    steps *= 2.0;
+    if (!(cycle * steps <= most && steps <= 4096.0 * fewest)) return PENDRES_TOLERANCE_UNREACHABLE;
+    status = theory(pendulum, x, v, cycle, (int)steps, &coarse);
+  }
+  if (status == PENDRES_OK) status = theory(pendulum, x, v, cycle, (int)(2.0 * steps), out);
   if (status != PENDRES_OK) return status;
   const pendres_langevin_covariance *a = &coarse.covariance, *b = &out->covariance;
   /* By order four the error that is left is a fifteenth of the difference. */

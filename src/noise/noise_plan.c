@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mix.h"
+#include "model/model.h"
 
 enum {
   PART = 192,   /* trajectories, at most */
@@ -15,17 +16,38 @@ enum {
  * coarse and a fine trajectory part soon, and their difference tells little about steps. */
 static const double coldest = 1e-4;
 
+static uint64_t mix_in(uint64_t hash, double number)
+{
+  uint64_t bits;
+  memcpy(&bits, &number, sizeof bits);
+  return pendres_mix(hash ^ bits);
+}
+
 uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
 {
   const double numbers[4] = {p->damping, p->drive_amplitude, p->drive_frequency, p->temperature};
   uint64_t hash = pendres_mix(attractor);
-  for (int i = 0; i < 4; i++) {
-    uint64_t bits;
-    memcpy(&bits, &numbers[i], sizeof bits);
-    hash = pendres_mix(hash ^ bits);
+  for (int i = 0; i < 4; i++) hash = mix_in(hash, numbers[i]);
+  if (pendres_model_kind(p) != PENDRES_MODEL_PLAIN) {
+    hash = mix_in(mix_in(hash, p->torque), p->parametric_amplitude);
+    for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+      hash = mix_in(hash, p->force_coefficients[i]);
   }
   /* Room for trajectories; and the top bit is where bias is measured. */
   return (hash >> 1) & ~(uint64_t)(IDS - 1);
+}
+
+const char *pendres_noise_refuses(const pendres_pendulum *p)
+{
+  int highest = PENDRES_FORCE_COEFFICIENTS;
+  if (p->force != PENDRES_FORCE_POLYNOMIAL) return NULL;
+  while (highest > 0 && p->force_coefficients[highest - 1] == 0.0) highest--;
+  /* A force of first order may be driven parametrically as strongly as its orbit stands. */
+  if (highest % 2 == 1 && p->force_coefficients[highest - 1] > 0.0 &&
+      (highest == 1 || fabs(p->parametric_amplitude) < 1.0))
+    return NULL;
+  return "noise carries a pendulum of this force to infinity: its highest power must be odd, with a "
+         "positive coefficient that the parametric drive does not turn over";
 }
 
 long pendres_noise_settle(const pendres_orbit *orbit)

@@ -14,6 +14,10 @@
  * set. Ids follow from parameters, so that results do not depend on what else is asked for. */
 uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor);
 
+/* Why noise has no steady state around the attractors of a pendulum: its force lets go of it, so that
+ * noise carries it to infinity in the end. NULL if nothing is wrong. */
+const char *pendres_noise_refuses(const pendres_pendulum *p);
+
 /* Drive periods until a cloud around the orbit has forgotten where it started, up to 1e-5. */
 long pendres_noise_settle(const pendres_orbit *orbit);
 

@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
+#include "noise/noise_plan.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -25,6 +27,7 @@ typedef struct core_set {
   int attractor;
   int running;
   double x, v;
+  double turn;       /* what a turn is: one of the coordinate leads to the same in another well */
   double xx, xv, vv; /* P: inside, (z - z0)' P (z - z0) <= 1 with z = (x, v) */
 } core_set;
 
@@ -39,7 +42,7 @@ static int make_core(const pendres_attractor *a, int number, double shrink, core
   /* A chaotic attractor has no ellipse, and an orbit that is about to vanish one of size zero. */
   if (!(r > 0.0)) return 0;
   *out = (core_set){.attractor = number, .running = a->orbit.winding != 0, .x = a->orbit.x,
-                    .v = a->orbit.v, .xx = a->trap_metric[0] / (r * r),
+                    .v = a->orbit.v, .turn = pendres_model_turn(&a->orbit.pendulum), .xx = a->trap_metric[0] / (r * r),
                     .xv = a->trap_metric[1] / (r * r * w),
                     .vv = a->trap_metric[2] / (r * r * w * w)};
   return 1;
@@ -60,8 +63,8 @@ static inline const core_set *locate(const cores *c, double x, double v, long *w
 {
   for (size_t i = 0; i < c->count; i++) {
     const core_set *s = &c->core[i];
-    const double turns = rint((x - s->x) / two_pi);
-    const double dx = x - s->x - two_pi * turns, dv = v - s->v;
+    const double turns = rint((x - s->x) / s->turn);
+    const double dx = x - s->x - s->turn * turns, dv = v - s->v;
     if (s->xx * dx * dx + 2.0 * s->xv * dx * dv + s->vv * dv * dv > 1.0) continue;
     *well = s->running ? NO_WELL : (long)turns;
     return s;
@@ -150,11 +153,9 @@ static const char *refuse(const pendres_switching_request *q)
   if (q->periods < 0) return "the number of periods must not be negative";
   if (!isfinite(a->orbit.x) || !isfinite(a->orbit.v))
     return "a chaotic attractor has no point to start from";
-  const pendres_pendulum *p = &a->orbit.pendulum;
-  if (p->damping != q->pendulum.damping || p->drive_amplitude != q->pendulum.drive_amplitude ||
-      p->drive_frequency != q->pendulum.drive_frequency)
+  if (!pendres_model_same(&a->orbit.pendulum, &q->pendulum))
     return "these are attractors of another pendulum";
-  return NULL;
+  return pendres_noise_refuses(&q->pendulum);
 }
 
 /* Memory for n trajectories; clear it in any case. */
