@@ -240,6 +240,25 @@ static void other_values(void **state)
   deck_free(&d);
 }
 
+/* Forces: the plain pendulum where nothing is said, coefficients in their order, the rest zero. */
+static void forces(void **state)
+{
+  (void)state;
+  deck d = read_good("&scene kind='orbit' / &pendulum drive_amplitude=0.2 damping=0.1 "
+                     "drive_frequency=1 / &orbit start='sa' /");
+  assert_string_equal(d.pendulum.force, "pendulum");
+  assert_true(d.pendulum.torque == 0.0 && d.pendulum.parametric_amplitude == 0.0);
+  deck_free(&d);
+  d = read_good("&scene kind='orbit' / &pendulum drive_amplitude=0.2 damping=0.1 drive_frequency=1 "
+                "torque=-0.5 parametric_amplitude=0.3 force='polynomial' "
+                "force_coefficients = 1, , -2.5 / &orbit start='sa' /");
+  const double a[] = { 1.0, 0.0, -2.5, 0.0, 0.0 };
+  assert_string_equal(d.pendulum.force, "polynomial");
+  assert_memory_equal(d.pendulum.force_coefficients, a, sizeof a);
+  assert_true(d.pendulum.torque == -0.5 && d.pendulum.parametric_amplitude == 0.3);
+  deck_free(&d);
+}
+
 static void names_of_kinds_and_axes(void **state)
 {
   (void)state;
@@ -644,6 +663,7 @@ int main(void)
     cmocka_unit_test(every_kind_is_read),
     cmocka_unit_test(resonance_curve_values),
     cmocka_unit_test(other_values),
+    cmocka_unit_test(forces),
     cmocka_unit_test(names_of_kinds_and_axes),
     cmocka_unit_test(axes),
     cmocka_unit_test(listed_values_absorb_rounding),

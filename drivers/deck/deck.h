@@ -15,6 +15,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include <pendres/pendulum.h>
 #include <pendres/status.h>
 
 #include "deck/namelist.h"
@@ -116,6 +117,10 @@ typedef struct deck {
     double drive_frequency; /* both are set, whichever was given */
     double drive_period;
     int by_period;          /* nonzero: drive_period was given */
+    double torque;
+    double parametric_amplitude;
+    char force[DECK_NAME];  /* a name of pendres_model_of() */
+    double force_coefficients[PENDRES_FORCE_COEFFICIENTS];
   } pendulum;
 
   deck_axis axis[DECK_AXIS_COUNT];

@@ -101,6 +101,9 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
     put_real(&w, ((const double *)f)[0]);
     put_real(&w, ((const double *)f)[1]);
     break;
+  case DECK_NUMBERS:
+    for (size_t i = 0; i < key->size / sizeof(double); i++) put_real(&w, ((const double *)f)[i]);
+    break;
   case DECK_INTEGER:
     put_integer(&w, *(const int64_t *)f);
     break;

@@ -28,7 +28,7 @@ static void add_number(char *text, double x)
 static int is_number(const deck_key *key)
 {
   return key->type == DECK_REAL || key->type == DECK_INTEGER || key->type == DECK_BOUNDS ||
-         key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
+         key->type == DECK_NUMBERS || key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
 }
 
 /* "'sa', 'la'": the empty choice, which means that none was made, is not told. */
@@ -51,7 +51,8 @@ static void add_form(char *text, const deck_key *key)
   static const char *const form[] = {
     [DECK_REAL] = "a number", [DECK_INTEGER] = "a whole number",
     [DECK_LOGICAL] = ".true. or .false.", [DECK_STRING] = "a string", [DECK_CHOICE] = "one of ",
-    [DECK_CHOICES] = "some of ", [DECK_BOUNDS] = "two ascending numbers", [DECK_SWEEP] = "numbers",
+    [DECK_CHOICES] = "some of ", [DECK_BOUNDS] = "two ascending numbers",
+    [DECK_NUMBERS] = "some numbers, each", [DECK_SWEEP] = "numbers",
     [DECK_SWEEP_VALUE] = "a number",
   };
   add(text, form[key->type]);

@@ -184,6 +184,22 @@ static int apply_bounds(deck_builder *b, const deck_key *key, const namelist_arr
   return good;
 }
 
+static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_array *array)
+{
+  const size_t room = key->size / sizeof(double);
+  double *number = field(b->d, key);
+  int good = 1;
+  if (array->count > room) {
+    complain(b, array->item[room] != NULL ? array->item[room] : array->item[array->count - 1],
+             key->name, "takes five numbers at most");
+    return 0;
+  }
+  for (size_t i = 0; i < array->count; i++) /* a null value leaves zero */
+    if (array->item[i] != NULL && !read_real(b, key, array->item[i], key->name, &number[i]))
+      good = 0;
+  return good;
+}
+
 static int apply_range(deck_builder *b, const deck_key *key, const namelist_array *array,
                        const char *name)
 {
@@ -282,7 +298,8 @@ static int check_shape(deck_builder *b, const deck_key *key, const namelist_arra
       b->given[row].broken = 1;
       return 0;
     }
-    if (i == 0 || is_list(key) || key->type == DECK_BOUNDS) continue;
+    if (i == 0 || is_list(key) || key->type == DECK_BOUNDS || key->type == DECK_NUMBERS)
+      continue;
     complain(b, v, key->name,
              key->type == DECK_SWEEP_VALUE ? "takes one value; a list belongs in &sweep"
              : is_decimal_comma(b, v)      ? "takes one value (decimals have a point)"
@@ -310,6 +327,7 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
   else if (good && (key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE))
     good = apply_listed(b, key, array);
   else if (good && key->type == DECK_BOUNDS) good = apply_bounds(b, key, array);
+  else if (good && key->type == DECK_NUMBERS) good = apply_numbers(b, key, array);
   else if (good && is_list(key)) good = apply_names(b, key, array);
   else if (good) good = apply_scalar(b, key, array->item[0]);
   if (good) given->given = 1;

@@ -35,6 +35,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
+#define MODELS (ORBIT | BASINS)                    /* torque, parametric drive, other forces */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define ALONG (HYSTERESIS | MAP)                   /* some of the parameters move */
@@ -50,6 +51,7 @@
 #define CHOICE(g, n, f) .group = g, .name = n, .type = DECK_CHOICE, FIELD(f)
 #define CHOICES(g, n, f) .group = g, .name = n, .type = DECK_CHOICES, FIELD(f)
 #define BOUNDS(g, n, f) .group = g, .name = n, .type = DECK_BOUNDS, FIELD(f)
+#define NUMBERS(g, n, f) .group = g, .name = n, .type = DECK_NUMBERS, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
 #define IN(s) .scenes = (s)
@@ -93,6 +95,7 @@ static const char *const cases[] = {
   NULL
 };
 static const char *const shapes[] = { "line", "rectangle", "random", NULL }; /* as in sweep.h */
+static const char *const forces[] = { "pendulum", "polynomial", NULL };
 static const char *const units[] = { "ensemble", "sweep", NULL };
 
 const deck_key deck_table[] = {
@@ -129,6 +132,17 @@ const deck_key deck_table[] = {
     SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
+  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS), RANGE(-BIG, BIG),
+    SAYS("m g l", "constant torque I on the side of the drive; a Josephson junction's bias current") },
+  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS),
+    RANGE(-BIG, BIG),
+    SAYS(NULL, "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+  { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
+    .text = "pendulum",
+    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, or a polynomial of force_coefficients") },
+  { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients), IN(MODELS),
+    RANGE(-BIG, BIG),
+    SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5") },
   { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE,
     SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },

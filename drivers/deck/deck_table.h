@@ -15,6 +15,7 @@ typedef enum deck_type {
   DECK_CHOICE,     /* a string out of a list */
   DECK_CHOICES,    /* several of them */
   DECK_BOUNDS,     /* two ascending numbers */
+  DECK_NUMBERS,    /* as many numbers as the field holds, zero where none is given */
   DECK_SWEEP,      /* an axis: NAME = values, NAME_range = first, last, count */
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
 } deck_type;

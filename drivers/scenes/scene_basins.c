@@ -326,9 +326,7 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   basins b = {.run = run, .d = d,
-              .pendulum = {.damping = d->pendulum.damping,
-                           .drive_amplitude = d->pendulum.drive_amplitude,
-                           .drive_frequency = d->pendulum.drive_frequency},
+              .pendulum = scene_pendulum(d),
               .grid = {.nx = d->axis[DECK_AXIS_X].count, .nv = d->axis[DECK_AXIS_V].count,
                        .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value}};
   size_t grown = 1;

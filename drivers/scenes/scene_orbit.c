@@ -356,9 +356,7 @@ static pendres_status run_scene(scene_run *run)
                         .escape_rate_bound = NAN },
              /* On a named attractor there is no transient. */
              .transient = d->orbit.transient && d->orbit.start[0] == '\0',
-             .pendulum = { .damping = d->pendulum.damping,
-                           .drive_amplitude = d->pendulum.drive_amplitude,
-                           .drive_frequency = d->pendulum.drive_frequency } };
+             .pendulum = scene_pendulum(d) };
   w.room = w.points + 1;
   const size_t bytes = 4 * w.room * sizeof *w.x;
   double *memory = malloc(bytes);

@@ -16,7 +16,8 @@
  *   amplitude     half the peak-to-peak of the angle (of its periodic part if p != 0)
  *   first harmonic of the angle, a cos theta + b sin theta = R cos(theta - phi):
  *                 R its amplitude, phi in [0, pi] the phase lag behind the force (with F0 < 0
- *                 it is that of minus the angle); A = pi F0 b if p = 0
+ *                 it is that of minus the angle; torque or parametric drive may make A negative,
+ *                 and phi then is in (-pi, 0)); A = pi F0 b
  *
  * Samples are equally spaced over the closed orbit, so that all of these are
  * spectrally accurate. Floquet multipliers are the eigenvalues of the derivative of
