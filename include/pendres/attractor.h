@@ -1,5 +1,6 @@
-/*
- * attractor.h -- what pendulums settle on, checked rather than hoped for.
+/**
+ * @file attractor.h
+ * @brief What pendulums settle on, checked rather than hoped for.
  *
  * Owns: the catalogue of attractors of a parameter set, their trapping regions, and
  * the labels of pendulums.
@@ -42,20 +43,21 @@ extern "C" {
 /**
  * Labels. Of the orbits of one drive period without winding that coexist at a pendulum's
  * parameters, the one of smallest amplitude is SA, those of larger amplitude are LA, whatever the
- * drive; a pair of mirror images counts as one, where there is mirror symmetry. An orbit that is alone continues one of the two if
- * both coexist at other parameters: what is found at one set of parameters does not tell. Under the
+ * drive; a pair of mirror images counts as one, where there is mirror symmetry. An orbit that is
+ * alone continues one of the two if both coexist at other parameters: what is found at one set of
+ * parameters does not tell. Under the
  * weak drives of the paper (|F0| <= 0.25) it is SA if it lags less than pi/3 behind the drive (or
  * is at rest), else LA, which comes to the same; under stronger ones it is PERIODIC until
  * pendres_response_name() or a phase diagram has seen it among its neighbours.
  */
 typedef enum pendres_label {
-  PENDRES_LABEL_SA = 0,
-  PENDRES_LABEL_LA = 1,
+  PENDRES_LABEL_SA = 0,         /**< small amplitude */
+  PENDRES_LABEL_LA = 1,         /**< large amplitude */
   PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit, or one without a name */
   PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
-  PENDRES_LABEL_UNRESOLVED = 5,
-  PENDRES_LABEL_COUNT
+  PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
+  PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
 /** "sa", "la", "periodic", "running", "chaotic", "unresolved"; NULL if out of range. */
@@ -63,7 +65,7 @@ const char *pendres_label_name(pendres_label label);
 
 /** An attractor of one parameter set. */
 typedef struct pendres_attractor {
-  pendres_label label;
+  pendres_label label;      /**< what it is called */
   pendres_orbit orbit;      /**< for a chaotic attractor pendulum and means over time a drive cycle:
                                  loop_area, dissipation, mean_power, and amplitude (half peak to
                                  peak within a cycle, cycles from drive phases 0 and pi on), with
@@ -73,8 +75,9 @@ typedef struct pendres_attractor {
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
   double lyapunov;          /**< largest Lyapunov exponent a unit time */
   double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's */
-  double drift, drift_error; /**< mean whole turns a drive period of a chaotic motion, with an error
-                                 that holds with a confidence of 99.9 %; NaN of closed orbits */
+  double drift;             /**< mean whole turns a drive period of a chaotic motion; NaN of closed
+                                 orbits */
+  double drift_error;       /**< its error, which holds with a confidence of 99.9 % */
   double watched_periods;   /**< drive periods, added up over walkers, that a chaotic attractor was
                                  watched for without one leaving it; NaN of closed orbits */
   double escape_rate_bound; /**< a chaotic motion that ended at a larger rate, a drive period, would
@@ -85,14 +88,16 @@ typedef struct pendres_attractor {
 /** Opaque: attractors of one or more parameter sets. */
 typedef struct pendres_attractors pendres_attractors;
 
+/** Free a set; NULL is allowed. */
 void pendres_attractors_free(pendres_attractors *set);
+/** How many attractors a set has; 0 for NULL. */
 size_t pendres_attractors_count(const pendres_attractors *set);
 /** Attractor number i; owned by the set. NULL out of range. */
 const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, size_t i);
 
 /** What became of a pendulum. */
 typedef struct pendres_outcome {
-  pendres_label label;
+  pendres_label label;   /**< that of its attractor */
   int attractor;         /**< index in the set; -1: unresolved */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
   long settling_periods; /**< drive periods until it was inside the trap; -1: unresolved */

@@ -1,6 +1,6 @@
 /**
- * @file
- * basin.h -- basins of attraction over a grid of initial states, and their statistics.
+ * @file basin.h
+ * @brief Basins of attraction over a grid of initial states, and their statistics.
  *
  * Owns: labelling of grids in pieces, adaptive refinement, basin fractions, boundary basin
  * entropy, and the uncertainty exponent of the boundary.
@@ -39,7 +39,7 @@ typedef struct pendres_basin_grid {
 
 /** How a state was found. */
 typedef enum pendres_basin_how {
-  PENDRES_BASIN_INTEGRATED = 0,
+  PENDRES_BASIN_INTEGRATED = 0, /**< by integration, and it is certain */
   PENDRES_BASIN_FILLED = 1,  /**< taken over from its surroundings (refinement alone) */
   PENDRES_BASIN_DEFERRED = 2, /**< not settled within the short budget of pendres_basin_rows */
   PENDRES_BASIN_UNCERTAIN = 3 /**< integrated, but may belong to another basin: the errors that it

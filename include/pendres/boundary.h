@@ -1,6 +1,6 @@
 /**
- * @file
- * boundary.h -- basin boundaries as curves: stable manifolds of unstable orbits.
+ * @file boundary.h
+ * @brief Basin boundaries as curves: stable manifolds of unstable orbits.
  *
  * Owns: the unstable orbit between two attractors, and its stable manifold as a polyline. Where
  * two basins meet in a smooth curve, that curve is the stable manifold of a saddle, and

@@ -1,5 +1,6 @@
-/*
- * cascade.h -- an orbit that doubles its period again and again as a parameter moves.
+/**
+ * @file cascade.h
+ * @brief An orbit that doubles its period again and again as a parameter moves.
  *
  * Owns: the doublings one after another, each located to the tolerance, the value at which they
  * accumulate, and the ratio of their distances.

@@ -1,5 +1,6 @@
-/*
- * context.h -- the one handle of the library: options, workspace, last message.
+/**
+ * @file context.h
+ * @brief The one handle of the library: options, workspace, last message.
  *
  * Owns: the tolerance and method of all computations made with it, the ARKODE
  * memory of its blocks, and the message that explains the last failure.
@@ -22,6 +23,7 @@
 extern "C" {
 #endif
 
+/** Opaque: options, workspace and the last message. */
 typedef struct pendres_context pendres_context;
 
 /**
@@ -38,7 +40,7 @@ typedef enum pendres_method {
   PENDRES_CVODE_BDF,       /**< one CVODE BDF problem a pendulum, Newton with the exact Jacobian */
   PENDRES_NAIVE,           /**< one ARKODE problem a pendulum, all but the tolerance as it comes:
                                 what the others are measured against */
-  PENDRES_METHOD_COUNT
+  PENDRES_METHOD_COUNT     /**< how many there are; not a method */
 } pendres_method;
 
 /** Butcher tables offered; measured orders in tests/test_flow.c. */
@@ -52,14 +54,16 @@ typedef enum pendres_table {
   PENDRES_TABLE_VERN9,  /**< Verner 9(8) */
   PENDRES_TABLE_SH9,    /**< Sharp 9(8) */
   PENDRES_TABLE_DP5,    /**< ARKODE's built-in Dormand-Prince 5(4) */
-  PENDRES_TABLE_COUNT
+  PENDRES_TABLE_COUNT   /**< how many there are; not a table */
 } pendres_table;
 
-/** Names for decks and messages ("block_fixed", "tp8", ...); NULL if out of range. */
+/** Name of a method for decks and messages, "block_fixed", ...; NULL if out of range. Static. */
 const char *pendres_method_name(pendres_method method);
+/** Name of a table, "tp8", ...; NULL if out of range. Static. */
 const char *pendres_table_name(pendres_table table);
-/** The method, or table, of a name; the enum's COUNT if there is none of it, or name is NULL. */
+/** The method of a name; PENDRES_METHOD_COUNT if there is none of it, or name is NULL. */
 pendres_method pendres_method_named(const char *name);
+/** The table of a name; PENDRES_TABLE_COUNT if there is none of it, or name is NULL. */
 pendres_table pendres_table_named(const char *name);
 /** Order of the method of a table, 0 if out of range. */
 int pendres_table_order(pendres_table table);
@@ -68,8 +72,8 @@ int pendres_table_order(pendres_table table);
 typedef struct pendres_options {
   double tolerance;     /**< of the results, absolute for angles of order one; default 1e-8,
                              from 1e-13 to 1e-2 */
-  pendres_method method;
-  pendres_table table;
+  pendres_method method; /**< how pendulums are advanced */
+  pendres_table table;  /**< Butcher table of the methods on ARKODE */
   int steps_per_period; /**< overrides the choice made from the tolerance */
   int block_lanes;      /**< pendulums side by side, a multiple of 8; default 512 */
   long period_budget;   /**< drive periods after which a pendulum is unresolved; default
@@ -111,11 +115,9 @@ const char *pendres_context_message(const pendres_context *ctx);
 /** The options in force, defaults resolved; NULL without a context. */
 const pendres_options *pendres_context_options(const pendres_context *ctx);
 
-/**
- * Cost so far, NaN without a context and while another thread uses it; reset sets all to zero. A
- * context in use is not reset.
- */
+/** Cost so far; NaN without a context and while another thread uses it. */
 void pendres_context_cost(const pendres_context *ctx, pendres_cost *cost);
+/** Set all costs to zero. A context in use is not reset. */
 void pendres_context_cost_reset(pendres_context *ctx);
 
 /**

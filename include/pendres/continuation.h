@@ -1,6 +1,6 @@
 /**
- * @file
- * continuation.h -- branches of periodic orbits, and where they end.
+ * @file continuation.h
+ * @brief Branches of periodic orbits, and where they end.
  *
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
  * doublings and symmetry breakings on the way; curves of these in two parameters; cusps.
@@ -24,13 +24,17 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/* One list makes the codes, their names and the fields of pendres_pendulum. */
+/** One list makes the codes, their names and the fields: X(code, name, field). */
 #define PENDRES_PARAMETER_LIST(X)                       \
   X(DRIVE_FREQUENCY, "drive_frequency", drive_frequency) \
   X(DAMPING, "damping", damping)                         \
   X(DRIVE_AMPLITUDE, "drive_amplitude", drive_amplitude)
 
-/** A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum. */
+/**
+ * A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum.
+ * PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma; PENDRES_DRIVE_AMPLITUDE: F0;
+ * PENDRES_PARAMETER_COUNT: how many there are.
+ */
 typedef enum pendres_parameter {
 #define PENDRES_PARAMETER_CODE(code, name, field) PENDRES_##code,
   PENDRES_PARAMETER_LIST(PENDRES_PARAMETER_CODE)
@@ -49,7 +53,7 @@ double pendres_parameter_get(pendres_parameter parameter, const pendres_pendulum
     is refused here. Thread safe. */
 void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pendulum *pendulum);
 
-/* One list makes the codes and their names. */
+/** One list makes the codes and their names: X(code, name). */
 #define PENDRES_SPECIAL_LIST(X)      \
   X(REGULAR, "regular")              \
   X(FOLD, "fold")                    \
@@ -60,7 +64,7 @@ void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pe
  * Where a branch changes its character. PENDRES_REGULAR: nowhere there; PENDRES_FOLD: two orbits
  * meet and vanish, a multiplier is +1; PENDRES_PERIOD_DOUBLING: a multiplier is -1;
  * PENDRES_SYMMETRY_BREAKING: an orbit that is its own mirror image meets a pair that are each
- * other's, a multiplier is +1.
+ * other's, a multiplier is +1. PENDRES_SPECIAL_COUNT: how many there are.
  */
 typedef enum pendres_special {
 #define PENDRES_SPECIAL_CODE(code, name) PENDRES_##code,
@@ -264,7 +268,8 @@ size_t pendres_branches_skipped(const pendres_branches *branches);
  * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
  * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
  * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
- * kind of machine, and nothing in them tells whether they were damaged: who keeps them adds a checksum.
+ * kind of machine, and nothing in them tells whether they were damaged: who keeps them adds a
+ * checksum.
  * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
  * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
  */

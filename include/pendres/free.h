@@ -1,5 +1,6 @@
-/*
- * free.h -- the free pendulum by integration.
+/**
+ * @file free.h
+ * @brief The free pendulum by integration.
  *
  * Owns: the frequency of the undamped, undriven pendulum as a function of its
  * amplitude, found from the equation of motion alone. Its purpose is a check

@@ -1,5 +1,6 @@
-/*
- * hysteresis.h -- a pendulum whose parameter is moved so slowly that it always settles.
+/**
+ * @file hysteresis.h
+ * @brief A pendulum whose parameter is moved so slowly that it always settles.
  *
  * Owns: following the state that a pendulum is in along any path of a parameter, as an experimenter
  * does who sweeps a frequency up and down; where the state ends, and what the pendulum goes to
@@ -43,17 +44,18 @@ typedef struct pendres_hysteresis_point {
   pendres_attractor attractor; /**< its label is UNRESOLVED, and its numbers NaN, where it could not
                                     be found; its trap is not determined (NaN) on stretches that
                                     were followed */
-  double mean_velocity, mean_velocity_error; /**< of x; exact for closed orbits, else with an error
-                                                  that holds with a confidence of 99.9 % */
+  double mean_velocity;        /**< of x, in rad a unit time */
+  double mean_velocity_error;  /**< its error: 0 of closed orbits, whose mean is exact; else it
+                                    holds with a confidence of 99.9 % */
 } pendres_hysteresis_point;
 
 /** How a state ends. */
 typedef enum pendres_jump_kind {
-  PENDRES_JUMP_FOLD = 0,
+  PENDRES_JUMP_FOLD = 0, /**< the orbit meets an unstable one, and both vanish */
   PENDRES_JUMP_FLIP,     /**< period doubling */
   PENDRES_JUMP_SYMMETRY, /**< loss of mirror symmetry */
   PENDRES_JUMP_OTHER,    /**< chaos that ends, or a branch that could not be followed */
-  PENDRES_JUMP_COUNT
+  PENDRES_JUMP_COUNT     /**< how many there are; not a kind */
 } pendres_jump_kind;
 
 /** "fold", "flip", "symmetry", "other"; NULL if out of range. */
@@ -63,11 +65,13 @@ const char *pendres_jump_kind_name(pendres_jump_kind kind);
 typedef struct pendres_jump {
   size_t step;               /**< between point step - 1 and point step of the path */
   int direction;             /**< 1: the parameter grows, -1: it falls */
-  pendres_jump_kind kind;
-  double value, value_error; /**< of the parameter. For OTHER, unless a bifurcation was found to be
+  pendres_jump_kind kind;    /**< how the state ends */
+  double value;              /**< of the parameter. For OTHER, unless a bifurcation was found to be
                                   the end, it was halved down to, and the error is half of what is
                                   left: somewhere therein the pendulum leaves */
-  pendres_label from, to;
+  double value_error;        /**< its error */
+  pendres_label from;        /**< label of the state that ends */
+  pendres_label to;          /**< label of the state that the pendulum goes to */
   int to_period;             /**< drive periods of the orbit that it goes to; 0: none that closes */
   int gradual;               /**< 1: goes over to the orbit born there, which grows from nothing. At
                                   a loss of symmetry two orbits that are mirror images are born;
@@ -97,12 +101,14 @@ typedef struct pendres_hysteresis pendres_hysteresis;
 pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
                                          pendres_parameter parameter, double x, double v, size_t n,
                                          const double *value, pendres_hysteresis **out);
+/** Free what was met; NULL is allowed. */
 void pendres_hysteresis_free(pendres_hysteresis *h);
 
 /** As many points as the path has values. */
 size_t pendres_hysteresis_count(const pendres_hysteresis *h);
 /** Point number i, owned by h; NULL out of range. */
 const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis *h, size_t i);
+/** How many jumps there are. */
 size_t pendres_hysteresis_jumps(const pendres_hysteresis *h);
 /** Jump number i in the order of the path, owned by h; NULL out of range. */
 const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i);

@@ -1,5 +1,6 @@
-/*
- * lyapunov.h -- largest Lyapunov exponents of many pendulums, each with its own parameters.
+/**
+ * @file lyapunov.h
+ * @brief Largest Lyapunov exponents of many pendulums, each with its own parameters.
  *
  * Owns: what the exponent of each pendulum's own motion is, and how well it is known. For maps of
  * a million points: of all attractors of a parameter set only the one that the start leads to is
@@ -40,8 +41,10 @@ typedef struct pendres_lyapunov {
   double exponent;       /**< largest Lyapunov exponent a unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
                               the exponent is the mean so far */
-  double rotation, rotation_error; /**< mean whole turns a drive period, likewise */
-  int period, winding;   /**< of orbits; 0 of others */
+  double rotation;       /**< mean whole turns a drive period */
+  double rotation_error; /**< its error, likewise */
+  int period;            /**< q, drive periods until an orbit closes; 0 of others */
+  int winding;           /**< p, whole turns in them; 0 of others */
 } pendres_lyapunov;
 
 /**

@@ -1,5 +1,6 @@
-/*
- * orbit.h -- periodic orbits of the driven pendulum and their measures.
+/**
+ * @file orbit.h
+ * @brief Periodic orbits of the driven pendulum and their measures.
  *
  * Owns: Newton's method on the stroboscopic map with the variational equations,
  * Floquet multipliers, and everything measured on a closed orbit: amplitude,
@@ -41,49 +42,60 @@ enum { PENDRES_ORBIT_HARMONICS = 24 /**< harmonics of an orbit that are kept */ 
 
 /** A periodic orbit with its measures. Plain data, nothing to free. */
 typedef struct pendres_orbit {
-  pendres_pendulum pendulum;
-  double x, v;               /**< Poincaré point at drive phase 0; the orbit's mean angle lies in
-                                  the well number 0 */
-  double x_error, v_error;
+  pendres_pendulum pendulum; /**< the parameters at which the orbit exists */
+  double x;                  /**< position of the Poincaré point at drive phase 0, in rad; the
+                                  orbit's mean angle lies in the well number 0 */
+  double v;                  /**< velocity there, in rad a unit time */
+  double x_error;            /**< error of x */
+  double v_error;            /**< error of v */
   int period;                /**< q: drive periods until it closes */
   int winding;               /**< p: whole turns in q drive periods */
   int symmetric;             /**< 1: its own mirror image, period half drive periods later */
   int stable;                /**< 1: both Floquet multipliers inside the unit circle */
-  double multiplier_re[2];   /**< Floquet multipliers, largest modulus first */
-  double multiplier_im[2];
-  double multiplier_error;
+  double multiplier_re[2];   /**< real parts of the Floquet multipliers, largest modulus first */
+  double multiplier_im[2];   /**< their imaginary parts */
+  double multiplier_error;   /**< the larger error of the two */
   double monodromy[2][2];    /**< derivative of (x, v) after q periods by (x, v) */
-  double loop_area, loop_area_error;
-  double dissipation, dissipation_error;
-  double mean_power, mean_power_error;
-  double amplitude, amplitude_error;
-  double first_harmonic_amplitude, first_harmonic_amplitude_error;
-  double phase_lag, phase_lag_error;
+  double loop_area;          /**< A = (1/q) closed integral of F dx a drive cycle, in m omega_0^2 */
+  double loop_area_error;    /**< its error */
+  double dissipation;        /**< D = (gamma/q) closed integral of v^2 dt, in m omega_0^2 */
+  double dissipation_error;  /**< its error */
+  double mean_power;         /**< P = A omega / (2 pi), in m omega_0^3 */
+  double mean_power_error;   /**< its error */
+  double amplitude;          /**< half the peak-to-peak of the angle, in rad */
+  double amplitude_error;    /**< its error */
+  double first_harmonic_amplitude;       /**< R of the angle's first harmonic, in rad */
+  double first_harmonic_amplitude_error; /**< its error */
+  double phase_lag;          /**< phi behind the force, in rad; NaN without drive or harmonic */
+  double phase_lag_error;    /**< its error */
   double mean_angle;         /**< mean of x - pi/2 (of its periodic part), within (-pi, pi]; of x
                                   where the coordinate has no period */
-  double cosine[PENDRES_ORBIT_HARMONICS]; /**< cosine[m-1], sine[m-1]: harmonic m of the angle, */
-  double sine[PENDRES_ORBIT_HARMONICS];   /**< averaged over the orbit's q drive cycles */
+  double cosine[PENDRES_ORBIT_HARMONICS]; /**< [m - 1]: the factor of cos(m theta) in the angle
+                                  averaged over the orbit's q drive cycles, in rad */
+  double sine[PENDRES_ORBIT_HARMONICS];   /**< [m - 1]: that of sin(m theta) */
   double frequency_derivative[2];  /**< d(x, v)/d omega of the strobe point; NaN unless asked for */
   double loop_area_slope;          /**< dA/d omega along the branch, NaN if not asked for */
-  double loop_area_slope_error;
+  double loop_area_slope_error;    /**< its error */
   int steps;                 /**< steps a period of the finer computation */
   double harmonics_rest;     /**< bounds what the harmonics that are not kept add to the angle,
                                   averaged over the drive cycles */
   double torque_work;        /**< what the torque gives a drive cycle, 2 pi I p / q, exactly */
-  double parametric_work, parametric_work_error; /**< what the parametric drive gives a drive cycle */
+  double parametric_work;    /**< what the parametric drive gives a drive cycle, in m omega_0^2 */
+  double parametric_work_error; /**< its error */
 } pendres_orbit;
 
 /** Where to look for an orbit. */
 typedef struct pendres_orbit_guess {
-  pendres_pendulum pendulum;
-  double x, v;
-  int period;  /**< q >= 1 */
-  int winding; /**< p */
+  pendres_pendulum pendulum; /**< the parameters */
+  double x;    /**< position near the orbit's Poincaré point at drive phase 0, in rad */
+  double v;    /**< velocity there, in rad a unit time */
+  int period;  /**< q >= 1: drive periods until the orbit closes */
+  int winding; /**< p: whole turns in them */
 } pendres_orbit_guess;
 
 /** What to compute beside the orbit itself. */
 typedef enum pendres_orbit_want {
-  PENDRES_ORBIT_PLAIN = 0,
+  PENDRES_ORBIT_PLAIN = 0,          /**< nothing: slopes are NaN */
   PENDRES_ORBIT_FREQUENCY_SLOPE = 1 /**< derivatives along the branch by omega */
 } pendres_orbit_want;
 

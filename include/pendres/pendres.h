@@ -1,5 +1,17 @@
-/*
- * pendres.h -- umbrella header of libpendres: everything public.
+/**
+ * @file pendres.h
+ * @brief Umbrella header of libpendres: everything public.
+ *
+ * How the interface grows. What a program keeps in its own memory (pendres_orbit,
+ * pendres_resonance and all other structs that are not opaque) has a size that was compiled into
+ * it. Within one soname (libpendres.so.N) these structs therefore keep their size, and their
+ * fields their places; only functions come, and values at the ends of enums, before the one that
+ * counts them. A release in which a struct has to grow gets a new soname, and a new node in
+ * pendres.map, so that a program which was linked before goes on with the library that it knows,
+ * beside the new one. Fields are then appended, so that a program's source stays as it is:
+ * compiled anew, it finds zero in fields that it does not set, which means what was so before.
+ * Until the first release nothing of this binds. abidiff compares two versions, see
+ * CONTRIBUTING.md.
  */
 #ifndef PENDRES_PENDRES_H
 #define PENDRES_PENDRES_H

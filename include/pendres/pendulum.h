@@ -1,5 +1,6 @@
-/*
- * pendulum.h -- the models: a damped, driven pendulum, its relatives, and exact neighbours.
+/**
+ * @file pendulum.h
+ * @brief The models: a damped, driven pendulum, its relatives, and exact neighbours.
  *
  * Owns: the equation of motion, its Jacobian, energy, wells and mirror
  * symmetry, and two limits with closed forms: the driven harmonic oscillator
@@ -41,7 +42,7 @@ extern "C" {
 typedef enum pendres_force {
   PENDRES_FORCE_PENDULUM = 0,   /**< f = -cos x, with the period 2 pi */
   PENDRES_FORCE_POLYNOMIAL = 1, /**< f = a1 x + ... + a5 x^5, a_k = force_coefficients[k - 1] */
-  PENDRES_FORCE_COUNT
+  PENDRES_FORCE_COUNT           /**< how many there are; not a force */
 } pendres_force;
 
 enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
@@ -50,7 +51,7 @@ enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
 typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial" */
   double period;     /**< of the coordinate: 2 pi; 0 where x and no x + period are the same */
-  double origin;     /**< what x - origin = y, the angle of the pendulum, is counted from: pi/2, 0 */
+  double origin;     /**< of the pendulum's angle y = x - origin: pi/2; of a polynomial 0 */
   int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
   const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
 } pendres_model;

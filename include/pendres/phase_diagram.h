@@ -1,6 +1,6 @@
 /**
- * @file
- * phase_diagram.h -- which states of motion exist where, by an ensemble and by the branches.
+ * @file phase_diagram.h
+ * @brief Which states of motion exist where, by an ensemble and by the branches.
  *
  * Owns: the regimes of the paper's Fig. 8, found in two ways: from what the members of an
  * ensemble settle on (the paper's way), and from the branches on which these orbits lie with the
@@ -36,7 +36,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/* One list makes the codes and their names. */
+/** One list makes the codes and their names: X(code, name). */
 #define PENDRES_REGIME_LIST(X) \
   X(SA, "sa")                  \
   X(LA, "la")                  \
@@ -45,9 +45,10 @@ extern "C" {
   X(OTHER, "other")
 
 /**
- * What the members of an ensemble settle on: PENDRES_REGIME_SA or _LA, all on that state;
- * _COEXISTENCE, some on either; _SINGLE, all on one state that is neither, as beyond the cusp;
- * _OTHER, some on something else, see pendres_other.
+ * What the members of an ensemble settle on: PENDRES_REGIME_SA or PENDRES_REGIME_LA, all on that
+ * state; PENDRES_REGIME_COEXISTENCE, some on either; PENDRES_REGIME_SINGLE, all on one state that
+ * is neither, as beyond the cusp; PENDRES_REGIME_OTHER, some on something else, see pendres_other.
+ * PENDRES_REGIME_COUNT: how many there are.
  */
 typedef enum pendres_regime {
 #define PENDRES_REGIME_CODE(code, name) PENDRES_REGIME_##code,

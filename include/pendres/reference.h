@@ -1,5 +1,6 @@
-/*
- * reference.h -- a second, independent way to every number of the library.
+/**
+ * @file reference.h
+ * @brief A second, independent way to every number of the library.
  *
  * Owns: the pendulum integrated by Taylor series in long double, its strobe map with all
  * first derivatives, and what follows from the map: orbits with their measures, resonances,
@@ -49,7 +50,8 @@ pendres_status pendres_reference_advance(const pendres_pendulum *p, long double 
 
 /** End state of some drive periods and its derivatives, all at fixed drive phase. */
 typedef struct pendres_reference_image {
-  long double y, v;               /**< y in (-pi, pi] */
+  long double y;                  /**< angle at the end, in (-pi, pi] */
+  long double v;                  /**< velocity there */
   long turns;                     /**< so that the angle is y + 2 pi turns */
   long double monodromy[2][2];    /**< d(y, v)/d(start y, start v); rows: end, columns: start */
   long double by_frequency[2];    /**< d(y, v)/d drive_frequency */
@@ -66,10 +68,15 @@ pendres_status pendres_reference_map(const pendres_pendulum *p, long double y, l
  * (winding not 0) the mean advance is taken off the angle before harmonics and amplitude.
  */
 typedef struct pendres_reference_cycle {
-  long double damping, drive_amplitude, drive_frequency; /**< where it lives */
-  long double y, v;               /**< fixed point of the strobe map, y in (-pi, pi] */
-  long period, winding;           /**< closes after `period` drive cycles and `winding` turns */
-  long double multiplier_re[2], multiplier_im[2]; /**< Floquet, larger modulus first */
+  long double damping;            /**< gamma at which it exists */
+  long double drive_amplitude;    /**< F0 at which it exists */
+  long double drive_frequency;    /**< omega at which it exists */
+  long double y;                  /**< angle of the strobe map's fixed point, in (-pi, pi] */
+  long double v;                  /**< velocity of the fixed point */
+  long period;                    /**< q: drive cycles after which it closes */
+  long winding;                   /**< p: whole turns in them */
+  long double multiplier_re[2];   /**< real parts of the Floquet multipliers, larger one first */
+  long double multiplier_im[2];   /**< their imaginary parts */
   long double monodromy[2][2];    /**< over the whole period */
   long double loop_area;          /**< closed integral of F dx */
   long double dissipation;        /**< damping times the integral of v^2 dt; equals loop_area */

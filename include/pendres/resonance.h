@@ -1,6 +1,6 @@
 /**
- * @file
- * resonance.h -- the drive frequency at which an ensemble dissipates most in a cycle.
+ * @file resonance.h
+ * @brief The drive frequency at which an ensemble dissipates most in a cycle.
  *
  * Owns: the search for the largest mean loop area over drive frequency at given damping and
  * drive amplitude (the paper's definition of resonance).

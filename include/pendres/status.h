@@ -1,5 +1,6 @@
-/*
- * status.h -- what every function of the library returns.
+/**
+ * @file status.h
+ * @brief What every function of the library returns.
  *
  * Owns: the list of status codes and their messages. Zero is success; every
  * other code is a failure, and the context (context.h) holds a sentence that
@@ -21,7 +22,7 @@
 extern "C" {
 #endif
 
-/* One list makes both the codes and their messages. */
+/** One list makes both the codes and their messages: X(name, message). */
 #define PENDRES_STATUS_LIST(X)                                                 \
   X(OK, "success")                                                             \
   X(INVALID_ARGUMENT, "an argument is out of its range")                       \
@@ -37,6 +38,24 @@ extern "C" {
   X(INTERNAL, "internal error")                                                \
   X(BUSY, "the handle is in use: by another thread, or by the call that asks this one")
 
+/**
+ * What every function that can fail returns; pendres_status_message() has these words, too.
+ *
+ * - PENDRES_OK: success
+ * - PENDRES_INVALID_ARGUMENT: an argument is out of its range
+ * - PENDRES_OUT_OF_MEMORY: the library got no memory that it asked for
+ * - PENDRES_INTEGRATION_FAILED: the integrator failed
+ * - PENDRES_TOLERANCE_UNREACHABLE: the tolerance cannot be reached in double precision
+ * - PENDRES_NOT_CONVERGED: an iteration did not converge within its budget
+ * - PENDRES_NOT_FOUND: nothing with the properties asked for exists in the range
+ * - PENDRES_UNRESOLVED: some pendulums did not settle within their budget
+ * - PENDRES_INTERRUPTED: the function of pendres_context_set_interrupt() asked to stop
+ * - PENDRES_IO: reading or writing a file failed
+ * - PENDRES_UNSUPPORTED: not supported by this build
+ * - PENDRES_INTERNAL: an error of the library itself
+ * - PENDRES_BUSY: the handle is in use by another thread, or by the call that asks this one
+ * - PENDRES_STATUS_COUNT: how many there are; not a status
+ */
 typedef enum pendres_status {
 #define PENDRES_STATUS_CODE(name, text) PENDRES_##name,
   PENDRES_STATUS_LIST(PENDRES_STATUS_CODE)

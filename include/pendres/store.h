@@ -1,5 +1,6 @@
-/*
- * store.h -- self-describing HDF5 files, written whole or not at all.
+/**
+ * @file store.h
+ * @brief Self-describing HDF5 files, written whole or not at all.
  *
  * Owns: the layout rules of a result file. Knows no physics. A store writes to PATH.part and
  * renames it to PATH when it is closed, so that PATH is either what it was before or complete.
@@ -55,6 +56,7 @@ extern "C" {
 
 enum { PENDRES_STORE_RANK = 8 /**< most dimensions of a variable */ };
 
+/** Opaque: a file that is being written or read. */
 typedef struct pendres_store pendres_store;
 
 /** Types of elements, and what a buffer of them holds. */
@@ -64,16 +66,16 @@ typedef enum pendres_store_type {
   PENDRES_STORE_INT32,      /**< int32_t */
   PENDRES_STORE_INT64,      /**< int64_t */
   PENDRES_STORE_STRING,     /**< const char *, zero-terminated, not NULL */
-  PENDRES_STORE_TYPE_COUNT
+  PENDRES_STORE_TYPE_COUNT  /**< how many there are; not a type */
 } pendres_store_type;
 
 /** Attributes of the root group. NULL leaves one out. What changes from run to run (dates,
  *  hosts) belongs into the provenance instead, so that equal results stay equal bytes. */
 typedef struct pendres_store_options {
-  const char *title;
-  const char *history;
-  const char *source;
-  const char *references;
+  const char *title;      /**< what the file holds, in a line (CF conventions, 2.6.2) */
+  const char *history;    /**< what was done to the data */
+  const char *source;     /**< how the data were made: the program and its version */
+  const char *references; /**< publications that describe them */
 } pendres_store_options;
 
 /** What a variable is. Zero in any field means its default; nothing is kept after the call. */
@@ -100,11 +102,11 @@ typedef struct pendres_store_spec {
 
 /** One entry of the provenance. */
 typedef struct pendres_store_entry {
-  const char *key;
+  const char *key;       /**< name of the scalar in the group */
   const char *text;      /**< not NULL: the entry is this text, of any length */
   double number;         /**< else it is a double, ... */
   int64_t integer;       /**< ... or this, if is_integer */
-  int is_integer;
+  int is_integer;        /**< nonzero: the entry is `integer`, not `number` */
   const char *units;     /**< default "1" */
   const char *long_name; /**< default: the key */
 } pendres_store_entry;
@@ -208,24 +210,28 @@ pendres_status pendres_store_write(pendres_store *store, int id, const void *dat
 pendres_status pendres_store_write_rows(pendres_store *store, int id, uint64_t first,
                                         uint64_t rows, const void *data, size_t n);
 
-/** Define and write in one call: a variable; a result with its error estimate; a text. */
+/** Define a variable and write all of it in one call. */
 pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec *spec,
                                  const void *data, size_t n);
+/** Define a result and its error estimate, and write all of both, in one call. */
 pendres_status pendres_store_put_result(pendres_store *store, const pendres_store_spec *spec,
                                         const void *data, const double *error, size_t n);
+/** Define a scalar text and write it in one call. */
 pendres_status pendres_store_put_text(pendres_store *store, const char *group, const char *name,
                                       const char *long_name, const char *text);
 
 /**
- * Set an attribute of `object` (a variable or dimension of the group), or of the group itself if
- * object is NULL. An attribute that exists is replaced. Those that make the layout (DIMENSION_LIST
- * and the like) are not to be touched.
+ * Set a text attribute of `object` (a variable or dimension of the group), or of the group itself
+ * if object is NULL. An attribute that exists is replaced. Those that make the layout
+ * (DIMENSION_LIST and the like) are not to be touched.
  */
 pendres_status pendres_store_attribute_text(pendres_store *store, const char *group,
                                             const char *object, const char *name,
                                             const char *value);
+/** The same with a double. */
 pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
                                               const char *object, const char *name, double value);
+/** The same with a whole number. */
 pendres_status pendres_store_attribute_integer(pendres_store *store, const char *group,
                                                const char *object, const char *name,
                                                int64_t value);

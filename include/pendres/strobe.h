@@ -1,5 +1,6 @@
-/*
- * strobe.h -- the stroboscopic map: pendulums seen once a drive period.
+/**
+ * @file strobe.h
+ * @brief The stroboscopic map: pendulums seen once a drive period.
  *
  * Owns: advancing any number of pendulums by whole drive periods. The strobe
  * is at drive phase 0, where the drive is at its maximum.

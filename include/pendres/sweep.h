@@ -1,5 +1,6 @@
-/*
- * sweep.h -- many pendulums by number: axes of values, ensembles of starts, index arithmetic.
+/**
+ * @file sweep.h
+ * @brief Many pendulums by number: axes of values, ensembles of starts, index arithmetic.
  *
  * Owns: which parameters and which initial state pendulum number i of a sweep has. Nothing is
  * integrated here and nothing is stored: a sweep of 2^60 pendulums costs as much as one of two.
@@ -26,8 +27,9 @@ extern "C" {
  * holds 0.13.
  */
 typedef struct pendres_range {
-  double first, last; /**< first <= last */
-  size_t count;
+  double first; /**< the first value */
+  double last;  /**< the last value, not below the first */
+  size_t count; /**< how many values there are, both ends included */
 } pendres_range;
 
 /** Value number i < count; NaN beyond, or without a range. */
@@ -49,27 +51,29 @@ pendres_status pendres_sweep_values(size_t listed, const double *list, const pen
 
 /** What an axis of a sweep varies. */
 typedef enum pendres_quantity {
-  PENDRES_QUANTITY_DAMPING,
-  PENDRES_QUANTITY_DRIVE_AMPLITUDE,
-  PENDRES_QUANTITY_DRIVE_FREQUENCY,
-  PENDRES_QUANTITY_DRIVE_PERIOD, /**< 2 pi over the drive frequency */
-  PENDRES_QUANTITY_TEMPERATURE,
-  PENDRES_QUANTITY_X,            /**< initial position */
-  PENDRES_QUANTITY_V,            /**< initial velocity */
-  PENDRES_QUANTITY_COUNT
+  PENDRES_QUANTITY_DAMPING,         /**< gamma, in units of omega_0 */
+  PENDRES_QUANTITY_DRIVE_AMPLITUDE, /**< F0, in m g l */
+  PENDRES_QUANTITY_DRIVE_FREQUENCY, /**< omega, in units of omega_0 */
+  PENDRES_QUANTITY_DRIVE_PERIOD,    /**< 2 pi over the drive frequency */
+  PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m omega_0^2 */
+  PENDRES_QUANTITY_X,               /**< initial position, in rad */
+  PENDRES_QUANTITY_V,               /**< initial velocity, in rad a unit time */
+  PENDRES_QUANTITY_COUNT            /**< how many there are; not a quantity */
 } pendres_quantity;
 
+/** One axis of a sweep: the values of one quantity. */
 typedef struct pendres_axis {
-  pendres_quantity quantity;
-  size_t count;
-  const double *value; /**< [count], not owned */
+  pendres_quantity quantity; /**< what it varies */
+  size_t count;              /**< how many values it has */
+  const double *value;       /**< [count], not owned */
 } pendres_axis;
 
 /** The product of some axes. Where quantities have no axis, `pendulum`, x and v hold. */
 typedef struct pendres_sweep {
-  pendres_pendulum pendulum;
-  double x, v;
-  size_t axes;
+  pendres_pendulum pendulum; /**< parameters that no axis varies */
+  double x;                  /**< initial position where no axis varies it, in rad */
+  double v;                  /**< initial velocity, likewise, in rad a unit time */
+  size_t axes;               /**< how many axes there are */
   pendres_axis axis[PENDRES_QUANTITY_COUNT]; /**< the last one runs fastest */
 } pendres_sweep;
 
@@ -89,7 +93,7 @@ typedef enum pendres_ensemble_shape {
   PENDRES_ENSEMBLE_RECTANGLE, /**< the middles of `rows` rows of equal cells, of x_first to x_last
                                    and v to v_last, row by row from the lowest v on */
   PENDRES_ENSEMBLE_RANDOM,    /**< independent and evenly spread over the same rectangle */
-  PENDRES_ENSEMBLE_SHAPE_COUNT
+  PENDRES_ENSEMBLE_SHAPE_COUNT /**< how many there are; not a shape */
 } pendres_ensemble_shape;
 
 /**
@@ -98,11 +102,12 @@ typedef enum pendres_ensemble_shape {
  * they are a sample of these (pendres_response.sampling). All zero behind v: a line.
  */
 typedef struct pendres_ensemble {
-  size_t members;
-  double x_first, x_last;
-  double v;                     /**< of a line; else the lowest */
-  pendres_ensemble_shape shape;
-  double v_last;                /**< the highest; not of a line */
+  size_t members;               /**< how many starts there are */
+  double x_first;               /**< lower end of the positions, in rad */
+  double x_last;                /**< their upper end, in rad */
+  double v;                     /**< velocity of a line; else the lowest, in rad a unit time */
+  pendres_ensemble_shape shape; /**< how the starts lie */
+  double v_last;                /**< the highest velocity; not of a line */
   size_t rows;                  /**< of a rectangle; a divisor of members */
   uint64_t seed;                /**< of random starts: another one, other starts */
 } pendres_ensemble;
