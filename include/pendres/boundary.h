@@ -63,7 +63,8 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
 /** NULL is allowed. */
 void pendres_boundary_free(pendres_boundary *boundary);
 
-/** How many points a boundary has; 0 for NULL. They stand piece after piece, in order along each. */
+/** How many points a boundary has; 0 for NULL. They stand piece after piece, in order along
+    each. */
 size_t pendres_boundary_count(const pendres_boundary *boundary);
 /** x of every point, rad; owned by the boundary; NULL for NULL. */
 const double *pendres_boundary_x(const pendres_boundary *boundary);

@@ -26,14 +26,17 @@ enum { PENDRES_CASCADE_DOUBLINGS = 8 /**< followed at most */ };
 
 /** Doublings in their order. Plain data. */
 typedef struct pendres_cascade {
-  int doublings;
+  int doublings;                         /**< how many were found */
   int period[PENDRES_CASCADE_DOUBLINGS]; /**< of the orbit that loses its stability there */
-  double value[PENDRES_CASCADE_DOUBLINGS], value_error[PENDRES_CASCADE_DOUBLINGS];
+  double value[PENDRES_CASCADE_DOUBLINGS];       /**< of the parameter there */
+  double value_error[PENDRES_CASCADE_DOUBLINGS]; /**< its error */
   double x[PENDRES_CASCADE_DOUBLINGS];   /**< a Poincaré point of it, ... */
   double v[PENDRES_CASCADE_DOUBLINGS];   /**< ... and the velocity there */
-  double limit, limit_error; /**< where they accumulate; NaN with less than four doublings */
-  double ratio, ratio_error; /**< of the last two distances, which tends to Feigenbaum's; NaN with
-                                  less than four doublings, as three do not tell how far off it is */
+  double limit;       /**< where they accumulate; NaN with less than four doublings */
+  double limit_error; /**< its error */
+  double ratio;       /**< of the last two distances, which tends to Feigenbaum's; NaN with less
+                           than four doublings, as three do not tell how far off it is */
+  double ratio_error; /**< its error */
 } pendres_cascade;
 
 /**

@@ -96,9 +96,10 @@ void pendres_response_average(pendres_response *r);
 
 /**
  * Names for what is alone: of n responses of one damping, and of one drive amplitude at
- * frequencies in any order or of one frequency at drive amplitudes in any order, those with a single orbit of one drive period and no name for it yet (see pendres_label)
- * are named SA or LA by the fold at which SA ends, if SA and LA coexist at any of the n; labels,
- * shares and their errors are brought up to date. Otherwise nothing changes.
+ * frequencies in any order or of one frequency at drive amplitudes in any order, those with a
+ * single orbit of one drive period and no name for it yet (see pendres_label) are named SA or LA by
+ * the fold at which SA ends, if SA and LA coexist at any of the n; labels, shares and their errors
+ * are brought up to date. Otherwise nothing changes.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, those of the integration.
  */
