@@ -11,6 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "csv.h"
 #include "ending.h"
 #include "farm/ranks.h"
 #include "deck/deck_explain.h"
@@ -76,8 +77,8 @@ static int check_extension(job *j, const deck *d)
 {
   const size_t n = strlen(d->output);
   if (n < 4 || strcmp(d->output + n - 4, ".csv") != 0) return DONE;
-  progress_error(&j->progress, "%s: results are an HDF5 file, which this name promises not to be",
-                 d->output);
+  progress_error(&j->progress, "%s: results are an HDF5 file, which this name promises not to be; "
+                 "-o %.*s.h5 --csv writes both", d->output, (int)n - 4, d->output);
   return BAD_USAGE;
 }
 
@@ -96,7 +97,8 @@ static int read_deck(job *j, const char *name, deck *d)
   }
   if (status != PENDRES_OK) return BAD_USAGE;
   if (override_output(j, d) != DONE || check_extension(j, d) != DONE ||
-      files_check(d, j->options.log, &j->progress) != DONE)
+      files_check(d, j->options.log, &j->progress) != DONE ||
+      (j->options.csv && !j->options.force && csv_check(d, &j->progress) != DONE))
     return BAD_USAGE;
   if (scene_precision(d, &precision, &why) != PENDRES_OK) {
     progress_error(&j->progress, "%s: &precision: %s", d->name, why);
@@ -402,6 +404,7 @@ static int run_deck(job *j)
   if (code == DONE && j->options.shards > 0) return leave_part(j);
   if (code == DONE) code = finish_output(j);                         /* 10 whole, in its place */
   if (code == FAILED) tell_kept(j);
+  if (code == DONE && j->options.csv) code = csv_write(&j->deck, j->options.force, &j->progress);
   if (code == DONE) code = report(j);                                /* 11 the table */
   return code;
 }

@@ -31,6 +31,8 @@ static const char help[] =
   "  -n, --dry-run         check the deck and say what would be computed\n"
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
+  "      --csv             write the results of one or two dimensions as text, too: NAME.csv beside\n"
+  "                        NAME.h5, and NAME.DIMENSION.csv for further tables\n"
   "  -f, --force           do not keep a file that is replaced (see below)\n"
   "      --resume          go on where a run of the same deck was stopped, if there was one\n"
   "      --journal=DIR     keep finished tasks in DIR/FILE.journal, not beside FILE\n"
@@ -123,6 +125,9 @@ static int apply(int option, const char *value, const char *name, options *out)
     if (*value != '\0') return 0;
     fprintf(stderr, "%s: --output needs the name of a file\n", name);
     return complain(name);
+  case 'C':
+    out->csv = 1;
+    return 0;
   case 'f':
     out->force = 1;
     return 0;
@@ -215,6 +220,7 @@ int options_parse(int argc, char **argv, options *out)
     { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
     { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
     { "shard", required_argument, NULL, 'S' },   { "merge", no_argument, NULL, 'M' },
+    { "csv", no_argument, NULL, 'C' },
     { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";

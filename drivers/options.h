@@ -34,6 +34,7 @@ typedef struct options {
   size_t shard, shards; /* of --shard, from 1; 0: not given */
   int merge;            /* put shards together */
   const char *journal; /* its folder; NULL: the output's */
+  int csv;            /* nonzero: results as text, too */
   int force;          /* nonzero: an output that is there is not kept */
   const char *log;    /* NULL: none */
   const char *word;   /* of --explain and --init */

@@ -67,6 +67,8 @@ static void no_store(void **state)
   REFUSED(pendres_store_provenance(NULL, &entry, 1));
   assert_false(pendres_store_has(NULL, "", "a"));
   REFUSED(pendres_store_shape(NULL, "", "a", &rank, sizes));
+  REFUSED(pendres_store_member(NULL, "", 0, NULL, &text));
+  REFUSED(pendres_store_dimension_of(NULL, "", "a", 0, &text));
   REFUSED(pendres_store_read(NULL, "", "a", PENDRES_STORE_DOUBLE, &number, 1));
   REFUSED(pendres_store_read_rows(NULL, "", "a", PENDRES_STORE_DOUBLE, 0, 1, &number, 1));
   REFUSED(pendres_store_read_text(NULL, "", "a", 0, &text));
@@ -135,6 +137,13 @@ static void read_back(pendres_store *s, int *count)
   assert_true(pendres_store_has(s, "", "v"));
   REFUSED(pendres_store_shape(s, "", NULL, &rank, sizes));
   REFUSED(pendres_store_shape(s, "", "nowhere", &rank, sizes));
+  REFUSED(pendres_store_member(s, "", 0, NULL, NULL));
+  REFUSED(pendres_store_member(s, "", 99, NULL, &text));
+  REFUSED(pendres_store_member(s, "nowhere", 0, NULL, &text));
+  REFUSED(pendres_store_dimension_of(s, "", "v", 0, NULL));
+  REFUSED(pendres_store_dimension_of(s, "", NULL, 0, &text));
+  REFUSED(pendres_store_dimension_of(s, "", "v", -1, &text));
+  REFUSED(pendres_store_dimension_of(s, "", "v", PENDRES_STORE_RANK, &text));
   REFUSED(pendres_store_read(s, "", NULL, PENDRES_STORE_DOUBLE, numbers, 2));
   REFUSED(pendres_store_read(s, "", "v", PENDRES_STORE_DOUBLE, NULL, 2));
   REFUSED(pendres_store_read(s, "", "v", PENDRES_STORE_DOUBLE, numbers, 1));

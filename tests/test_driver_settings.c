@@ -128,7 +128,94 @@ static void test_csv_is_no_hdf5(void **state)
   (void)state;
   check_code(RUN("-o", "x.csv", "small.nml"), 2);
   check_says(err, "x.csv: results are an HDF5 file");
+  check_says(err, "-o x.h5 --csv");
   assert_int_equal(count_names(".csv"), 0);
+}
+
+/* Number `column` of line `row` behind the header, which must begin with `header`. */
+static double cell(const char *path, const char *header, int row, int column)
+{
+  static char text[TEXT_ROOM];
+  read_text(path, text, sizeof text);
+  const char *at = strstr(text, header);
+  assert_true(at != NULL && at > text && at[-1] == '\n');
+  for (int i = 0; i <= row; i++) {
+    at = strchr(at, '\n');
+    assert_non_null(at);
+    at++;
+  }
+  for (int i = 0; i < column; i++) {
+    at += strcspn(at, ",\n");
+    assert_int_equal(*at, ',');
+    at++;
+  }
+  return strtod(at, NULL);
+}
+
+/* Text gives back the very doubles of the HDF5 file, with their coordinates and errors beside
+   them, for any number of threads; what is not ours is kept. */
+static void test_text(void **state)
+{
+  enum { DAMPINGS = 2, PERIODS = 3, N = DAMPINGS * PERIODS };
+  static const char header[] = "damping,drive_period,mean_loop_area,mean_loop_area_error,";
+  static const double damping[] = { 0.1, 0.2 }, period[] = { 6.1, 7.3, 8.9 };
+  static char one[TEXT_ROOM], two[TEXT_ROOM];
+  double area[N], error[N], resonance[DAMPINGS];
+  pendres_store *store = NULL;
+  (void)state;
+  write_text("r.nml", "&scene kind = 'response', title = 'two\tdampings' /\n"
+                      "&pendulum drive_amplitude = 0.2 /\n"
+                      "&sweep damping = 0.1, 0.2, drive_period = 6.1, 7.3, 8.9 /\n");
+  write_text("two.csv", "precious");
+  check_code(RUN("--csv", "-q", "-t", "2", "-o", "two.h5", "r.nml"), 2);
+  check_says(err, "two.csv is there and is no table");
+  check_code(RUN("--csv", "-q", "-t", "2", "-f", "-o", "two.h5", "r.nml"), DONE);
+  for (int i = 0; i < 2; i++) /* over its own table without a word */
+    check_code(RUN("--csv", "-q", "-t", "1", "-o", "one.h5", "r.nml"), DONE);
+  read_text("one.csv", one, sizeof one);
+  read_text("two.csv", two, sizeof two);
+  assert_string_equal(one, two);
+  check_says(one, "# title: two dampings\n");
+  check_says(one, "# scene: response\n");
+  check_says(one, "# drive_amplitude = 0.2\n");
+  check_says(one, "; 0 none, 1 unresolved,");
+  assert_int_equal(count_names(".part"), 0);
+
+  check_ok(pendres_store_open("one.h5", &store));
+  check_ok(pendres_store_read(store, "", "mean_loop_area", PENDRES_STORE_DOUBLE, area, N));
+  check_ok(pendres_store_read(store, "", "mean_loop_area_error", PENDRES_STORE_DOUBLE, error, N));
+  check_ok(pendres_store_read(store, "", "resonance_period", PENDRES_STORE_DOUBLE, resonance,
+                              DAMPINGS));
+  pendres_store_free(store);
+  for (int i = 0; i < N; i++) {
+    check_near(cell("one.csv", header, i, 0), damping[i / PERIODS], 0.0);
+    check_near(cell("one.csv", header, i, 1), period[i % PERIODS], 0.0);
+    check_near(cell("one.csv", header, i, 2), area[i], 0.0);
+    check_near(cell("one.csv", header, i, 3), error[i], 0.0);
+  }
+  for (int i = 0; i < DAMPINGS; i++)
+    check_near(cell("one.damping.csv", "damping,resonance_period,", i, 1), resonance[i], 0.0);
+}
+
+/* What does not exist is NaN, and what the file holds as words are words. */
+static void test_text_of_failures(void **state)
+{
+  static char text[TEXT_ROOM];
+  (void)state;
+  write_text("free.nml", "&scene kind = 'orbit' /\n"
+                         "&pendulum drive_amplitude = 0, damping = 0, drive_frequency = 1 /\n"
+                         "&orbit x = 1 /\n");
+  check_code(RUN("-q", "--csv", "free.nml"), 3);
+  read_text("free.csv", text, sizeof text);
+  check_says(text, "# loop_area = NaN\n");
+  write_text("up.nml", "&scene kind = 'hysteresis' /\n"
+                       "&pendulum drive_amplitude = 0.2, damping = 0.2 /\n"
+                       "&sweep drive_frequency = 0.5, 0.6 /\n"
+                       "&hysteresis start = 'sa' /\n");
+  check_code(RUN("-q", "--csv", "up.nml"), DONE);
+  read_text("up.csv", text, sizeof text);
+  check_says(text, "\ndirection,drive_frequency,");
+  check_says(text, "\ndown,0.6,");
 }
 
 /* What a number is stands beside it. */
@@ -180,6 +267,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     TEST(test_settings),       TEST(test_bad_settings),     TEST(test_several_decks),
     TEST(test_standard_input), TEST(test_results_are_kept), TEST(test_csv_is_no_hdf5),
+    TEST(test_text), TEST(test_text_of_failures),
     TEST(test_measures_are_defined),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;

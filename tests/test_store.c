@@ -147,6 +147,31 @@ static void check_text(pendres_store *store, const char *group, const char *obje
   free(text);
 }
 
+/* Each once, in the order in which they were made, with its type. */
+static void check_members(pendres_store *store)
+{
+  pendres_store_type type = PENDRES_STORE_TYPE_COUNT;
+  char *name = NULL;
+  uint64_t count = 0;
+  int found = 0;
+
+  while (pendres_store_member(store, "", count, &type, &name) == PENDRES_OK) {
+    assert_true(pendres_store_has(store, "", name));
+    if (count == 0) assert_string_equal(name, "damping");
+    if (!strcmp(name, "label")) found += type == PENDRES_STORE_INT8;
+    if (!strcmp(name, "method_title")) found += type == PENDRES_STORE_STRING;
+    if (!strcmp(name, "mean_loop_area_error")) found += type == PENDRES_STORE_DOUBLE;
+    if (!strcmp(name, "paper")) found += type == PENDRES_STORE_TYPE_COUNT;
+    free(name);
+    count++;
+  }
+  assert_int_equal(found, 4);
+  assert_null(name);
+  OK(pendres_store_member(store, "paper/fig2", 1, NULL, &name));
+  assert_string_equal(name, "turns");
+  free(name);
+}
+
 static void what_is_written_is_read(void **state)
 {
   char path[PATH_ROOM], part[PATH_ROOM];
@@ -170,6 +195,13 @@ static void what_is_written_is_read(void **state)
   assert_int_equal(sizes[0], DAMPINGS);
   assert_int_equal(sizes[1], PERIODS);
   assert_int_equal(sizes[2], 1);
+  OK(pendres_store_dimension_of(store, "", "mean_loop_area_error", 1, &text));
+  assert_string_equal(text, "drive_period");
+  free(text);
+  OK(pendres_store_dimension_of(store, "", "damping", 0, &text)); /* itself */
+  assert_string_equal(text, "damping");
+  free(text);
+  check_members(store);
   OK(pendres_store_read(store, "", "mean_loop_area", PENDRES_STORE_DOUBLE, areas, LENGTH(areas)));
   for (size_t i = 0; i < LENGTH(areas); i++)
     assert_true(i == 5 ? isnan(areas[i]) : areas[i] == area(i));

@@ -253,6 +253,20 @@ int pendres_store_has(pendres_store *store, const char *group, const char *name)
 pendres_status pendres_store_shape(pendres_store *store, const char *group, const char *name,
                                    int *rank, uint64_t sizes[PENDRES_STORE_RANK]);
 
+/**
+ * Name of member number `index` of a group, in the order in which they were made. *name is the
+ * caller's, to be freed by free(). *type (may be NULL) is that of its elements, or
+ * PENDRES_STORE_TYPE_COUNT if it is a group or of another type. PENDRES_NOT_FOUND: there are no
+ * more.
+ */
+pendres_status pendres_store_member(pendres_store *store, const char *group, uint64_t index,
+                                    pendres_store_type *type, char **name);
+
+/** Name of dimension number `axis` of a variable, 0 for the slowest; that of a dimension is itself.
+ *  *dimension is the caller's, to be freed by free(). PENDRES_NOT_FOUND: it has none such. */
+pendres_status pendres_store_dimension_of(pendres_store *store, const char *group,
+                                          const char *name, int axis, char **dimension);
+
 /** Read a whole variable of numbers, n elements, converted to `type` (not a string). */
 pendres_status pendres_store_read(pendres_store *store, const char *group, const char *name,
                                   pendres_store_type type, void *data, size_t n);

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <hdf5_hl.h>
+
 /* The "group/name" of something that must exist, for HDF5: the root is "/". */
 static pendres_status existing_path(pendres_store *store, const char *group, const char *name,
                                     char **out)
@@ -96,6 +98,128 @@ pendres_status pendres_store_shape(pendres_store *store, const char *group, cons
   if (id >= 0) H5Dclose(id);
   return pendres_store_leave(store, &quiet, status);
 }
+
+/* ---- what there is ------------------------------------------------------------------------- */
+
+/* The type that elements of a member are read as. */
+static pendres_store_type type_of(pendres_store *store, const char *path)
+{
+  const hid_t id = H5Dopen2(store->h5, path, H5P_DEFAULT);
+  const hid_t type = id >= 0 ? H5Dget_type(id) : H5I_INVALID_HID;
+  const H5T_class_t kind = type >= 0 ? H5Tget_class(type) : H5T_NO_CLASS;
+  const size_t size = type >= 0 ? H5Tget_size(type) : 0;
+  pendres_store_type found = PENDRES_STORE_TYPE_COUNT;
+
+  if (kind == H5T_STRING) found = PENDRES_STORE_STRING;
+  else if (kind == H5T_FLOAT) found = PENDRES_STORE_DOUBLE;
+  else if (kind == H5T_INTEGER && size == 1) found = PENDRES_STORE_INT8;
+  else if (kind == H5T_INTEGER && size <= 4) found = PENDRES_STORE_INT32;
+  else if (kind == H5T_INTEGER && size == 8) found = PENDRES_STORE_INT64;
+  if (type >= 0) H5Tclose(type);
+  if (id >= 0) H5Dclose(id);
+  return found;
+}
+
+/* A group's member; *name is NULL on failure. */
+static pendres_status find_member(pendres_store *store, const char *group, uint64_t index,
+                                  char **name)
+{
+  H5G_info_t info;
+  char *path = NULL;
+  ssize_t length = -1;
+  pendres_status status = existing_path(store, group, NULL, &path);
+
+  if (status) return status;
+  if (H5Gget_info_by_name(store->h5, path, &info, H5P_DEFAULT) < 0)
+    status = pendres_store_fail_hdf5(store, "cannot read '%s'", path);
+  else if (index >= info.nlinks)
+    status = pendres_store_fail(store, PENDRES_NOT_FOUND, "'%s' has no member number %llu", path,
+                                (unsigned long long)index);
+  else if ((length = H5Lget_name_by_idx(store->h5, path, H5_INDEX_CRT_ORDER, H5_ITER_INC, index,
+                                        NULL, 0, H5P_DEFAULT)) < 0)
+    status = pendres_store_fail_hdf5(store, "cannot read '%s'", path);
+  else if ((*name = malloc((size_t)length + 1)) == NULL)
+    status = PENDRES_OUT_OF_MEMORY;
+  else if (H5Lget_name_by_idx(store->h5, path, H5_INDEX_CRT_ORDER, H5_ITER_INC, index, *name,
+                              (size_t)length + 1, H5P_DEFAULT) < 0)
+    status = pendres_store_fail_hdf5(store, "cannot read '%s'", path);
+  if (status) {
+    free(*name);
+    *name = NULL;
+  }
+  free(path);
+  return status;
+}
+
+pendres_status pendres_store_member(pendres_store *store, const char *group, uint64_t index,
+                                    pendres_store_type *type, char **name)
+{
+  pendres_store_quiet quiet;
+  char *path = NULL;
+  pendres_status status = pendres_store_enter(store, &quiet, 0);
+
+  if (name) *name = NULL;
+  if (!status && !name)
+    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no room for a name");
+  if (!status) status = find_member(store, group, index, name);
+  if (!status && type) {
+    path = pendres_store_path(group, *name);
+    if (path) *type = type_of(store, path);
+    else status = PENDRES_OUT_OF_MEMORY;
+    free(path);
+  }
+  if (status && name) {
+    free(*name);
+    *name = NULL;
+  }
+  return pendres_store_leave(store, &quiet, status);
+}
+
+/* The last part of a scale's path, into *name. One is enough. */
+static herr_t take_name(hid_t variable, unsigned axis, hid_t scale, void *name)
+{
+  char path[1024];
+  const ssize_t length = H5Iget_name(scale, path, sizeof path);
+  const char *slash = strrchr(path, '/');
+
+  (void)variable;
+  (void)axis;
+  if (length <= 0 || (size_t)length >= sizeof path) return -1;
+  *(char **)name = pendres_store_copy(slash ? slash + 1 : path);
+  return 1;
+}
+
+pendres_status pendres_store_dimension_of(pendres_store *store, const char *group,
+                                          const char *name, int axis, char **dimension)
+{
+  pendres_store_quiet quiet;
+  hsize_t sizes[PENDRES_STORE_RANK];
+  hid_t id = H5I_INVALID_HID;
+  int rank = 0;
+  pendres_status status = pendres_store_enter(store, &quiet, 0);
+
+  if (dimension) *dimension = NULL;
+  if (!status && !dimension)
+    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no room for a name");
+  if (!status) status = open_dataset(store, group, name, &id, &rank, sizes);
+  if (!status && (axis < 0 || axis >= rank))
+    status = pendres_store_fail(store, PENDRES_NOT_FOUND, "'%s' has no dimension number %d", name,
+                                axis);
+  if (!status) {
+    const int one = H5DSis_scale(id) > 0
+                      ? take_name(id, 0, id, dimension)
+                      : H5DSiterate_scales(id, (unsigned)axis, NULL, take_name, dimension);
+    if (one == 0)
+      status = pendres_store_fail(store, PENDRES_NOT_FOUND, "dimension %d of '%s' has no name",
+                                  axis, name);
+    else if (one < 0) status = pendres_store_fail_hdf5(store, "cannot read '%s'", name);
+    else if (!*dimension) status = PENDRES_OUT_OF_MEMORY;
+  }
+  if (id >= 0) H5Dclose(id);
+  return pendres_store_leave(store, &quiet, status);
+}
+
+/* ---- values -------------------------------------------------------------------------------- */
 
 /* n elements at data are what so many rows of that shape hold. */
 static pendres_status check_read(pendres_store *store, const char *name, const hsize_t *sizes,

@@ -1,0 +1,388 @@
+/* csv.c -- results as text; see csv.h. */
+#define _POSIX_C_SOURCE 200809L /* fsync, fileno */
+#include "csv.h"
+
+#include <errno.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <pendres/store.h>
+
+enum { MOST_ROWS = 100000, ROOM = DECK_PATH + 256 };
+
+/* What the first line begins with: a file that begins otherwise is another one's. */
+static const char sign[] = "# resonance: ";
+
+/* A variable of the file. A dimension is one whose only dimension is itself. */
+typedef struct column {
+  char *name;
+  pendres_store_type type;
+  int rank; /* 0 to 2 */
+  uint64_t size[2];
+  char *dimension[2];
+  double *value; /* or, of a text, */
+  char **text;
+} column;
+
+typedef struct tables {
+  pendres_store *store;
+  column *list;
+  size_t count, room;
+  pendres_status status; /* the first failure */
+  progress *progress;
+} tables;
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+static void drop_values(column *c)
+{
+  for (uint64_t i = 0; c->text != NULL && i < c->size[0] * c->size[1]; i++) free(c->text[i]);
+  free(c->text);
+  free(c->value);
+  c->text = NULL;
+  c->value = NULL;
+}
+
+static void drop(column *c)
+{
+  drop_values(c);
+  free(c->name);
+  free(c->dimension[0]);
+  free(c->dimension[1]);
+  *c = (column){ 0 };
+}
+
+/* Its shape and the names of its dimensions; PENDRES_UNSUPPORTED if no table has room for it. */
+static pendres_status describe(pendres_store *store, column *c)
+{
+  uint64_t sizes[PENDRES_STORE_RANK];
+  if (c->type == PENDRES_STORE_TYPE_COUNT) return PENDRES_UNSUPPORTED;
+  pendres_status status = pendres_store_shape(store, "", c->name, &c->rank, sizes);
+  if (status == PENDRES_OK && c->rank > (c->type == PENDRES_STORE_STRING ? 1 : 2))
+    return PENDRES_UNSUPPORTED;
+  for (int k = 0; k < 2; k++) c->size[k] = sizes[k];
+  for (int k = 0; k < c->rank && status == PENDRES_OK; k++)
+    status = pendres_store_dimension_of(store, "", c->name, k, &c->dimension[k]);
+  return status;
+}
+
+/* All members of the root that fit. */
+static void list_columns(tables *t)
+{
+  for (uint64_t i = 0; t->status == PENDRES_OK; i++) {
+    if (t->count == t->room) {
+      column *more = realloc(t->list, (2 * t->room + 16) * sizeof *more);
+      if (more == NULL) {
+        t->status = PENDRES_OUT_OF_MEMORY;
+        return;
+      }
+      t->list = more;
+      t->room = 2 * t->room + 16;
+    }
+    column *c = &t->list[t->count];
+    *c = (column){ 0 };
+    pendres_status status = pendres_store_member(t->store, "", i, &c->type, &c->name);
+    if (status == PENDRES_NOT_FOUND) return;
+    if (status == PENDRES_OK) status = describe(t->store, c);
+    if (status == PENDRES_OK) t->count++;
+    else drop(c);
+    if (status != PENDRES_UNSUPPORTED) t->status = status;
+  }
+}
+
+static const column *load(tables *t, column *c)
+{
+  const size_t n = (size_t)(c->size[0] * c->size[1]);
+  if (t->status != PENDRES_OK || c->value != NULL || c->text != NULL) return c;
+  if (c->type != PENDRES_STORE_STRING) {
+    c->value = calloc(n + 1, sizeof *c->value);
+    if (c->value == NULL) t->status = PENDRES_OUT_OF_MEMORY;
+    else t->status = pendres_store_read(t->store, "", c->name, PENDRES_STORE_DOUBLE, c->value, n);
+    return c;
+  }
+  c->text = calloc(n + 1, sizeof *c->text);
+  if (c->text == NULL) t->status = PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n && t->status == PENDRES_OK; i++)
+    t->status = pendres_store_read_text(t->store, "", c->name, i, &c->text[i]);
+  return c;
+}
+
+static column *find(tables *t, const char *name)
+{
+  for (size_t i = 0; i < t->count; i++)
+    if (strcmp(t->list[i].name, name) == 0) return &t->list[i];
+  return NULL;
+}
+
+static int is_dimension(const column *c)
+{
+  return c->rank == 1 && strcmp(c->name, c->dimension[0]) == 0;
+}
+
+/* Are they of one table? */
+static int alike(const column *a, const column *b)
+{
+  if (a->rank != b->rank || is_dimension(a) || is_dimension(b)) return 0;
+  for (int k = 0; k < a->rank; k++)
+    if (strcmp(a->dimension[k], b->dimension[k]) != 0) return 0;
+  return 1;
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+/* As few digits as give the same double again. */
+static void put_number(double x, FILE *out)
+{
+  char text[40];
+  if (isnan(x)) {
+    fputs("NaN", out);
+    return;
+  }
+  if (isinf(x)) {
+    fputs(x > 0 ? "Inf" : "-Inf", out);
+    return;
+  }
+  for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; digits <= DBL_DECIMAL_DIG; digits++) {
+    snprintf(text, sizeof text, "%.*g", digits, x);
+    if (strtod(text, NULL) == x) break;
+  }
+  fputs(text, out);
+}
+
+/* A text of one line, in quotes if a reader of tables would take it apart. */
+static void put_text(const char *text, int cell, FILE *out)
+{
+  const int quotes = cell && strpbrk(text, ",\"#\r\n") != NULL;
+  if (quotes) putc('"', out);
+  for (; *text != '\0'; text++) {
+    if (quotes && *text == '"') putc('"', out);
+    putc((unsigned char)*text < ' ' ? ' ' : *text, out);
+  }
+  if (quotes) putc('"', out);
+}
+
+static void put_cell(const column *c, size_t i, FILE *out)
+{
+  if (c->text != NULL) put_text(c->text[i], 1, out);
+  else put_number(c->value[i], out);
+}
+
+/* An attribute of the file or of a variable; NULL if it has none. */
+static char *attribute(tables *t, const char *object, const char *name)
+{
+  char *text = NULL;
+  const pendres_status status =
+    pendres_store_read_attribute_text(t->store, "", object, name, &text);
+  if (status == PENDRES_OUT_OF_MEMORY && t->status == PENDRES_OK) t->status = status;
+  return text;
+}
+
+/* What is true of the whole run, and numbers without dimensions. */
+static void put_head(tables *t, FILE *out)
+{
+  static const char *const told[] = { "title", "scene", "deck", "history", "source" };
+  fprintf(out, "%sresults as text; the HDF5 file tells more\n", sign);
+  for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+    char *text = attribute(t, NULL, told[i]);
+    if (text != NULL) {
+      fprintf(out, "# %s: ", told[i]);
+      put_text(text, 0, out);
+      putc('\n', out);
+    }
+    free(text);
+  }
+  for (size_t i = 0; i < t->count; i++) {
+    column *c = &t->list[i];
+    if (c->rank > 0) continue;
+    (void)load(t, c);
+    if (t->status != PENDRES_OK) return;
+    fprintf(out, "# %s = ", c->name);
+    put_cell(c, 0, out);
+    putc('\n', out);
+  }
+}
+
+/* What a column is, and what its codes stand for. */
+static void put_meaning(tables *t, const column *c, FILE *out)
+{
+  char *what = attribute(t, c->name, "long_name"), *units = attribute(t, c->name, "units");
+  char *codes = attribute(t, c->name, "flag_meanings");
+  double unused = 0.0;
+  /* An array, which cannot be read as a number, but is there: codes are sums of 0, 1, 2, 4, ... */
+  const int bits = pendres_store_read_attribute_double(t->store, "", c->name, "flag_masks",
+                                                       &unused) != PENDRES_NOT_FOUND;
+  fprintf(out, "# %s: ", c->name);
+  put_text(what != NULL ? what : "", 0, out);
+  if (units != NULL && codes == NULL) fprintf(out, " [%s]", units);
+  int number = 0;
+  for (const char *word = codes; word != NULL && *word != '\0'; number++) {
+    const size_t length = strcspn(word, " ");
+    fprintf(out, "%s %d %.*s", number > 0 ? "," : ";", bits && number > 0 ? 1 << (number - 1)
+            : number, (int)length, word);
+    word += length + (word[length] == ' ');
+  }
+  fprintf(out, "%s\n", bits && codes != NULL ? ", or sums of them" : "");
+  free(what);
+  free(units);
+  free(codes);
+}
+
+/* The columns of the table that holds `first`: coordinates, then results. Returns their number. */
+static size_t gather(tables *t, const column *first, column **wanted)
+{
+  size_t n = 0;
+  for (int k = 0; k < first->rank; k++) {
+    column *scale = find(t, first->dimension[k]);
+    if (scale != NULL) wanted[n++] = scale;
+  }
+  for (size_t i = 0; i < t->count; i++)
+    if (alike(first, &t->list[i])) wanted[n++] = &t->list[i];
+  return n;
+}
+
+static void put_table(tables *t, const column *first, column **wanted, FILE *out)
+{
+  const uint64_t rows = first->size[0] * first->size[1];
+  const size_t n = gather(t, first, wanted);
+  put_head(t, out);
+  for (size_t i = 0; i < n; i++) {
+    (void)load(t, wanted[i]);
+    put_meaning(t, wanted[i], out);
+  }
+  if (t->status != PENDRES_OK) return;
+  for (size_t i = 0; i < n; i++) fprintf(out, "%s%s", i > 0 ? "," : "", wanted[i]->name);
+  putc('\n', out);
+  for (uint64_t row = 0; row < rows; row++) {
+    for (size_t i = 0; i < n; i++) {
+      uint64_t at = row;
+      if (is_dimension(wanted[i]) && first->rank == 2)
+        at = wanted[i] == find(t, first->dimension[0]) ? row / first->size[1]
+                                                       : row % first->size[1];
+      if (i > 0) putc(',', out);
+      put_cell(wanted[i], (size_t)at, out);
+    }
+    putc('\n', out);
+  }
+  for (size_t i = 0; i < n; i++)
+    if (!is_dimension(wanted[i])) drop_values(wanted[i]);
+}
+
+/* ---- files --------------------------------------------------------------------------------- */
+
+/* NAME.csv for NAME.h5; NAME.DIMENSION.csv for another table. */
+static void name_file(const deck *d, const column *other, char path[ROOM])
+{
+  const size_t n = strlen(d->output);
+  const int stem = (int)(n > 3 && strcmp(d->output + n - 3, ".h5") == 0 ? n - 3 : n);
+  const char *one = other != NULL ? other->dimension[0] : NULL;
+  const char *two = other != NULL ? other->dimension[1] : NULL;
+  snprintf(path, ROOM, "%.*s%s%.100s%s%.100s.csv", stem, d->output, one != NULL ? "." : "",
+           one != NULL ? one : "", two != NULL ? "." : "", two != NULL ? two : "");
+}
+
+/* Is there nothing at path that is another one's? */
+static int may_replace(const char *path, progress *p)
+{
+  char start[sizeof sign] = "";
+  FILE *f = fopen(path, "rb");
+  if (f == NULL && errno == ENOENT) return 1;
+  const size_t n = f != NULL ? fread(start, 1, sizeof sign - 1, f) : 1;
+  if (f != NULL) (void)fclose(f);
+  if (n == 0 || memcmp(start, sign, sizeof sign - 1) == 0) return 1;
+  progress_error(p, "%s is there and is no table of this program: it is left as it is; --force "
+                 "replaces it", path);
+  return 0;
+}
+
+int csv_check(const deck *d, progress *p)
+{
+  char path[ROOM];
+  name_file(d, NULL, path);
+  return may_replace(path, p) ? 0 : 2;
+}
+
+/* One table, whole or not at all. 0, or 1 after an error; t->status tells of reading. */
+static int write_file(tables *t, const column *first, const char *path)
+{
+  char part[ROOM + 8];
+  column **wanted = calloc(t->count + 2, sizeof(column *));
+  snprintf(part, sizeof part, "%s.part", path);
+  FILE *out = wanted != NULL ? fopen(part, "w") : NULL;
+  int failed = out == NULL;
+  if (out != NULL) {
+    put_table(t, first, wanted, out);
+    failed = fflush(out) != 0 || ferror(out) || fsync(fileno(out)) != 0;
+    failed = fclose(out) != 0 || failed || t->status != PENDRES_OK || rename(part, path) != 0;
+    const int why = errno;
+    if (failed) (void)remove(part);
+    errno = why;
+  }
+  free(wanted);
+  if (failed && t->status == PENDRES_OK)
+    progress_error(t->progress, "%s: %s; the results are whole in the HDF5 file", path,
+                   strerror(errno));
+  return failed;
+}
+
+static uint64_t rows_of(const column *c)
+{
+  return c->size[0] * c->size[1];
+}
+
+/* The main table: that of the points which can fail, else the longest. NULL: there is none. */
+static const column *main_table(tables *t)
+{
+  const column *failed = find(t, "failed"), *longest = NULL;
+  if (failed != NULL && failed->rank > 0) return failed;
+  for (size_t i = 0; i < t->count; i++) {
+    const column *c = &t->list[i];
+    if (c->rank == 0 || is_dimension(c)) continue;
+    if (longest == NULL || rows_of(c) > rows_of(longest)) longest = c;
+  }
+  return longest;
+}
+
+static int write_all(tables *t, const deck *d, int force)
+{
+  char path[ROOM];
+  const column *first = main_table(t);
+  if (first == NULL) progress_note(t->progress, "there is no table to write as text");
+  for (size_t i = 0; i < t->count && t->status == PENDRES_OK; i++) {
+    const column *c = &t->list[i];
+    int told = c->rank == 0 || is_dimension(c);
+    for (size_t k = 0; k < i && !told; k++) told = alike(c, &t->list[k]);
+    if (told) continue;
+    name_file(d, alike(c, first) ? NULL : c, path);
+    if (rows_of(c) > MOST_ROWS) {
+      progress_note(t->progress, "%s is left out: more than %d rows are for HDF5 alone", path,
+                    MOST_ROWS);
+      continue;
+    }
+    if (!force && !may_replace(path, t->progress)) return 1;
+    if (write_file(t, c, path) != 0) return 1;
+    progress_note(t->progress, "%s written", path);
+  }
+  return 0;
+}
+
+int csv_write(const deck *d, int force, progress *p)
+{
+  tables t = { .progress = p };
+  int code = 0;
+  t.status = pendres_store_open(d->output, &t.store);
+  if (t.status == PENDRES_OK) list_columns(&t);
+  if (t.status == PENDRES_OK) code = write_all(&t, d, force);
+  if (t.status != PENDRES_OK) {
+    const char *words = pendres_store_message(t.store);
+    progress_error(p, "no text is written: %s",
+                   words[0] != '\0' ? words : pendres_status_message(t.status));
+    code = 1;
+  }
+  for (size_t i = 0; i < t.count; i++) drop(&t.list[i]);
+  free(t.list);
+  pendres_store_free(t.store);
+  return code;
+}
