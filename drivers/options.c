@@ -31,7 +31,7 @@ static const char help[] =
   "  -n, --dry-run         check the deck and say what would be computed\n"
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
-  "      --csv             write the results of one or two dimensions as text, too: NAME.csv beside\n"
+  "      --csv             write results of one or two dimensions as text, too: NAME.csv beside\n"
   "                        NAME.h5, and NAME.DIMENSION.csv for further tables\n"
   "  -f, --force           do not keep a file that is replaced (see below)\n"
   "      --resume          go on where a run of the same deck was stopped, if there was one\n"
