@@ -26,6 +26,7 @@ DRAWERS = {  # by the root attribute `scene`
     "response": curves.draw_response,
     "orbit": curves.draw_orbit,
     "hysteresis": curves.draw_hysteresis,
+    "bifurcation_diagram": curves.draw_bifurcation_diagram,
     "lyapunov_map": maps.draw_lyapunov_map,
     "basins": maps.draw_basins,
     "branches": curves.draw_branches,

@@ -74,6 +74,7 @@ static void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->orbit.samples, b->orbit.samples);
   assert_int_equal(a->orbit.transient, b->orbit.transient);
   assert_memory_equal(&a->noise, &b->noise, sizeof a->noise);
+  assert_int_equal(a->diagram.strobes, b->diagram.strobes);
   assert_memory_equal(&a->lyapunov, &b->lyapunov, sizeof a->lyapunov);
   assert_int_equal(a->basins.refine, b->basins.refine);
   assert_int_equal(a->basins.boundary, b->basins.boundary);
@@ -125,6 +126,8 @@ static const char *const good[] = {
   "&sweep drive_frequency_range=0.6,0.9,31 /\n&hysteresis start='sa' /\n",
   "&scene kind='hysteresis' /\n&pendulum drive_period=8 damping=0.12 /\n"
   "&sweep drive_amplitude=0.1,0.3 /\n&hysteresis x=1 v=0.5 /\n",
+  "&scene kind='bifurcation_diagram' /\n&pendulum drive_frequency=0.66 damping=0.5 /\n"
+  "&sweep drive_amplitude_range=1.0,1.1,9 /\n&bifurcation_diagram x=1 v=0.1 strobes=50 /\n",
   "&scene kind='lyapunov_map' /\n&pendulum drive_frequency=0.66 /\n"
   "&sweep drive_amplitude_range=0.5,1.5,9 damping=0.2,0.5 /\n"
   "&lyapunov_map x=1 v=0.1 transient=50 periods=64 /\n",

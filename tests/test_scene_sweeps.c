@@ -94,6 +94,35 @@ static void lyapunov_map(void **state)
   free(exponent), free(label), free(period), free(damping), free(drive);
 }
 
+/* Up to the fourth doubling: points come back after the period, and the ends are the cascade's. */
+static void bifurcation_diagram(void **state)
+{
+  (void)state;
+  static const char deck_text[] =
+    "&scene kind = 'bifurcation_diagram' /\n&pendulum damping = 0.5, drive_period = 9.42477796 /\n"
+    "&sweep drive_amplitude = 1.05, 1.07, 1.0822 /\n"
+    "&bifurcation_diagram x = 1.6, strobes = 16 /\n&precision tolerance = 1e-9 /\n";
+  static const int periods[3] = {1, 2, 8};
+  size_t n = 0;
+  scene_run_deck(deck_text, 1, "one");
+  scene_run_deck(deck_text, 2, "two");
+  scene_check_same_bytes("one", "two");
+  pendres_store *store = scene_open("one");
+  double *x = scene_values(store, "strobe_x", &n), *period = scene_values(store, "period", &n);
+  double *error = scene_values(store, "strobe_x_error", &n);
+  double *ends = scene_values(store, "bifurcation_parameter", &n);
+  double *cascade = scene_values(store, "cascade_parameter", &n);
+  assert_int_equal(n, 3);
+  for (int i = 0; i < 3; i++) {
+    assert_true(period[i] == periods[i]);
+    check_near(ends[i], cascade[i], 1e-9);
+    for (int k = 0; k + periods[i] < 16; k++)
+      check_near(x[16 * i + k + periods[i]], x[16 * i + k], 2.0 * error[16 * i]);
+  }
+  pendres_store_free(store);
+  free(x), free(period), free(error), free(ends), free(cascade);
+}
+
 /* One parameter is swept, no more and no less; a start is needed. */
 static void wrong_decks(void **state)
 {
@@ -132,6 +161,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(hysteresis),
     cmocka_unit_test(lyapunov_map),
+    cmocka_unit_test(bifurcation_diagram),
     cmocka_unit_test(wrong_decks),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

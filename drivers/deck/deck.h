@@ -47,6 +47,8 @@
        "rates at which noise drives a pendulum from one state to another, against temperature")   \
   ITEM(HYSTERESIS, "hysteresis",                                                                  \
        "state of a pendulum while one parameter is swept slowly, up and then down; its jumps")    \
+  ITEM(BIFURCATION_DIAGRAM, "bifurcation_diagram",                                                \
+       "strobe points against one parameter, bifurcations on the way, and a doubling cascade")    \
   ITEM(LYAPUNOV_MAP, "lyapunov_map",                                                              \
        "largest Lyapunov exponent, period and winding over two parameters")
 
@@ -152,6 +154,10 @@ typedef struct deck {
     int64_t samples;        /* per period */
     int transient;          /* nonzero: record from the start instead of after settling */
   } orbit;
+
+  struct {
+    int64_t strobes;        /* of the scene bifurcation_diagram, at each value */
+  } diagram;
 
   struct {                  /* of the scene lyapunov_map; 0: the library's */
     int64_t transient, periods;

@@ -165,7 +165,9 @@ static void check_idle_keys(deck_builder *b)
     [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
     [DECK_AT_RANDOM] = "'shape' is not 'random'",
   };
-  const char *group = in_scene(b, "hysteresis", "start") ? "hysteresis" : "orbit";
+  const char *group = b->scene == 1u << DECK_HYSTERESIS            ? "hysteresis"
+                      : b->scene == 1u << DECK_BIFURCATION_DIAGRAM ? "bifurcation_diagram"
+                                                                   : "orbit";
   const deck_given *start = given(b, group, "start");
   const deck_given *x = given(b, group, "x");
   for (size_t i = 0; i < deck_table_size; i++) {
@@ -222,13 +224,16 @@ static void check_moving(deck_builder *b)
   } wanted[] = {
     { DECK_HYSTERESIS, 1, "one parameter is swept: give two or more values of damping, "
                           "drive_amplitude or drive_frequency, and one of each of the others" },
+    { DECK_BIFURCATION_DIAGRAM, 1, "one parameter moves: give two or more values of damping, "
+                                   "drive_amplitude or drive_frequency, and one of each of the "
+                                   "others" },
     { DECK_LYAPUNOV_MAP, 2, "a map has two axes: give two or more values of two of damping, "
                             "drive_amplitude and drive_frequency, and one of the third" },
   };
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
     if (b->scene == 1u << wanted[i].kind && deck_moving(b->d, 0, NULL) != wanted[i].axes)
       complain_of_group(b, NULL, wanted[i].message);
-  if (b->scene == 1u << DECK_HYSTERESIS && b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
+  if ((b->scene & (1u << DECK_HYSTERESIS | 1u << DECK_BIFURCATION_DIAGRAM)) != 0 && b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
     complain(b, given(b, "sweep", "drive_period"), "drive_period",
              "what is swept is the drive's frequency: give 'drive_frequency'");
 }

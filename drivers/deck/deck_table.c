@@ -31,6 +31,7 @@
 #define HARD BIT(HARD_CASES)
 #define SWITCHING BIT(SWITCHING)
 #define HYSTERESIS BIT(HYSTERESIS)
+#define DIAGRAM BIT(BIFURCATION_DIAGRAM)
 #define MAP BIT(LYAPUNOV_MAP)
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
@@ -38,7 +39,8 @@
 #define MODELS (ORBIT | BASINS)                    /* torque, parametric drive, other forces */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
-#define ALONG (HYSTERESIS | MAP)                   /* some of the parameters move */
+#define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
+#define ALONG (PATH | MAP)                         /* some of the parameters move */
 #define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
 #define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
 #define RESULTS (FREE | DRIVEN | ALONG)            /* scenes with one tolerance */
@@ -119,7 +121,7 @@ const deck_key deck_table[] = {
     SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
   { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
     .number = NAN, EXAMPLE("0.12") },
-  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(HYSTERESIS), NOT_NEGATIVE,
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(PATH), NOT_NEGATIVE,
     EXAMPLE("0.2") },
   { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP), NOT_NEGATIVE },
   { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },
@@ -165,7 +167,7 @@ const deck_key deck_table[] = {
   { SWEEP("drive_period", DRIVE_PERIOD), IN(ALONG), FREQUENCY },
   { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
     SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
-  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(HYSTERESIS), NOT_NEGATIVE,
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(PATH), NOT_NEGATIVE,
     SAYS("m g l", "amplitude F0 of the drive; where results have two axes it is one of them "
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
@@ -232,6 +234,16 @@ const deck_key deck_table[] = {
     .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
   { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
     .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+
+  { CHOICE("bifurcation_diagram", "start", orbit.start), IN(DIAGRAM), .choices = starts,
+    EXAMPLE("'1'") },
+  { REAL("bifurcation_diagram", "x", orbit.x), IN(DIAGRAM), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START },
+  { REAL("bifurcation_diagram", "v", orbit.v), IN(DIAGRAM), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START },
+  { INTEGER("bifurcation_diagram", "strobes", diagram.strobes), IN(DIAGRAM),
+    RANGE(1, DECK_MAX_COUNT), .number = 200,
+    SAYS(NULL, "strobe points at each value") },
 
   { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PI / 2,
     SAYS("rad", "initial position of each pendulum, at the drive's maximum") },

@@ -18,6 +18,7 @@ extern const scene_kind scene_branches;
 extern const scene_kind scene_switching;
 extern const scene_kind scene_hard_cases;
 extern const scene_kind scene_hysteresis;
+extern const scene_kind scene_bifurcation_diagram;
 extern const scene_kind scene_lyapunov_map;
 
 static const scene_kind *const scenes[] = {
@@ -32,6 +33,7 @@ static const scene_kind *const scenes[] = {
   &scene_switching,
   &scene_hard_cases,
   &scene_hysteresis,
+  &scene_bifurcation_diagram,
   &scene_lyapunov_map,
 };
 
@@ -119,7 +121,8 @@ double scene_fixed(const deck *d, deck_axis_id axis)
   scene_plane(d, plane);
   if (d->axis[axis].count > 0) {
     /* A scene of which some parameters move has the others as axes of one value. */
-    const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_LYAPUNOV_MAP;
+    const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
+                      d->kind == DECK_LYAPUNOV_MAP;
     const int left_out = d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0 && axis != plane[0] &&
                          axis != plane[1];
     return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;

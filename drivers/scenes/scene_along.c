@@ -1,5 +1,6 @@
 /* scene_along.c -- what scenes share in which parameters move; see scene_along.h. */
 #include "scenes/scene_along.h"
+#include "scenes/scene_failed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -72,4 +73,118 @@ pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p
   }
   pendres_attractors_free(set);
   return status;
+}
+
+/* ---- paths --------------------------------------------------------------------------------- */
+
+/* A record: this, the points, the jumps. */
+typedef struct head {
+  uint64_t points, jumps;
+} head;
+
+void scene_along_path_free(scene_along_path *path)
+{
+  free(path->point);
+  free(path->jump);
+  *path = (scene_along_path){ .points = 0 };
+}
+
+static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
+{
+  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jumps(h) };
+  const size_t points = n.points * sizeof(pendres_hysteresis_point);
+  unsigned char *to = farm_record_resize(out, sizeof n + points + n.jumps * sizeof(pendres_jump));
+  if (to == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(to, &n, sizeof n);
+  to += sizeof n;
+  for (size_t i = 0; i < n.points; i++, to += sizeof(pendres_hysteresis_point))
+    memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
+  for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
+    memcpy(to, pendres_hysteresis_jump(h, i), sizeof(pendres_jump));
+  return PENDRES_OK;
+}
+
+pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, const double *value,
+                                  pendres_context *ctx, farm_record *out)
+{
+  const pendres_pendulum p = scene_along_pendulum(d);
+  double x = d->orbit.x, v = d->orbit.v;
+  pendres_hysteresis *h = NULL;
+  pendres_status status = PENDRES_OK;
+  if (d->orbit.start[0] != '\0') {
+    pendres_attractor start;
+    status = scene_along_named(ctx, &p, d->orbit.start, &start, out->message, sizeof out->message);
+    if (status != PENDRES_OK) return status;
+    x = start.orbit.x;
+    v = start.orbit.v;
+  }
+  status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(axis), x, v, n, value, &h);
+  if (status == PENDRES_OK) status = keep(h, out);
+  pendres_hysteresis_free(h);
+  return status;
+}
+
+pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
+{
+  head n;
+  const unsigned char *from = in->data;
+  memcpy(&n, from, sizeof n);
+  from += sizeof n;
+  path->points = n.points;
+  path->jumps = n.jumps;
+  path->point = malloc((n.points + 1) * sizeof *path->point);
+  path->jump = malloc((n.jumps + 1) * sizeof *path->jump);
+  if (path->point == NULL || path->jump == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(path->point, from, n.points * sizeof *path->point);
+  memcpy(path->jump, from + n.points * sizeof *path->point, n.jumps * sizeof *path->jump);
+  return PENDRES_OK;
+}
+
+int scene_along_closed(const pendres_hysteresis_point *point)
+{
+  return point->attractor.label != PENDRES_LABEL_CHAOTIC &&
+         point->attractor.label != PENDRES_LABEL_UNRESOLVED;
+}
+
+void scene_along_label_flags(pendres_store_spec *spec)
+{
+  static const char *const meanings[PENDRES_LABEL_COUNT] = { "sa",      "la",      "periodic",
+                                                             "running", "chaotic", "unresolved" };
+  spec->type = PENDRES_STORE_INT8;
+  spec->flag_count = PENDRES_LABEL_COUNT;
+  spec->flag_meanings = meanings;
+}
+
+pendres_status scene_along_write_labels(scene_run *run, deck_axis_id axis,
+                                        const scene_along_path *path, int ways)
+{
+  static const char *const words[] = { "upwards", "downwards" };
+  const size_t n = path->points, values = n / (size_t)ways;
+  const char *name = deck_axis_name(axis);
+  pendres_store_spec label = { .name = "label", .dimensions = { name },
+                               .long_name = "kind of attractor that the pendulum is on" };
+  pendres_store_spec mark = { .name = "failed", .dimensions = { name },
+                              .long_name = "why there is no attractor" };
+  int8_t *code = malloc(2 * n);
+  if (code == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  if (ways > 1) {
+    label.dimensions[0] = mark.dimensions[0] = "direction";
+    label.dimensions[1] = mark.dimensions[1] = name;
+  }
+  scene_along_label_flags(&label);
+  scene_failure_flags(&mark);
+  for (size_t i = 0; i < n; i++) {
+    const int lost = path->point[i].attractor.label == PENDRES_LABEL_UNRESOLVED;
+    code[i] = (int8_t)path->point[i].attractor.label;
+    code[n + i] = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
+    run->failed_points += (size_t)lost;
+    if (lost)
+      scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%s %.10g, %s", name,
+                         path->point[i].value, words[i / values]);
+  }
+  pendres_status status = pendres_store_put(run->store, &label, code, n);
+  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, code + n, n);
+  free(code);
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }

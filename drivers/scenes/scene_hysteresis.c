@@ -15,60 +15,21 @@ typedef struct work {
   const deck *d;
   deck_axis_id axis;
   size_t values; /* of the axis */
-  /* What was found: */
-  pendres_hysteresis_point *point; /* [direction][values], values as in the axis */
-  size_t jumps;
-  pendres_jump *jump;
+  scene_along_path path; /* points [direction][values], values as in the axis */
 } work;
 
-/* The record of the task: this, the points in the order of the path, the jumps. */
-typedef struct head {
-  uint64_t points, jumps;
-} head;
-
 /* ---- computing ----------------------------------------------------------------------------- */
-
-static pendres_status keep(const pendres_hysteresis *h, pendres_context *ctx, farm_record *out)
-{
-  const head n = {pendres_hysteresis_count(h), pendres_hysteresis_jumps(h)};
-  const size_t points = n.points * sizeof(pendres_hysteresis_point);
-  unsigned char *to = farm_record_resize(out, sizeof n + points + n.jumps * sizeof(pendres_jump));
-  (void)ctx;
-  if (to == NULL) return PENDRES_OUT_OF_MEMORY;
-  memcpy(to, &n, sizeof n);
-  to += sizeof n;
-  for (size_t i = 0; i < n.points; i++, to += sizeof(pendres_hysteresis_point))
-    memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
-  for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
-    memcpy(to, pendres_hysteresis_jump(h, i), sizeof(pendres_jump));
-  return PENDRES_OK;
-}
 
 static pendres_status follow(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const work *w = arg;
   const deck_axis *a = &w->d->axis[w->axis];
-  const pendres_pendulum p = scene_along_pendulum(w->d);
-  double x = w->d->orbit.x, v = w->d->orbit.v;
-  pendres_hysteresis *h = NULL;
-  pendres_status status = PENDRES_OK;
+  const size_t n = DIRECTIONS * w->values;
+  double *path = malloc(n * sizeof *path);
   (void)task;
-  if (w->d->orbit.start[0] != '\0') {
-    pendres_attractor start;
-    status = scene_along_named(ctx, &p, w->d->orbit.start, &start, out->message,
-                               sizeof out->message);
-    if (status != PENDRES_OK) return status;
-    x = start.orbit.x;
-    v = start.orbit.v;
-  }
-  double *path = malloc(DIRECTIONS * w->values * sizeof *path);
   if (path == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < w->values; i++)
-    path[i] = path[DIRECTIONS * w->values - 1 - i] = a->value[i];
-  status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(w->axis), x, v,
-                                     DIRECTIONS * w->values, path, &h);
-  if (status == PENDRES_OK) status = keep(h, ctx, out);
-  pendres_hysteresis_free(h);
+  for (size_t i = 0; i < w->values; i++) path[i] = path[n - 1 - i] = a->value[i];
+  const pendres_status status = scene_along_follow(w->d, w->axis, n, path, ctx, out);
   free(path);
   return status;
 }
@@ -76,31 +37,20 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  head n;
-  const unsigned char *from = in->data;
   (void)task;
-  memcpy(&n, from, sizeof n);
-  from += sizeof n;
-  w->jumps = n.jumps;
-  w->point = malloc((n.points + 1) * sizeof *w->point);
-  w->jump = malloc((n.jumps + 1) * sizeof *w->jump);
-  if (w->point == NULL || w->jump == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n.points; i++, from += sizeof *w->point) {
-    /* The way back is stored in the order of the axis. */
-    const size_t at = i < w->values ? i : n.points - 1 - i + w->values;
-    memcpy(&w->point[at], from, sizeof *w->point);
+  const pendres_status status = scene_along_take(in, &w->path);
+  if (status != PENDRES_OK) return status;
+  /* The way back is stored in the order of the axis. */
+  pendres_hysteresis_point *back = w->path.point + w->values;
+  for (size_t i = 0; i < w->values / 2; i++) {
+    const pendres_hysteresis_point kept = back[i];
+    back[i] = back[w->values - 1 - i];
+    back[w->values - 1 - i] = kept;
   }
-  memcpy(w->jump, from, n.jumps * sizeof *w->jump);
   return PENDRES_OK;
 }
 
 /* ---- writing the points -------------------------------------------------------------------- */
-
-static int is_closed(const pendres_hysteresis_point *p)
-{
-  return p->attractor.label != PENDRES_LABEL_CHAOTIC &&
-         p->attractor.label != PENDRES_LABEL_UNRESOLVED;
-}
 
 /* The quantities of a point with their errors. */
 enum { AMPLITUDE, PHASE_LAG, LOOP_AREA, MEAN_VELOCITY, PERIOD, WINDING, LYAPUNOV, QUANTITIES };
@@ -121,7 +71,7 @@ static void values_of(const pendres_hysteresis_point *p, double value[QUANTITIES
                       double error[QUANTITIES])
 {
   const pendres_orbit *o = &p->attractor.orbit;
-  const double closed = is_closed(p) ? 0.0 : NAN;
+  const double closed = scene_along_closed(p) ? 0.0 : NAN;
   const double v[QUANTITIES] = {o->amplitude, o->phase_lag, o->loop_area, p->mean_velocity,
                                 o->period + closed, o->winding + closed, p->attractor.lyapunov};
   const double e[QUANTITIES] = {o->amplitude_error, o->phase_lag_error, o->loop_area_error,
@@ -145,7 +95,7 @@ static pendres_status put_quantities(scene_run *run, const work *w)
                                      .units = quantities[q].units};
     for (size_t i = 0; i < n; i++) {
       double values[QUANTITIES], errors[QUANTITIES];
-      values_of(&w->point[i], values, errors);
+      values_of(&w->path.point[i], values, errors);
       value[i] = values[q];
       value[n + i] = errors[q];
     }
@@ -155,56 +105,17 @@ static pendres_status put_quantities(scene_run *run, const work *w)
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
-static void label_flags(pendres_store_spec *spec)
-{
-  static const char *meanings[PENDRES_LABEL_COUNT];
-  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
-    meanings[i] = pendres_label_name((pendres_label)i);
-  spec->type = PENDRES_STORE_INT8;
-  spec->flag_count = PENDRES_LABEL_COUNT;
-  spec->flag_meanings = meanings;
-}
-
-static pendres_status put_labels(scene_run *run, const work *w)
-{
-  static const char *const ways[] = {"upwards", "downwards"};
-  const size_t n = DIRECTIONS * w->values;
-  const char *axis = deck_axis_name(w->axis);
-  pendres_store_spec label = {.name = "label", .dimensions = {"direction", axis},
-                              .long_name = "kind of attractor that the pendulum is on"};
-  pendres_store_spec mark = {.name = "failed", .dimensions = {"direction", axis},
-                             .long_name = "why there is no attractor"};
-  int8_t *code = malloc(2 * n);
-  if (code == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
-  label_flags(&label);
-  scene_failure_flags(&mark);
-  for (size_t i = 0; i < n; i++) {
-    const int lost = w->point[i].attractor.label == PENDRES_LABEL_UNRESOLVED;
-    code[i] = (int8_t)w->point[i].attractor.label;
-    code[n + i] = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
-    run->failed_points += (size_t)lost;
-    if (lost)
-      scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%s %.10g, %s", axis,
-                         w->point[i].value, ways[i / w->values]);
-  }
-  pendres_status status = pendres_store_put(run->store, &label, code, n);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, code + n, n);
-  free(code);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
-}
-
 /* ---- writing the jumps --------------------------------------------------------------------- */
 
 /* A code of each jump. */
 static pendres_status put_codes(scene_run *run, const work *w, const pendres_store_spec *spec,
                                 int8_t (*code_of)(const pendres_jump *j))
 {
-  int8_t *code = malloc(w->jumps + 1);
+  int8_t *code = malloc(w->path.jumps + 1);
   if (code == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", w->jumps);
-  for (size_t i = 0; i < w->jumps; i++) code[i] = code_of(&w->jump[i]);
-  const pendres_status status = pendres_store_put(run->store, spec, code, w->jumps);
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", w->path.jumps);
+  for (size_t i = 0; i < w->path.jumps; i++) code[i] = code_of(&w->path.jump[i]);
+  const pendres_status status = pendres_store_put(run->store, spec, code, w->path.jumps);
   free(code);
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
@@ -266,7 +177,7 @@ static pendres_status put_jump_codes(scene_run *run, const work *w)
   for (size_t k = 0; k < sizeof codes / sizeof *codes && status == PENDRES_OK; k++) {
     codes[k].spec.type = PENDRES_STORE_INT8;
     codes[k].spec.dimensions[0] = "jump";
-    if (codes[k].spec.flag_count == 0) label_flags(&codes[k].spec);
+    if (codes[k].spec.flag_count == 0) scene_along_label_flags(&codes[k].spec);
     status = put_codes(run, w, &codes[k].spec, codes[k].code_of);
   }
   return status;
@@ -274,13 +185,13 @@ static pendres_status put_jump_codes(scene_run *run, const work *w)
 
 static pendres_status put_jumps(scene_run *run, const work *w)
 {
-  const size_t n = w->jumps;
+  const size_t n = w->path.jumps;
   double *value = malloc((6 * n + 1) * sizeof *value);
   if (value == NULL)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", n);
   double *error = value + n, *share = error + n, *period = share + n, *no_error = period + n;
   for (size_t i = 0; i < n; i++) {
-    const pendres_jump *j = &w->jump[i];
+    const pendres_jump *j = &w->path.jump[i];
     value[i] = j->value;
     error[i] = j->value_error;
     share[i] = j->share;
@@ -314,15 +225,15 @@ static void tabulate(FILE *out, const work *w)
   if (out == NULL) return;
   fprintf(out, "%-5s %-9s %-28s %-11s %-11s %s\n", "way", "ends by", deck_axis_name(w->axis),
           "from", "to", "period");
-  for (size_t i = 0; i < w->jumps && i < TABLE_JUMPS; i++) {
-    const pendres_jump *j = &w->jump[i];
+  for (size_t i = 0; i < w->path.jumps && i < TABLE_JUMPS; i++) {
+    const pendres_jump *j = &w->path.jump[i];
     fprintf(out, "%-5s %-9s %.14g +- %.0e  %-11s %-11s %d%s%s\n", j->direction > 0 ? "up" : "down",
             pendres_jump_kind_name(j->kind), j->value, j->value_error,
             pendres_label_name(j->from), pendres_label_name(j->to), j->to_period,
             j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
   }
-  if (w->jumps == 0) fprintf(out, "the state does not end within the range\n");
-  if (w->jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", w->jumps - TABLE_JUMPS);
+  if (w->path.jumps == 0) fprintf(out, "the state does not end within the range\n");
+  if (w->path.jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", w->path.jumps - TABLE_JUMPS);
 }
 
 static pendres_status write_all(scene_run *run, const work *w)
@@ -333,7 +244,7 @@ static pendres_status write_all(scene_run *run, const work *w)
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   status = scene_dimension(run, NULL, w->axis);
   if (status == PENDRES_OK) status = put_quantities(run, w);
-  if (status == PENDRES_OK) status = put_labels(run, w);
+  if (status == PENDRES_OK) status = scene_along_write_labels(run, w->axis, &w->path, DIRECTIONS);
   if (status == PENDRES_OK) status = put_jumps(run, w);
   return status;
 }
@@ -343,13 +254,12 @@ static pendres_status run_scene(scene_run *run)
   work w = {.d = run->deck};
   (void)deck_moving(run->deck, 1, &w.axis);
   w.values = run->deck->axis[w.axis].count;
-  const farm_stage stage = {.what = "sweeps", .tasks = 1, .record_size = sizeof(head),
+  const farm_stage stage = {.what = "sweeps", .tasks = 1, .record_size = 1,
                             .task = follow, .collect = collect, .arg = &w};
   pendres_status status = scene_compute(run, &stage);
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);
-  free(w.point);
-  free(w.jump);
+  scene_along_path_free(&w.path);
   return status;
 }
 

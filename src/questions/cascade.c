@@ -25,7 +25,7 @@ static double ratio_at(const pendres_cascade *c, int last)
 
 /*
  * Both converge by a factor of Feigenbaum's ratio or more from one doubling to the next, so that
- * what they changed by last is more than they are off by; what the doublings are off by comes on top.
+ * what they changed by last is more than they are off by; the errors of the doublings come on top.
  */
 static void finish(pendres_cascade *c)
 {

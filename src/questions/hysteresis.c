@@ -105,6 +105,8 @@ static void put(path *w, size_t i, const pendres_attractor *a)
   const int closed = pendres_settled_closed(a);
   p->value = w->value[i];
   p->attractor = *a;
+  p->x = closed ? a->orbit.x : w->state.x;
+  p->v = closed ? a->orbit.v : w->state.v;
   w->h->stretch[i] = w->h->stretches;
   if (closed) {
     const double turns = (double)a->orbit.winding / a->orbit.period;
