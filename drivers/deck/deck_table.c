@@ -138,7 +138,7 @@ const deck_key deck_table[] = {
     SAYS("m g l", "constant torque I on the side of the drive; a Josephson junction's bias current") },
   { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS),
     RANGE(-BIG, BIG),
-    SAYS(NULL, "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+    SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, or a polynomial of force_coefficients") },
