@@ -532,7 +532,7 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { CURVE "&sweep damping=1 drive_frequency_range=1.2,0.5 /", { "3:44 must ascend" } },
   { CURVE "&sweep damping=1 drive_amplitude=0.1 /",
     { "3:18 'drive_amplitude' in &sweep is not used by scene 'resonance_curve' (only by: response, "
-      "phase_diagram, branches, hysteresis, lyapunov_map)" } },
+      "phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
   { "&scene kind='branches' /\n&sweep damping=0.13 drive_frequency=0.8 /",
     { "1:13 needs a group &pendulum with 'drive_amplitude'" } },
   { "&scene kind='branches' /\n&pendulum drive_amplitude=0.2 /\n"

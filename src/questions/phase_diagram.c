@@ -55,9 +55,10 @@ static const char *refused(const pendres_phase_grid *g)
     return "lines differ in another parameter than changes along them";
   if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
     return "a diagram needs values of both its parameters";
-  if (!ascends(g->values, g->value) || !ascends(g->lines, g->line_value))
-    return "the values of a diagram's parameters must ascend";
-  return g->lines > (size_t)-1 / 1024 / g->values ? "a diagram has too many points" : NULL;
+  if (g->lines > (size_t)-1 / 1024 / g->values) return "a diagram has too many points";
+  return ascends(g->values, g->value) && ascends(g->lines, g->line_value)
+           ? NULL
+           : "the values of a diagram's parameters must ascend";
 }
 
 void pendres_phase_diagram_free(pendres_phase_diagram *d)
