@@ -1,7 +1,8 @@
 # Makefile of libpendres and the program `resonance`. GNU make 4.2 or later.
 #
 #   make            library (static and shared) and program
-#   make check      build and run all tests; CHECKS="test_flow ..." runs some; VALGRIND=1 looks
+#   make check      build and run all tests; CHECKS="test_flow ..." runs some,
+#                   SKIP="test_hard ..." leaves some out; VALGRIND=1 looks
 #                   for errors of memory alone, for an hour or two
 #   make accuracy   error estimates at random parameters against the reference, for an hour or so;
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
@@ -174,7 +175,7 @@ TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
 # Scripts look at what would be installed: nothing for sanitizers and valgrind.
 SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard tests/*_check.sh)))
-CHECKS ?= $(TEST_NAMES) $(SCRIPT_NAMES)
+CHECKS ?= $(filter-out $(SKIP),$(TEST_NAMES) $(SCRIPT_NAMES))
 ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
