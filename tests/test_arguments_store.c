@@ -74,6 +74,7 @@ static void no_store(void **state)
   REFUSED(pendres_store_read_text(NULL, "", "a", 0, &text));
   REFUSED(pendres_store_read_attribute_text(NULL, "", NULL, "a", &text));
   REFUSED(pendres_store_read_attribute_double(NULL, "", NULL, "a", &number));
+  REFUSED(pendres_store_verify(NULL, NULL));
   pendres_store_hdf5_version(NULL, NULL, NULL);
   assert_int_equal(wrong, 0);
 }

@@ -246,6 +246,15 @@ pendres_status pendres_store_provenance(pendres_store *store, const pendres_stor
  *  free with pendres_store_free(). */
 pendres_status pendres_store_open(const char *path, pendres_store **out);
 
+/**
+ * Read everything: each attribute and dataset of a file that pendres_store_open() has opened, in
+ * pieces. HDF5 checks its checksums on the way: numbers and headers have them, texts and the list of
+ * where chunks are do not. *datasets (may be NULL) is how many were read. PENDRES_IO: the message
+ * names what cannot be read. A damaged file may make HDF5 itself crash: read one that is in doubt in
+ * a process of its own. Thread safety: as all functions of a store.
+ */
+pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets);
+
 /** 1 if the group holds an object of that name (NULL: if the group exists), else 0. */
 int pendres_store_has(pendres_store *store, const char *group, const char *name);
 

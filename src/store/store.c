@@ -142,7 +142,11 @@ static pendres_store *store_new(void)
   return store;
 }
 
-/* The new HDF5 file, by our driver, its links in order of creation, without time stamps. */
+/*
+ * The new HDF5 file, by our driver, its links in order of creation, without time stamps, in the
+ * format of HDF5 1.8, the first whose headers have checksums. That of 1.10 marks a file as being
+ * written, and what a killed run has left could not be opened.
+ */
 static pendres_status create_h5(pendres_store *store)
 {
   hid_t creation = H5Pcreate(H5P_FILE_CREATE);
@@ -153,6 +157,7 @@ static pendres_status create_h5(pendres_store *store)
   if (creation < 0 || access < 0 || store->driver < 0 ||
       H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 ||
       H5Pset_obj_track_times(creation, 0) < 0 ||
+      H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST) < 0 ||
       H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0 ||
       pendres_store_driver_select(access, store->driver, &store->file) < 0 ||
       (store->h5 = H5Fcreate(store->file.part, H5F_ACC_TRUNC, creation, access)) < 0)

@@ -1,9 +1,12 @@
 /*
  * store_dataset.c -- the arrays of a store on disk: their types, chunks, filters, and writing.
  *
- * Owns: how an array is cut and compressed. A chunk is a row (one index of the first dimension),
- * or as many short rows as make 64 KiB, or a piece of a row longer than 1 MiB: a run that writes
- * row by row then compresses each chunk once. Sizes in elements unless said otherwise.
+ * Owns: how an array is cut, compressed and protected. A chunk is a row (one index of the first
+ * dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1 MiB: a run that
+ * writes row by row then compresses each chunk once. Every chunk has a checksum, Fletcher32 of the
+ * bytes on disk; what is not cut into chunks, scalars and short arrays, stands in the header of its
+ * dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps those of variable length
+ * in a heap without one. Sizes in elements unless said otherwise.
  */
 #include "store/store_internal.h"
 
@@ -11,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes. Smaller arrays are stored in one piece and uncompressed. */
+/* Bytes. Smaller arrays stand in the header of their dataset, and are not compressed. */
 #define SMALLEST_CHUNKED ((hsize_t)4096)
 /* Bytes. Rows are gathered up to the first, and cut above the second. */
 #define CHUNK_GOAL ((hsize_t)64 * 1024)
@@ -112,6 +115,16 @@ static void chunk_sizes(const pendres_store_node *node, size_t rows_wanted, hsiz
   chunk[0] = rows ? rows : 1;
 }
 
+/* The checksum comes last: it is of the bytes on disk, and looked at before they are uncompressed. */
+static herr_t set_filters(hid_t creation, size_t element, int deflate)
+{
+  if (deflate >= 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0 &&
+      ((element > 1 && H5Pset_shuffle(creation) < 0) ||
+       H5Pset_deflate(creation, deflate ? (unsigned)deflate : DEFLATE_DEFAULT) < 0))
+    return -1;
+  return H5Zfilter_avail(H5Z_FILTER_FLETCHER32) > 0 ? H5Pset_fletcher32(creation) : 0;
+}
+
 /* Fill value, chunks and filters. */
 static herr_t set_storage(hid_t creation, const pendres_store_node *node, int deflate,
                           size_t chunk_rows)
@@ -127,12 +140,11 @@ static herr_t set_storage(hid_t creation, const pendres_store_node *node, int de
   if (node->kind == PENDRES_STORE_VARIABLE && node->type == PENDRES_STORE_DOUBLE &&
       H5Pset_fill_value(creation, H5T_NATIVE_DOUBLE, &nan_value) < 0)
     return -1;
-  if (!node->rank || node->type == PENDRES_STORE_STRING || total < SMALLEST_CHUNKED) return 0;
+  if (total < SMALLEST_CHUNKED) return H5Pset_layout(creation, H5D_COMPACT);
+  if (node->type == PENDRES_STORE_STRING) return 0; /* pointers into the heap */
   chunk_sizes(node, chunk_rows, chunk);
   if (H5Pset_chunk(creation, node->rank, chunk) < 0) return -1;
-  if (deflate < 0 || H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return 0;
-  if (element > 1 && H5Pset_shuffle(creation) < 0) return -1;
-  return H5Pset_deflate(creation, deflate ? (unsigned)deflate : DEFLATE_DEFAULT);
+  return set_filters(creation, element, deflate);
 }
 
 pendres_status pendres_store_make(pendres_store *store, const char *path,

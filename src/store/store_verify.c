@@ -1,0 +1,159 @@
+/*
+ * store_verify.c -- reading all of a file, to know whether it can be read.
+ *
+ * Owns: the walk through groups, datasets and attributes. HDF5 itself looks at its checksums when
+ * it reads: those of chunks (Fletcher32) and of headers.
+ */
+#include "store/store_internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Bytes that are read at once, unless a single row or chunk is larger. */
+#define PIECE ((hsize_t)16 * 1024 * 1024)
+/* Groups within groups: more are a damaged file's circle. */
+enum { DEEPEST = 32, MOST_RANK = 32 };
+
+/* What HDF5 has allocated for n elements: texts and lists of variable length. */
+static void free_elements(hid_t type, size_t n, void *data)
+{
+  if (H5Tis_variable_str(type) > 0) {
+    for (size_t i = 0; i < n; i++) H5free_memory(((char **)data)[i]);
+  } else if (H5Tget_class(type) == H5T_VLEN) {
+    for (size_t i = 0; i < n; i++) H5free_memory(((hvl_t *)data)[i].p);
+  }
+}
+
+static herr_t read_attribute(hid_t object, const char *name, const H5A_info_t *info, void *unused)
+{
+  const hid_t id = H5Aopen(object, name, H5P_DEFAULT);
+  const hid_t stored = id >= 0 ? H5Aget_type(id) : H5I_INVALID_HID;
+  const hid_t type = stored >= 0 ? H5Tget_native_type(stored, H5T_DIR_ASCEND) : H5I_INVALID_HID;
+  const hid_t space = id >= 0 ? H5Aget_space(id) : H5I_INVALID_HID;
+  const hssize_t n = space >= 0 ? H5Sget_simple_extent_npoints(space) : -1;
+  herr_t result = -1;
+  void *data = NULL;
+
+  (void)info;
+  (void)unused;
+  if (type >= 0 && n >= 0 && (data = calloc((size_t)n + 1, H5Tget_size(type))) != NULL) {
+    result = H5Aread(id, type, data);
+    if (result >= 0) free_elements(type, (size_t)n, data);
+  }
+  free(data);
+  if (space >= 0) H5Sclose(space);
+  if (type >= 0) H5Tclose(type);
+  if (stored >= 0) H5Tclose(stored);
+  if (id >= 0) H5Aclose(id);
+  return result;
+}
+
+/* Rows first ... of a dataset that has rows, or all of a scalar. */
+static herr_t read_some(hid_t id, hid_t type, hid_t space, const hsize_t *start,
+                        const hsize_t *count, int rank, size_t n)
+{
+  const hid_t memory = rank ? H5Screate_simple(rank, count, NULL) : H5Screate(H5S_SCALAR);
+  void *data = calloc(n + 1, H5Tget_size(type));
+  herr_t result = -1;
+
+  if (memory >= 0 && data &&
+      (!rank || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0) &&
+      (result = H5Dread(id, type, memory, space, H5P_DEFAULT, data)) >= 0)
+    free_elements(type, n, data);
+  if (memory >= 0) H5Sclose(memory);
+  free(data);
+  return result;
+}
+
+/* Whole chunks at a time, so that none is read twice. */
+static hsize_t rows_at_once(hid_t id, int rank, hsize_t row_bytes)
+{
+  const hid_t creation = H5Dget_create_plist(id);
+  hsize_t chunk[MOST_RANK] = { 1 }, rows = row_bytes && row_bytes < PIECE ? PIECE / row_bytes : 1;
+
+  if (creation >= 0 && H5Pget_layout(creation) == H5D_CHUNKED &&
+      H5Pget_chunk(creation, rank, chunk) > 0 && chunk[0] > 0)
+    rows = rows > chunk[0] ? rows - rows % chunk[0] : chunk[0];
+  if (creation >= 0) H5Pclose(creation);
+  return rows;
+}
+
+static herr_t read_rows(hid_t id, hid_t type, hid_t space)
+{
+  const int rank = H5Sget_simple_extent_ndims(space);
+  hsize_t sizes[MOST_RANK] = { 1 }, start[MOST_RANK] = { 0 }, row = 1, step;
+  herr_t result = 0;
+
+  if (rank < 0 || rank > MOST_RANK || H5Sget_simple_extent_dims(space, sizes, NULL) < 0) return -1;
+  for (int k = 1; k < rank; k++) row *= sizes[k];
+  if (!row) return 0;
+  const hsize_t rows = rank ? sizes[0] : 1;
+  step = rank ? rows_at_once(id, rank, row * H5Tget_size(type)) : 1;
+  for (hsize_t done = 0; done < rows && result >= 0; done += step) {
+    start[0] = done;
+    sizes[0] = rows - done < step ? rows - done : step;
+    result = read_some(id, type, space, start, sizes, rank, (size_t)(sizes[0] * row));
+  }
+  return result;
+}
+
+static herr_t read_dataset(hid_t id)
+{
+  const hid_t stored = H5Dget_type(id), space = H5Dget_space(id);
+  const hid_t type = stored >= 0 ? H5Tget_native_type(stored, H5T_DIR_ASCEND) : H5I_INVALID_HID;
+  const herr_t result = type >= 0 && space >= 0 ? read_rows(id, type, space) : -1;
+
+  if (type >= 0) H5Tclose(type);
+  if (stored >= 0) H5Tclose(stored);
+  if (space >= 0) H5Sclose(space);
+  return result;
+}
+
+static pendres_status unreadable(pendres_store *store, hid_t object)
+{
+  char path[256] = "";
+
+  if (H5Iget_name(object, path, sizeof path) <= 0) strcpy(path, "?");
+  return pendres_store_fail_hdf5(store, "'%s' cannot be read", path);
+}
+
+/* An object with all that is in it. */
+static pendres_status read_object(pendres_store *store, hid_t object, int depth, uint64_t *count)
+{
+  const H5I_type_t kind = H5Iget_type(object);
+  pendres_status status = PENDRES_OK;
+  H5G_info_t info;
+
+  if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, read_attribute, NULL) < 0)
+    return unreadable(store, object);
+  if (kind == H5I_DATASET) {
+    ++*count;
+    return read_dataset(object) < 0 ? unreadable(store, object) : PENDRES_OK;
+  }
+  if (kind != H5I_GROUP) return PENDRES_OK;
+  if (depth > DEEPEST || H5Gget_info(object, &info) < 0) return unreadable(store, object);
+  for (hsize_t i = 0; i < info.nlinks && !status; i++) {
+    const hid_t member =
+      H5Oopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT);
+
+    status = member < 0 ? unreadable(store, object)
+             : read_object(store, member, depth + 1, count);
+    if (member >= 0) H5Oclose(member);
+  }
+  return status;
+}
+
+pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
+{
+  pendres_store_quiet quiet;
+  hid_t root = H5I_INVALID_HID;
+  uint64_t count = 0;
+  pendres_status status = pendres_store_enter(store, &quiet, 0);
+
+  if (!status && (root = H5Gopen2(store->h5, "/", H5P_DEFAULT)) < 0)
+    status = pendres_store_fail_hdf5(store, "'%s' cannot be read", store->file.path);
+  if (!status) status = read_object(store, root, 0, &count);
+  if (root >= 0) H5Gclose(root);
+  if (datasets) *datasets = count;
+  return pendres_store_leave(store, &quiet, status);
+}
