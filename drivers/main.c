@@ -21,6 +21,7 @@
 #include "resume.h"
 #include "shard.h"
 #include "together.h"
+#include "verify.h"
 #include "terminal/safe_text.h"
 #include "scenes/scene.h"
 #include "terminal/signals.h"
@@ -444,6 +445,8 @@ static int run_program(int argc, char **argv)
   if (code != DONE) return code;
   if (j.options.action == OPTIONS_HELP) return options_print_help(stdout);
   if (j.options.action == OPTIONS_VERSION) return options_print_version(stdout);
+  if (j.options.action == OPTIONS_VERIFY)
+    return verify_files(j.options.deck, j.options.deck_count);
   if (j.options.action >= OPTIONS_LIST) return answer(&j.options);
   progress_init(&j.progress, stderr, j.options.quiet);
   code = farm_errand(run_decks, &j);

@@ -18,6 +18,7 @@ enum { MOST_THREADS = FARM_MOST_THREADS };
 
 static const char help[] =
   "Usage: resonance [OPTION]... DECK... [GROUP.KEY=VALUE]...\n"
+  "  or:  resonance --verify FILE...\n"
   "Compute the scene that a deck describes, a file in Fortran namelist syntax, for driven, damped\n"
   "and noisy pendulums, and write its results to an HDF5 file (default: the deck's name with .h5,\n"
   "in the working directory). A short table goes to standard output, all else to standard error.\n"
@@ -29,6 +30,7 @@ static const char help[] =
   "      --init=KIND       print a deck of that kind to start from, with comments\n"
   "      --reference       print all that --explain knows as a page (docs/decks.md)\n"
   "  -n, --dry-run         check the deck and say what would be computed\n"
+  "      --verify          say of each FILE of results whether it is whole, instead of DECK\n"
   "      --dump-namelist   print the deck with all defaults resolved\n"
   "  -o, --output=FILE     write the results to FILE\n"
   "      --csv             write results of one or two dimensions as text, too: NAME.csv beside\n"
@@ -46,8 +48,9 @@ static const char help[] =
   "  -h, --help            this text\n"
   "  -V, --version         versions of the program and of its libraries\n"
   "\n"
-  "Exit status: 0 done; 1 failure; 2 bad usage or deck; 3 finished, but some points failed (they\n"
-  "are marked in the file); 75 stopped by TERM, INT, HUP, USR1, USR2 or XCPU.\n"
+  "Exit status: 0 done; 1 failure, or a FILE is not whole; 2 bad usage or deck; 3 finished, but\n"
+  "some points failed (they are marked in the file); 75 stopped by TERM, INT, HUP, USR1, USR2 or\n"
+  "XCPU.\n"
   "A file of results is whole or absent: it is written as FILE.part and renamed at the end. If\n"
   "FILE is a link, what it points to is replaced. A device, a read-only file and the deck are\n"
   "not. A FILE that is there already and holds anything but results of the same deck is kept, as\n"
@@ -92,6 +95,7 @@ static options_action asked_for(int option)
   case 'E': return OPTIONS_EXPLAIN;
   case 'I': return OPTIONS_INIT;
   case 'R': return OPTIONS_REFERENCE;
+  case 'Y': return OPTIONS_VERIFY;
   case 'V': return OPTIONS_VERSION;
   default: return OPTIONS_HELP;
   }
@@ -112,6 +116,7 @@ static int apply(int option, const char *value, const char *name, options *out)
   case 'V':
   case 'L':
   case 'R':
+  case 'Y':
     if (out->action <= OPTIONS_DUMP_NAMELIST) out->action = asked_for(option);
     return 0;
   case 'E':
@@ -208,6 +213,16 @@ static int take_operands(int argc, char **argv, const char *name, options *out)
   return complain(name);
 }
 
+/* Of --verify. */
+static int take_files(int argc, char **argv, const char *name, options *out)
+{
+  out->deck = argv + optind;
+  out->deck_count = (size_t)(argc - optind);
+  if (out->deck_count > 0) return 0;
+  fprintf(stderr, "%s: --verify: no file was given\n", name);
+  return complain(name);
+}
+
 int options_parse(int argc, char **argv, options *out)
 {
   static const struct option table[] = {
@@ -220,7 +235,7 @@ int options_parse(int argc, char **argv, options *out)
     { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
     { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
     { "shard", required_argument, NULL, 'S' },   { "merge", no_argument, NULL, 'M' },
-    { "csv", no_argument, NULL, 'C' },
+    { "csv", no_argument, NULL, 'C' },         { "verify", no_argument, NULL, 'Y' },
     { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
@@ -232,6 +247,7 @@ int options_parse(int argc, char **argv, options *out)
     const int code = apply(option, optarg, name, out);
     if (code != 0) return code;
   }
+  if (out->action == OPTIONS_VERIFY) return take_files(argc, argv, name, out);
   if (out->action >= OPTIONS_LIST) return 0;
   if (out->no_journal && (out->resume || out->shards > 0 || out->merge)) {
     fprintf(stderr, "%s: --resume, --shard and --merge need a journal\n", name);

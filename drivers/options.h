@@ -17,6 +17,7 @@ typedef enum options_action {
   OPTIONS_EXPLAIN,       /* tell all about a kind, group or key */
   OPTIONS_INIT,          /* print a deck to start from */
   OPTIONS_REFERENCE,     /* print the page docs/decks.md */
+  OPTIONS_VERIFY,        /* read files of results */
   OPTIONS_HELP,
   OPTIONS_VERSION
 } options_action;
@@ -24,7 +25,7 @@ typedef enum options_action {
 /* Texts are argv's own. */
 typedef struct options {
   options_action action;
-  char **deck;        /* names of decks; "-": standard input */
+  char **deck;        /* names of decks; "-": standard input; those of files to verify */
   size_t deck_count;  /* 0 for help, version and the like */
   char **setting;     /* keys set behind the decks, for all of them */
   size_t setting_count;

@@ -5,6 +5,7 @@
 #include "driver_run.h"
 
 #include <pendres/store.h>
+#include <pendres/version.h>
 
 static char *text_of(const char *file, const char *group, const char *name)
 {
@@ -262,13 +263,82 @@ static void test_results_are_kept(void **state)
   assert_int_equal(count_names("kept"), 1);
 }
 
+/* The file small.h5 of n bytes, with `size` of them at `place` turned over, becomes bad.h5. */
+static void spoil(const char *bytes, size_t n, size_t place, size_t size)
+{
+  FILE *f = fopen("bad.h5", "wb");
+  assert_non_null(f);
+  for (size_t i = 0; i < n; i++)
+    assert_true(fputc(bytes[i] ^ (i >= place && i < place + size ? 1 : 0), f) != EOF);
+  assert_int_equal(fclose(f), 0);
+}
+
+static void check_damaged(const char *bytes, size_t n, size_t place, size_t size)
+{
+  spoil(bytes, n, place, size);
+  check_code(RUN("--verify", "bad.h5"), 1);
+  check_says(out, "bad.h5: ");
+  assert_null(strstr(out, "whole"));
+  assert_ptr_equal(strchr(out, '\n'), strrchr(out, '\n')); /* one line */
+}
+
+/* Where a number of the file stands: in a chunk that is not compressed, and in a header. */
+static void test_verify(void **state)
+{
+  static char bytes[4 * TEXT_ROOM];
+  pendres_store *store = NULL;
+  static double numbers[600];
+  const double scalar = 0.12345678901234567;
+  (void)state;
+  for (size_t i = 0; i < 600; i++) numbers[i] = 1.0 + 1e-3 * (double)i;
+  check_code(RUN("-q", "orbit.nml"), DONE);
+  check_code(RUN("--verify", "orbit.h5", "missing.h5", "orbit.nml"), 1);
+  check_says(out, "orbit.h5: whole: ");
+  check_says(out, "deck orbit.nml, resonance " PENDRES_VERSION "\n");
+  check_says(out, "missing.h5: cannot be read: ");
+  check_says(out, "orbit.nml: damaged, or no HDF5 file: ");
+  check_code(RUN("--verify", "orbit.h5"), DONE);
+  check_code(RUN("--verify"), 2);
+
+  assert_int_equal(pendres_store_create("plain.h5", NULL, &store), PENDRES_OK);
+  const pendres_store_spec one = { .name = "one", .long_name = "one" };
+  const pendres_store_spec many = { .name = "many", .long_name = "many", .dimensions = { "x" },
+                                    .deflate = -1 };
+  assert_int_equal(pendres_store_dimension(store, "", "x", 600, NULL, "x", "1"), PENDRES_OK);
+  assert_int_equal(pendres_store_put(store, &one, &scalar, 1), PENDRES_OK);
+  assert_int_equal(pendres_store_put(store, &many, numbers, 600), PENDRES_OK);
+  const pendres_store_entry origin[] = { { .key = "deck_name", .text = "a.nml" },
+                                         { .key = "version", .text = "7" } };
+  assert_int_equal(pendres_store_provenance(store, origin, 2), PENDRES_OK);
+  assert_int_equal(pendres_store_close(store), PENDRES_OK);
+  pendres_store_free(store);
+  check_code(RUN("--verify", "plain.h5"), DONE);
+  FILE *f = fopen("plain.h5", "rb");
+  assert_non_null(f);
+  const size_t n = fread(bytes, 1, sizeof bytes, f);
+  fclose(f);
+  assert_true(n > 4800 && n < sizeof bytes);
+  for (size_t i = 0; i + 8 <= n; i++) {
+    if (memcmp(bytes + i, &scalar, 8) != 0 && memcmp(bytes + i, &numbers[300], 8) != 0) continue;
+    for (size_t k = 0; k < 8; k++) check_damaged(bytes, n, i + k, 1);
+  }
+  /* Anything at all may be wrong: it is told, or does no harm, but nothing crashes. */
+  for (size_t i = 0; i < n; i += n / 40) {
+    spoil(bytes, n, i, 16);
+    assert_in_range(RUN("--verify", "bad.h5"), 0, 1);
+  }
+  check_damaged(bytes, n - 1, 0, 0);
+  check_damaged(bytes, n / 2, 0, 0);
+  check_damaged(bytes, 0, 0, 0);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_settings),       TEST(test_bad_settings),     TEST(test_several_decks),
     TEST(test_standard_input), TEST(test_results_are_kept), TEST(test_csv_is_no_hdf5),
     TEST(test_text), TEST(test_text_of_failures),
-    TEST(test_measures_are_defined),
+    TEST(test_measures_are_defined), TEST(test_verify),
   };
   return find_program() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

@@ -117,43 +117,88 @@ static pendres_status unreadable(pendres_store *store, hid_t object)
   return pendres_store_fail_hdf5(store, "'%s' cannot be read", path);
 }
 
+/* The walk. */
+typedef struct walk {
+  pendres_store *store;
+  int depth;
+  uint64_t count; /* of datasets */
+  pendres_status status;
+} walk;
+
+static pendres_status read_object(walk *w, hid_t object);
+
+static herr_t read_member(hid_t group, const char *name, const H5L_info_t *info, void *arg)
+{
+  walk *w = arg;
+  const hid_t member = H5Oopen(group, name, H5P_DEFAULT);
+
+  (void)info;
+  w->status = member < 0 ? unreadable(w->store, group) : read_object(w, member);
+  if (member >= 0) H5Oclose(member);
+  return w->status ? -1 : 0;
+}
+
+/* A group lists its members twice: in the order in which they were made, where that is kept, and by
+ * name, as each of them is opened. */
+static pendres_status read_group(walk *w, hid_t group)
+{
+  const hid_t creation = H5Gget_create_plist(group);
+  unsigned order = 0;
+  H5_index_t list = H5_INDEX_NAME;
+  herr_t result = creation < 0 ? -1 : H5Pget_link_creation_order(creation, &order);
+
+  if (creation >= 0) H5Pclose(creation);
+  if (order & H5P_CRT_ORDER_TRACKED) list = H5_INDEX_CRT_ORDER;
+  w->depth++;
+  if (result >= 0 && w->depth <= DEEPEST)
+    result = H5Literate(group, list, H5_ITER_INC, NULL, read_member, w);
+  else
+    result = -1;
+  w->depth--;
+  if (w->status) return w->status;
+  return result < 0 ? unreadable(w->store, group) : PENDRES_OK;
+}
+
+/* All that HDF5 keeps beside an object, its own indices and lists of free space: their size is asked
+   for, which reads them. */
+static herr_t read_indices(hid_t object)
+{
+#if H5_VERSION_GE(1, 12, 0)
+  H5O_native_info_t info;
+
+  return H5Oget_native_info(object, &info, H5O_NATIVE_INFO_META_SIZE);
+#else
+  H5O_info_t info;
+
+  return H5Oget_info(object, &info);
+#endif
+}
+
 /* An object with all that is in it. */
-static pendres_status read_object(pendres_store *store, hid_t object, int depth, uint64_t *count)
+static pendres_status read_object(walk *w, hid_t object)
 {
   const H5I_type_t kind = H5Iget_type(object);
-  pendres_status status = PENDRES_OK;
-  H5G_info_t info;
 
-  if (H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, read_attribute, NULL) < 0)
-    return unreadable(store, object);
-  if (kind == H5I_DATASET) {
-    ++*count;
-    return read_dataset(object) < 0 ? unreadable(store, object) : PENDRES_OK;
-  }
-  if (kind != H5I_GROUP) return PENDRES_OK;
-  if (depth > DEEPEST || H5Gget_info(object, &info) < 0) return unreadable(store, object);
-  for (hsize_t i = 0; i < info.nlinks && !status; i++) {
-    const hid_t member =
-      H5Oopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT);
-
-    status = member < 0 ? unreadable(store, object)
-             : read_object(store, member, depth + 1, count);
-    if (member >= 0) H5Oclose(member);
-  }
-  return status;
+  if (read_indices(object) < 0 ||
+      H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, read_attribute, NULL) < 0)
+    return unreadable(w->store, object);
+  if (kind == H5I_GROUP) return read_group(w, object);
+  if (kind != H5I_DATASET) return PENDRES_OK;
+  w->count++;
+  return read_dataset(object) < 0 ? unreadable(w->store, object) : PENDRES_OK;
 }
 
 pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
 {
   pendres_store_quiet quiet;
   hid_t root = H5I_INVALID_HID;
-  uint64_t count = 0;
+  walk w = { .store = store };
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
   if (!status && (root = H5Gopen2(store->h5, "/", H5P_DEFAULT)) < 0)
     status = pendres_store_fail_hdf5(store, "'%s' cannot be read", store->file.path);
-  if (!status) status = read_object(store, root, 0, &count);
+  if (!status) status = read_object(&w, root);
   if (root >= 0) H5Gclose(root);
-  if (datasets) *datasets = count;
+  if (datasets) *datasets = w.count;
   return pendres_store_leave(store, &quiet, status);
 }
