@@ -291,90 +291,133 @@ static void to_one_parameter(const pendres_walk *w, const pendres_walk_point *at
   pair->rounding /= fmax(fabs(along), 1e-3);
 }
 
+/* The points of a trail that are still to be made more exact, and what their correction needs. */
+typedef struct polish {
+  const pendres_trail *trail;
+  pendres_continuation_pair *pairs;
+  size_t left, *index; /* of the points left */
+  pendres_walk_point *point;
+  double (*u)[PENDRES_U_COUNT], *rounding;
+  int *steps;
+} polish;
+
+static void free_polish(polish *p)
+{
+  free(p->point);
+  free(p->u);
+  free(p->rounding);
+  free(p->steps);
+  free(p->index);
+}
+
+static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
+                                   pendres_continuation_pair *pairs, polish *p)
+{
+  const size_t n = t->count + 1;
+  *p = (polish){.trail = t, .pairs = pairs, .left = t->count, .index = malloc(n * sizeof *p->index),
+                .point = malloc(n * sizeof *p->point), .u = malloc(n * sizeof *p->u),
+                .rounding = malloc(n * sizeof *p->rounding), .steps = malloc(n * sizeof *p->steps)};
+  if (p->index == NULL || p->point == NULL || p->u == NULL || p->rounding == NULL ||
+      p->steps == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
+    p->index[i] = i;
+    pairs[i] = (pendres_continuation_pair){.map = t->kind.map};
+    memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
+    status = pendres_continuation_map_steps(ctx, t->point[i].u, 10.0 * ctx->options.tolerance,
+                                            &pairs[i].coarse_steps);
+  }
+  return status;
+}
+
+/* Correct all points that are left, with the coarser number of steps or with the finer one. */
+static pendres_status correct(pendres_context *ctx, polish *w, int fine)
+{
+  enum { CHUNK = 1024 };
+  const pendres_walk *kind = &w->trail->kind;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < w->left; i++) {
+    pendres_continuation_pair *p = &w->pairs[w->index[i]];
+    w->point[i] = w->trail->point[w->index[i]];
+    if (w->point[i].held > 0) {
+      memset(w->point[i].tangent, 0, sizeof w->point[i].tangent);
+      w->point[i].tangent[w->point[i].held - 1] = 1.0;
+    }
+    if (fine) {
+      p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
+      p->fine_steps += p->fine_steps % 2;
+    }
+    w->steps[i] = fine ? p->fine_steps : p->coarse_steps;
+    memcpy(w->u[i], p->coarse, sizeof w->u[i]);
+  }
+  for (size_t first = 0; first < w->left && status == PENDRES_OK; first += CHUNK)
+    status = pendres_walk_correct(ctx, kind, w->left - first < CHUNK ? w->left - first : CHUNK,
+                                  w->point + first, w->steps + first, w->u + first,
+                                  w->rounding + first);
+  for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
+    pendres_continuation_pair *p = &w->pairs[w->index[i]];
+    /* What cannot be corrected stays where the walk left it, with an error that says so. */
+    memcpy(fine ? p->fine : p->coarse, w->u[i], sizeof w->u[i]);
+    p->rounding = isnan(w->rounding[i]) ? kind->tolerance : w->rounding[i];
+  }
+  return status;
+}
+
+/* Errors of the parameters of point i; returns the largest error of all, as tolerances have it. */
+static double errors_at(const pendres_trail *t, size_t i, const pendres_continuation_pair *p,
+                        double error[2])
+{
+  const pendres_walk *w = &t->kind;
+  const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
+                             p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
+  /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
+  const double turning =
+    t->count > 1 && t->point[i].held == 0 ? fmax(fabs(t->point[i].tangent[2]), 1e-3) : 1.0;
+  double worst = 0.0;
+  for (int k = 0; k < w->unknowns; k++) {
+    const int place = w->unknown[k];
+    /* Where two values of a parameter agree by chance it is not known better than its point. */
+    const double e = pendres_continuation_orbit_error(
+      p->coarse[place], p->fine[place],
+      pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
+    if (k >= 2) error[k - 2] = e;
+    worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
+  }
+  return worst;
+}
+
+/* Keep the points whose errors exceed the tolerance for another try, if there is to be one. */
+static void keep_inexact(const pendres_options *options, int last, polish *w, double (*error)[2])
+{
+  size_t again = 0;
+  for (size_t i = 0; i < w->left; i++) {
+    const size_t k = w->index[i];
+    pendres_continuation_pair *p = &w->pairs[k];
+    const double worst = errors_at(w->trail, k, p, error[k]);
+    if (!(worst > options->tolerance) || last || options->steps_per_period != 0) continue;
+    p->coarse_steps = p->fine_steps;
+    memcpy(p->coarse, p->fine, sizeof p->coarse);
+    w->index[again++] = k;
+  }
+  w->left = again;
+}
+
 pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t,
                                     pendres_continuation_pair *pairs, double (*error)[2])
 {
-  enum { MOST_TRIES = 4, CHUNK = 1024 };
-  const double tolerance = ctx->options.tolerance;
-  const pendres_walk *w = &t->kind;
-  pendres_walk_point *point = malloc((t->count + 1) * sizeof *point);
-  double(*u)[PENDRES_U_COUNT] = malloc((t->count + 1) * sizeof *u);
-  double *rounding = malloc((t->count + 1) * sizeof *rounding);
-  int *steps = malloc((t->count + 1) * sizeof *steps);
-  size_t *index = malloc((t->count + 1) * sizeof *index), left = t->count;
-  pendres_status status = PENDRES_OK;
-  if (point == NULL || u == NULL || rounding == NULL || steps == NULL || index == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-    goto done;
-  }
-  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
-    index[i] = i;
-    pairs[i] = (pendres_continuation_pair){.map = w->map};
-    memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
-    status = pendres_continuation_map_steps(ctx, t->point[i].u, 10.0 * tolerance,
-                                            &pairs[i].coarse_steps);
-  }
-  for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
-    for (int fine = 0; fine < 2 && status == PENDRES_OK; fine++) {
-      for (size_t i = 0; i < left; i++) {
-        pendres_continuation_pair *p = &pairs[index[i]];
-        point[i] = t->point[index[i]];
-        if (point[i].held > 0) {
-          memset(point[i].tangent, 0, sizeof point[i].tangent);
-          point[i].tangent[point[i].held - 1] = 1.0;
-        }
-        if (fine) {
-          p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
-          p->fine_steps += p->fine_steps % 2;
-        }
-        steps[i] = fine ? p->fine_steps : p->coarse_steps;
-        memcpy(u[i], p->coarse, sizeof u[i]);
-      }
-      for (size_t first = 0; first < left && status == PENDRES_OK; first += CHUNK)
-        status = pendres_walk_correct(ctx, w, left - first < CHUNK ? left - first : CHUNK,
-                                      point + first, steps + first, u + first, rounding + first);
-      for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-        pendres_continuation_pair *p = &pairs[index[i]];
-        /* What cannot be corrected stays where the walk left it, with an error that says so. */
-        memcpy(fine ? p->fine : p->coarse, u[i], sizeof u[i]);
-        p->rounding = isnan(rounding[i]) ? w->tolerance : rounding[i];
-      }
-    }
-    size_t again = 0;
-    for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      pendres_continuation_pair *p = &pairs[index[i]];
-      const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
-                                 p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
-      /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
-      const double turning = t->count > 1 && t->point[index[i]].held == 0
-                               ? fmax(fabs(t->point[index[i]].tangent[2]), 1e-3)
-                               : 1.0;
-      double worst = 0.0;
-      for (int k = 0; k < w->unknowns; k++) {
-        const int place = w->unknown[k];
-        /* Where two values of a parameter agree by chance it is not known better than its point. */
-        const double e = pendres_continuation_orbit_error(
-          p->coarse[place], p->fine[place],
-          pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
-        if (k >= 2) error[index[i]][k - 2] = e;
-        worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
-      }
-      if (worst > tolerance && attempt + 1 < MOST_TRIES && ctx->options.steps_per_period == 0) {
-        p->coarse_steps = p->fine_steps;
-        memcpy(p->coarse, p->fine, sizeof p->coarse);
-        index[again++] = index[i];
-      }
-    }
-    left = again;
+  enum { MOST_TRIES = 4 };
+  polish w;
+  pendres_status status = begin_polish(ctx, t, pairs, &w);
+  for (int attempt = 0; attempt < MOST_TRIES && w.left > 0 && status == PENDRES_OK; attempt++) {
+    status = correct(ctx, &w, 0);
+    if (status == PENDRES_OK) status = correct(ctx, &w, 1);
+    if (status == PENDRES_OK)
+      keep_inexact(&ctx->options, attempt + 1 == MOST_TRIES, &w, error);
   }
   for (size_t i = 0; i < t->count && status == PENDRES_OK; i++)
-    if (w->unknowns == 3 && t->count > 1 && t->point[i].held == 0)
-      to_one_parameter(w, &t->point[i], &pairs[i]);
-done:
-  free(point);
-  free(u);
-  free(rounding);
-  free(steps);
-  free(index);
+    if (t->kind.unknowns == 3 && t->count > 1 && t->point[i].held == 0)
+      to_one_parameter(&t->kind, &t->point[i], &pairs[i]);
+  free_polish(&w);
   return status;
 }
