@@ -10,6 +10,7 @@ from style import (COEXISTENCE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, 
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
 MOST_PIXELS = 1500  # a side; finer grids are thinned
+MOST_NAMES = 20     # beside a bar of colours
 
 
 def attractor_styles(h):
@@ -37,8 +38,9 @@ def label_plane(fig, ax, index, extent, names, colours):
     mesh = ax.imshow(index.T, origin="lower", aspect="auto", interpolation="nearest",
                      extent=extent, cmap=ListedColormap(colours or [UNRESOLVED]),
                      norm=BoundaryNorm(np.arange(n + 1) + first - 0.5, n))
-    bar = fig.colorbar(mesh, ax=ax, ticks=np.arange(len(names)) + first)
-    bar.ax.set_yticklabels(names)
+    step = -(-n // MOST_NAMES)
+    bar = fig.colorbar(mesh, ax=ax, ticks=np.arange(0, len(names), step) + first)
+    bar.ax.set_yticklabels(names[::step])
 
 
 def write_wells(ax, h, thin):
@@ -76,13 +78,31 @@ def draw_clouds(ax, h):
     ax.legend(handles=handles, loc="lower right", facecolor="0.85")
 
 
+def wells_apart(h, index, thin):
+    """Numbers of ends for numbers of attractors; a name and a colour for each well of each."""
+    names, _ = attractor_styles(h)
+    attractor, well = h["basin_well_attractor"], h["basin_well_number"]
+    span = int(np.max(np.abs(well), initial=0)) + 1
+    keys = attractor.astype(np.int64) * 2 * span + well  # ascending, as the wells are
+    here = index.astype(np.int64) * 2 * span + h["well"][:: thin[0], :: thin[1]]
+    ends = np.where(index >= 0, np.searchsorted(keys, here), -1)
+    several = len(names) > 1
+    return (ends, [f"{names[a]}, {w}" if several else f"well {w}" for a, w in zip(attractor, well)],
+            [plt.get_cmap("tab20")(i * 7 % 20) for i in range(len(well))])
+
+
 def draw_basins(h, path):
-    x, v, index = h["x"], h["v"], h["attractor_index"]
+    x, v = h["x"], h["v"]
     fig, ax = figure(h, 5.6, 3.8)
     thin = tuple(max(1, -(-len(axis) // MOST_PIXELS)) for axis in (x, v))
+    index = h["attractor_index"][:: thin[0], :: thin[1]]
     names, colours = attractor_styles(h)
-    label_plane(fig, ax, index[:: thin[0], :: thin[1]],
-                (x[0] / np.pi, x[-1] / np.pi, v[0], v[-1]), names, colours)
+    extent = (x[0] / np.pi, x[-1] / np.pi, v[0], v[-1])
+    if "basin_well_fraction" in h:
+        ends, well_names, well_colours = wells_apart(h, index, thin)
+        label_plane(fig, ax, ends, extent, well_names, well_colours)
+    else:
+        label_plane(fig, ax, index, extent, names, colours)
     if "boundary_x" in h and h.options.boundary:
         gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
         ax.plot(np.insert(h["boundary_x"] / np.pi, gaps, np.nan),

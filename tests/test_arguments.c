@@ -209,11 +209,12 @@ static void basins(void **state)
   pendres_attractors *out = NULL;
   pendres_basin_statistics statistics;
   size_t index = 1, huge = SIZE_MAX, grown;
-  const pendres_basin_grid grid = { 2, 2, x, v };
-  const double distance[1] = { 0.01 };
-  const pendres_basin_window window = { 0.0, 1.0, 0.0, 1.0 };
+  const pendres_basin_grid grid = { .nx = 2, .nv = 2, .x = x, .v = v };
+  const double distance[1] = { 0.01 }, three[3] = { 0.01, 0.02, 0.04 };
+  const pendres_basin_window window = { .x_high = 1.0, .v_high = 1.0 };
   pendres_basin_grid bad[] = {
-    { 0, 2, x, v }, { 2, 0, x, v }, { 2, 2, NULL, v }, { 2, 2, x, NULL }, { 1, 1, NULL, NULL } };
+    { .nx = 0, .nv = 2, .x = x, .v = v }, { .nx = 2, .nv = 0, .x = x, .v = v },
+    { .nx = 2, .nv = 2, .v = v }, { .nx = 2, .nv = 2, .x = x }, { .nx = 1, .nv = 1 } };
   REFUSED(pendres_basin_attractors(f->ctx, NULL, &grid, &out));
   REFUSED(pendres_basin_attractors(f->ctx, &good, NULL, &out));
   REFUSED(pendres_basin_attractors(f->ctx, &good, &grid, NULL));
@@ -258,6 +259,9 @@ static void basins(void **state)
     REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, &bad_numbers[i], 1,
                                       &statistics));
   }
+  pendres_basin_window no_end = window;
+  no_end.by = (pendres_basin_end)7;
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &no_end, 16, 3, three, 1, &statistics));
   REFUSED(pendres_basin_uncertainty(f->ctx, NULL, &window, 9, 1, distance, 1, &statistics));
   REFUSED(pendres_basin_uncertainty(f->ctx, f->set, NULL, 9, 1, distance, 1, &statistics));
   REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 0, 1, distance, 1, &statistics));

@@ -232,7 +232,7 @@ static void plans(void **state)
 {
   int wrong = 0;
   const double x[2] = { 0.0, 1.0 };
-  const pendres_basin_grid grid = { 2, 2, x, x };
+  const pendres_basin_grid grid = { .nx = 2, .nv = 2, .x = x, .v = x };
   pendres_basin_plan *plan = NULL;
   pendres_basin_sums *sums = NULL;
   pendres_basin_state s[4] = { { 0 } };
@@ -241,6 +241,8 @@ static void plans(void **state)
   const size_t *index;
   size_t n;
   double fraction[4], error[4];
+  pendres_basin_grid no_end = grid;
+  no_end.by = (pendres_basin_end)7;
   (void)state;
   INVALID(pendres_basin_plan_create(NULL, 0, 1, 0, &plan));
   INVALID(pendres_basin_plan_create(&grid, 0, 1, 0, NULL));
@@ -271,18 +273,21 @@ static void plans(void **state)
   INVALID(pendres_basin_sums_create(NULL, 1, &sums));
   INVALID(pendres_basin_sums_create(&grid, 1, NULL));
   INVALID(pendres_basin_sums_create(&grid, SIZE_MAX, &sums));
+  INVALID(pendres_basin_sums_create(&no_end, 1, &sums));
   pendres_basin_sums_free(NULL);
   INVALID(pendres_basin_sums_add(NULL, 1, s));
   INVALID(pendres_basin_sums_suspect(NULL, 1.0));
   INVALID(pendres_basin_sums_result(NULL, &statistics, fraction, error));
   INVALID(pendres_basin_sums_counts(NULL, &n));
   INVALID(pendres_basin_sums_wells(NULL, &n, &wells));
+  INVALID(pendres_basin_sums_well_shares(NULL, fraction, error));
   check_ok(pendres_basin_sums_create(&grid, 1, &sums));
   INVALID(pendres_basin_sums_add(sums, 1, NULL));
   INVALID(pendres_basin_sums_add(sums, 3, s));
   INVALID(pendres_basin_sums_suspect(sums, NAN));
   INVALID(pendres_basin_sums_suspect(sums, -1.0));
   INVALID(pendres_basin_sums_result(sums, &statistics, fraction, error)); /* rows are missing */
+  INVALID(pendres_basin_sums_well_shares(sums, fraction, error));
   check_ok(pendres_basin_sums_add(sums, 2, s));
   INVALID(pendres_basin_sums_result(sums, NULL, fraction, error));
   INVALID(pendres_basin_sums_counts(sums, NULL));

@@ -75,7 +75,8 @@ static int fate_by_reference(double x, double v)
 static void uncertainty_exponent(void **state)
 {
   static const double distance[] = {1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
-  const pendres_basin_window window = {-0.5 * pi, 1.5 * pi, -4.0, 4.0};
+  const pendres_basin_window window = {
+    .x_low = -0.5 * pi, .x_high = 1.5 * pi, .v_low = -4.0, .v_high = 4.0};
   pendres_attractors *set = NULL;
   pendres_basin_statistics s;
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
@@ -202,7 +203,8 @@ static void exponent_by_another_way(void **state)
 {
   static const double distance[] = {1e-5, 1e-4, 1e-3, 1e-2}, ends[2] = {1e-5, 1e-2};
   static const struct { double drive; size_t attractors; } cases[] = {{1.66, 3}, {2.0, 2}};
-  const pendres_basin_window window = {-0.5 * pi, 1.5 * pi, -4.0, 4.0};
+  const pendres_basin_window window = {
+    .x_low = -0.5 * pi, .x_high = 1.5 * pi, .v_low = -4.0, .v_high = 4.0};
   for (int i = 0; i < 2; i++) {
     const pendres_pendulum p = {
       .damping = 0.2, .drive_amplitude = cases[i].drive, .drive_frequency = 1.0};

@@ -82,6 +82,7 @@ static void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->basins.strobes, b->basins.strobes);
   assert_int_equal(a->basins.seed, b->basins.seed);
   assert_int_equal(a->basins.trajectories, b->basins.trajectories);
+  assert_string_equal(a->basins.by, b->basins.by);
   assert_names_equal(&a->methods, &b->methods);
   assert_string_equal(a->unit, b->unit);
   assert_names_equal(&a->cases, &b->cases);

@@ -131,13 +131,15 @@ static void basins_of_baker_and_gollub(void **state)
   }
 }
 
-/* One attractor in many wells: they are counted in the file, beside plain counts of states. */
+/* One attractor in many wells: they are counted in the file, beside plain counts of states, and
+   have shares of the window where they are ends. */
 static void wells_are_counted(void **state)
 {
   (void)state;
   scene_run_deck("&scene kind = 'basins' /\n"
                  "&pendulum drive_amplitude = 1, damping = 0.1, drive_frequency = 1 /\n"
-                 "&sweep x_range = -1.5, 4.7, 40, v_range = -4, 4, 40 /\n",
+                 "&sweep x_range = -1.5, 4.7, 40, v_range = -4, 4, 40 /\n"
+                 "&basins by = 'well', statistics = .false. /\n",
                  2, "wells");
   pendres_store *store = scene_open("wells");
   size_t n = 0, states = 0, entries = 0;
@@ -145,6 +147,7 @@ static void wells_are_counted(void **state)
   double *count = scene_values(store, "basin_well_states", &n);
   double *well = scene_values(store, "well", &states);
   double *wells = scene_values(store, "basin_wells", &entries);
+  double *share = scene_values(store, "basin_well_fraction", &entries), area = 0.0;
   double *all = scene_values(store, "basin_states", &entries);
   assert_int_equal(entries, 1);
   assert_int_equal(wells[0], n);
@@ -155,7 +158,11 @@ static void wells_are_counted(void **state)
     for (size_t k = 0; k < states; k++) there += well[k] == number[i];
     assert_int_equal(count[i], there);
     sum += count[i];
+    area += share[i];
+    /* A share of the area: states at the ends count half, of which there are a tenth. */
+    check_near(share[i], count[i] / 1600.0, 0.1);
   }
+  check_near(area, 1.0, 1e-12);
   check_near(sum, 1600.0, 0.0);
   /* Wells are harder to tell than attractors: some are uncertain; the one attractor is not. */
   assert_true(scene_scalar(store, "uncertain_states") < 400);
@@ -164,6 +171,7 @@ static void wells_are_counted(void **state)
   free(count);
   free(well);
   free(wells);
+  free(share);
   free(all);
   pendres_store_free(store);
 }

@@ -170,6 +170,7 @@ typedef struct deck {
     int64_t strobes;        /* noisy strobes recorded for each attractor */
     int64_t seed;
     int64_t trajectories;
+    char by[DECK_NAME];     /* what counts as one end */
   } basins;
 
   struct {

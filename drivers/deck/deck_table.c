@@ -98,6 +98,7 @@ static const char *const cases[] = {
 };
 static const char *const shapes[] = { "line", "rectangle", "random", NULL }; /* as in sweep.h */
 static const char *const forces[] = { "pendulum", "polynomial", NULL };
+static const char *const ends[] = { "attractor", "well", NULL }; /* as pendres_basin_end */
 static const char *const units[] = { "ensemble", "sweep", NULL };
 
 const deck_key deck_table[] = {
@@ -262,6 +263,8 @@ const deck_key deck_table[] = {
     SAYS(NULL, "compute the boundary of the basins as a curve") },
   { LOGICAL("basins", "statistics", basins.statistics), IN(BASINS), .number = 1,
     SAYS(NULL, "estimate shares, entropy and uncertainty exponent of the basins") },
+  { CHOICE("basins", "by", basins.by), IN(BASINS), .choices = ends, .text = "attractor",
+    SAYS(NULL, "what statistics and picture tell apart: attractors, or their wells, too") },
   { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT),
     .number = 1000, .when = DECK_WITH_NOISE,
     SAYS(NULL, "strobe points recorded of each cloud") },

@@ -36,6 +36,8 @@ static void plan(const deck *d, FILE *out)
           x->value[x->count - 1], v->value[0], v->value[v->count - 1], d->pendulum.damping,
           d->pendulum.drive_amplitude, d->pendulum.drive_frequency,
           d->basins.refine ? "; refined where neighbours differ" : "");
+  if (strcmp(d->basins.by, "well") == 0)
+    fprintf(out, "statistics tell wells of an attractor apart\n");
 }
 
 /* ---- whole grids ---- */
@@ -328,7 +330,9 @@ static pendres_status run_scene(scene_run *run)
   basins b = {.run = run, .d = d,
               .pendulum = scene_pendulum(d),
               .grid = {.nx = d->axis[DECK_AXIS_X].count, .nv = d->axis[DECK_AXIS_V].count,
-                       .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value}};
+                       .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value,
+                       .by = strcmp(d->basins.by, "well") == 0 ? PENDRES_BASIN_BY_WELL
+                                                               : PENDRES_BASIN_BY_ATTRACTOR}};
   size_t grown = 1;
   pendres_status status = find_attractors(&b);
   if (status == PENDRES_OK) status = basins_define(&b);

@@ -1,4 +1,4 @@
-/* scene_basins_wells.c -- plain counts of states, by attractor and by well; see scene_basins.h. */
+/* scene_basins_wells.c -- states by attractor and by well, shares by well; see scene_basins.h. */
 #include "scenes/scene_basins.h"
 
 #include <stdlib.h>
@@ -65,6 +65,20 @@ done:
   return status;
 }
 
+/* Of each attractor and well: its share of the window. */
+static pendres_status write_shares(basins *b, size_t n)
+{
+  const pendres_store_spec spec = {.name = "basin_well_fraction", .dimensions = {"basin_well"},
+                                   .long_name = "share of the window that settles there"};
+  double *share = calloc(2 * n + 1, sizeof *share);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (share != NULL) status = pendres_basin_sums_well_shares(b->sums, share, share + n);
+  if (status == PENDRES_OK)
+    status = pendres_store_put_result(b->run->store, &spec, share, share + n, n);
+  free(share);
+  return status;
+}
+
 pendres_status basins_write_wells(basins *b, size_t attractors)
 {
   const pendres_basin_well *wells = NULL;
@@ -72,6 +86,7 @@ pendres_status basins_write_wells(basins *b, size_t attractors)
   pendres_status status = pendres_basin_sums_wells(b->sums, &n, &wells);
   if (status == PENDRES_OK) status = write_counts(b, attractors, n, wells);
   if (status == PENDRES_OK) status = write_each(b, n, wells);
+  if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL) status = write_shares(b, n);
   return status;
 }
 
@@ -86,6 +101,7 @@ void basins_print_wells(const basins *b, FILE *out)
     several += i > 0 && wells[i].attractor == wells[i - 1].attractor;
   }
   if (several == 0) return;
-  fprintf(out, "%zu attractor%s in %zu wells, %ld to %ld; boundaries here are between attractors\n",
-          n - several, n - several > 1 ? "s" : "", n, wells[least].well, wells[most].well);
+  fprintf(out, "%zu attractor%s in %zu wells, %ld to %ld; boundaries here are between %s\n",
+          n - several, n - several > 1 ? "s" : "", n, wells[least].well, wells[most].well,
+          b->grid.by == PENDRES_BASIN_BY_WELL ? "wells" : "attractors");
 }

@@ -282,7 +282,8 @@ static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
   enum { SEED = 1 };
   const pendres_basin_grid *g = &b->grid;
   const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
-                                       .v_low = g->v[0], .v_high = g->v[g->nv - 1]};
+                                       .v_low = g->v[0], .v_high = g->v[g->nv - 1],
+                                       .by = g->by};
   double distance[RANDOM_SCALES];
   pendres_basin_statistics random;
   for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = random_distance(b, k);
@@ -403,11 +404,13 @@ static void print_orbit(FILE *out, const pendres_orbit *o)
     fprintf(out, "%4s %6s   %-10s   %-10s", "-", "-", "-", "-");
 }
 
-static void print_statistics(FILE *out, const pendres_basin_statistics *s)
+static void print_statistics(FILE *out, const pendres_basin_statistics *s, pendres_basin_end by)
 {
   if (!(s->boundary_boxes > 0.0)) {
-    fprintf(out, isnan(s->boundary_boxes) ? "too few states for statistics of the boundary\n"
-                                          : "no boundary between basins of different attractors\n");
+    if (isnan(s->boundary_boxes)) fprintf(out, "too few states for statistics of the boundary\n");
+    else
+      fprintf(out, "no boundary between basins of different %s\n",
+              by == PENDRES_BASIN_BY_WELL ? "wells" : "attractors");
     return;
   }
   fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
@@ -444,7 +447,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
             b->missed, b->missed > 0 ? " and put right" : "", b->filled,
             ceil(pendres_basin_plan_suspected(b->filled, b->clean)));
   basins_print_wells(b, out);
-  if (b->d->basins.statistics) print_statistics(out, s);
+  if (b->d->basins.statistics) print_statistics(out, s, b->grid.by);
   if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
 }
 

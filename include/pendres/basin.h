@@ -29,12 +29,20 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
+/** When two states are alike: what statistics count as one end. */
+typedef enum pendres_basin_end {
+  PENDRES_BASIN_BY_ATTRACTOR = 0, /**< when they settle on the same attractor modulo one turn */
+  PENDRES_BASIN_BY_WELL           /**< when they settle on it in the same well, too */
+} pendres_basin_end;
+
 /** States (x[i], v[j]) at drive phase 0, 0 <= i < nx, 0 <= j < nv; number i * nv + j. */
 typedef struct pendres_basin_grid {
   size_t nx;       /**< how many positions */
   size_t nv;       /**< how many velocities */
   const double *x; /**< [nx] positions, rad; not owned */
   const double *v; /**< [nv] velocities; not owned */
+  pendres_basin_end by; /**< what statistics of the grid count as one end; labels do not depend on
+                             it */
 } pendres_basin_grid;
 
 /** How a state was found. */
@@ -161,12 +169,13 @@ enum {
   PENDRES_BASIN_SCALES = 12   /**< distances 1, 2, 4, ... grid steps at most */
 };
 
-/** Statistics of a grid. Two states are alike when they have the same attractor. */
+/** Statistics of a grid. Two states are alike when they have the same attractor, or, by well, the
+    same attractor and well. */
 typedef struct pendres_basin_statistics {
   size_t states;                   /**< how many were looked at */
   size_t unresolved;               /**< those of them without an attractor */
   double entropy;                  /**< basin entropy: mean over boxes of 5 x 5 states of
-                                        -sum p log p, p the shares of attractors in the box */
+                                        -sum p log p, p the shares of ends in the box */
   double entropy_error;            /**< its error */
   double boundary_entropy;         /**< the same over boxes with unlike states; more than log 2: a
                                         fractal boundary. NaN without any */
@@ -237,11 +246,19 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
 pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t *states);
 /**
  * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid
- * until this is asked again. All numbers and statistics but these are of attractors modulo one
- * turn. After all rows.
+ * until this is asked again. Fractions and counts of attractors are modulo one turn, as are all
+ * statistics unless they are by well. After all rows.
  */
 pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
                                         const pendres_basin_well **wells);
+/**
+ * fraction[n] and error[n] (either may be NULL): shares of the area by well, in the order and
+ * number of pendres_basin_sums_wells(), with errors like those of attractors' shares; only uncertain
+ * states of a well itself count in its error. After all rows.
+ * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: nothing is written.
+ */
+pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *sums, double *fraction,
+                                              double *error);
 
 /** A window of initial states. */
 typedef struct pendres_basin_window {
@@ -249,6 +266,7 @@ typedef struct pendres_basin_window {
   double x_high; /**< highest position, rad */
   double v_low;  /**< lowest velocity */
   double v_high; /**< highest velocity */
+  pendres_basin_end by; /**< when two states of it are alike */
 } pendres_basin_window;
 
 /**

@@ -15,14 +15,7 @@ enum { BOX = PENDRES_BASIN_BOX, BOX_STATES = BOX * BOX };
    24/25 log 24/25. The next one changes less. */
 static const double state_entropy = 0.16794414;
 
-/* Sums over the rows of an attractor. */
-typedef struct member {
-  double share;     /* of the area */
-  double crossings; /* along v, where its basin begins or ends */
-  double last[2];   /* shares of the two rows before */
-  double square;    /* of second differences between rows */
-  size_t states;
-} member;
+typedef pendres_basin_member member;
 
 struct pendres_basin_sums {
   size_t nx, nv, attractors;
@@ -30,9 +23,9 @@ struct pendres_basin_sums {
   double step;        /* of v */
   size_t rows;        /* added so far */
   double *x_share, *v_share; /* of the window that belongs to each row and column of states */
-  double *row_share;  /* of each attractor in one row */
   member *members;    /* the last one: what is unresolved */
-  int16_t *box_rows;  /* attractors of the rows of unfinished boxes */
+  pendres_basin_end by;
+  int64_t *box_rows;  /* ends of the rows of unfinished boxes */
   uint8_t *box_doubt; /* states of them that are uncertain, by column */
   double group[PENDRES_SCATTER_QUANTITIES]; /* of the unfinished boxes' rows */
   double counts[PENDRES_BASIN_SCALES];      /* of uncertain states, over all rows */
@@ -73,24 +66,25 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
   if (out == NULL) return PENDRES_INVALID_ARGUMENT;
   *out = NULL;
   if (grid == NULL || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL ||
-      attractors > INT16_MAX)
+      attractors > INT16_MAX ||
+      (grid->by != PENDRES_BASIN_BY_ATTRACTOR && grid->by != PENDRES_BASIN_BY_WELL))
     return PENDRES_INVALID_ARGUMENT;
   pendres_basin_sums *s = calloc(1, sizeof *s);
   if (s == NULL) return PENDRES_OUT_OF_MEMORY;
   s->nx = grid->nx;
   s->nv = grid->nv;
   s->attractors = attractors;
+  s->by = grid->by;
   s->step = even_step(grid);
   while (s->step > 0.0 && s->scales < PENDRES_BASIN_SCALES &&
          (size_t)8 << s->scales <= grid->nv)
     s->scales++;
   s->x_share = shares_of(grid->nx, grid->x);
   s->v_share = shares_of(grid->nv, grid->v);
-  s->row_share = calloc(attractors + 1, sizeof *s->row_share);
   s->members = calloc(attractors + 1, sizeof *s->members);
   s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
   s->box_doubt = calloc(grid->nv, sizeof *s->box_doubt);
-  if (s->x_share == NULL || s->v_share == NULL || s->row_share == NULL || s->members == NULL ||
+  if (s->x_share == NULL || s->v_share == NULL || s->members == NULL ||
       s->box_rows == NULL || s->box_doubt == NULL) {
     pendres_basin_sums_free(s);
     return PENDRES_OUT_OF_MEMORY;
@@ -104,7 +98,6 @@ void pendres_basin_sums_free(pendres_basin_sums *s)
   if (s == NULL) return;
   free(s->x_share);
   free(s->v_share);
-  free(s->row_share);
   free(s->members);
   free(s->box_rows);
   free(s->box_doubt);
@@ -118,11 +111,11 @@ void pendres_basin_sums_free(pendres_basin_sums *s)
 /* How many states of the box from column `left` on are of each kind; the number of kinds. */
 static int count_kinds(const pendres_basin_sums *s, size_t left, int *count)
 {
-  int16_t kind[BOX_STATES];
+  int64_t kind[BOX_STATES];
   int kinds = 0;
   for (size_t i = 0; i < BOX; i++)
     for (size_t j = left; j < left + BOX; j++) {
-      const int16_t a = s->box_rows[i * s->nv + j];
+      const int64_t a = s->box_rows[i * s->nv + j];
       int k = 0;
       while (k < kinds && kind[k] != a) k++;
       if (k == kinds) {
@@ -167,26 +160,30 @@ static void add_boxes(pendres_basin_sums *s)
   memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
 }
 
-/* A row's shares into those of the area, and its scatter beside the rows before. */
-static void add_shares(pendres_basin_sums *s, size_t row)
+/* A share of a row into that of the area, and its scatter beside the rows before. */
+static void add_share(const pendres_basin_sums *s, size_t row, member *m)
 {
-  for (size_t a = 0; a <= s->attractors; a++) {
-    member *m = &s->members[a];
-    const double share = s->row_share[a], bend = m->last[1] - 2.0 * m->last[0] + share;
-    const double weight = row > 0 ? s->x_share[row - 1] : 0.0;
-    m->share += s->x_share[row] * share;
-    if (row >= 2) m->square += bend * bend * weight * weight;
-    m->last[1] = m->last[0];
-    m->last[0] = share;
-    s->row_share[a] = 0.0;
-  }
+  const double share = m->row_share, bend = m->last[1] - 2.0 * m->last[0] + share;
+  const double weight = row > 0 ? s->x_share[row - 1] : 0.0;
+  m->share += s->x_share[row] * share;
+  if (row >= 2) m->square += bend * bend * weight * weight;
+  m->last[1] = m->last[0];
+  m->last[0] = share;
+  m->row_share = 0.0;
 }
 
-static void count_unlike(pendres_basin_sums *s, const int16_t *a)
+static void add_shares(pendres_basin_sums *s, size_t row)
+{
+  for (size_t a = 0; a <= s->attractors; a++) add_share(s, row, &s->members[a]);
+  for (size_t i = 0; i < s->tally.places; i++)
+    if (s->tally.place[i].well.states > 0) add_share(s, row, &s->tally.place[i].sums);
+}
+
+static void count_unlike(pendres_basin_sums *s, const int64_t *a)
 {
   for (int k = 0; k < s->scales; k++) {
     const size_t far = (size_t)1 << k;
-    const int16_t *before = a, *here = a + far, *after = here + far;
+    const int64_t *before = a, *here = a + far, *after = here + far;
     const size_t n = s->nv > 2 * far ? s->nv - 2 * far : 0;
     unsigned unlike = 0;
     for (size_t j = 0; j < n; j++) unlike += (before[j] != here[j]) | (after[j] != here[j]);
@@ -195,41 +192,64 @@ static void count_unlike(pendres_basin_sums *s, const int16_t *a)
   }
 }
 
-/* The states of a row by attractor and well, one run of like ones after the other. */
-static pendres_status count_states(pendres_basin_sums *s, const int16_t *a,
-                                   const pendres_basin_state *state)
+/* The attractor of a state; their number if it has none. */
+static size_t attractor_of(const pendres_basin_sums *s, const pendres_basin_state *state)
 {
-  pendres_status status = PENDRES_OK;
-  for (size_t j = 0, end; j < s->nv && status == PENDRES_OK; j = end) {
-    for (end = j + 1; end < s->nv && a[end] == a[j] && state[end].well == state[j].well; end++) {}
-    s->members[a[j]].states += end - j;
-    if ((size_t)a[j] < s->attractors)
-      status = pendres_basin_tally_add(&s->tally, a[j], state[j].well, end - j);
+  const int known = state->attractor >= 0 && (size_t)state->attractor < s->attractors;
+  return known ? (size_t)state->attractor : s->attractors;
+}
+
+/* A number for the end that a state comes to: equal ends have equal ones. */
+static int64_t end_of(const pendres_basin_sums *s, size_t attractor,
+                      const pendres_basin_state *state)
+{
+  const int by_well = s->by == PENDRES_BASIN_BY_WELL && attractor < s->attractors;
+  return (int64_t)attractor * (INT64_C(1) << 32) + (by_well ? state->well : 0);
+}
+
+/* The states of a row by attractor and well, one run of like ones after the other. */
+static pendres_status count_states(pendres_basin_sums *s, const pendres_basin_state *state)
+{
+  for (size_t j = 0, end; j < s->nv; j = end) {
+    const size_t a = attractor_of(s, &state[j]);
+    end = j + 1;
+    while (end < s->nv && attractor_of(s, &state[end]) == a && state[end].well == state[j].well)
+      end++;
+    s->members[a].states += end - j;
+    if (a == s->attractors) continue;
+    member *m = pendres_basin_tally_add(&s->tally, (int)a, state[j].well, end - j);
+    if (m == NULL) return PENDRES_OUT_OF_MEMORY;
+    for (size_t k = j; k < end; k++) {
+      m->row_share += s->v_share[k];
+      m->uncertain += state[k].how == PENDRES_BASIN_UNCERTAIN;
+    }
+    m->crossings += (j > 0) + (end < s->nv);
   }
-  return status;
+  return PENDRES_OK;
 }
 
 static pendres_status add_row(pendres_basin_sums *s, const pendres_basin_state *state)
 {
   const size_t row = s->rows++, slot = row % BOX;
-  int16_t *a = s->box_rows + slot * s->nv;
-  for (size_t j = 0; j < s->nv; j++) {
-    const int known = state[j].attractor >= 0 && (size_t)state[j].attractor < s->attractors;
-    a[j] = known ? state[j].attractor : (int16_t)s->attractors;
-    s->row_share[a[j]] += s->v_share[j];
+  int64_t *ends = s->box_rows + slot * s->nv;
+  for (size_t j = 0, last = 0; j < s->nv; j++) {
+    const size_t a = attractor_of(s, &state[j]);
+    ends[j] = end_of(s, a, &state[j]);
+    s->members[a].row_share += s->v_share[j];
     if (state[j].how == PENDRES_BASIN_UNCERTAIN) {
       s->uncertain++;
       s->box_doubt[j]++;
     }
-    if (j > 0 && a[j] != a[j - 1]) {
-      s->members[a[j]].crossings += 1.0;
-      s->members[a[j - 1]].crossings += 1.0;
+    if (j > 0 && a != last) {
+      s->members[a].crossings += 1.0;
+      s->members[last].crossings += 1.0;
     }
+    last = a;
   }
-  const pendres_status status = count_states(s, a, state);
+  const pendres_status status = count_states(s, state);
   if (status != PENDRES_OK) return status;
   add_shares(s, row);
-  count_unlike(s, a);
+  count_unlike(s, ends);
   if (slot == BOX - 1) {
     add_boxes(s);
     pendres_scatter_add(&s->scatter, s->group);
@@ -264,10 +284,15 @@ pendres_status pendres_basin_sums_suspect(pendres_basin_sums *s, double states)
  * claimed, and a tenth of them for what does not cancel. Where there is one attractor alone, only
  * its well is uncertain.
  */
-static double misplaced(const pendres_basin_sums *s)
+static double cancelled(double n)
 {
-  const double n = (double)s->uncertain;
-  return s->attractors > 1 ? fmin(n, 2.0 * sqrt(n) + 0.1 * n) : 0.0;
+  return fmin(n, 2.0 * sqrt(n) + 0.1 * n);
+}
+
+static double misplaced(const pendres_basin_sums *s, pendres_basin_end by)
+{
+  const int ends = s->attractors > 1 || by == PENDRES_BASIN_BY_WELL;
+  return ends ? cancelled((double)s->uncertain) : 0.0;
 }
 
 /*
@@ -276,13 +301,12 @@ static double misplaced(const pendres_basin_sums *s)
  * since the boundary is as uncertain between the rows. Where rows are too few to scatter, half of
  * what they differ by.
  */
-static double fraction_error(const pendres_basin_sums *s, size_t a)
+static double fraction_error(const pendres_basin_sums *s, const member *m, double lost)
 {
-  const member *m = &s->members[a];
   const double states = (double)s->rows * (double)s->nv, n = (double)s->rows;
   const double ends = sqrt((m->crossings + 1.0) / 3.0) / states;
   const double doubt =
-    (misplaced(s) + s->suspect) / states + s->members[s->attractors].share;
+    (lost + s->suspect) / states + s->members[s->attractors].share;
   if (s->rows == 1) return ends + doubt;
   if (s->rows < 4) return ends + 0.5 * fabs(m->last[0] - m->last[1]) + doubt;
   const double student = pendres_student(PENDRES_ONE_SIGMA, (n - 2.0) * 18.0 / 35.0);
@@ -297,7 +321,7 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   const double boundary = s->scatter.total[PENDRES_SCATTER_BOUNDARY_BOXES];
   const double all = (double)s->rows * (double)s->nv;
   /* Uncertain states change either way, as above; those that are suspect may be anywhere. */
-  const double part = s->uncertain > 0 ? misplaced(s) / (double)s->uncertain : 0.0;
+  const double part = s->uncertain > 0 ? misplaced(s, s->by) / (double)s->uncertain : 0.0;
   const double suspect = state_entropy * s->suspect * boxes * BOX_STATES / all;
   double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
   out->boundary_boxes = out->entropy = out->entropy_error = NAN;
@@ -349,9 +373,10 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_ba
                                          double *fraction, double *error)
 {
   if (s == NULL || out == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  const double lost = misplaced(s, PENDRES_BASIN_BY_ATTRACTOR);
   for (size_t a = 0; a < s->attractors; a++) {
     if (fraction != NULL) fraction[a] = s->members[a].share;
-    if (error != NULL) error[a] = fraction_error(s, a);
+    if (error != NULL) error[a] = fraction_error(s, &s->members[a], lost);
   }
   *out = (pendres_basin_statistics){.states = s->rows * s->nv,
                                     .unresolved = s->members[s->attractors].states,
@@ -375,12 +400,35 @@ pendres_status pendres_basin_sums_wells(pendres_basin_sums *s, size_t *n,
   if (s == NULL || n == NULL || wells == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
   *n = 0;
   *wells = NULL;
+  pendres_basin_entry *entry = pendres_basin_tally_list(&s->tally);
   pendres_basin_well *list = malloc((s->tally.used + 1) * sizeof *list);
-  if (list == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_basin_tally_list(&s->tally, list);
+  if (entry == NULL || list == NULL) {
+    free(entry);
+    free(list);
+    return PENDRES_OUT_OF_MEMORY;
+  }
+  for (size_t i = 0; i < s->tally.used; i++) list[i] = entry[i].well;
+  free(entry);
   free(s->wells);
   s->wells = list;
   *n = s->tally.used;
   *wells = list;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *s, double *fraction,
+                                              double *error)
+{
+  if (s == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
+  pendres_basin_entry *entry = pendres_basin_tally_list(&s->tally);
+  if (entry == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < s->tally.used; i++) {
+    if (fraction != NULL) fraction[i] = entry[i].sums.share;
+    /* As many come to a well as leave it, but for their scatter: one more, if there are any. */
+    const member *m = &entry[i].sums;
+    const double lost = s->uncertain > 0 ? cancelled((double)m->uncertain + 1.0) : 0.0;
+    if (error != NULL) error[i] = fraction_error(s, m, lost);
+  }
+  free(entry);
   return PENDRES_OK;
 }

@@ -41,14 +41,21 @@ static void place(const pendres_basin_window *window, uint64_t seed, uint64_t i,
   }
 }
 
+static int are_unlike(const pendres_outcome *a, const pendres_outcome *b, pendres_basin_end by)
+{
+  return a->attractor != b->attractor ||
+         (by == PENDRES_BASIN_BY_WELL && a->attractor >= 0 && a->well != b->well);
+}
+
 /* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a
    group of its own, since states know nothing of one another. */
-static void count_sample(pendres_scatter *s, int scales, const pendres_outcome *outcome)
+static void count_sample(pendres_scatter *s, int scales, pendres_basin_end by,
+                         const pendres_outcome *outcome)
 {
   double unlike[PENDRES_SCATTER_QUANTITIES] = {0.0};
   for (int k = 0; k < scales; k++)
-    unlike[k] = outcome[1 + 2 * k].attractor != outcome[0].attractor ||
-                outcome[2 + 2 * k].attractor != outcome[0].attractor;
+    unlike[k] = are_unlike(&outcome[0], &outcome[1 + 2 * k], by) ||
+                are_unlike(&outcome[0], &outcome[2 + 2 * k], by);
   pendres_scatter_add(s, unlike);
 }
 
@@ -100,7 +107,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
     out->unresolved += a->outcome[i * each].attractor < 0;
-    count_sample(counts, out->scales, &a->outcome[i * each]);
+    count_sample(counts, out->scales, a->window->by, &a->outcome[i * each]);
   }
   out->states += count;
   return status;
@@ -166,7 +173,8 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "an uncertainty exponent needs states and at least %d distances",
                                 LEAST_SCALES);
-  int bad = !(window->x_low < window->x_high && window->v_low < window->v_high &&
+  int bad = (window->by != PENDRES_BASIN_BY_ATTRACTOR && window->by != PENDRES_BASIN_BY_WELL) ||
+            !(window->x_low < window->x_high && window->v_low < window->v_high &&
               fmax(fmax(fabs(window->x_low), fabs(window->x_high)),
                    fmax(fabs(window->v_low), fabs(window->v_high))) <= 1e15);
   for (int k = 0; k < scales; k++) bad |= !(distance[k] > 0.0 && distance[k] <= 1e15);
