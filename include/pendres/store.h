@@ -248,10 +248,10 @@ pendres_status pendres_store_open(const char *path, pendres_store **out);
 
 /**
  * Read everything: each attribute and dataset of a file that pendres_store_open() has opened, in
- * pieces. HDF5 checks its checksums on the way: numbers and headers have them, texts and the list of
- * where chunks are do not. *datasets (may be NULL) is how many were read. PENDRES_IO: the message
- * names what cannot be read. A damaged file may make HDF5 itself crash: read one that is in doubt in
- * a process of its own. Thread safety: as all functions of a store.
+ * pieces. HDF5 looks at its checksums on the way: numbers and headers have them, texts and the
+ * lists of where chunks are do not. *datasets (may be NULL) is how many were read. PENDRES_IO: the
+ * message names what cannot be read. A damaged file may make HDF5 itself crash: read one that is in
+ * doubt in a process of its own. Thread safety: that of all functions of a store.
  */
 pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets);
 

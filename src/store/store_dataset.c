@@ -2,11 +2,11 @@
  * store_dataset.c -- the arrays of a store on disk: their types, chunks, filters, and writing.
  *
  * Owns: how an array is cut, compressed and protected. A chunk is a row (one index of the first
- * dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1 MiB: a run that
- * writes row by row then compresses each chunk once. Every chunk has a checksum, Fletcher32 of the
- * bytes on disk; what is not cut into chunks, scalars and short arrays, stands in the header of its
- * dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps those of variable length
- * in a heap without one. Sizes in elements unless said otherwise.
+ * dimension), or as many short rows as make 64 KiB, or a piece of a row longer than 1 MiB: a run
+ * that writes row by row then compresses each chunk once. Every chunk has a checksum, Fletcher32
+ * of the bytes on disk; what is not cut into chunks, scalars and short arrays, stands in the header
+ * of its dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps those of variable
+ * length in a heap without one. Sizes in elements unless said otherwise.
  */
 #include "store/store_internal.h"
 
@@ -115,7 +115,7 @@ static void chunk_sizes(const pendres_store_node *node, size_t rows_wanted, hsiz
   chunk[0] = rows ? rows : 1;
 }
 
-/* The checksum comes last: it is of the bytes on disk, and looked at before they are uncompressed. */
+/* The checksum comes last: it is of the bytes on disk, and looked at before these are expanded. */
 static herr_t set_filters(hid_t creation, size_t element, int deflate)
 {
   if (deflate >= 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0 &&

@@ -159,7 +159,7 @@ static pendres_status read_group(walk *w, hid_t group)
   return result < 0 ? unreadable(w->store, group) : PENDRES_OK;
 }
 
-/* All that HDF5 keeps beside an object, its own indices and lists of free space: their size is asked
+/* What HDF5 keeps beside an object, its own indices and lists of free space: their size is asked
    for, which reads them. */
 static herr_t read_indices(hid_t object)
 {
