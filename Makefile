@@ -202,7 +202,7 @@ endif
 $(BUILD)/flags: ;
 
 COMPILE = @mkdir -p $(@D); echo "  CC  $(@:$(OBJ)/%=%)"; \
-          $(CC) $(ALL_CPPFLAGS) $(1) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+          $(CC) $(ALL_CPPFLAGS) $(1) $(ALL_CFLAGS) $(2) -MMD -MP -c -o $@ $<
 
 $(OBJ)/src/%.o: src/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc)
@@ -216,9 +216,10 @@ $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
 $(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP) $(TERSE))
 
+# Sanitizers make -O2 take two minutes for one instruction set's kernels, -O1 less than half.
 define KERNEL_RULE
 $(OBJ)/src/%.$(1).o: src/%.c $(BUILD)/flags
-	$$(call COMPILE,-Isrc -DPENDRES_KERNELS=$(1) $(FLAGS_$(1)))
+	$$(call COMPILE,-Isrc -DPENDRES_KERNELS=$(1) $(FLAGS_$(1)),$(if $(SANITIZE),-O1))
 endef
 $(foreach s,$(SETS),$(eval $(call KERNEL_RULE,$(s))))
 
