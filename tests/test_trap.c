@@ -261,7 +261,8 @@ static void period_two(void **state)
 /* A trap across the upright position, where angles jump by a turn: wells are counted right. */
 static void across_the_top(void **state)
 {
-  pendres_trap t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1};
+  pendres_trap t = {.y = 3.0, .metric = {1.0, 0.0, 1.0}, .radius = 0.5, .period = 1,
+                    .turn = 2.0 * pi};
   int owner = 0;
   pendres_catalogue c = {.count = 1, .traps = 1, .trap = &t, .owner = &owner};
   pendres_strobe_lane lane = {.y = 2.8, .turns = 4};
@@ -334,7 +335,8 @@ static void tongue_ring(const tongue *g, pendres_trap_ring *r, pendres_trap_poin
 /* A tongue between two points leaves the ellipse that is known: the points alone do not see it. */
 static void tongues_between_points(void **state)
 {
-  static const pendres_trap unit = {.metric = {1.0, 0.0, 1.0}, .period = 1};
+  static const pendres_trap unit = {
+    .metric = {1.0, 0.0, 1.0}, .period = 1, .turn = 6.28318530717958647693};
   static pendres_trap_point points[TONGUE_MOST];
   pendres_trap_arc open[TONGUE_MOST];
   (void)state;
@@ -362,7 +364,8 @@ static void tongues_between_points(void **state)
 /* Arcs depart from their chords by less than the bound, and by no less than a tenth of it. */
 static void departures_are_bounded(void **state)
 {
-  static const pendres_trap unit = {.metric = {1.0, 0.0, 1.0}, .period = 1};
+  static const pendres_trap unit = {
+    .metric = {1.0, 0.0, 1.0}, .period = 1, .turn = 6.28318530717958647693};
   static const tongue kinds[] = {{.width = 1.0}, {.height = 0.5, .width = 0.7, .at = 1.0}};
   (void)state;
   for (int kind = 0; kind < 2; kind++)

@@ -66,6 +66,8 @@ typedef struct pendres_pendulum {
   double torque;          /**< I, any finite value: constant, on the side of the drive */
   double parametric_amplitude; /**< b, any finite value: f is multiplied by 1 + b cos(omega t) */
   pendres_force force;    /**< f */
+  int unused;             /**< 0; fills the place before the next field, so that pendulums that are
+                               alike are the same bytes */
   double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< of a polynomial; else zero */
 } pendres_pendulum;
 

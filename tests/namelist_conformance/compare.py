@@ -146,6 +146,7 @@ def build(folder):
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
     sources.append(os.path.join(TOP, 'src', 'questions', 'sweep.c'))  # what lists and ranges make of an axis
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),
+                         '-I' + os.path.join(TOP, 'src'),
                          '-I' + os.path.join(TOP, 'drivers'), '-o', folder + '/ours'] + sources + ['-lm'], check=True)
 
 
