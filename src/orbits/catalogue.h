@@ -75,7 +75,7 @@ pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *
 /*
  * Measures and multipliers of an orbit and of its mirror image are exactly the same. Where those
  * of two differ by more than their errors, at least one of the errors is too small, and both are
- * raised to the difference.
+ * raised to the difference. Without the mirror symmetry nothing is compared.
  */
 void pendres_catalogue_compare_images(pendres_catalogue *c);
 

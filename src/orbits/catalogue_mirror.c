@@ -63,6 +63,7 @@ static void compare(pendres_attractor *a, pendres_attractor *b)
 
 void pendres_catalogue_compare_images(pendres_catalogue *c)
 {
+  if (!pendres_pendulum_symmetric(&c->pendulum)) return;
   for (size_t i = 0; i < c->count; i++)
     for (size_t j = i + 1; j < c->count; j++) {
       pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
