@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
 #include "engine/passage.h"
@@ -56,6 +57,16 @@ void pendres_one_read(const pendres_one *b, double *y, double *w)
 {
   *y = N_VGetArrayPointer(b->state)[0];
   *w = N_VGetArrayPointer(b->state)[1];
+}
+
+int pendres_one_erk_steps(const pendres_one *b, long *steps)
+{
+  return ERKStepGetNumSteps(b->memory, steps);
+}
+
+void pendres_one_erk_close(pendres_one *b)
+{
+  if (b->memory != NULL) ERKStepFree(&b->memory);
 }
 
 static pendres_status open_problem(pendres_one *b, const pendres_one_solver *solver,

@@ -45,4 +45,8 @@ int pendres_one_weights(N_Vector state, N_Vector out, void *one);
 /* ... and the state as it is. */
 void pendres_one_read(const pendres_one *b, double *y, double *w);
 
+/* For solvers on ERKStep: `steps` and `close`. */
+int pendres_one_erk_steps(const pendres_one *b, long *steps);
+void pendres_one_erk_close(pendres_one *b);
+
 #endif
