@@ -171,13 +171,6 @@ static void collect_ready(crew *c)
   pthread_mutex_unlock(&c->lock);
 }
 
-void crew_fail(crew *c, size_t task, pendres_status status, const char *message)
-{
-  pthread_mutex_lock(&c->lock);
-  fail(c, task, status, message);
-  pthread_mutex_unlock(&c->lock);
-}
-
 void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record)
 {
   const int on_disk = status == PENDRES_OK && keep(c, task, record, &status);

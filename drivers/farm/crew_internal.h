@@ -55,7 +55,4 @@ int crew_take(crew *c, size_t *task);
 /* Note a task's end; takes over the record's data. */
 void crew_finish(crew *c, size_t task, pendres_status status, farm_record *record);
 
-/* Note a failure: the first, in the order of tasks, is that of the stage. */
-void crew_fail(crew *c, size_t task, pendres_status status, const char *message);
-
 #endif
