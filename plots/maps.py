@@ -153,6 +153,7 @@ def add_bifurcations(ax, h):
 def draw_phase_diagram(h, path):
     if len(h["damping"]) < 2 or len(h[h.axis_of("regime", 1)]) < 2:
         return draw_one_damping(h)
+    # The paper's Fig. 10 is a surface; any other run is one where the command line asks for it.
     if h.text("deck").startswith("f10") or h.options.surface:
         return draw_surface(h)
     name = h.axis_of("regime", 1)
