@@ -110,6 +110,12 @@ static void test_identity(void **state)
   check_near(read_one("orbit.h5", "drive_amplitude"), 0.2, 0.0);
   check_near(read_one("orbit.h5", "damping"), 0.12, 0.0);
   check_near(read_one("orbit.h5", "drive_period"), 8.0, 0.0);
+  check_code(RUN("-q", "orbit.nml", "pendulum.force='polynomial'", "pendulum.torque=0.1",
+                 "pendulum.force_coefficients=1, 0, 0.5", "orbit.start='1'"), DONE);
+  check_attribute("orbit.h5", "coordinates",
+                  "drive_amplitude damping drive_frequency drive_period torque a1 a2 a3 a4 a5");
+  check_near(read_one("orbit.h5", "torque"), 0.1, 0.0);
+  check_near(read_one("orbit.h5", "a3"), 0.5, 0.0);
 }
 
 /* A start in the next well: the record begins there, and the orbit is the same one beside. */

@@ -47,6 +47,26 @@ static void weak_drives(void **state)
   }
 }
 
+/* At rest under a torque, and where a polynomial force has its minimum, the exponent is -gamma/2. */
+static void other_forces(void **state)
+{
+  enum { N = 3 };
+  const pendres_pendulum p[N] = {
+    {.damping = 0.3, .drive_frequency = 1.0, .torque = 0.6},
+    {.damping = 0.3, .drive_frequency = 1.0, .torque = -0.6, .parametric_amplitude = 1e-4},
+    {.damping = 0.2, .drive_frequency = 0.8, .drive_amplitude = 0.01,
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0, 0.0, 1.0}}};
+  /* The last one starts a whole turn of the pendulum away from its left well: no turn is taken off. */
+  const double x[N] = {1.6, 1.6, -1.0 + two_pi}, v[N] = {0.0};
+  pendres_lyapunov l[N];
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) {
+    assert_int_equal(l[i].label, PENDRES_LABEL_PERIODIC);
+    check_near(l[i].exponent, -0.5 * p[i].damping, l[i].exponent_error + 1e-12);
+    assert_true(l[i].exponent_error < 1e-6);
+  }
+}
+
 /* Periodic, doubled and running orbits, as settling finds them. */
 static void orbits(void **state)
 {
@@ -173,6 +193,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(weak_drives, create, destroy),
+    cmocka_unit_test_setup_teardown(other_forces, create, destroy),
     cmocka_unit_test_setup_teardown(orbits, create, destroy),
     cmocka_unit_test_setup_teardown(chaos, create, destroy),
     cmocka_unit_test_setup_teardown(neighbours, create, destroy),

@@ -337,6 +337,35 @@ static void more_than_are_listed(void **state)
   check_near(r.mean_loop_area_error, (3.0 + 10.0) / ALL * most, 1e-13);
 }
 
+/* Under a torque a weak drive meets an oscillator of stiffness cos(asin I), y'' + gamma y' + k y. */
+static void torque(void **state)
+{
+  enum { N = 3 };
+  const double frequency = 0.7, drive = 1e-4, damping = 0.2;
+  const pendres_ensemble e = {.members = 4, .x_first = 1.5, .x_last = 2.5};
+  pendres_pendulum p[N];
+  pendres_response r[N];
+  pendres_context *ctx = NULL;
+  (void)state;
+  for (int i = 0; i < N; i++)
+    p[i] = (pendres_pendulum){.damping = damping, .drive_amplitude = drive,
+                              .drive_frequency = frequency, .torque = 0.3 * i};
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-11}, &ctx));
+  check_ok(pendres_response_compute(ctx, N, p, &e, r));
+  check_ok(pendres_response_name(ctx, N, r));
+  for (int i = 0; i < N; i++) {
+    const double k = sqrt(1.0 - p[i].torque * p[i].torque);
+    const double in = k - frequency * frequency, out = damping * frequency;
+    /* What is left out is quadratic in the amplitude. */
+    check_near(r[i].mean_loop_amplitude, drive / hypot(in, out), 1e-3 * drive);
+    check_near(r[i].phase_lag, atan2(out, in), 1e-3);
+    check_near(r[i].mean_loop_area, pi * drive * drive * out / (in * in + out * out),
+               1e-3 * drive * drive);
+    assert_true(i == 0 || isnan(r[i].sa_fraction));
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -345,7 +374,7 @@ int main(void)
     cmocka_unit_test(loops_of_many_harmonics),
     cmocka_unit_test(side_by_side),
     cmocka_unit_test(more_than_are_listed),
-    cmocka_unit_test(doubts_count),
+    cmocka_unit_test(doubts_count),         cmocka_unit_test(torque),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

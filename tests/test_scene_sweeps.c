@@ -94,6 +94,33 @@ static void lyapunov_map(void **state)
   free(exponent), free(label), free(period), free(damping), free(drive);
 }
 
+/* Torque, parametric amplitude and a polynomial force: keys and axes of maps and responses. */
+static void other_forces(void **state)
+{
+  (void)state;
+  size_t n = 0;
+  scene_run_deck("&scene kind = 'lyapunov_map' /\n&pendulum drive_frequency = 0.8, damping = 0.3,\n"
+                 "drive_amplitude = 0.01, force = 'polynomial', force_coefficients = 1, 0, 0.5 /\n"
+                 "&sweep torque = 0, 0.1, 0.2, parametric_amplitude = 0, 0.05 /\n", 1, "map");
+  pendres_store *store = scene_open("map");
+  double *exponent = scene_values(store, "lyapunov", &n);
+  double *torque = scene_values(store, "torque", &n);
+  assert_true(n == 3 && torque[1] == 0.1);
+  for (int i = 0; i < 6; i++) check_near(exponent[i], -0.15, 1e-7);
+  pendres_store_free(store);
+  free(exponent), free(torque);
+  scene_run_deck("&scene kind = 'response' /\n&pendulum drive_amplitude = 0.001, torque = 0.1 /\n"
+                 "&sweep damping = 0.2, drive_frequency = 0.5, 1.1 /\n&ensemble members = 3 /\n",
+                 1, "response");
+  store = scene_open("response");
+  double *lag = scene_values(store, "phase_lag", &n);
+  /* What is left out is quadratic in the amplitude. */
+  check_near(lag[0], atan2(0.1, sqrt(0.99) - 0.25), 1e-4);
+  check_near(lag[1], atan2(0.22, sqrt(0.99) - 1.21), 1e-4);
+  pendres_store_free(store);
+  free(lag);
+}
+
 /* Up to the fourth doubling: points come back after the period, and the ends are the cascade's. */
 static void bifurcation_diagram(void **state)
 {
@@ -137,6 +164,10 @@ static void wrong_decks(void **state)
     {HYSTERESIS "&sweep drive_period = 7, 8 /\n&hysteresis x = 1 /\n", "give 'drive_frequency'"},
     {"&scene kind = 'lyapunov_map' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
      "&sweep drive_amplitude = 0.7, 0.8 /\n", "a map has two axes"},
+    {"&scene kind = 'response' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
+     "&sweep drive_amplitude = 0.7, 0.8, torque = 0, 1 /\n", "give 'drive_amplitude' or 'torque'"},
+    {"&scene kind = 'response' /\n&pendulum drive_amplitude = 1 /\n"
+     "&sweep damping = 0.1, 0.2, drive_period = 7, 8, torque = 0, 1 /\n", "beside 'torque' give"},
     {"&scene kind = 'hysteresis' /\n&pendulum damping = 0.1 /\n"
      "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis x = 1 /\n", "needs 'drive_amplitude'"},
   };
@@ -161,6 +192,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(hysteresis),
     cmocka_unit_test(lyapunov_map),
+    cmocka_unit_test(other_forces),
     cmocka_unit_test(bifurcation_diagram),
     cmocka_unit_test(wrong_decks),
   };

@@ -66,6 +66,8 @@ typedef enum deck_kind {
   ITEM(DRIVE_AMPLITUDE, "drive_amplitude")                                                        \
   ITEM(DRIVE_FREQUENCY, "drive_frequency")                                                        \
   ITEM(DRIVE_PERIOD, "drive_period")                                                              \
+  ITEM(TORQUE, "torque")                                                                          \
+  ITEM(PARAMETRIC_AMPLITUDE, "parametric_amplitude")                                              \
   ITEM(X, "x")                                                                                    \
   ITEM(V, "v")                                                                                    \
   ITEM(TEMPERATURE, "temperature")                                                                \
@@ -231,8 +233,15 @@ int deck_has_noise(const deck *d);
 uint64_t deck_seed(const deck *d);
 
 /** The axes along which parameters of the pendulum move: those with more than one value, among
- *  damping, drive amplitude, frequency and period. Up to `room` are written; how many there are. */
+ *  damping, drive amplitude, frequency, period, torque and parametric amplitude. Up to `room` are written; how many there are. */
 int deck_moving(const deck *d, int room, deck_axis_id *axis);
+
+/** Where results have two axes: the parameter given in &sweep that takes the place of the damping or
+ *  the drive as one of them, drive amplitude, torque or parametric amplitude. 0 if there is none. */
+int deck_extra_axis(const deck *d, deck_axis_id *axis);
+
+/** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
+int deck_is_plain(const deck *d);
 
 /** Names in decks, and what a kind computes in words; NULL if out of range. */
 const char *deck_kind_name(deck_kind kind);

@@ -228,7 +228,8 @@ static void check_moving(deck_builder *b)
                                    "drive_amplitude or drive_frequency, and one of each of the "
                                    "others" },
     { DECK_LYAPUNOV_MAP, 2, "a map has two axes: give two or more values of two of damping, "
-                            "drive_amplitude and drive_frequency, and one of the third" },
+                            "drive_amplitude, drive_frequency, torque and parametric_amplitude, "
+                            "and one of each of the others" },
   };
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
     if (b->scene == 1u << wanted[i].kind && deck_moving(b->d, 0, NULL) != wanted[i].axes)
@@ -287,19 +288,32 @@ static void check_ensemble(deck_builder *b)
              "'members' must make whole 'rows' of a rectangle");
 }
 
-/* Results have two axes: where the drive amplitude is one, another has one value. */
+/* Results have two axes: where drive amplitude, torque or parametric amplitude is one, another has
+   one value. */
 static void check_plane(deck_builder *b)
 {
+  static const deck_axis_id extras[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
+                                         DECK_AXIS_PARAMETRIC_AMPLITUDE };
   const deck *d = b->d;
+  deck_axis_id extra = DECK_AXIS_DRIVE_AMPLITUDE;
+  char message[160];
   const deck_axis *frequency = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
   const deck_axis *period = &d->axis[DECK_AXIS_DRIVE_PERIOD];
   if (d->kind != DECK_RESPONSE && d->kind != DECK_PHASE_DIAGRAM && d->kind != DECK_BRANCHES) return;
-  if (d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count == 0 || d->axis[DECK_AXIS_DAMPING].count < 2 ||
-      (frequency->count < 2 && period->count < 2))
-    return;
-  const deck_given *at = given(b, "sweep", "drive_amplitude");
-  complain(b, at, "drive_amplitude", "results have two axes: beside 'drive_amplitude' give either "
-                                     "'damping' or the drive one value");
+  if (!deck_extra_axis(d, &extra)) return;
+  const char *name = deck_axis_name(extra);
+  for (size_t i = 0; i < sizeof extras / sizeof *extras; i++)
+    if (extras[i] != extra && d->axis[extras[i]].count > 0) {
+      const char *other = deck_axis_name(extras[i]);
+      snprintf(message, sizeof message, "results have two axes: give '%s' or '%s' in &sweep, and the "
+               "other in &pendulum", name, other);
+      complain(b, given(b, "sweep", other), other, message);
+      return;
+    }
+  if (d->axis[DECK_AXIS_DAMPING].count < 2 || (frequency->count < 2 && period->count < 2)) return;
+  snprintf(message, sizeof message, "results have two axes: beside '%s' give either 'damping' or the "
+           "drive one value", name);
+  complain(b, given(b, "sweep", name), name, message);
 }
 
 static void check_output(deck_builder *b)

@@ -36,7 +36,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (ORBIT | BASINS)                    /* torque, parametric drive, other forces */
+#define MODELS (ORBIT | BASINS | RESPONSE | MAP)   /* torque, parametric drive, other forces */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
@@ -135,11 +135,14 @@ const deck_key deck_table[] = {
     SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
-  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS), RANGE(-BIG, BIG),
+  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS & ~MAP), RANGE(-BIG, BIG),
+    UNLESS(TORQUE),
     SAYS("m g l", "constant torque I on the side of the drive; a Josephson junction's bias current") },
-  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS),
-    RANGE(-BIG, BIG),
+  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~MAP),
+    RANGE(-BIG, BIG), UNLESS(PARAMETRIC_AMPLITUDE),
     SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+  { VALUE("torque", TORQUE), IN(MAP), RANGE(-BIG, BIG) },
+  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(MAP), RANGE(-BIG, BIG) },
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, or a polynomial of force_coefficients") },
@@ -173,6 +176,10 @@ const deck_key deck_table[] = {
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(RESPONSE | GRID), POSITIVE },
+  { SWEEP("torque", TORQUE), IN(RESPONSE | MAP), RANGE(-BIG, BIG),
+    SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
+  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | MAP), RANGE(-BIG, BIG),
+    SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
     SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
@@ -356,7 +363,8 @@ const deck_key *deck_table_words(const deck_key *key)
 int deck_moving(const deck *d, int room, deck_axis_id *axis)
 {
   static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
-                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD };
+                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
+                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
   int n = 0;
   for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
     if (d->axis[parameters[i]].count < 2) continue;
@@ -364,6 +372,28 @@ int deck_moving(const deck *d, int room, deck_axis_id *axis)
     n++;
   }
   return n;
+}
+
+int deck_extra_axis(const deck *d, deck_axis_id *axis)
+{
+  static const deck_axis_id extra[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
+                                        DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  for (size_t i = 0; i < sizeof extra / sizeof *extra; i++) {
+    if (d->axis[extra[i]].count == 0) continue;
+    *axis = extra[i];
+    return 1;
+  }
+  return 0;
+}
+
+int deck_is_plain(const deck *d)
+{
+  static const deck_axis_id others[] = { DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    for (size_t k = 0; k < d->axis[others[i]].count; k++)
+      if (d->axis[others[i]].value[k] != 0.0) return 0;
+  return d->pendulum.torque == 0.0 && d->pendulum.parametric_amplitude == 0.0 &&
+         strcmp(d->pendulum.force, "pendulum") == 0;
 }
 
 const char *deck_kind_words(deck_kind kind)

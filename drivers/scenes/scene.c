@@ -90,6 +90,8 @@ static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
   [DECK_AXIS_DRIVE_AMPLITUDE] = { "drive amplitude F0", "1" },
   [DECK_AXIS_DRIVE_FREQUENCY] = { "angular frequency of the drive", "1" },
   [DECK_AXIS_DRIVE_PERIOD] = { "period of the drive", "1" },
+  [DECK_AXIS_TORQUE] = { "constant torque I", "1" },
+  [DECK_AXIS_PARAMETRIC_AMPLITUDE] = { "amplitude b of the parametric drive", "1" },
   [DECK_AXIS_X] = { "initial position", "rad" },
   [DECK_AXIS_V] = { "initial velocity", "1" },
   [DECK_AXIS_TEMPERATURE] = { "temperature k T / (m g l)", "1" },
@@ -109,22 +111,22 @@ void scene_plane(const deck *d, deck_axis_id axis[2])
 {
   const deck_axis_id drive = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
                                                                        : DECK_AXIS_DRIVE_FREQUENCY;
-  const int amplitude = d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0;
-  const int tongue = amplitude && d->axis[DECK_AXIS_DAMPING].count == 1 && d->axis[drive].count > 1;
-  axis[0] = tongue ? DECK_AXIS_DRIVE_AMPLITUDE : DECK_AXIS_DAMPING;
-  axis[1] = amplitude && !tongue ? DECK_AXIS_DRIVE_AMPLITUDE : drive;
+  deck_axis_id extra = DECK_AXIS_DAMPING;
+  const int has_extra = deck_extra_axis(d, &extra);
+  const int tongue = has_extra && d->axis[DECK_AXIS_DAMPING].count == 1 && d->axis[drive].count > 1;
+  axis[0] = tongue ? extra : DECK_AXIS_DAMPING;
+  axis[1] = has_extra && !tongue ? extra : drive;
 }
 
 double scene_fixed(const deck *d, deck_axis_id axis)
 {
-  deck_axis_id plane[2];
+  deck_axis_id plane[2], extra;
   scene_plane(d, plane);
   if (d->axis[axis].count > 0) {
     /* A scene of which some parameters move has the others as axes of one value. */
     const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
                       d->kind == DECK_LYAPUNOV_MAP;
-    const int left_out = d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0 && axis != plane[0] &&
-                         axis != plane[1];
+    const int left_out = deck_extra_axis(d, &extra) && axis != plane[0] && axis != plane[1];
     return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;
   }
   switch (axis) {
@@ -132,16 +134,36 @@ double scene_fixed(const deck *d, deck_axis_id axis)
   case DECK_AXIS_DAMPING: return d->pendulum.damping;
   case DECK_AXIS_DRIVE_FREQUENCY: return d->pendulum.drive_frequency;
   case DECK_AXIS_DRIVE_PERIOD: return d->pendulum.drive_period;
+  case DECK_AXIS_TORQUE: return d->pendulum.torque != 0.0 ? d->pendulum.torque : NAN;
+  case DECK_AXIS_PARAMETRIC_AMPLITUDE:
+    return d->pendulum.parametric_amplitude != 0.0 ? d->pendulum.parametric_amplitude : NAN;
   default: return NAN;
   }
+}
+
+/* The coefficients of a polynomial force; their names are added to those of coordinates. */
+static pendres_status write_coefficients(scene_run *run, char *coordinates)
+{
+  const pendres_pendulum p = scene_pendulum(run->deck);
+  const pendres_model *model = pendres_model_of(p.force);
+  pendres_status status = PENDRES_OK;
+  for (int i = 0; i < model->coefficients && status == PENDRES_OK; i++) {
+    const pendres_store_spec spec = { .name = model->coefficient_names[i],
+                                      .long_name = "coefficient of the polynomial force" };
+    status = pendres_store_put(run->store, &spec, &p.force_coefficients[i], 1);
+    if (coordinates[0] != '\0') strcat(coordinates, " ");
+    strcat(coordinates, spec.name);
+  }
+  return status;
 }
 
 pendres_status scene_write_identity(scene_run *run)
 {
   const deck *d = run->deck;
   static const deck_axis_id parameters[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
-                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD };
-  char coordinates[4 * DECK_NAME] = "";
+                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
+                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  char coordinates[(6 + PENDRES_FORCE_COEFFICIENTS) * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
   pendres_status status =
     pendres_store_attribute_text(run->store, "", NULL, "scene", deck_kind_name(d->kind));
@@ -159,6 +181,7 @@ pendres_status scene_write_identity(scene_run *run)
     if (coordinates[0] != '\0') strcat(coordinates, " ");
     strcat(coordinates, spec.name);
   }
+  if (status == PENDRES_OK) status = write_coefficients(run, coordinates);
   if (status == PENDRES_OK && coordinates[0] != '\0')
     status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
   return status == PENDRES_OK ? scene_define(run) : scene_store_failed(run, status);
@@ -188,10 +211,10 @@ pendres_sweep scene_sweep(const deck *d)
     { DECK_AXIS_DRIVE_AMPLITUDE, PENDRES_QUANTITY_DRIVE_AMPLITUDE },
     { DECK_AXIS_DRIVE_FREQUENCY, PENDRES_QUANTITY_DRIVE_FREQUENCY },
     { DECK_AXIS_DRIVE_PERIOD, PENDRES_QUANTITY_DRIVE_PERIOD },
+    { DECK_AXIS_TORQUE, PENDRES_QUANTITY_TORQUE },
+    { DECK_AXIS_PARAMETRIC_AMPLITUDE, PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE },
   };
-  pendres_sweep s = { .pendulum = { .damping = d->pendulum.damping,
-                                    .drive_amplitude = d->pendulum.drive_amplitude,
-                                    .drive_frequency = d->pendulum.drive_frequency } };
+  pendres_sweep s = { .pendulum = scene_pendulum(d) };
   for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
     const deck_axis *a = &d->axis[axes[i].id];
     if (a->count > 0)

@@ -9,7 +9,8 @@ static const double two_pi = 6.28318530717958647693;
 
 /* The axes that stand for parameters. */
 static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
-                                           DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD };
+                                           DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
+                                           DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
 enum { PARAMETERS = sizeof parameters / sizeof *parameters };
 
 void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
@@ -19,13 +20,15 @@ void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
   case DECK_AXIS_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
   case DECK_AXIS_DRIVE_FREQUENCY: p->drive_frequency = value; break;
   case DECK_AXIS_DRIVE_PERIOD: p->drive_frequency = two_pi / value; break;
+  case DECK_AXIS_TORQUE: p->torque = value; break;
+  case DECK_AXIS_PARAMETRIC_AMPLITUDE: p->parametric_amplitude = value; break;
   default: break;
   }
 }
 
 pendres_pendulum scene_along_pendulum(const deck *d)
 {
-  pendres_pendulum p = { .damping = 0.0 };
+  pendres_pendulum p = scene_pendulum(d);
   for (int i = 0; i < PARAMETERS; i++)
     if (d->axis[parameters[i]].count > 0)
       scene_along_set(&p, parameters[i], d->axis[parameters[i]].value[0]);

@@ -2,9 +2,9 @@
  * scene_response.c -- amplitude and phase lag of the mean loop along lines of pendulums.
  *
  * The paper's Figs. 3 and 4: a line a damping, along the drive period or frequency. One task a
- * handful of its points, and one for its resonance. A line may be one of a drive amplitude instead,
- * or go along the drive amplitude: then it has no resonance. With temperatures in the deck the results have one more dimension: see
- * scene_response_noise.c.
+ * handful of its points, and one for its resonance. A line may be one of a drive amplitude, torque
+ * or parametric amplitude instead, or go along one of these: then it has no resonance. With
+ * temperatures in the deck the results have one more dimension: see scene_response_noise.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -33,9 +33,11 @@ typedef struct grid {
   scene_failures peak_failed; /* [line] */
 } grid;
 
-static int is_peaked(const deck_axis_id axis[2])
+/* The search for a resonance serves the plain pendulum alone. */
+static int is_peaked(const deck *d, const deck_axis_id axis[2])
 {
-  return axis[1] == DECK_AXIS_DRIVE_FREQUENCY || axis[1] == DECK_AXIS_DRIVE_PERIOD;
+  return deck_is_plain(d) &&
+         (axis[1] == DECK_AXIS_DRIVE_FREQUENCY || axis[1] == DECK_AXIS_DRIVE_PERIOD);
 }
 
 static void plan(const deck *d, FILE *out)
@@ -46,7 +48,7 @@ static void plan(const deck *d, FILE *out)
   fprintf(out, "mean response of %lld members at %zu values of %s and %zu values of %s, %g to %g",
           (long long)d->ensemble.members, d->axis[axis[0]].count, deck_axis_name(axis[0]),
           along->count, deck_axis_name(axis[1]), along->value[0], along->value[along->count - 1]);
-  fprintf(out, is_peaked(axis) ? ";\nand the resonance of each %s\n" : "\n",
+  fprintf(out, is_peaked(d, axis) ? ";\nand the resonance of each %s\n" : "\n",
           deck_axis_name(axis[0]));
 }
 
@@ -293,6 +295,8 @@ static pendres_status write_failures(scene_run *run, const grid *g)
 
 static pendres_status write_axis(scene_run *run, deck_axis_id axis)
 {
+  if (axis == DECK_AXIS_TORQUE || axis == DECK_AXIS_PARAMETRIC_AMPLITUDE)
+    return scene_dimension(run, "", axis);
   const deck_axis *a = &run->deck->axis[axis];
   const char *words = axis == DECK_AXIS_DAMPING           ? "damping"
                       : axis == DECK_AXIS_DRIVE_PERIOD    ? "drive period"
@@ -373,7 +377,7 @@ static pendres_status run_scene(scene_run *run)
   scene_plane(d, g.axis);
   g.lines = d->axis[g.axis[0]].count;
   g.values = d->axis[g.axis[1]].count;
-  g.peaked = is_peaked(g.axis);
+  g.peaked = is_peaked(d, g.axis);
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
   g.points = calloc(g.lines * g.values, sizeof *g.points);
   g.peaks = calloc(g.lines, sizeof *g.peaks);

@@ -58,6 +58,8 @@ typedef enum pendres_quantity {
   PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m omega_0^2 */
   PENDRES_QUANTITY_X,               /**< initial position, in rad */
   PENDRES_QUANTITY_V,               /**< initial velocity, in rad a unit time */
+  PENDRES_QUANTITY_TORQUE,          /**< I, in m g l */
+  PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE, /**< b */
   PENDRES_QUANTITY_COUNT            /**< how many there are; not a quantity */
 } pendres_quantity;
 

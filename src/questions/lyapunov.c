@@ -11,6 +11,7 @@
 #include "engine/rank.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
+#include "model/model.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -70,8 +71,8 @@ static int comes_back(runner *r, const pendres_strobe_lane *l)
 {
   const long lag = l->period - r->ref_period;
   double dy = l->y - r->ref_y;
-  const double across = rint(dy / two_pi);
-  dy -= two_pi * across;
+  const double turn = pendres_model_turn(l->pendulum), across = rint(dy / turn);
+  dy -= turn * across;
   /* The more periods, the more often points come back by chance. */
   if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * hypot(dy, l->w - r->ref_w) < r->near) {
     const double turns = (double)(l->turns - r->ref_turns) + across;
@@ -123,8 +124,9 @@ static void take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
 
 static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
 {
-  double dx = o->x - (l->y + 0.25 * two_pi);
-  dx -= two_pi * rint(dx / two_pi);
+  const double turn = pendres_model_turn(l->pendulum);
+  double dx = o->x - (l->y + pendres_model_origin(l->pendulum));
+  dx -= turn * rint(dx / turn);
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
 }
 
@@ -177,7 +179,7 @@ static void arrive(const pendres_rows *rows, size_t lane, long step, long batch,
   const double before = l->y;
   l->y = pendres_rows_get(rows, PENDRES_ROW_Y, lane);
   l->w = pendres_rows_get(rows, PENDRES_ROW_W, lane);
-  const double turned = (l->y - before) / two_pi;
+  const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
   const double u = (pendres_rows_get(rows, PENDRES_ROW_Y, lane + 1) - l->y) / apart;
   const double v = (pendres_rows_get(rows, PENDRES_ROW_W, lane + 1) - l->w) / apart;
   const double length = fmax(hypot(u, v), DBL_MIN);
@@ -277,10 +279,12 @@ static void judge(job *j, long batch, pendres_lyapunov *out)
 
 /* ---- the call ------------------------------------------------------------------------------ */
 
-/* Fast enough for what the drive can do, and for the way over a barrier. */
-static double speed_of(const pendres_pendulum *p, double v)
+/* Fast enough for what the drive can do, for the way over a barrier, and for a torque that friction
+   balances. */
+static double speed_of(const pendres_pendulum *p, double x, double v)
 {
-  return fmax(fabs(v), 2.0 + fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping));
+  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping);
+  return fmax(pendres_steps_speed(p, x, v), 2.0 + driven + fabs(p->torque) / p->damping);
 }
 
 static pendres_status start(pendres_context *ctx, const job *j, const pendres_pendulum *p,
@@ -292,7 +296,7 @@ static pendres_status start(pendres_context *ctx, const job *j, const pendres_pe
     *r = (runner){.lane = pendres_strobe_lane_at(&p[i], x[i], v[i]), .u = {0.6, 0.8},
                   .near = close_by, .next = 8};
     const pendres_status status =
-      pendres_steps_choose(ctx, &p[i], speed_of(&p[i], v[i]), accuracy, &r->lane.steps);
+      pendres_steps_choose(ctx, &p[i], speed_of(&p[i], x[i], v[i]), accuracy, &r->lane.steps);
     if (status != PENDRES_OK) return status;
     look_from(r, &r->lane);
   }

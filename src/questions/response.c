@@ -314,7 +314,7 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   if (pendres_ensemble_check(ensemble, &why) != PENDRES_OK)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   for (size_t i = 0; i < n; i++) {
-    if (pendres_model_check_plain(&pendulums[i], &why) == PENDRES_OK) {
+    if (pendres_pendulum_check(&pendulums[i], &why) == PENDRES_OK) {
       why = pendres_response_refuses(&pendulums[i], ensemble);
       if (pendulums[i].damping == 0.0) why = "without damping nothing settles";
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
 
 enum { MOST_TRIES = 3 }; /* of orbits whose branch is followed to its fold */
 
@@ -91,7 +92,7 @@ void pendres_response_name_by(const pendres_small_end *end, pendres_response *r)
 static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response *responses)
 {
   pendres_small_end end;
-  size_t nameless = 0, drives = 0, amplitudes = 0;
+  size_t nameless = 0, drives = 0, amplitudes = 0, others = 0;
   if (n > 0 && responses == NULL) return PENDRES_CONTEXT_NULL(ctx, "responses");
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &responses[i].pendulum, *first = &responses[0].pendulum;
@@ -102,10 +103,12 @@ static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response
                                   "names need responses of one damping, and of one drive amplitude "
                                   "or one drive frequency");
     nameless += pendres_response_nameless(&responses[i]) != 0;
+    others += pendres_model_kind(p) != PENDRES_MODEL_PLAIN;
   }
   const pendres_parameter parameter =
     amplitudes > 0 ? PENDRES_DRIVE_AMPLITUDE : PENDRES_DRIVE_FREQUENCY;
-  if (nameless == 0) return PENDRES_OK;
+  /* Names come from branches of the plain pendulum alone. */
+  if (nameless == 0 || others > 0) return PENDRES_OK;
   const pendres_response **line = malloc(n * sizeof *line);
   if (line == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu responses", n);

@@ -133,6 +133,8 @@ static void set(pendres_quantity quantity, double value, pendres_pendulum *p, do
   case PENDRES_QUANTITY_TEMPERATURE: p->temperature = value; break;
   case PENDRES_QUANTITY_X: *x = value; break;
   case PENDRES_QUANTITY_V: *v = value; break;
+  case PENDRES_QUANTITY_TORQUE: p->torque = value; break;
+  case PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE: p->parametric_amplitude = value; break;
   case PENDRES_QUANTITY_COUNT: break;
   }
 }
