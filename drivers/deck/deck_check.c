@@ -10,8 +10,6 @@
 
 #include <pendres/sweep.h>
 
-static const double two_pi = 6.28318530717958647693;
-
 static void complain(deck_builder *b, const deck_given *at, const char *name, const char *message)
 {
   namelist_error_at(at->nl != NULL ? at->nl : b->nl, at->line, at->column, (int)strlen(name),
@@ -138,8 +136,9 @@ static void resolve_drive(deck_builder *b)
   if (!in_scene(b, "pendulum", "drive_period")) return;
   check_drive(b, "pendulum");
   d->pendulum.by_period = given(b, "pendulum", "drive_period")->given;
-  if (d->pendulum.by_period) d->pendulum.drive_frequency = two_pi / d->pendulum.drive_period;
-  else d->pendulum.drive_period = two_pi / d->pendulum.drive_frequency;
+  const double turn = 2.0 * PENDRES_PI;
+  if (d->pendulum.by_period) d->pendulum.drive_frequency = turn / d->pendulum.drive_period;
+  else d->pendulum.drive_period = turn / d->pendulum.drive_frequency;
 }
 
 /* An axis comes from &sweep, or has the one value in &pendulum. */

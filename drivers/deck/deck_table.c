@@ -67,7 +67,6 @@
 #define EXAMPLE(values) .example = values
 
 #define BIG 1e6
-#define PI 3.14159265358979323846
 
 static const char *const kinds[] = {
 #define KIND_NAME(code, name, words) name,
@@ -153,7 +152,7 @@ const deck_key deck_table[] = {
     SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
 
-  { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), RANGE(0.0, PI), .open = 1,
+  { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), RANGE(0.0, PENDRES_PI), .open = 1,
     EXAMPLE("0.1, 3.1, 31"), SAYS("rad", "amplitude of the angle") },
   { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE,
     EXAMPLE("0.1, 0.4, 4"),
@@ -206,10 +205,11 @@ const deck_key deck_table[] = {
          "x and v, or at random in such a rectangle; of the latter two, errors of shares and means "
          "contain the sampling") },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
-    .number = -PI / 2,
+    .number = -PENDRES_PI / 2,
     SAYS("rad", "initial positions lie above this one, which a line leaves out") },
   { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
-    .number = 3 * PI / 2, SAYS("rad", "initial positions go up to this one, equally spaced") },
+    .number = 3 * PENDRES_PI / 2,
+    SAYS("rad", "initial positions go up to this one, equally spaced") },
   { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
     SAYS("omega0", "initial velocity, of a rectangle the lowest") },
   { REAL("ensemble", "v_last", ensemble.v_last), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
@@ -253,7 +253,7 @@ const deck_key deck_table[] = {
     RANGE(1, DECK_MAX_COUNT), .number = 200,
     SAYS(NULL, "strobe points at each value") },
 
-  { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PI / 2,
+  { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PENDRES_PI / 2,
     SAYS("rad", "initial position of each pendulum, at the drive's maximum") },
   { REAL("lyapunov_map", "v", orbit.v), IN(MAP), RANGE(-BIG, BIG), .number = 0,
     SAYS("omega0", "initial velocity") },

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double two_pi = 6.28318530717958647693;
-
 /* The axes that stand for parameters. */
 static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
                                            DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
@@ -19,7 +17,7 @@ void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
   case DECK_AXIS_DAMPING: p->damping = value; break;
   case DECK_AXIS_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
   case DECK_AXIS_DRIVE_FREQUENCY: p->drive_frequency = value; break;
-  case DECK_AXIS_DRIVE_PERIOD: p->drive_frequency = two_pi / value; break;
+  case DECK_AXIS_DRIVE_PERIOD: p->drive_frequency = 2.0 * PENDRES_PI / value; break;
   case DECK_AXIS_TORQUE: p->torque = value; break;
   case DECK_AXIS_PARAMETRIC_AMPLITUDE: p->parametric_amplitude = value; break;
   default: break;

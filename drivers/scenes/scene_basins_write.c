@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
-
 enum { QUICK = 1 /* compression of what there is most of: higher levels gain little */ };
 
 static const char *const label_names[] = {"sa",      "la",      "periodic",
@@ -382,14 +380,14 @@ static pendres_status write_paper(basins *b)
 {
   const pendres_pendulum *p = &b->pendulum;
   if (fabs(p->damping - 0.12) > 1e-12 || fabs(p->drive_amplitude - 0.2) > 1e-12 ||
-      fabs(p->drive_frequency - 0.25 * pi) > 1e-12)
+      fabs(p->drive_frequency - 0.25 * PENDRES_PI) > 1e-12)
     return PENDRES_OK;
   const scene_printed values[] = {
     {.name = "attractors", .printed = 2.0, .computed = (double)pendres_attractors_count(b->set)},
     {.name = "share_sa_x_0.2pi_to_1.1pi", .printed = 1.0,
-     .computed = share_between(b, 0.2 * pi, 1.1 * pi, PENDRES_LABEL_SA)},
+     .computed = share_between(b, 0.2 * PENDRES_PI, 1.1 * PENDRES_PI, PENDRES_LABEL_SA)},
     {.name = "share_la_x_-0.3pi_to_0", .printed = 1.0,
-     .computed = share_between(b, -0.3 * pi, 0.0, PENDRES_LABEL_LA)}};
+     .computed = share_between(b, -0.3 * PENDRES_PI, 0.0, PENDRES_LABEL_LA)}};
   return scene_write_paper(b->run, 3, values);
 }
 

@@ -11,8 +11,6 @@
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
 
-static const double two_pi = 6.28318530717958647693;
-
 enum { TABLE_ROWS = 40 };
 
 typedef struct work {
@@ -91,7 +89,8 @@ static pendres_status find_strobes(const void *arg, size_t task, pendres_context
 /* The well number 0. */
 static double within_a_turn(double x)
 {
-  return x - two_pi * ceil((x - 0.75 * two_pi) / two_pi);
+  const double turn = 2.0 * PENDRES_PI;
+  return x - turn * ceil((x - 0.75 * turn) / turn);
 }
 
 static pendres_status collect_strobes(void *arg, size_t task, const farm_record *in)

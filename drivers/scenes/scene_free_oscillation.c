@@ -70,9 +70,9 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
  */
 static double exact_error(double amplitude, double frequency)
 {
-  const double pi = 3.14159265358979323846, eps = 2.220446049250313e-16;
-  const double k = 0.5 * pi / frequency;
-  return frequency * eps * (4.0 + 1.0 / ((pi - amplitude) * k));
+  const double eps = 2.220446049250313e-16;
+  const double k = 0.5 * PENDRES_PI / frequency;
+  return frequency * eps * (4.0 + 1.0 / ((PENDRES_PI - amplitude) * k));
 }
 
 static pendres_status put(scene_run *run, const char *name, const char *long_name,

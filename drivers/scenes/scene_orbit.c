@@ -14,7 +14,6 @@
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
 
-static const double two_pi = 6.28318530717958647693;
 static const double eps = 2.220446049250313e-16;
 
 enum {
@@ -113,7 +112,7 @@ static pendres_status sample_orbit(work *w, pendres_context *ctx)
   for (size_t k = 0; k < w->points && status == PENDRES_OK; k++) {
     const size_t i = k % n;
     const double turns = (double)w->found.well + (double)w->found.orbit.winding * (double)(k / n);
-    w->x[k] = x2[i] + two_pi * turns;
+    w->x[k] = x2[i] + 2.0 * PENDRES_PI * turns;
     w->v[k] = v2[i];
     w->x_error[k] = fabs(x[i] - x2[i]) + point + eps * fabs(w->x[k]);
     w->v_error[k] = fabs(v[i] - v2[i]) + point;
@@ -196,7 +195,7 @@ static pendres_status put_samples(scene_run *run, const work *w)
     pendres_store_dimension(run->store, NULL, "sample", n, NULL, "number of the sample", "1");
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
   for (size_t k = 0; k < n; k++) {
-    value[k] = two_pi * (double)k / samples;
+    value[k] = 2.0 * PENDRES_PI * (double)k / samples;
     error[k] = eps * value[k];
   }
   if (status == PENDRES_OK)
@@ -207,7 +206,7 @@ static pendres_status put_samples(scene_run *run, const work *w)
   if (status == PENDRES_OK) status = put(run, "v", "sample", "velocity", "1", w->v, w->v_error, n);
   for (size_t k = 0; k < n; k++) {
     const size_t within = k % (size_t)w->d->orbit.samples; /* no need for large arguments */
-    value[k] = f0 * cos(two_pi * (double)within / samples);
+    value[k] = f0 * cos(2.0 * PENDRES_PI * (double)within / samples);
     error[k] = 8.0 * eps * fabs(f0);
   }
   if (status == PENDRES_OK)

@@ -8,8 +8,6 @@
 
 #include "scenes/scene_failed.h"
 
-static const double two_pi = 6.28318530717958647693;
-
 typedef struct curve {
   const deck *d;
   pendres_sweep sweep;
@@ -73,7 +71,7 @@ static value frequency(const pendres_resonance *r)
 
 static value period(const pendres_resonance *r)
 {
-  const double tau = two_pi / r->frequency;
+  const double tau = 2.0 * PENDRES_PI / r->frequency;
   return (value){tau, tau * r->frequency_error / r->frequency};
 }
 
@@ -343,8 +341,8 @@ static void print_table(FILE *out, const curve *c)
               c->outcome[i] == PENDRES_NOT_FOUND ? "no peak in the range" : "failed");
     else
       fprintf(out, "%-9.4g %.10f  %.0e  %.9f  %.6f   %.8f   %s\n", axis->value[i], r->frequency,
-              r->frequency_error, two_pi / r->frequency, r->response.mean_loop_amplitude,
-              r->loop_area, peak_name[r->peak]);
+              r->frequency_error, 2.0 * PENDRES_PI / r->frequency,
+              r->response.mean_loop_amplitude, r->loop_area, peak_name[r->peak]);
   }
 }
 

@@ -14,8 +14,6 @@
 #include "scenes/scene_failed.h"
 #include "scenes/scene_response_noise.h"
 
-static const double two_pi = 6.28318530717958647693;
-
 enum { CHUNK = 16 /* points a task */ };
 
 typedef struct grid {
@@ -257,7 +255,7 @@ static peak_row peak_of(const grid *g, size_t line)
   const pendres_response *a = &r->response;
   if (g->outcome[line] != PENDRES_OK)
     return (peak_row){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  const double period = two_pi / r->frequency;
+  const double period = 2.0 * PENDRES_PI / r->frequency;
   return (peak_row){.period = period,
                     .period_error = period * r->frequency_error / r->frequency,
                     .frequency = r->frequency, .frequency_error = r->frequency_error,

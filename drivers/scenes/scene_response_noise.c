@@ -12,8 +12,6 @@
 
 #include "scenes/scene_failed.h"
 
-static const double two_pi = 6.28318530717958647693;
-
 /* A point, as a task finds it. */
 typedef struct point {
   pendres_response_noise response;
@@ -165,7 +163,7 @@ static void print_table(FILE *out, const work *w)
 {
   const size_t plane = w->grid->dampings * w->grid->drives, at = w->grid->drives / 2;
   const pendres_pendulum *p = &w->grid->points[at].pendulum;
-  fprintf(out, "damping %g, drive period %g:\n", p->damping, two_pi / p->drive_frequency);
+  fprintf(out, "damping %g, drive period %g:\n", p->damping, 2.0 * PENDRES_PI / p->drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
   for (size_t i = 0; i < w->temperatures; i++) {
     const pendres_response_noise *q = &w->points[i * plane + at];

@@ -45,6 +45,9 @@ typedef enum pendres_force {
   PENDRES_FORCE_COUNT           /**< how many there are; not a force */
 } pendres_force;
 
+/** Half a turn in radians: a name that C itself does not have for it. */
+#define PENDRES_PI 3.14159265358979323846
+
 enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
 
 /** What is true of all pendulums of a force. Static. */

@@ -10,9 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
-
-static const double half_pi = 1.57079632679489661923;
 
 enum { MOST_ITERATIONS = 30 };
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_parameter.h"
 #include "orbits/orbit_newton.h"
@@ -22,7 +23,6 @@ double pendres_branch_value(const pendres_branch *b, size_t i)
 static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, double part,
                                    double value)
 {
-  const double two_pi = 6.28318530717958647693;
   const pendres_orbit *p = &b->point[i].orbit, *q = &b->point[k].orbit;
   double dx = q->x - p->x;
   dx -= two_pi * rint(dx / two_pi);

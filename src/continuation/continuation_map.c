@@ -7,12 +7,10 @@
 
 #include <gsl/gsl_linalg.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
-
-static const double pi = 3.14159265358979323846;
-static const double two_pi = 6.28318530717958647693;
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
    method: an error of 1e-5 of them costs no accuracy of the solution. So short since second

@@ -6,12 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
-
-static const double half_pi = 1.57079632679489661923;
 
 /* Of an entry of M, at random in every step: see strobe_noise.c. */
 static const double matrix_rounding = 7e-16;

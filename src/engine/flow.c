@@ -8,14 +8,13 @@
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 
+#include "base/angles.h"
 #include "engine/compat.h"
 #include "engine/flow_table.h"
 #include "engine/lanes.h"
 #include "engine/lanes_replay.h"
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
 static const double steps_between = 300000.0;

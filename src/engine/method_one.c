@@ -6,10 +6,9 @@
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
+#include "base/angles.h"
 #include "engine/passage.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Between two questions whether to go on: some hundredths of a second. */
 enum { EVALUATIONS_BETWEEN = 300000 };

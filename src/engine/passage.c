@@ -7,7 +7,7 @@
 #include "model/model.h"
 
 /* 2 pi in two parts, so that taking out many turns costs no digits. */
-static const double two_pi_high = 6.28318530717958647693, two_pi_low = 2.4492935982947064e-16;
+static const double two_pi_high = 2.0 * PENDRES_PI, two_pi_low = 2.4492935982947064e-16;
 /* A position beyond is not known to a tenth of a radian. */
 static const double farthest = 1e15;
 
@@ -35,7 +35,7 @@ const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double 
 
 void pendres_passage_wrap(const pendres_pendulum *p, double *y, long *turns)
 {
-  if (fabs(*y) <= 3.14159265358979323846 || pendres_model_of(p->force)->period == 0.0) return;
+  if (fabs(*y) <= PENDRES_PI || pendres_model_of(p->force)->period == 0.0) return;
   const double k = rint(*y / two_pi_high);
   if (!(fabs(k + (double)*turns) * two_pi_high <= farthest)) {
     *y = NAN;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/flow.h"
 #include "engine/passage.h"
@@ -178,7 +179,7 @@ static sight sight_of(const pendres_pendulum *p, int steps, int stride, int grow
 /* Steps in half a unit of time, in which errors grow by no more than e^(1/2). */
 static int stride_of(const pendres_pendulum *p, double speed, int steps)
 {
-  double period = 6.28318530717958647693 / p->drive_frequency;
+  double period = two_pi / p->drive_frequency;
   if (p->force != PENDRES_FORCE_PENDULUM) period *= pace_of(p, speed);
   return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
 }
@@ -254,7 +255,6 @@ static double largest_error(const sight *coarse, const sight *fine)
 /* Least steps that resolve the drive's period, the pendulum's own and explicit stability. */
 static double least_steps(const pendres_pendulum *p, double speed)
 {
-  const double two_pi = 6.28318530717958647693;
   const double period = two_pi / p->drive_frequency;
   /* The real stability interval of the order-8 tables is about 4 to 5. */
   return fmax(period * p->damping / 4.0, period * pace_of(p, speed) / 1.5);

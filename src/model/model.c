@@ -4,13 +4,12 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693;
+#include "base/angles.h"
 
 static const pendres_model models[PENDRES_FORCE_COUNT] = {
   [PENDRES_FORCE_PENDULUM] = {.name = "pendulum",
-                              .period = 6.28318530717958647693,
-                              .origin = 1.57079632679489661923},
+                              .period = 2.0 * PENDRES_PI,
+                              .origin = 0.5 * PENDRES_PI},
   [PENDRES_FORCE_POLYNOMIAL] = {.name = "polynomial",
                                 .coefficients = PENDRES_FORCE_COEFFICIENTS,
                                 .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}}};

@@ -7,10 +7,8 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_ellint.h>
 
+#include "base/angles.h"
 #include "model/model.h"
-
-static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693;
 
 pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **why)
 {

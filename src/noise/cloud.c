@@ -6,10 +6,9 @@
 
 #include <pendres/switching.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "noise/noise_plan.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

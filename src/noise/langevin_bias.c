@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };
+#include "base/angles.h"
 
-static const double two_pi = 6.28318530717958647693;
+enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };
 
 static void scales_of(const pendres_sums *total, double scale[STATISTICS])
 {

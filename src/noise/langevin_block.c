@@ -28,10 +28,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "base/instructions.h"
 #include "engine/kernels_sine.h"
 
-static const double two_pi = 6.28318530717958647693;
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 
 enum { ALIGN = 64, ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };

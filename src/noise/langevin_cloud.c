@@ -4,9 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "base/student.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

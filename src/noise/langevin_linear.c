@@ -12,10 +12,9 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/angles.h"
 #include "engine/passage.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* What is integrated: the orbit, its variation row by row, and the covariance. */
 enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const double two_pi = 6.28318530717958647693;
+#include "base/angles.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

@@ -4,13 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "orbits/attractor_internal.h"
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
 #include "engine/passage.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { BATCH_SETS = 64 /* parameter sets worked on at a time */ };
 

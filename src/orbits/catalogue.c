@@ -5,12 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
 #include "orbits/label.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 const char *pendres_label_name(pendres_label label)
 {

@@ -8,11 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
    unless they are about to annihilate in a fold, where neither is an attractor much longer. */

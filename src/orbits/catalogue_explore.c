@@ -4,11 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* A scout that moves less than this in a period is close enough for Newton's method. */
 static const double at_rest = 0.03;

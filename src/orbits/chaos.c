@@ -5,14 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "base/student.h"
 #include "orbits/chaos_walk.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/recurrence.h"
 #include "orbits/settle_lanes.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum {
   SUSPECTS = 16,         /* lanes that are looked at first ... */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const double two_pi = 6.28318530717958647693;
+#include "base/angles.h"
 
 static int cell_of(const pendres_cover *cover, double y, double w, int *row, int *column)
 {

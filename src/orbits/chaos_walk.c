@@ -3,13 +3,12 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "orbits/catalogue.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Of a period. Chaos forgets single errors: what matters is that the flow is the right one, and
    that means over time are off by less than chance has them. */

@@ -11,11 +11,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
-
-static const double pi = 3.14159265358979323846;
-static const double two_pi = 6.28318530717958647693;
 
 enum { FIRST_STEPS = 16, MOST_STEPS = 1000000, MOST_ITERATIONS = 40 };
 

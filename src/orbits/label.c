@@ -3,9 +3,8 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "model/model.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* The drives of the paper, 0.1 and 0.2, and somewhat beyond: where an orbit alone has a name by its
    lag. */

@@ -6,16 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
-
-static const double pi = 3.14159265358979323846;
-static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 /* A run of one candidate by a number of steps: the corrected point and its measures. */
 typedef struct result {

@@ -5,10 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/passage.h"
 
-static const double pi = 3.14159265358979323846;
-static const double two_pi = 6.28318530717958647693;
 static const double root_two = 1.41421356237309504880;
 
 /*

@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Of everything but friction, at a drive of that cosine. */
 static double force_on(const pendres_pendulum *p, double y, double cosine)

@@ -4,11 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { MOST_ITERATIONS = 20 };
 

@@ -5,15 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
-
-static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 /* The series of an orbit by some steps a period, and where it keeps its numbers. */
 typedef struct curve {

@@ -6,7 +6,7 @@
 
 #include <gsl/gsl_errno.h>
 
-static const double two_pi = 6.28318530717958647693;
+#include "base/angles.h"
 
 void pendres_orbit_tables_free(pendres_orbit_tables *t)
 {

@@ -4,11 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Strobes in a row in a chaotic attractor's cells that make chaos. */
 enum { CHAOTIC_STREAK = 32 };

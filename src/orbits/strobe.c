@@ -4,13 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 #include "engine/strobe_run.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 static int after_all_periods(void *arg, size_t index, const pendres_strobe_lane *lane)
 {

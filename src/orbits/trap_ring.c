@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 
-static const double two_pi = 6.28318530717958647693;
 /* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
    to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
 static const double widest_gap = 1.0;

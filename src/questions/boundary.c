@@ -7,13 +7,11 @@
 
 #include <pendres/strobe.h>
 
+#include "base/angles.h"
 #include "questions/boundary_grow.h"
 #include "engine/context_internal.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
-
-static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
 /* Of a point in (x, v), whatever else: rounding near the saddle, not amplified going back. */
 static const double rounding = 1e-12;

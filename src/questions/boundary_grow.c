@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/strobe_run.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* The second-order manifold is exact to the cube of this, which further maps shrink; a seed
    parameter is exact to rounding over this. */

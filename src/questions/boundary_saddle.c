@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "orbits/orbit_newton.h"
 #include "continuation/continuation_walk.h"
@@ -44,7 +45,6 @@ static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[
 static pendres_status refine(pendres_context *ctx, const pendres_orbit *attractor,
                              const double u[PENDRES_U_COUNT], pendres_orbit *out)
 {
-  const double half_pi = 1.57079632679489661923;
   const pendres_orbit_guess guess = {.pendulum = attractor->pendulum,
                                      .x = u[PENDRES_U_Y] + half_pi,
                                      .v = u[PENDRES_U_W] * attractor->pendulum.drive_frequency,

@@ -4,14 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "questions/hysteresis_jump.h"
 #include "questions/hysteresis_names.h"
 #include "questions/stretch.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum {
   MOST_JUMPS = 256, /* between two values of the path */

@@ -74,7 +74,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
   /* Whole turns are of no consequence, and chaos that drifts would go far. */
-  s->x = fmod(s->x, 2.0 * 3.14159265358979323846);
+  s->x = fmod(s->x, 2.0 * PENDRES_PI);
   return status;
 }
 

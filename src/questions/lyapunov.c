@@ -6,14 +6,13 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/rank.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum {
   BATCHES = 16,

@@ -5,9 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
-
-static const double pi = 3.14159265358979323846;
 
 enum {
   COARSE_POINTS = 19, /* over the range at first: 0.04 apart in the default range */

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/orbit_measure.h"
@@ -14,8 +15,6 @@
 #include "orbits/settle.h"
 #include "engine/passage.h"
 #include "questions/response_sampling.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { BATCH_SETS = 32 };
 

@@ -3,10 +3,9 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "noise/noise_plan.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Of the loop area, and of the first harmonic's amplitude. */
 static const double bias_wanted = 1e-4;

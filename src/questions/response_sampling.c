@@ -9,13 +9,12 @@
 
 #include <math.h>
 
+#include "base/angles.h"
 #include "base/student.h"
 #include "questions/response_loop.h"
 
 /* Standard errors that are claimed: as for the shares of basins. */
 static const double claimed = 2.0;
-
-static const double two_pi = 6.28318530717958647693;
 
 /*
  * Of `members` independent starts `on` are on a state. With one more on the state and one more off

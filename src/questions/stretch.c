@@ -4,10 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Where errors grow by more than this in a map, an orbit has long been unstable. */
 static const double wildest = 3000.0;

@@ -6,10 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/angles.h"
 #include "base/mix.h"
-
-static const double half_pi = 1.57079632679489661923;
-static const double two_pi = 6.28318530717958647693;
 
 /* By so much the values of a range are rounded: three operations, and a decimal's own rounding. */
 static double rounding_of(const pendres_range *range)
