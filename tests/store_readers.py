@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""Check that h5py and xarray, with both of its engines, open every group of a result file.
+"""Check that h5py and xarray, with both of its engines, open every group of a result file, and
+that GNU Octave, where it is installed, loads the numbers of its root.
 
     store_readers.py FILE...
 
 Exit code 0: all is well; 1: it is not, and stderr says what; 77: a module is missing.
 """
+import os
+import shutil
 import subprocess
 import sys
 
@@ -99,8 +102,52 @@ def check_xarray(name, engine):
     return wrong
 
 
+# Name, sizes in the order of the file (Octave's is the other way round), and numbers of all but
+# structs, as groups of numbers become.
+OCTAVE = """
+s = load(getenv("FILE"));
+for [value, key] = s
+  if isstruct(value) continue; end
+  printf("%s", key);
+  printf(" %d", fliplr(size(value)));
+  printf(" :");
+  printf(" %.17g", double(value(1:min(1000, end))));
+  printf("\\n");
+end
+"""
+
+
+def check_octave(name):
+    """load reads every number of the root, and passes over groups with text."""
+    import h5py
+    import numpy
+    with h5py.File(name, "r") as f:
+        wanted = {key: item[()] for key, item in f.items() if isinstance(item, h5py.Dataset)}
+    ran = subprocess.run(["octave-cli", "--norc", "--eval", OCTAVE], capture_output=True, text=True,
+                         env=os.environ | {"FILE": name})
+    wrong = [f"Octave: {line}" for line in ran.stderr.splitlines()
+             if not line.startswith("error: ignoring")]  # how it ends without a terminal
+    found = {}
+    for line in ran.stdout.splitlines():
+        sizes, numbers = line.split(" :")
+        key, *sizes = sizes.split()
+        found[key] = [int(s) for s in sizes], numpy.array(numbers.split(), dtype=float)
+    if set(found) != set(wanted):
+        wrong.append(f"Octave: variables differ: {sorted(set(found) ^ set(wanted))}")
+    for key in sorted(set(found) & set(wanted)):
+        values = numpy.array(wanted[key], dtype=float)
+        sizes, numbers = found[key]
+        while len(sizes) > values.ndim:  # Octave's have two at least
+            sizes.remove(1)
+        if sizes != list(values.shape) or \
+                not numpy.array_equal(numbers, values.ravel()[:1000], equal_nan=True):
+            wrong.append(f"Octave: {key} differs")
+    return wrong
+
+
 def check_one(how, name):
-    wrong = check_h5py(name) if how == "h5py" else check_xarray(name, how)
+    wrong = check_h5py(name) if how == "h5py" else check_octave(name) if how == "octave" \
+        else check_xarray(name, how)
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0
@@ -117,9 +164,14 @@ def main(arguments):
     if missing:
         print("skipped, missing: " + ", ".join(missing))
         return 77
+    import h5py
     failed = 0
     for name in arguments:
-        for how in ("h5py", "h5netcdf", "netcdf4"):
+        with h5py.File(name, "r") as f:  # text in the root stops Octave, see docs/files.md
+            loads = not any(isinstance(item, h5py.Dataset) and item.dtype.kind == "O"
+                            for item in f.values())
+        for how in ("h5py", "h5netcdf", "netcdf4") + ("octave",) * bool(
+                loads and shutil.which("octave-cli")):
             # Of its own, since a library may take the whole process with it.
             code = subprocess.run([sys.executable, __file__, "--one", how, name]).returncode
             print(f"{'ok' if code == 0 else 'FAILED'} {how} {name}")

@@ -104,7 +104,7 @@ static void write_large(pendres_store *store)
   free(tall);
 }
 
-static void write_provenance(pendres_store *store)
+static void write_provenance_entries(pendres_store *store)
 {
   const pendres_store_entry entries[] = {
     { .key = "deck", .text = "&scene\n  title = 'caf\xe9 \xc3\xa9'\n/\n" },
@@ -113,9 +113,39 @@ static void write_provenance(pendres_store *store)
   };
 
   OK(pendres_store_provenance(store, entries, LENGTH(entries)));
+}
+
+static void write_provenance(pendres_store *store)
+{
+  write_provenance_entries(store);
   OK(pendres_store_attribute_text(store, NULL, NULL, "title", "a better title"));
   OK(pendres_store_attribute_double(store, "paper", "damping", "largest", 0.1));
   OK(pendres_store_attribute_integer(store, "paper", NULL, "figure", 2));
+}
+
+/* What GNU Octave can load: text in groups alone. */
+static void write_numbers(const char *path)
+{
+  const char *const names[] = { "one", "\xce\xb3 two", "" };
+  const double corner[] = { 1, NAN, 3, -4e-300, 5, 1.0 / 3 };
+  const int8_t labels[] = { 0, 1, -1 };
+  const double number = 0.1;
+  pendres_store *store = NULL;
+
+  OK(pendres_store_create(path, &(pendres_store_options){ .title = "numbers" }, &store));
+  OK(pendres_store_dimension(store, "", "row", 2, NULL, "row", NULL));
+  OK(pendres_store_dimension(store, "", "turn", 3, corner, "turn", NULL));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "area", .long_name = "area",
+       .dimensions = { "row", "turn" } }, corner, 6));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "damping", .long_name = "damping" },
+       &number, 1));
+  OK(pendres_store_put(store, &(pendres_store_spec){ .name = "state", .dimensions = { "turn" },
+       .type = PENDRES_STORE_INT8, .long_name = "state" }, labels, 3));
+  OK(pendres_store_dimension_text(store, "paper/f02", "quantity", 3, names, "quantity"));
+  OK(pendres_store_dimension_text(store, "paper", "quantity", 3, names, "quantity"));
+  write_provenance_entries(store);
+  OK(pendres_store_close(store));
+  pendres_store_free(store);
 }
 
 static void write_all(const char *path)
@@ -304,20 +334,22 @@ static void equal_runs_give_equal_bytes(void **state)
   check_same_bytes(one, other);
 }
 
-/* Python's readers, where they are installed. The program can be named by $PYTHON. */
-static void python_opens_every_group(void **state)
+/* Python's readers and GNU Octave, where they are installed. Python can be named by $PYTHON. */
+static void readers_open_every_group(void **state)
 {
   const char *const pythons[] = { getenv("PYTHON"), "python3", "/usr/bin/python3" };
-  char path[PATH_ROOM], command[3 * PATH_ROOM];
+  char path[PATH_ROOM], numbers[PATH_ROOM], command[4 * PATH_ROOM];
   int result = 77;
 
   (void)state;
   write_all(in_folder(path, "all.h5"));
+  write_numbers(in_folder(numbers, "numbers.h5"));
   for (size_t i = 0; i < LENGTH(pythons) && result != 0; i++) {
     int code;
 
     if (!pythons[i]) continue;
-    snprintf(command, sizeof command, "%.200s tests/store_readers.py %s", pythons[i], path);
+    snprintf(command, sizeof command, "%.200s tests/store_readers.py %s %s", pythons[i], path,
+             numbers);
     code = system(command);
     if (WIFEXITED(code) && WEXITSTATUS(code) == 127) continue; /* no such program */
     result = WIFEXITED(code) ? WEXITSTATUS(code) : -1;
@@ -579,7 +611,7 @@ int main(void)
     TEST(what_is_written_is_read),
     TEST(large_arrays_are_read_and_compressed),
     TEST(equal_runs_give_equal_bytes),
-    TEST(python_opens_every_group),
+    TEST(readers_open_every_group),
     TEST(mistakes_leave_no_trace),
     TEST(result_is_made_whole_or_not),
     TEST(wrong_handles),

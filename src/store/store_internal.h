@@ -98,6 +98,13 @@ pendres_status pendres_store_reserve(pendres_store *store, const char *path, cha
 pendres_status pendres_store_need_group(pendres_store *store, const char *group,
                                         pendres_store_node **out);
 
+/* The attributes that every variable has. Units NULL: 1. */
+pendres_status pendres_store_describe(pendres_store *store, hid_t id, const char *long_name,
+                                      const char *units);
+
+/* store_octave.c: mark the groups with text, for GNU Octave to pass over them. */
+pendres_status pendres_store_mark_text(pendres_store *store);
+
 /* store_attribute.c: make or replace an attribute of an open object. */
 
 /* n values, 0 for a scalar. */

@@ -150,8 +150,8 @@ static pendres_status check_new(pendres_store *store, const char *group, const c
   return PENDRES_OK;
 }
 
-static pendres_status describe(pendres_store *store, hid_t id, const char *long_name,
-                               const char *units)
+pendres_status pendres_store_describe(pendres_store *store, hid_t id, const char *long_name,
+                                      const char *units)
 {
   pendres_status status = pendres_store_set_text(store, id, "long_name", long_name);
 
@@ -194,7 +194,7 @@ static pendres_status define_dimension(pendres_store *store, const char *group, 
     made = &store->nodes[store->count - 1];
     if (H5DSset_scale(made->id, name) < 0)
       status = pendres_store_fail_hdf5(store, "cannot make dimension '%s'", path);
-    if (!status) status = describe(store, made->id, long_name, units);
+    if (!status) status = pendres_store_describe(store, made->id, long_name, units);
     if (!status)
       status = values ? pendres_store_node_write(store, made, 0, size, values)
                : write_index(store, made);
@@ -371,7 +371,7 @@ static pendres_status make_variable(pendres_store *store, const pendres_store_sp
   if (status) return status;
   id = store->nodes[store->count - 1].id;
   *number = (int)store->count - 1;
-  status = describe(store, id, spec->long_name, spec->units);
+  status = pendres_store_describe(store, id, spec->long_name, spec->units);
   if (!status && spec->comment)
     status = pendres_store_set_text(store, id, "comment", spec->comment);
   if (!status && spec->coordinates)
