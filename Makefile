@@ -19,7 +19,9 @@
 #   make clean
 #
 # Yours to set: CC CFLAGS CPPFLAGS LDFLAGS PREFIX DESTDIR SUNDIALS_DIR HDF5_DIR GSL_DIR BUILD,
-# MPI=1 (the program runs under mpirun; make deps-mpi), WERROR=1 (warnings are errors), SANITIZE=address,undefined (in a build directory of its own).
+# MPI=1 (the program runs under mpirun; make deps-mpi), WERROR=1 (warnings are errors),
+# SANITIZE=address,undefined (in a build directory of its own), SANITIZE_KERNELS=1 (with all
+# instruction sets).
 #
 # Conventions:
 # - src/*/*.c make the library. src/*/kernels*.c are compiled once for each instruction set, with
@@ -193,7 +195,8 @@ help:
 
 # Objects are made anew when a compiler or a flag has changed.
 ifneq ($(BUILDING),)
-FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(DRIVER_LIBS) $(FLAGS_avx2) $(FLAGS_avx512))
+FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(DRIVER_LIBS) $(FLAGS_avx2) $(FLAGS_avx512) \
+  $(SANITIZE_KERNELS))
 ifneq ($(FLAGS_TEXT),$(strip $(file <$(BUILD)/flags)))
 $(shell mkdir -p $(BUILD))
 $(file >$(BUILD)/flags,$(FLAGS_TEXT))
@@ -216,10 +219,14 @@ $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
 $(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
 	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP) $(TERSE))
 
-# Sanitizers make -O2 take two minutes for one instruction set's kernels, -O1 less than half.
+# Sanitizers watch the kernels of the plainest instruction set, which is the same source and which
+# the tests of kernels run beside the others. The others stay as they are released: watched, they
+# are ten times as slow and take a minute each to compile. SANITIZE_KERNELS=1 watches all.
+WATCHED := $(if $(filter-out 0,$(SANITIZE_KERNELS)),$(SETS),base)
 define KERNEL_RULE
 $(OBJ)/src/%.$(1).o: src/%.c $(BUILD)/flags
-	$$(call COMPILE,-Isrc -DPENDRES_KERNELS=$(1) $(FLAGS_$(1)),$(if $(SANITIZE),-O1))
+	$$(call COMPILE,-Isrc -DPENDRES_KERNELS=$(1) $(FLAGS_$(1)),$(if $(SANITIZE),$(if \
+	  $(filter $(1),$(WATCHED)),-O1,-O3 -fno-sanitize=all)))
 endef
 $(foreach s,$(SETS),$(eval $(call KERNEL_RULE,$(s))))
 
