@@ -1,6 +1,6 @@
 /*
- * test_arguments_diagram.c -- phase diagrams and parameters with arguments that are none, as in
- * test_arguments.c.
+ * test_arguments_diagram.c -- phase diagrams, parameters, dimensions and spectra with arguments that
+ * are none, as in test_arguments.c.
  */
 #include <string.h>
 
@@ -109,8 +109,57 @@ static void parameters(void **state)
   assert_memory_equal(&p, &good, sizeof p);
 }
 
+static void dimensions(void **state)
+{
+  const double x[] = {0.1, 0.2, 0.4}, bad[] = {0.1, INFINITY, NAN};
+  const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.2, .drive_frequency = 0.8};
+  pendres_correlation c;
+  pendres_context *ctx = NULL;
+  double error = 1.0;
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  assert_int_equal(pendres_correlation_measure(NULL, 3, x, x, 0.0, 0.0, &c),
+                   PENDRES_INVALID_ARGUMENT);
+  REFUSED(pendres_correlation_measure(ctx, 3, NULL, x, 0.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, NULL, 0.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, x, 0.0, 0.0, NULL));
+  REFUSED(pendres_correlation_measure(ctx, 1, x, x, 0.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, bad, x, 0.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, bad, 0.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, x, -1.0, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, x, INFINITY, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, 3, x, x, 0.0, NAN, &c));
+  assert_true(isnan(pendres_lyapunov_dimension(NULL, 0.1, 0.0, &error)) && isnan(error));
+  for (int i = 1; i < 3; i++) assert_true(isnan(pendres_lyapunov_dimension(&p, bad[i], 0.0, NULL)));
+  pendres_context_free(ctx);
+}
+
+static void spectra(void **state)
+{
+  const double value[] = {0.1, NAN}, intervals[] = {0.0, -1.0, NAN, INFINITY};
+  const size_t lengths[] = {0, 2, 7, 2 + (size_t)PENDRES_SPECTRUM_LONGEST, (size_t)-2};
+  pendres_spectrum *s = NULL;
+  (void)state;
+  for (size_t i = 0; i < COUNT(lengths); i++)
+    assert_int_equal(pendres_spectrum_create(lengths[i], 1.0, &s), PENDRES_INVALID_ARGUMENT);
+  for (size_t i = 0; i < COUNT(intervals); i++)
+    assert_int_equal(pendres_spectrum_create(8, intervals[i], &s), PENDRES_INVALID_ARGUMENT);
+  assert_null(s);
+  assert_int_equal(pendres_spectrum_create(8, 1.0, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_spectrum_create(8, 1.0, &s), PENDRES_OK);
+  assert_int_equal(pendres_spectrum_add(NULL, 1, value), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_spectrum_add(s, 1, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_spectrum_add(s, 2, value), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_spectrum_get(NULL, NULL, NULL, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_spectrum_get(s, NULL, NULL, NULL), PENDRES_OK);
+  assert_true(pendres_spectrum_count(NULL) == 0 && pendres_spectrum_segments(NULL) == 0);
+  pendres_spectrum_free(s);
+  pendres_spectrum_free(NULL);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(diagrams), cmocka_unit_test(parameters)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(diagrams), cmocka_unit_test(parameters),
+                                     cmocka_unit_test(dimensions), cmocka_unit_test(spectra)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,6 +31,8 @@
 #include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>
+#include <pendres/dimension.h>
+#include <pendres/spectrum.h>
 #include <pendres/phase_diagram.h>
 #include <pendres/boundary.h>
 #include <pendres/cloud.h>

@@ -1,0 +1,82 @@
+/**
+ * @file dimension.h
+ * @brief How many dimensions a chaotic attractor has.
+ *
+ * Owns: the correlation dimension of points in a plane, from how the number of close pairs grows
+ * with distance, and the Lyapunov dimension, from exponents.
+ *
+ * Both are dimensions of the Poincaré section, between 0 and 2; the motion in time, of which the
+ * section is a cut, has one more. The correlation dimension is at most the information dimension,
+ * which as a rule is the Lyapunov dimension.
+ *
+ * Sources: Grassberger and Procaccia, Physical Review Letters 50 (1983) 346; Theiler, Journal of
+ * the Optical Society of America A 7 (1990) 1055; Kaplan and Yorke, Lecture Notes in Mathematics
+ * 730 (1979) 204.
+ */
+#ifndef PENDRES_DIMENSION_H
+#define PENDRES_DIMENSION_H
+
+#include <stddef.h>
+
+#include <pendres/context.h>
+#include <pendres/pendulum.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+enum { PENDRES_CORRELATION_SCALES = 64 /**< distances of a correlation sum at most */ };
+
+/** What the distances between points tell. Plain data. */
+typedef struct pendres_correlation {
+  double dimension;       /**< correlation dimension; NaN where the points are too few to tell */
+  double dimension_error; /**< its error: two standard errors, and what the dimension differs by
+                               from one part of the range of distances to another */
+  double shortest;        /**< range of distances that the dimension comes from, lower end ... */
+  double longest;         /**< ... and upper end; NaN without a dimension */
+  int scales;             /**< how many distances follow */
+  double distance[PENDRES_CORRELATION_SCALES];  /**< ascending, each sqrt(2) times the one before */
+  double sum[PENDRES_CORRELATION_SCALES];       /**< share of pairs that are closer than that */
+  double sum_error[PENDRES_CORRELATION_SCALES]; /**< standard error of the share */
+} pendres_correlation;
+
+/**
+ * The correlation dimension of n points x[n], v[n] in the order of time, as
+ * pendres_strobe_record() with one sample a period makes them. Distances are sqrt(dx^2 + dv^2) with
+ * dx taken around the circle of length `turn` (2 pi for the pendulum; 0: x is no angle). Distances
+ * below `resolution`, the error of the points, are not looked at (0: all are).
+ *
+ * Pairs less than 32 apart in time are left out, as they are close for another reason. The
+ * dimension is the slope of log sum against log distance, from a thirty-second of the points'
+ * extent down to where some 500 pairs are left. Standard errors are those of a jackknife over 16
+ * stretches of time; what the slope differs by between the upper and the lower half of the range is
+ * added, since sums of fractal sets wind around their straight line. Costs n^2 / 2 distances of
+ * some two nanoseconds each.
+ *
+ * x and v are read, *out is written. Errors: PENDRES_INVALID_ARGUMENT (fewer than two points, one
+ * that is no number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED.
+ * Thread safety: as for the context.
+ */
+pendres_status pendres_correlation_measure(pendres_context *ctx, size_t n, const double *x,
+                                           const double *v, double turn, double resolution,
+                                           pendres_correlation *out);
+
+/**
+ * The Lyapunov dimension of a pendulum's attractor from its largest exponent a unit time, by
+ * Kaplan and Yorke's formula. Areas shrink at the rate of the damping, so that the two exponents
+ * add up to minus the damping, and an exponent L > 0 means a dimension 1 + L / (L + damping). It is
+ * 0 where the exponent is negative: a periodic orbit.
+ *
+ * *error, if not NULL, receives its error for an error of the exponent, with the same confidence.
+ * NaN, and a NaN error, where a pendulum is no pendulum, damping is 0, or the exponent is no number
+ * or 0. No errors otherwise; thread safe.
+ */
+double pendres_lyapunov_dimension(const pendres_pendulum *p, double exponent,
+                                  double exponent_error, double *error);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,78 @@
+/**
+ * @file spectrum.h
+ * @brief Power spectrum of a long record, by Welch's method.
+ *
+ * Owns: a spectrum that is built up piece by piece, so that a record may be longer than memory.
+ *
+ * The record is cut into segments that overlap by half; each is multiplied by a Hann window and
+ * transformed, and the squares are averaged. Spectral lines of a motion that is driven are sharp,
+ * and stand in one place of the spectrum and its two neighbours if a segment is a whole number of
+ * drive periods; what chaos adds is broad. For pendulums that turn over, take the velocity: the
+ * angle grows without end.
+ *
+ *     pendres_spectrum *s = NULL;
+ *     if (pendres_spectrum_create(4096, interval, &s) == PENDRES_OK &&
+ *         pendres_spectrum_add(s, n, v) == PENDRES_OK)
+ *       pendres_spectrum_get(s, frequency, density, error);
+ *     pendres_spectrum_free(s);
+ *
+ * Source: Welch, IEEE Transactions on Audio and Electroacoustics 15 (1967) 70. Thread safety: one
+ * thread at a time for each spectrum.
+ */
+#ifndef PENDRES_SPECTRUM_H
+#define PENDRES_SPECTRUM_H
+
+#include <stddef.h>
+
+#include <pendres/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+enum { PENDRES_SPECTRUM_LONGEST = 1 << 24 /**< samples of a segment at most */ };
+
+/** Opaque: a spectrum in the making. */
+typedef struct pendres_spectrum pendres_spectrum;
+
+/**
+ * Start a spectrum from segments of so many samples, an even number from 4 on, `interval` of time
+ * apart. *out is to be freed by pendres_spectrum_free; NULL on failure. Errors:
+ * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_spectrum_create(size_t segment, double interval, pendres_spectrum **out);
+
+/** Free a spectrum; NULL is allowed. */
+void pendres_spectrum_free(pendres_spectrum *s);
+
+/**
+ * Go on with n more samples, in the order of time and in pieces of any length: the spectrum does
+ * not depend on how the record is cut. Errors: PENDRES_INVALID_ARGUMENT (also where one is no
+ * number; nothing is added then), PENDRES_INTERNAL.
+ */
+pendres_status pendres_spectrum_add(pendres_spectrum *s, size_t n, const double *value);
+
+/** Segments averaged so far; 0 for NULL. What is left of the record after the last is not used. */
+size_t pendres_spectrum_segments(const pendres_spectrum *s);
+
+/** Frequencies of the spectrum: half as many as samples of a segment, and one; 0 for NULL. */
+size_t pendres_spectrum_count(const pendres_spectrum *s);
+
+/**
+ * The spectrum so far. frequency, density and error, each of pendres_spectrum_count() values or
+ * NULL, receive angular frequencies from 0 to that of Nyquist; the mean square of the samples that
+ * each unit of angular frequency holds (one-sided: the sum of all densities times the distance of
+ * frequencies is the mean square, weighted by the squares of the windows); and its standard error
+ * from the scatter of segments. Segments that overlap share a little of what they say, and the error
+ * is larger for that; lines that do not scatter are known to rounding. With one segment errors are infinite;
+ * without any all is NaN. Errors: PENDRES_INVALID_ARGUMENT (s is NULL).
+ */
+pendres_status pendres_spectrum_get(const pendres_spectrum *s, double *frequency, double *density,
+                                    double *error);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif
