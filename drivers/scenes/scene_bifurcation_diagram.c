@@ -259,8 +259,9 @@ static pendres_status compute(scene_run *run, work *w)
 {
   const farm_stage path = {.what = "sweeps", .tasks = 1, .record_size = 1, .task = follow,
                            .collect = collect_path, .arg = w};
-  const farm_stage strobes = {.what = "values", .tasks = w->values + 1, .record_size = 1,
-                              .task = find_strobes, .collect = collect_strobes, .arg = w};
+  const farm_stage strobes = {.what = "values", .last = 1, .tasks = w->values + 1,
+                              .record_size = 1, .task = find_strobes,
+                              .collect = collect_strobes, .arg = w};
   const pendres_status status = scene_compute(run, &path);
   return status == PENDRES_OK ? scene_compute(run, &strobes) : status;
 }

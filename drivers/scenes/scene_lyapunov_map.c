@@ -203,9 +203,9 @@ static pendres_status run_scene(scene_run *run)
   work w = {.d = run->deck, .pendulum = scene_along_pendulum(run->deck)};
   (void)deck_moving(run->deck, AXES, w.axis);
   w.count = run->deck->axis[w.axis[0]].count * run->deck->axis[w.axis[1]].count;
-  const farm_stage stage = {.what = "parts of the map", .tasks = (w.count + CHUNK - 1) / CHUNK,
-                            .record_size = sizeof(record), .task = compute, .collect = collect,
-                            .arg = &w};
+  const farm_stage stage = {.what = "parts of the map", .last = 1,
+                            .tasks = (w.count + CHUNK - 1) / CHUNK, .record_size = sizeof(record),
+                            .task = compute, .collect = collect, .arg = &w};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (!create(&w)) (void)scene_fail(run, status, "out of memory for %zu points", w.count);
   else status = scene_compute(run, &stage);
