@@ -189,9 +189,6 @@ pendres_status scene_write_identity(scene_run *run)
 
 pendres_ensemble scene_ensemble(const deck *d)
 {
-  static const struct { const char *name; pendres_ensemble_shape shape; } shapes[] = {
-    { "rectangle", PENDRES_ENSEMBLE_RECTANGLE }, { "random", PENDRES_ENSEMBLE_RANDOM },
-  };
   pendres_ensemble e = { .members = (size_t)d->ensemble.members,
                          .x_first = d->ensemble.x_first,
                          .x_last = d->ensemble.x_last,
@@ -199,8 +196,9 @@ pendres_ensemble scene_ensemble(const deck *d)
                          .v_last = d->ensemble.v_last,
                          .rows = (size_t)d->ensemble.rows,
                          .seed = (uint64_t)d->ensemble.seed };
-  for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-    if (strcmp(d->ensemble.shape, shapes[i].name) == 0) e.shape = shapes[i].shape;
+  for (int i = 0; i < PENDRES_ENSEMBLE_SHAPE_COUNT; i++)
+    if (strcmp(d->ensemble.shape, pendres_ensemble_shape_name((pendres_ensemble_shape)i)) == 0)
+      e.shape = (pendres_ensemble_shape)i;
   return e;
 }
 

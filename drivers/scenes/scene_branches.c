@@ -265,7 +265,6 @@ static void print_end(FILE *out, const scene_lines *l, const pendres_branch_poin
 static void print_part(FILE *out, const scene_lines *l, const pendres_branch *b,
                        const pendres_branch_part *part)
 {
-  static const char *const ends[] = {"range", "closed", "too wild", "too long", "stuck"};
   const pendres_branch_point *p[2] = {pendres_branch_get(b, part->first),
                                       pendres_branch_get(b, part->last)};
   const pendres_special kind[2] = {part->begins, part->ends};
@@ -274,8 +273,9 @@ static void print_part(FILE *out, const scene_lines *l, const pendres_branch *b,
                    pendres_parameter_get(along, &p[1]->orbit.pendulum);
   for (int i = 0; i < 2; i++) {
     const int k = back ? 1 - i : i;
-    print_end(out, l, p[k], kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
-                                                       : ends[pendres_branch_end_of(b, k)]);
+    print_end(out, l, p[k],
+              kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
+                                         : pendres_branch_end_name(pendres_branch_end_of(b, k)));
   }
   fputc('\n', out);
 }

@@ -329,7 +329,6 @@ static pendres_status write_paper(scene_run *run, const curve *c)
 
 static void print_table(FILE *out, const curve *c)
 {
-  static const char *const peak_name[] = {"smooth", "edge", "ragged"};
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
   fprintf(out, "damping   frequency     +-       period       amplitude  area         peak\n");
   for (size_t i = 0; i < axis->count; i++) {
@@ -342,7 +341,7 @@ static void print_table(FILE *out, const curve *c)
     else
       fprintf(out, "%-9.4g %.10f  %.0e  %.9f  %.6f   %.8f   %s\n", axis->value[i], r->frequency,
               r->frequency_error, 2.0 * PENDRES_PI / r->frequency,
-              r->response.mean_loop_amplitude, r->loop_area, peak_name[r->peak]);
+              r->response.mean_loop_amplitude, r->loop_area, pendres_peak_name(r->peak));
   }
 }
 

@@ -32,8 +32,12 @@ extern "C" {
 /** When two states are alike: what statistics count as one end. */
 typedef enum pendres_basin_end {
   PENDRES_BASIN_BY_ATTRACTOR = 0, /**< when they settle on the same attractor modulo one turn */
-  PENDRES_BASIN_BY_WELL           /**< when they settle on it in the same well, too */
+  PENDRES_BASIN_BY_WELL,          /**< when they settle on it in the same well, too */
+  PENDRES_BASIN_END_COUNT         /**< how many there are */
 } pendres_basin_end;
+
+/** "attractor", "well"; NULL if out of range. The string is static. Thread safe. */
+const char *pendres_basin_end_name(pendres_basin_end end);
 
 /** States (x[i], v[j]) at drive phase 0, 0 <= i < nx, 0 <= j < nv; number i * nv + j. */
 typedef struct pendres_basin_grid {
@@ -50,9 +54,14 @@ typedef enum pendres_basin_how {
   PENDRES_BASIN_INTEGRATED = 0, /**< by integration, and it is certain */
   PENDRES_BASIN_FILLED = 1,  /**< taken over from its surroundings (refinement alone) */
   PENDRES_BASIN_DEFERRED = 2, /**< not settled within the short budget of pendres_basin_rows */
-  PENDRES_BASIN_UNCERTAIN = 3 /**< integrated, but may belong to another basin: the errors that it
-                                   carried were not small (pendres_outcome.certain) */
+  PENDRES_BASIN_UNCERTAIN = 3, /**< integrated, but may belong to another basin: the errors that it
+                                    carried were not small (pendres_outcome.certain) */
+  PENDRES_BASIN_HOW_COUNT      /**< how many there are */
 } pendres_basin_how;
+
+/** "integrated", "filled", "deferred", "uncertain"; NULL if out of range. The string is static.
+    Thread safe. */
+const char *pendres_basin_how_name(pendres_basin_how how);
 
 /** What became of a state; compact, since there are many. */
 typedef struct pendres_basin_state {

@@ -43,8 +43,13 @@ typedef enum pendres_cloud_way {
   PENDRES_CLOUD_NONE = 0, /**< there is none: the attractor is chaotic or runs */
   PENDRES_CLOUD_STILL,    /**< of the orbit's own points, without noise */
   PENDRES_CLOUD_NARROW,   /**< of the orbit's own points, with the covariance of linear theory */
-  PENDRES_CLOUD_FOLLOWED  /**< by following trajectories */
+  PENDRES_CLOUD_FOLLOWED, /**< by following trajectories */
+  PENDRES_CLOUD_WAY_COUNT /**< how many there are */
 } pendres_cloud_way;
+
+/** "none", "still", "narrow", "followed"; NULL if out of range. The string is static. Thread
+    safe. */
+const char *pendres_cloud_way_name(pendres_cloud_way way);
 
 /** Whether a cloud's covariance agrees with that of linear noise theory. */
 typedef enum pendres_cloud_verdict {

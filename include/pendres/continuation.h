@@ -134,8 +134,13 @@ typedef enum pendres_branch_end {
   PENDRES_END_CLOSED,    /**< it is back at its start: an isola */
   PENDRES_END_WILD,      /**< errors grow too much along the orbit to follow it */
   PENDRES_END_POINTS,    /**< most_points */
-  PENDRES_END_STUCK      /**< arc steps became too short */
+  PENDRES_END_STUCK,     /**< arc steps became too short */
+  PENDRES_END_COUNT      /**< how many there are; not an end */
 } pendres_branch_end;
+
+/** "range", "closed", "too_wild", "too_long", "stuck"; NULL if out of range. The string is
+    static. Thread safe. */
+const char *pendres_branch_end_name(pendres_branch_end end);
 
 /**
  * What a branch's bifurcations do not explain of its points: bits, 0 where all agree. Every branch
@@ -150,6 +155,10 @@ typedef enum pendres_doubt {
   PENDRES_DOUBT_BIFURCATION = 4 /**< a fold at which the parameter does not turn, or turns against
                                      its curvature; or another bifurcation at which it does */
 } pendres_doubt;
+
+/** "unlisted_change", "turn_without_fold", "bifurcation_without_its_signs"; NULL if it is none
+    of the bits. The string is static. Thread safe. */
+const char *pendres_doubt_name(pendres_doubt bit);
 
 /** A point of a branch. */
 typedef struct pendres_branch_point {

@@ -71,6 +71,10 @@ typedef enum pendres_other {
   PENDRES_OTHER_UNRESOLVED = 16 /**< some member did not settle within its budget */
 } pendres_other;
 
+/** "asymmetric", "periodic", "running", "chaotic", "unresolved"; NULL if it is none of the bits.
+    The string is static. Thread safe. */
+const char *pendres_other_name(pendres_other bit);
+
 /** One point of the diagram. Amplitudes are in radians, the loop area A is the work of the drive in
     one of its periods, in m g l. NaN where there is no such state. */
 typedef struct pendres_phase_point {

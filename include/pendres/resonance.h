@@ -30,10 +30,14 @@ extern "C" {
 typedef enum pendres_peak {
   PENDRES_PEAK_SMOOTH = 0, /**< a maximum with a vanishing slope */
   PENDRES_PEAK_EDGE = 1,   /**< the largest mean area where it jumps */
-  PENDRES_PEAK_RAGGED = 2  /**< the largest mean area found, where the shares of the members change
+  PENDRES_PEAK_RAGGED = 2, /**< the largest mean area found, where the shares of the members change
                                 so often that there is no largest one to many digits; errors are
                                 spreads */
+  PENDRES_PEAK_COUNT       /**< how many there are; not a kind */
 } pendres_peak;
+
+/** "smooth", "edge", "ragged"; NULL if out of range. The string is static. Thread safe. */
+const char *pendres_peak_name(pendres_peak peak);
 
 /** A resonance. */
 typedef struct pendres_resonance {

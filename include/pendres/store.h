@@ -69,6 +69,10 @@ typedef enum pendres_store_type {
   PENDRES_STORE_TYPE_COUNT  /**< how many there are; not a type */
 } pendres_store_type;
 
+/** "double", "int8", "int32", "int64", "string"; NULL if out of range. The string is static.
+    Thread safe. */
+const char *pendres_store_type_name(pendres_store_type type);
+
 /** Attributes of the root group. NULL leaves one out. What changes from run to run (dates,
  *  hosts) belongs into the provenance instead, so that equal results stay equal bytes. */
 typedef struct pendres_store_options {

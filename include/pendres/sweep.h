@@ -63,6 +63,10 @@ typedef enum pendres_quantity {
   PENDRES_QUANTITY_COUNT            /**< how many there are; not a quantity */
 } pendres_quantity;
 
+/** "damping", "drive_amplitude", "drive_frequency", "drive_period", "temperature", "x", "v",
+    "torque", "parametric_amplitude"; NULL if out of range. The string is static. Thread safe. */
+const char *pendres_quantity_name(pendres_quantity quantity);
+
 /** One axis of a sweep: the values of one quantity. */
 typedef struct pendres_axis {
   pendres_quantity quantity; /**< what it varies */
@@ -97,6 +101,9 @@ typedef enum pendres_ensemble_shape {
   PENDRES_ENSEMBLE_RANDOM,    /**< independent and evenly spread over the same rectangle */
   PENDRES_ENSEMBLE_SHAPE_COUNT /**< how many there are; not a shape */
 } pendres_ensemble_shape;
+
+/** "line", "rectangle", "random"; NULL if out of range. The string is static. Thread safe. */
+const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape);
 
 /**
  * The starts of an ensemble, members k = 1..members. A line is what it is; a rectangle and random

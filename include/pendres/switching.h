@@ -204,6 +204,10 @@ typedef enum pendres_switching_way {
   PENDRES_SWITCHING_WAYS         /**< how many there are */
 } pendres_switching_way;
 
+/** "forth", "back", "first_well", "second_well"; NULL if out of range. The string is static.
+    Thread safe. */
+const char *pendres_switching_way_name(pendres_switching_way way);
+
 /** Two states to survey. */
 typedef struct pendres_switching_survey {
   const pendres_attractors *set; /**< attractors of one parameter set; not owned */

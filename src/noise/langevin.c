@@ -8,6 +8,12 @@
 #include "engine/passage.h"
 #include "model/model.h"
 
+const char *pendres_langevin_answer_name(pendres_langevin_answer answer)
+{
+  static const char *const names[PENDRES_LANGEVIN_ANSWER_COUNT] = {"go_on", "enough", "stop"};
+  return (unsigned)answer < PENDRES_LANGEVIN_ANSWER_COUNT ? names[answer] : NULL;
+}
+
 /* A position beyond is not known to a tenth of a radian; see passage.h. */
 static const double farthest = 1e15;
 

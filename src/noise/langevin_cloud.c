@@ -7,6 +7,13 @@
 #include "base/angles.h"
 #include "base/student.h"
 
+const char *pendres_langevin_statistic_name(pendres_langevin_statistic statistic)
+{
+  static const char *const names[PENDRES_LANGEVIN_STATISTICS] = {
+    "mean_x", "mean_v", "cov_xx", "cov_xv", "cov_vv", "cosine", "sine", "loop_area"};
+  return (unsigned)statistic < PENDRES_LANGEVIN_STATISTICS ? names[statistic] : NULL;
+}
+
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 
 static void add(pendres_sums *s, double x, double v, double cosine, double sine,

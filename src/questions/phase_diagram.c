@@ -36,6 +36,18 @@ const char *pendres_regime_name(pendres_regime regime)
   return (unsigned)regime < PENDRES_REGIME_COUNT ? names[regime] : NULL;
 }
 
+const char *pendres_other_name(pendres_other bit)
+{
+  switch (bit) {
+  case PENDRES_OTHER_ASYMMETRIC: return "asymmetric";
+  case PENDRES_OTHER_PERIODIC: return "periodic";
+  case PENDRES_OTHER_RUNNING: return "running";
+  case PENDRES_OTHER_CHAOTIC: return "chaotic";
+  case PENDRES_OTHER_UNRESOLVED: return "unresolved";
+  default: return NULL;
+  }
+}
+
 /* ---- diagrams and marks ---- */
 
 static int ascends(size_t n, const double *value)

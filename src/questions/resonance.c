@@ -13,6 +13,12 @@
 #include "questions/resonance_search.h"
 #include "questions/response_name.h"
 
+const char *pendres_peak_name(pendres_peak peak)
+{
+  static const char *const names[PENDRES_PEAK_COUNT] = {"smooth", "edge", "ragged"};
+  return (unsigned)peak < PENDRES_PEAK_COUNT ? names[peak] : NULL;
+}
+
 enum { SECTIONS = 4 /* a gap is cut into */ };
 
 /*

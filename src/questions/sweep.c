@@ -9,6 +9,20 @@
 #include "base/angles.h"
 #include "base/mix.h"
 
+const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape)
+{
+  static const char *const names[PENDRES_ENSEMBLE_SHAPE_COUNT] = {"line", "rectangle", "random"};
+  return (unsigned)shape < PENDRES_ENSEMBLE_SHAPE_COUNT ? names[shape] : NULL;
+}
+
+const char *pendres_quantity_name(pendres_quantity quantity)
+{
+  static const char *const names[PENDRES_QUANTITY_COUNT] = {
+    "damping", "drive_amplitude", "drive_frequency", "drive_period", "temperature", "x", "v",
+    "torque", "parametric_amplitude"};
+  return (unsigned)quantity < PENDRES_QUANTITY_COUNT ? names[quantity] : NULL;
+}
+
 /* By so much the values of a range are rounded: three operations, and a decimal's own rounding. */
 static double rounding_of(const pendres_range *range)
 {
