@@ -127,6 +127,8 @@ static void models(void **state)
   double x = NAN, v = NAN;
   long double y = 0.5L, w = 0.0L;
   pendres_harmonic harmonic;
+  pendres_rotation rotation;
+  pendres_rotation_onset onset;
   pendres_reference_image image;
   pendres_reference_cycle cycle;
   const char *why = NULL;
@@ -135,6 +137,11 @@ static void models(void **state)
   assert_non_null(why);
   INVALID(pendres_harmonic_response(NULL, &harmonic));
   INVALID(pendres_harmonic_response(&good, NULL));
+  INVALID(pendres_rotation_find(NULL, &rotation, &why));
+  INVALID(pendres_rotation_find(&good, &rotation, NULL)); /* it has a drive */
+  INVALID(pendres_rotation_least_torque(0.1, NULL));
+  INVALID(pendres_rotation_most_damping(&x, NULL));
+  INVALID(pendres_rotation_most_damping(NULL, &x));
   assert_true(isnan(pendres_pendulum_acceleration(NULL, 0.0, 0.0, 0.0)));
   pendres_pendulum_jacobian(NULL, 0.0, 0.0, &x, &v);
   pendres_pendulum_jacobian(&good, 0.0, 0.0, NULL, NULL);
@@ -163,6 +170,7 @@ static void models(void **state)
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     INVALID(pendres_pendulum_check(&bad_pendulums[i], NULL));
     INVALID(pendres_harmonic_response(&bad_pendulums[i], &harmonic));
+    INVALID(pendres_rotation_find(&bad_pendulums[i], &rotation, &why));
     if (i > 4) continue; /* the reference knows no temperature */
     INVALID(pendres_reference_advance(&bad_pendulums[i], &y, &w, NULL, 1));
     INVALID(pendres_reference_map(&bad_pendulums[i], y, w, 1, &image));
@@ -171,6 +179,7 @@ static void models(void **state)
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
     const double b = bad_numbers[i];
     long double far = b;
+    INVALID(pendres_rotation_least_torque(b, &onset));
     (void)pendres_pendulum_well(b);
     (void)pendres_pendulum_energy(b, b);
     (void)pendres_pendulum_potential(&good, b);

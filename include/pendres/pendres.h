@@ -28,6 +28,7 @@
 #include <pendres/response.h>
 #include <pendres/resonance.h>
 #include <pendres/continuation.h>
+#include <pendres/rotation.h>
 #include <pendres/cascade.h>
 #include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>

@@ -1,0 +1,334 @@
+/*
+ * rotation.c -- rotations without a drive; see rotation.h.
+ *
+ * The torque is sin a. s is the angle from an upper equilibrium, y = -pi - a + s, where the force is
+ * sin a - sin(a - s): the same function of s from each of them, as they are whole turns apart. A
+ * torque above 1 has no equilibrium; s is then y.
+ */
+#include <pendres/rotation.h>
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_roots.h>
+
+#include "base/angles.h"
+
+static const double least_damping = 1e-9, most_damping = 100.0;
+
+enum { ORDER = 28 /* of series */, ITERATIONS = 200 };
+
+/* How finely: the order of series, and what their last terms are, relative to the velocity. */
+typedef struct finesse {
+  int order;
+  double rest;
+} finesse;
+
+static const finesse fine = {ORDER, 1e-17}, coarser = {ORDER - 6, 1e-15};
+
+typedef struct motion {
+  double damping, torque;
+  double angle; /* a; without an equilibrium 0 */
+  finesse how;
+} motion;
+
+/* Series of the force at s: torque - sin(a - s), with no difference of near numbers at s = 0. */
+static void force_series(const motion *m, double s, double f[ORDER + 1])
+{
+  const double half = sin(0.5 * s);
+  /* Of what is added to the torque, and its derivatives in turn: sin(s - a), or -sin s. */
+  const double from = m->torque > 1.0 ? s + pi : s - m->angle;
+  const double derivative[4] = {sin(from), cos(from), -sin(from), -cos(from)};
+  double factor = 1.0;
+  f[0] = m->torque > 1.0 ? m->torque - sin(s)
+                         : 2.0 * half * half * m->torque + cos(m->angle) * sin(s);
+  for (int k = 1; k <= ORDER; k++) {
+    factor /= k;
+    f[k] = factor * derivative[k % 4];
+  }
+}
+
+/* ---- along the velocity's graph ---- */
+
+/* Series of the velocity from v[0] > 0 on. */
+static void velocity_series(const motion *m, const double f[ORDER + 1], double v[ORDER + 1])
+{
+  for (int k = 0; k < m->how.order; k++) {
+    double sum = f[k] - m->damping * v[k];
+    for (int j = 1; j <= k; j++) sum -= j * v[j] * v[k + 1 - j];
+    v[k + 1] = sum / ((k + 1) * v[0]);
+  }
+}
+
+/* The longest step within which the last two terms are small against the velocity. */
+static double longest(const motion *m, const double v[ORDER + 1])
+{
+  const int n = m->how.order;
+  const double most = m->how.rest * v[0];
+  const double last = pow(most / fmax(fabs(v[n]), DBL_MIN), 1.0 / n);
+  return fmin(last, pow(most / fmax(fabs(v[n - 1]), DBL_MIN), 1.0 / (n - 1)));
+}
+
+/* Time over a step: the integral of 1/v. */
+static double time_over(const motion *m, const double v[ORDER + 1], double h)
+{
+  double r[ORDER + 1] = {1.0 / v[0]}, power = h, sum = r[0] * h;
+  for (int k = 1; k <= m->how.order; k++) {
+    double rest = 0.0;
+    for (int j = 1; j <= k; j++) rest -= v[j] * r[k - j];
+    r[k] = rest / v[0];
+    power *= h;
+    sum += r[k] * power / (k + 1);
+  }
+  return sum;
+}
+
+/* The velocity at the angle `to` of the motion that has v > 0 at `from`; *time takes what passes. */
+static double velocity_at(const motion *m, double from, double v, double to, double *time)
+{
+  const double way = to > from ? 1.0 : -1.0;
+  for (double s = from; (to - s) * way > 0.0;) {
+    double f[ORDER + 1], c[ORDER + 1] = {v};
+    force_series(m, s, f);
+    velocity_series(m, f, c);
+    const double left = fabs(to - s), step = longest(m, c), h = way * fmin(step, left);
+    if (time != NULL) *time += time_over(m, c, h);
+    v = c[m->how.order];
+    for (int k = m->how.order - 1; k >= 0; k--) v = fma(v, h, c[k]);
+    s = step >= left ? to : s + h;
+  }
+  return v;
+}
+
+/* ---- along the manifolds of the upper equilibrium ---- */
+
+/* The sum of a series without c[0] at s, up to where two terms in a row are small; NaN if none are. */
+static double sum_at(const motion *m, const double c[ORDER + 1], double s)
+{
+  const double most = m->how.rest * fmax(fabs(c[1] * s), fabs(c[2] * s * s));
+  double power = s, sum = c[1] * s;
+  for (int k = 2; k < m->how.order; k++) {
+    power *= s;
+    sum += c[k] * power;
+    if (fmax(fabs(c[k] * power), fabs(c[k + 1] * power * s)) <= most) return sum;
+  }
+  return NAN;
+}
+
+/*
+ * The velocity on a manifold, on the side `way` of the equilibrium, as far from it as its series
+ * reaches: at *s. Where the slope is 0 it is the centre manifold, whose series is asymptotic.
+ */
+static double leave(const motion *m, double slope, double way, double *s)
+{
+  double f[ORDER + 1], c[ORDER + 1] = {0.0, slope}, v = NAN;
+  force_series(m, 0.0, f);
+  for (int k = 2; k <= m->how.order; k++) {
+    double sum = f[k];
+    for (int j = 2; j < k; j++) sum -= j * c[j] * c[k + 1 - j];
+    c[k] = sum / ((k + 1) * slope + m->damping);
+  }
+  for (*s = way; !(v > 0.0) && fabs(*s) > 1e-9; *s *= 0.8) v = sum_at(m, c, *s);
+  *s /= 0.8;
+  return v;
+}
+
+/* Slopes of the manifolds: of v' = lambda v, lambda^2 + gamma lambda = cos a. */
+static double unstable_at(const motion *m, double to)
+{
+  const double stiffness = cos(m->angle), root = hypot(m->damping, 2.0 * sqrt(stiffness));
+  double from;
+  const double v = leave(m, 2.0 * stiffness / (m->damping + root), 1.0, &from);
+  return velocity_at(m, from, v, to, NULL);
+}
+
+/*
+ * By how much the unstable manifold passes above the stable one: at the lower equilibrium, up to
+ * which the force pushes on, so that neither has come to rest on the way; or before, where the
+ * equilibria are so near that the series of the stable one reaches farther.
+ */
+static double gap(const motion *m)
+{
+  const double root = hypot(m->damping, 2.0 * sqrt(cos(m->angle))), lower = 2.0 * m->angle - pi;
+  double at;
+  double v = leave(m, -0.5 * (m->damping + root), -1.0, &at);
+  if (lower < at) {
+    v = velocity_at(m, at, v, lower, NULL);
+    at = lower;
+  }
+  return unstable_at(m, at + two_pi) - v;
+}
+
+static motion at_torque(double damping, double torque, finesse how)
+{
+  return (motion){.damping = damping, .torque = torque, .how = how,
+                  .angle = torque <= 1.0 ? asin(torque) : 0.0};
+}
+
+/* ---- zeros ---- */
+
+typedef double function(double x, void *params);
+
+/* The zero of a function between two places where its signs differ, by Brent's method in memory of
+   our own: GSL's would end the program where there is none. */
+static double zero_of(function *f, void *params, double low, double high)
+{
+  union {
+    max_align_t align;
+    unsigned char bytes[256];
+  } state;
+  gsl_function g = {f, params};
+  gsl_root_fsolver s = {.type = gsl_root_fsolver_brent, .state = &state};
+  if (s.type->size > sizeof state || !(f(low, params) * f(high, params) < 0.0)) return NAN;
+  if (gsl_root_fsolver_set(&s, &g, low, high) != GSL_SUCCESS) return NAN;
+  for (int i = 0; i < ITERATIONS; i++) {
+    if (gsl_root_fsolver_iterate(&s) != GSL_SUCCESS) return NAN;
+    const double from = gsl_root_fsolver_x_lower(&s), to = gsl_root_fsolver_x_upper(&s);
+    if (fabs(to - from) <= 2.0 * DBL_EPSILON * fabs(to)) break;
+  }
+  return gsl_root_fsolver_root(&s);
+}
+
+static double gap_at_angle(double angle, void *params)
+{
+  motion *m = params;
+  m->angle = angle;
+  m->torque = sin(angle);
+  return gap(m);
+}
+
+static double gap_at_damping(double damping, void *params)
+{
+  motion *m = params;
+  m->damping = damping;
+  return gap(m);
+}
+
+/* The angle of the least torque between 0 and pi/2, and what its rounding is: the gap's over its
+   slope. */
+static double least_angle(double damping, finesse how, double *rounding)
+{
+  motion m = {.damping = damping, .how = how};
+  /* The least torque is below Melnikov's, by a share of about damping^2 / 4. */
+  const double high = asin(fmin(1.0, 1.01 * 4.0 * damping / pi));
+  const double angle = zero_of(gap_at_angle, &m, 0.0, high), h = 1e-4 * angle;
+  const double slope = (gap_at_angle(angle, &m) - gap_at_angle(angle - h, &m)) / h;
+  *rounding = 32.0 * DBL_EPSILON / fabs(slope);
+  return angle;
+}
+
+static int sound_damping(double damping)
+{
+  return damping >= least_damping && damping <= most_damping;
+}
+
+pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out)
+{
+  if (!sound_damping(damping) || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  const motion at_one = {.damping = damping, .torque = 1.0, .angle = half_pi, .how = fine};
+  *out = (pendres_rotation_onset){.torque = 1.0, .end = PENDRES_ROTATION_SADDLE_NODE};
+  if (damping > 1.0 && !(gap(&at_one) > 0.0)) return PENDRES_OK;
+  double rounding, other;
+  const double angle = least_angle(damping, fine, &rounding);
+  const double check = least_angle(damping, coarser, &other);
+  out->torque = sin(angle);
+  out->torque_error = cos(angle) * (2.0 * fabs(angle - check) + rounding) + DBL_EPSILON * out->torque;
+  out->end = PENDRES_ROTATION_HOMOCLINIC;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_rotation_most_damping(double *damping, double *error)
+{
+  enum { WAYS = 2 };
+  const double h = 1e-4;
+  const finesse how[WAYS] = {fine, coarser};
+  double found[WAYS];
+  if (damping == NULL || error == NULL) return PENDRES_INVALID_ARGUMENT;
+  motion m = {.torque = 1.0, .angle = half_pi};
+  for (int i = 0; i < WAYS; i++) {
+    m.how = how[i];
+    found[i] = zero_of(gap_at_damping, &m, 1.0, 1.5);
+  }
+  m.how = fine;
+  const double slope = (gap_at_damping(found[0] + h, &m) - gap_at_damping(found[0], &m)) / h;
+  *damping = found[0];
+  *error = 2.0 * fabs(found[0] - found[1]) + 32.0 * DBL_EPSILON / fabs(slope);
+  return PENDRES_OK;
+}
+
+/* ---- rotations ---- */
+
+/* What a turn adds to the velocity at y = 0. */
+static double gain(double v, void *params)
+{
+  const motion *m = params;
+  const double from = m->torque > 1.0 ? 0.0 : pi + m->angle;
+  return velocity_at(m, from, v, from + two_pi, NULL) - v;
+}
+
+/* The velocity at y = 0 and the period; NaN if there is no rotation. */
+static double rotation_at(const motion *m, double *period)
+{
+  const double from = m->torque > 1.0 ? 0.0 : pi + m->angle;
+  motion copy = *m;
+  *period = NAN;
+  double low = (m->torque - 1.0) / m->damping;
+  const double high = (m->torque + 1.0) / m->damping;
+  if (m->torque <= 1.0) {
+    if (!(gap(m) > 0.0)) return NAN;
+    low = unstable_at(m, from);
+  }
+  /* Friction balances the greatest force at `high`, and the least one at `low`. */
+  double v = low;
+  if (gain(low, &copy) > 0.0) v = gain(high, &copy) < 0.0 ? zero_of(gain, &copy, low, high) : high;
+  *period = 0.0;
+  (void)velocity_at(m, from, v, from + two_pi, period);
+  return v;
+}
+
+static const char *refuses(const pendres_pendulum *p)
+{
+  const char *why = NULL;
+  if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
+  if (p->force != PENDRES_FORCE_PENDULUM)
+    return "only the pendulum's force has rotations: other coordinates have no period";
+  if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0)
+    return "under a drive a rotation has no period of its own: it is locked to the drive, an orbit, "
+           "or quasi-periodic";
+  if (!sound_damping(p->damping)) return "the damping of a rotation must lie between 1e-9 and 100";
+  return NULL;
+}
+
+pendres_status pendres_rotation_find(const pendres_pendulum *p, pendres_rotation *out,
+                                     const char **why)
+{
+  const char *wrong = refuses(p);
+  if (wrong == NULL && out == NULL) wrong = "no place for the rotation was given";
+  if (wrong != NULL) {
+    if (why != NULL) *why = wrong;
+    return PENDRES_INVALID_ARGUMENT;
+  }
+  double period, other;
+  const double torque = fabs(p->torque), sign = p->torque < 0.0 ? -1.0 : 1.0;
+  const motion m = at_torque(p->damping, torque, fine), n = at_torque(p->damping, torque, coarser);
+  const double v = torque > 0.0 ? rotation_at(&m, &period) : NAN;
+  const double check = torque > 0.0 ? rotation_at(&n, &other) : NAN;
+  if (isnan(v) || isnan(check) || !isfinite(period)) {
+    if (why != NULL) *why = "the torque is too small to keep a rotation up";
+    return PENDRES_NOT_FOUND;
+  }
+  /* What rounding adds in a turn shrinks by the multiplier from turn to turn. */
+  const double rounding = 64.0 * DBL_EPSILON / -expm1(-p->damping * period);
+  out->period = period;
+  out->period_error = 2.0 * fabs(period - other) + rounding * period;
+  out->mean_velocity = sign * two_pi / period;
+  out->mean_velocity_error = fabs(out->mean_velocity) * (out->period_error / period + DBL_EPSILON);
+  out->v = sign * v;
+  out->v_error = 2.0 * fabs(v - check) + rounding * v;
+  out->multiplier = exp(-p->damping * period);
+  out->multiplier_error = out->multiplier * (p->damping * out->period_error + DBL_EPSILON);
+  return PENDRES_OK;
+}

@@ -1,0 +1,182 @@
+/*
+ * test_rotation.c -- rotations without a drive, against an integration in time that shares nothing
+ * with the library, and against what is known in limits.
+ */
+#include "check.h"
+
+#include <string.h>
+
+#include <pendres/rotation.h>
+
+static const double pi = PENDRES_PI;
+
+static double acceleration(double damping, double torque, double y, double v)
+{
+  return torque - sin(y) - damping * v;
+}
+
+/* A step of the classical Runge-Kutta method: off by 1e-14 a step of 2e-3, by 1e-12 in a turn. */
+static void step(double damping, double torque, double h, double *y, double *v)
+{
+  double a[4], u[4];
+  for (int i = 0; i < 4; i++) {
+    const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5;
+    const double at = i == 0 ? *y : *y + c * h * u[i - 1];
+    u[i] = i == 0 ? *v : *v + c * h * a[i - 1];
+    a[i] = acceleration(damping, torque, at, u[i]);
+  }
+  *y += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
+  *v += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+}
+
+/* Whether what leaves the upper equilibrium along its unstable manifold gets over the next one. The
+   slope at the start is off by the manifold's bend, 1e-6, which dies away on the way. */
+static int gets_over(double damping, double torque)
+{
+  const double top = pi - asin(torque), away = 1e-6;
+  const double slope = 0.5 * (sqrt(damping * damping + 4.0 * cos(asin(torque))) - damping);
+  double y = top - 2.0 * pi + away, v = slope * away;
+  while (v > 0.0 && y < top + 0.1) step(damping, torque, 2e-3, &y, &v);
+  return v > 0.0;
+}
+
+/* 1e-10 below and above the least torque: the integration has that wrong by 1e-11 at most. */
+static void least_torque(void **state)
+{
+  (void)state;
+  for (int i = 1; i <= 10; i++) {
+    pendres_rotation_onset o;
+    check_ok(pendres_rotation_least_torque(0.1 * i, &o));
+    assert_int_equal(o.end, PENDRES_ROTATION_HOMOCLINIC);
+    assert_true(o.torque_error < 1e-13);
+    assert_false(gets_over(0.1 * i, o.torque - 1e-10));
+    assert_true(gets_over(0.1 * i, o.torque + 1e-10));
+  }
+}
+
+/* Melnikov: the work of the torque over the separatrix, 2 pi I, makes up for its friction, 8 gamma;
+   the next term goes with the square of the damping, and the share of its coefficient with both. */
+static void small_damping(void **state)
+{
+  (void)state;
+  double share[3];
+  for (int i = 0; i < 3; i++) {
+    const double damping = 0.02 / (1 << i);
+    pendres_rotation_onset o;
+    check_ok(pendres_rotation_least_torque(damping, &o));
+    share[i] = (1.0 - o.torque * pi / (4.0 * damping)) / (damping * damping);
+    check_near(o.torque, 4.0 * damping / pi, 0.26 * damping * damping * o.torque);
+  }
+  /* The terms are of even order: a halved damping quarters the rest. */
+  check_near(share[2] - share[1], 0.25 * (share[1] - share[0]), 2e-7);
+  pendres_rotation_onset least;
+  check_ok(pendres_rotation_least_torque(1e-9, &least));
+  check_near(least.torque, 4e-9 / pi, least.torque_error);
+}
+
+/* At a torque of 1, from next to the equilibrium along its centre manifold, v = s^2/(2 gamma). */
+static int turns_at_one(double damping)
+{
+  const double away = 0.01;
+  double y = -1.5 * pi + away, v = away * away / (2.0 * damping);
+  /* Above the damping looked for it comes to the equilibrium slowly, from y below pi/2. */
+  for (int i = 0; v > 0.0 && y < 0.5 * pi + 1e-3 && i < 4000000; i++) step(damping, 1.0, 2e-3, &y, &v);
+  return y >= 0.5 * pi;
+}
+
+/* Urabe: 1.193. The integration sees 1e-7: what is left of the gap there decides while it is 1e-3
+   away from the equilibrium, and beyond that far from it motion is slow. */
+static void most_damping(void **state)
+{
+  (void)state;
+  double damping, error;
+  pendres_rotation_onset o;
+  check_ok(pendres_rotation_most_damping(&damping, &error));
+  check_near(damping, 1.193, 5e-4);
+  assert_true(error < 1e-13);
+  assert_true(turns_at_one(damping - 1e-6));
+  assert_false(turns_at_one(damping + 1e-6));
+  check_ok(pendres_rotation_least_torque(damping - 1e-6, &o));
+  assert_true(o.end == PENDRES_ROTATION_HOMOCLINIC && o.torque < 1.0);
+  check_ok(pendres_rotation_least_torque(damping + 1e-6, &o));
+  assert_true(o.end == PENDRES_ROTATION_SADDLE_NODE && o.torque == 1.0);
+}
+
+/* The time of a turn by integration, the last step shortened by Newton's method. */
+static double turn(double damping, double torque, double *v)
+{
+  const double h = 1e-3;
+  double y = 0.0, time = 0.0;
+  while (y + *v * h < 2.0 * pi) {
+    step(damping, torque, h, &y, v);
+    time += h;
+  }
+  for (int k = 0; k < 4; k++) {
+    const double left = (2.0 * pi - y) / *v;
+    step(damping, torque, left, &y, v);
+    time += left;
+  }
+  return time;
+}
+
+/* The turn closes, takes the period, and what is added to the velocity shrinks by the multiplier. */
+static void rotations(void **state)
+{
+  static const double sets[][2] = {{0.1, 0.13}, {0.1, 1.0}, {0.5, 0.6}, {1.0, 0.97}, {0.3, 1.01},
+                                   {1.5, 1.2}, {0.2, 3.0}};
+  (void)state;
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+    const pendres_pendulum p = {.damping = sets[i][0], .torque = sets[i][1],
+                                .drive_frequency = 1.0};
+    pendres_pendulum mirror = p;
+    pendres_rotation r, back;
+    check_ok(pendres_rotation_find(&p, &r, NULL));
+    double v = r.v, other = r.v * (1.0 + 1e-6);
+    /* Of the integration: 1e-12, which the slow passage near a connection takes hundredfold. */
+    check_near(turn(p.damping, p.torque, &v), r.period, 2e-10);
+    check_near(v, r.v, 1e-10);
+    (void)turn(p.damping, p.torque, &other);
+    check_near((other - v) / (1e-6 * r.v), r.multiplier, 1e-4);
+    check_near(r.mean_velocity, 2.0 * pi / r.period, r.mean_velocity_error);
+    assert_true(r.period_error < 1e-10 * r.period);
+    mirror.torque = -p.torque;
+    check_ok(pendres_rotation_find(&mirror, &back, NULL));
+    assert_true(back.mean_velocity == -r.mean_velocity && back.period == r.period);
+  }
+  /* Overdamped: 2 pi / T = sqrt(I^2 - 1) / gamma, and corrections of gamma^-2. */
+  const pendres_pendulum slow = {.damping = 50.0, .torque = 1.5, .drive_frequency = 1.0};
+  pendres_rotation r;
+  check_ok(pendres_rotation_find(&slow, &r, NULL));
+  check_near(r.mean_velocity, sqrt(1.25) / 50.0, 1e-3 * r.mean_velocity);
+}
+
+static void no_rotations(void **state)
+{
+  const pendres_pendulum weak = {.damping = 0.1, .torque = 0.127, .drive_frequency = 1.0};
+  const pendres_pendulum over = {.damping = 1.2, .torque = 1.0, .drive_frequency = 1.0};
+  const pendres_pendulum still = {.damping = 1.2, .drive_frequency = 1.0};
+  const pendres_pendulum driven = {.damping = 0.1, .torque = 0.5, .drive_frequency = 1.0,
+                                   .drive_amplitude = 0.1};
+  const pendres_pendulum other = {.damping = 0.1, .drive_frequency = 1.0,
+                                  .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}};
+  pendres_rotation r;
+  const char *why = NULL;
+  (void)state;
+  assert_int_equal(pendres_rotation_find(&weak, &r, &why), PENDRES_NOT_FOUND);
+  assert_non_null(strstr(why, "too small"));
+  assert_int_equal(pendres_rotation_find(&over, &r, &why), PENDRES_NOT_FOUND);
+  assert_int_equal(pendres_rotation_find(&still, &r, &why), PENDRES_NOT_FOUND);
+  assert_int_equal(pendres_rotation_find(&driven, &r, &why), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(why, "under a drive"));
+  assert_int_equal(pendres_rotation_find(&other, &r, &why), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(why, "no period"));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(least_torque), cmocka_unit_test(small_damping), cmocka_unit_test(most_damping),
+    cmocka_unit_test(rotations),    cmocka_unit_test(no_rotations),
+  };
+  return cmocka_run_group_tests_name("rotation", tests, NULL, NULL);
+}
