@@ -277,6 +277,7 @@ static int compute(job *j)
   pendres_status status = j->scene->run(&j->run);
   farm_dismiss(j->farm);
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
+  if (status == PENDRES_OK) status = scene_write_units(&j->run);
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
   if (status == PENDRES_INTERRUPTED) {
     const char *signal = signals_name();

@@ -185,6 +185,10 @@ typedef struct deck {
     int64_t periods;
   } noise;
 
+  struct {
+    double natural_frequency; /* of small oscillations, in Hz; NaN: it was not told */
+  } units;
+
   deck_names methods;       /* work_precision */
   char unit[DECK_NAME];
   deck_names cases;         /* hard_cases; none: all */

@@ -8,6 +8,7 @@
 #include "deck/deck_table.h"
 
 #include <locale.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -120,6 +121,12 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
   fprintf(stream, "\n");
 }
 
+/* A number that was not given and has no default. */
+static int has_no_value(const deck_key *key, const deck *d)
+{
+  return key->type == DECK_REAL && isnan(*(const double *)((const char *)d + key->offset));
+}
+
 static void dump_groups(const deck *d, FILE *stream)
 {
   const unsigned scene = 1u << d->kind;
@@ -127,7 +134,7 @@ static void dump_groups(const deck *d, FILE *stream)
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & scene) == 0 || key->type == DECK_SWEEP_VALUE) continue;
-    if (!deck_key_applies(key, d)) continue;
+    if (!deck_key_applies(key, d) || has_no_value(key, d)) continue;
     if (group == NULL || strcmp(group, key->group) != 0) {
       if (group != NULL) fprintf(stream, "/\n");
       group = key->group;

@@ -297,6 +297,11 @@ const deck_key deck_table[] = {
     .number = 1000, .when = DECK_WITH_NOISE,
     SAYS(NULL, "drive periods over which each trajectory is followed") },
 
+  { REAL("units", "natural_frequency", units.natural_frequency), IN(FREE | DRIVEN | ALONG),
+    RANGE(0, 1e15), .open = 1, .number = NAN,
+    SAYS("Hz", "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
+         "and periods of the drive in s, beside ours") },
+
   { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2),
     .why = "less is beyond double precision", .number = 1e-8,
     SAYS("1", "wanted error of the results, absolute for angles of order one") },

@@ -66,6 +66,10 @@ pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id a
  */
 pendres_status scene_write_identity(scene_run *run);
 
+/* Where the deck tells the natural frequency: results in Hz and s beside ours, in the file and, the
+   short ones, behind the table. */
+pendres_status scene_write_units(scene_run *run);
+
 /* What the measures in the file are, in their attributes `comment`; called by the above. */
 pendres_status scene_define(scene_run *run);
 
