@@ -146,8 +146,12 @@ static void blocks(void **state)
     assert_true(alone[LANES - 1][0] != beside[LANES - 1][0]);
     run(ctx, PENDRES_FLOW_VARIATIONAL, p, LANES, with_rows);
     assert_memory_equal(beside, with_rows, sizeof beside);
-    run(ctx, PENDRES_FLOW_SENSITIVITY, p, LANES, with_rows);
-    assert_memory_equal(beside, with_rows, sizeof beside);
+    static const pendres_flow_kind kinds[] = {PENDRES_FLOW_SENSITIVITY, PENDRES_FLOW_DRIVES,
+                                              PENDRES_FLOW_ALL};
+    for (size_t k = 0; k < COUNT(kinds) - (model == 0); k++) {
+      run(ctx, kinds[k], p, LANES, with_rows);
+      assert_memory_equal(beside, with_rows, sizeof beside);
+    }
   }
   pendres_context_free(ctx);
 }
@@ -156,7 +160,9 @@ static void blocks(void **state)
    third derivatives of order ten. */
 static void tangents(void **state)
 {
+  enum { MOST_COLUMNS = 2 + 5 + PENDRES_FORCE_COEFFICIENTS };
   static const pendres_pendulum cases[] = {
+    {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1},
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1, .torque = 0.3,
      .parametric_amplitude = 0.6},
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.1, .torque = 0.3,
@@ -167,25 +173,29 @@ static void tangents(void **state)
   (void)state;
   for (size_t i = 0; i < COUNT(cases); i++) {
     pendres_flow *flow = NULL;
-    check_ok(pendres_context_flow(ctx, PENDRES_FLOW_SENSITIVITY, &flow));
+    const int polynomial = cases[i].force == PENDRES_FORCE_POLYNOMIAL;
+    const int columns = polynomial ? MOST_COLUMNS : 7, runs = 2 * columns;
+    check_ok(pendres_context_flow(ctx, polynomial ? PENDRES_FLOW_ALL : PENDRES_FLOW_DRIVES, &flow));
     pendres_flow_clear(flow);
     check_ok(pendres_flow_set_steps(flow, 60));
-    pendres_flow_resize(flow, 11);
-    for (int k = 0; k < 11; k++) {
+    pendres_flow_resize(flow, (size_t)runs + 1);
+    for (int k = 0; k <= runs; k++) {
       pendres_pendulum p = cases[i];
       const double sign = k % 2 == 0 ? step : -step;
-      double *const by[] = {&p.drive_frequency, &p.damping, &p.drive_amplitude};
-      if (k >= 4 && k < 10) *by[(k - 4) / 2] += sign;
+      double *const by[] = {&p.drive_frequency, &p.damping, &p.drive_amplitude, &p.torque,
+                            &p.parametric_amplitude};
+      double *const a = p.force_coefficients;
+      if (k >= 4 && k < runs) *(k < 14 ? by[(k - 4) / 2] : &a[(k - 14) / 2]) += sign;
       pendres_flow_set_lane(flow, (size_t)k, &p, 0.3 + (k < 2 ? sign : 0.0),
                             0.2 + (k == 2 || k == 3 ? sign : 0.0));
     }
     check_ok(pendres_flow_period(flow));
     const pendres_rows rows = pendres_flow_rows(flow);
-    for (int column = 0; column < 5; column++)
+    for (int column = 0; column < columns; column++)
       for (int r = 0; r < 2; r++) {
         const double high = pendres_rows_get(&rows, r, (size_t)(2 * column));
         const double low = pendres_rows_get(&rows, r, (size_t)(2 * column + 1));
-        check_near(pendres_rows_get(&rows, PENDRES_ROW_BY_Y + 2 * column + r, 10),
+        check_near(pendres_rows_get(&rows, PENDRES_ROW_BY_Y + 2 * column + r, (size_t)runs),
                    (high - low) / (2.0 * step), 3e-6);
       }
   }

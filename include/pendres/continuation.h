@@ -5,6 +5,10 @@
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
  * doublings and symmetry breakings on the way; curves of these in two parameters; cusps.
  *
+ * All pendulums are served, with torque, parametric drive or a polynomial force, as long as there
+ * is a drive of either kind where orbits go round: without one a rotation has a period of its own,
+ * and is no orbit of the strobe map (PENDRES_INVALID_ARGUMENT).
+ *
  * Method: Newton's method on the strobe map with its variational equations and parameter
  * sensitivities, pseudo-arclength steps. An orbit that is its own mirror image is a fixed point
  * of half a period followed by the reflection y -> -y: its folds are multipliers +1 of that
@@ -28,11 +32,21 @@ extern "C" {
 #define PENDRES_PARAMETER_LIST(X)                       \
   X(DRIVE_FREQUENCY, "drive_frequency", drive_frequency) \
   X(DAMPING, "damping", damping)                         \
-  X(DRIVE_AMPLITUDE, "drive_amplitude", drive_amplitude)
+  X(DRIVE_AMPLITUDE, "drive_amplitude", drive_amplitude) \
+  X(TORQUE, "torque", torque)                            \
+  X(PARAMETRIC_AMPLITUDE, "parametric_amplitude", parametric_amplitude) \
+  X(FORCE_COEFFICIENT_1, "a1", force_coefficients[0])    \
+  X(FORCE_COEFFICIENT_2, "a2", force_coefficients[1])    \
+  X(FORCE_COEFFICIENT_3, "a3", force_coefficients[2])    \
+  X(FORCE_COEFFICIENT_4, "a4", force_coefficients[3])    \
+  X(FORCE_COEFFICIENT_5, "a5", force_coefficients[4])
 
 /**
  * A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum.
  * PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma; PENDRES_DRIVE_AMPLITUDE: F0;
+ * PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; of a polynomial force
+ * PENDRES_FORCE_COEFFICIENT_1: a1, PENDRES_FORCE_COEFFICIENT_2: a2, PENDRES_FORCE_COEFFICIENT_3: a3,
+ * PENDRES_FORCE_COEFFICIENT_4: a4, PENDRES_FORCE_COEFFICIENT_5: a5 (a pendulum has none of these);
  * PENDRES_PARAMETER_COUNT: how many there are.
  */
 typedef enum pendres_parameter {
@@ -42,8 +56,8 @@ typedef enum pendres_parameter {
   PENDRES_PARAMETER_COUNT /**< how many there are; not a parameter */
 } pendres_parameter;
 
-/** "drive_frequency", "damping", "drive_amplitude", as the fields are called; NULL if out of range.
-    The string is static. Thread safe. */
+/** "drive_frequency", "damping", "drive_amplitude", "torque", "parametric_amplitude", as the fields
+    are called, and "a1" to "a5"; NULL if out of range. The string is static. Thread safe. */
 const char *pendres_parameter_name(pendres_parameter parameter);
 
 /** A pendulum's value of a parameter; NaN if either does not exist. Thread safe. */
@@ -105,7 +119,8 @@ typedef pendres_bifurcation pendres_fold;
  * @param parameter what changes along the branch
  * @param out       written: value is the parameter's at the fold
  * @return PENDRES_NOT_FOUND if the branch has no fold between a third of and three times the
- *         parameter's value for near, PENDRES_NOT_CONVERGED if near is no orbit,
+ *         parameter's value for near (of torque, parametric amplitude and coefficients: within
+ *         twice its size and 1 of it), PENDRES_NOT_CONVERGED if near is no orbit,
  *         PENDRES_TOLERANCE_UNREACHABLE if value_error exceeds the tolerance (*out is complete),
  *         PENDRES_INVALID_ARGUMENT, and failures of the integration
  */
@@ -165,8 +180,8 @@ typedef struct pendres_branch_point {
   pendres_special kind;   /**< what happens there; PENDRES_REGULAR: nothing */
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
   double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are,
-                               the drive frequency in units of 0.3, damping and drive amplitude
-                               of 0.1 */
+                               the drive frequency in units of 0.3, other parameters of
+                               0.1 */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
   int doubt;              /**< bits of pendres_doubt */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "orbits/orbit_newton.h"
 #include "continuation/continuation_locate.h"
+#include "continuation/continuation_parameter.h"
 
 enum { MOST_BIFURCATIONS = 256 };
 
@@ -100,7 +100,8 @@ static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
   *twice = 0;
   if (!pendres_continuation_map_half(&t->kind.map, half)) return PENDRES_NOT_CONVERGED;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
+    pendres_continuation_map_steps(ctx, t->kind.map.force, u, 10.0 * ctx->options.tolerance,
+                                   &steps);
   if (status == PENDRES_OK)
     status = pendres_continuation_map_closes(ctx, half, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, miss,
@@ -300,21 +301,10 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   if (o->parameter == PENDRES_DAMPING && !(o->low >= 0.0)) return "damping must not be negative";
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   for (size_t i = 0; i < n; i++) {
-    const char *why = pendres_orbit_refuses_others(&starts[i]);
+    const char *why = pendres_continuation_refuses(&starts[i], o->parameter);
     if (why != NULL) return why;
   }
   return NULL;
-}
-
-pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
-                                 double spacing, double u[PENDRES_U_COUNT])
-{
-  return (pendres_walk){.map = pendres_continuation_map_of(orbit, u),
-                        .condition = PENDRES_CONDITION_NONE,
-                        .unknowns = 3,
-                        .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA + (int)parameter},
-                        .tolerance = 1e-7,
-                        .longest = spacing};
 }
 
 static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
@@ -341,8 +331,8 @@ static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendre
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    begin[i].kind = pendres_branch_kind(&starts[i], o->parameter,
-                                        o->spacing > 0.0 ? o->spacing : 0.05, begin[i].u);
+    begin[i].kind = pendres_walk_of(&starts[i], PENDRES_CONDITION_NONE, &o->parameter,
+                                    o->spacing > 0.0 ? o->spacing : 0.05, begin[i].u);
   status = pendres_trail_follow(ctx, n, begin, &bounds, trails, &which);
   if (status == PENDRES_NOT_CONVERGED)
     (void)pendres_context_fail(ctx, status, "start %zu of the branches is no orbit", which);

@@ -24,10 +24,6 @@ struct pendres_branches {
   pendres_branch **branch;
 };
 
-/* How orbits like this one are followed, and the place of this one. */
-pendres_walk pendres_branch_kind(const pendres_orbit *orbit, pendres_parameter parameter,
-                                 double spacing, double u[PENDRES_U_COUNT]);
-
 /* NULL, or what is wrong with options and starts: a static sentence. */
 const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,
                                    const pendres_orbit *starts);

@@ -76,11 +76,19 @@ static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double par
   return !(fabs(mixed(a->phase_lag, b->phase_lag, part) - o->phase_lag) > alike);
 }
 
+/* Whether orbits have one winding, or windings of each other's mirror images. */
+static int same_winding(const pendres_orbit *a, const pendres_orbit *b)
+{
+  return a->winding == b->winding || (a->winding == -b->winding &&
+                                      pendres_pendulum_symmetric(&a->pendulum) &&
+                                      pendres_pendulum_symmetric(&b->pendulum));
+}
+
 static int lies_on(const pendres_branch *b, const pendres_orbit *o)
 {
   const double value = pendres_parameter_get(b->parameter, &o->pendulum);
   const pendres_orbit *first = &b->point[0].orbit;
-  if (first->period != o->period || abs(first->winding) != abs(o->winding)) return 0;
+  if (first->period != o->period || !same_winding(first, o)) return 0;
   for (size_t i = 0; i + 1 < b->count; i++) {
     const double from = pendres_branch_value(b, i) - value;
     const double to = pendres_branch_value(b, i + 1) - value;
@@ -105,7 +113,8 @@ static pendres_status really_lies_on(pendres_context *ctx, const pendres_branch 
   const pendres_status status = pendres_branch_cross(ctx, b, value, MOST, there, &found);
   for (size_t i = 0; i < found && i < MOST && status == PENDRES_OK; i++) {
     const double e = 1e-5 + 10.0 * (o->x_error + there[i].x_error);
-    if (there[i].period == o->period && fabs(there[i].amplitude - o->amplitude) < e &&
+    if (there[i].period == o->period && same_winding(&there[i], o) &&
+        fabs(there[i].amplitude - o->amplitude) < e &&
         fabs(there[i].loop_area - o->loop_area) < e)
       *on = 1;
   }
@@ -188,7 +197,7 @@ static int same_bifurcation(const pendres_bifurcation *a, const pendres_bifurcat
   const double e = 1e-6 + 10.0 * (a->value_error + b->value_error);
   const double apart = 1e-5 + 10.0 * (a->orbit.amplitude_error + b->orbit.amplitude_error);
   return a->kind == b->kind && a->orbit.period == b->orbit.period &&
-         abs(a->orbit.winding) == abs(b->orbit.winding) && !(a->curvature * b->curvature < 0.0) &&
+         same_winding(&a->orbit, &b->orbit) && !(a->curvature * b->curvature < 0.0) &&
          fabs(a->value - b->value) < e && fabs(a->orbit.amplitude - b->orbit.amplitude) < apart;
 }
 
@@ -231,7 +240,7 @@ static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendre
   const double value = pendres_parameter_get(second, &b->orbit.pendulum);
   const pendres_curve_point *p = pendres_curve_get(c, 0);
   if (pendres_curve_kind(c) != b->kind || p->orbit.period != b->orbit.period ||
-      abs(p->orbit.winding) != abs(b->orbit.winding))
+      !same_winding(&p->orbit, &b->orbit))
     return 0;
   for (size_t i = 0; i + 1 < pendres_curve_count(c); i++) {
     const pendres_curve_point *q = pendres_curve_get(c, i + 1);

@@ -10,7 +10,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_parameter.h"
-#include "orbits/orbit_newton.h"
+#include "model/model.h"
 
 /* ---- one value of the parameter ---- */
 
@@ -24,8 +24,9 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
                                    double value)
 {
   const pendres_orbit *p = &b->point[i].orbit, *q = &b->point[k].orbit;
+  const double turn = pendres_model_turn(&p->pendulum);
   double dx = q->x - p->x;
-  dx -= two_pi * rint(dx / two_pi);
+  dx -= turn * rint(dx / turn);
   pendres_orbit_guess g = {.pendulum = p->pendulum,
                            .x = p->x + part * dx,
                            .v = p->v + part * (q->v - p->v),
@@ -91,15 +92,15 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "no branch crosses at a bifurcation of this kind");
-  const char *why = pendres_orbit_refuses_others(&at->orbit);
-  if ((unsigned)at->parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  const char *why = pendres_continuation_refuses(&at->orbit, at->parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;
-  const pendres_walk one = pendres_branch_kind(&at->orbit, at->parameter, 0.05, u);
+  const pendres_walk one =
+    pendres_walk_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
   pendres_status status =
-    pendres_continuation_map_steps(ctx, u, 10.0 * ctx->options.tolerance, &steps);
+    pendres_continuation_map_steps(ctx, one.map.force, u, 10.0 * ctx->options.tolerance, &steps);
   if (status == PENDRES_OK)
     status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, &image);
@@ -112,10 +113,10 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   const double v[2] = {(upper ? -b : -d) / length, (upper ? a : c) / length};
 
   pendres_trail twice = {.kind = one, .count = 1};
-  twice.kind.map = one.map.mirror
-                     ? (pendres_continuation_map){.period = one.map.period}
-                     : (pendres_continuation_map){.period = 2 * one.map.period,
-                                                  .winding = 2 * one.map.winding};
+  pendres_continuation_map *map = &twice.kind.map;
+  map->mirror = 0;
+  map->period = one.map.mirror ? one.map.period : 2 * one.map.period;
+  map->winding = one.map.mirror ? 0 : 2 * one.map.winding;
   /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */
   const double reach = 0.02 * pow(one.map.period, -1.3);
   static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};

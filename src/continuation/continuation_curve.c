@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
-#include "orbits/orbit_newton.h"
 #include "continuation/continuation_locate.h"
+#include "continuation/continuation_parameter.h"
 #include "continuation/continuation_stencil.h"
 #include "continuation/continuation_trail.h"
 
@@ -75,14 +75,10 @@ static int place_of(pendres_parameter parameter)
 static pendres_walk kind_of(const pendres_bifurcation *b, pendres_parameter second, double spacing,
                             double u[PENDRES_U_COUNT])
 {
-  pendres_walk w = {.map = pendres_continuation_map_of(&b->orbit, u),
-                    .condition =
-                      b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP,
-                    .unknowns = 4,
-                    .unknown = {PENDRES_U_Y, PENDRES_U_W, place_of(b->parameter), place_of(second)},
-                    .tolerance = 1e-7,
-                    .longest = spacing};
-  return w;
+  const pendres_parameter parameter[2] = {b->parameter, second};
+  return pendres_walk_of(
+    &b->orbit, b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP, parameter,
+    spacing, u);
 }
 
 /* ---- cusps ---- */
@@ -242,7 +238,8 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
         (unsigned)starts[i].kind > PENDRES_SYMMETRY_BREAKING)
       return "a start is no bifurcation";
     if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
-    const char *why = pendres_orbit_refuses_others(&starts[i].orbit);
+    const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
+    if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);
     if (why != NULL) return why;
     if (starts[i].parameter == o->second) return "the second parameter is the first once more";
   }
@@ -312,12 +309,14 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
   const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
   const int unknown[] = {PENDRES_U_Y, PENDRES_U_W, place_of(c->parameter[0])};
   const int second = place_of(c->parameter[1]);
+  const pendres_continuation_points points = {
+    .count = c->count, .u = (const double (*)[PENDRES_U_COUNT])c->u, .closed = closed,
+    .turn = c->map.mirror ? 0.0 : pendres_model_of(c->map.force)->period};
   double guess[PENDRES_U_COUNT], last_guess[PENDRES_U_COUNT], last[PENDRES_U_COUNT];
   for (size_t i = 0; i < chords; i++) {
     pendres_continuation_stencil s;
     double t[PENDRES_STENCIL_ROOTS];
-    pendres_continuation_stencil_init(&s, c->count, (const double (*)[PENDRES_U_COUNT])c->u, closed,
-                                      i);
+    pendres_continuation_stencil_init(&s, &points, i);
     const size_t roots =
       pendres_continuation_stencil_roots(&s, second, value, !closed && i + 1 == chords, t);
     for (size_t r = 0; r < roots; r++) {
@@ -387,11 +386,10 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "fold and out");
   if (near->kind != PENDRES_FOLD)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: this is no fold");
-  const char *no_orbit = pendres_orbit_refuses_others(&near->orbit);
-  if (no_orbit != NULL)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", no_orbit);
-  if ((unsigned)second >= PENDRES_PARAMETER_COUNT || second == near->parameter ||
-      (unsigned)near->parameter >= PENDRES_PARAMETER_COUNT)
+  const char *why = pendres_continuation_refuses(&near->orbit, near->parameter);
+  if (why == NULL) why = pendres_continuation_refuses(&near->orbit, second);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cusp: %s", why);
+  if (second == near->parameter)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "cusp: the second parameter must be another one than the fold's");
   double u[PENDRES_U_COUNT], approach[2];

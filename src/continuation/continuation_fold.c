@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
-#include "orbits/orbit_newton.h"
 #include "continuation/continuation_locate.h"
+#include "continuation/continuation_parameter.h"
 #include "continuation/continuation_walk.h"
 
 enum { MOST_ADVANCES = 200 };
@@ -24,6 +24,14 @@ static pendres_status between(pendres_context *ctx, const pendres_walk *w,
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
   return pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_FOLD, w->unknown, u,
                                      2.0 * (b->arclength - a->arclength), out);
+}
+
+/* Whether the parameter at `place` has left the range in which folds are looked for. */
+static int is_far(int place, double start, double value)
+{
+  if (place <= PENDRES_U_DRIVE) return value > widest_range * start || value * widest_range < start;
+  /* What may be negative, or 0, has no ratio. */
+  return fabs(value - start) > (widest_range - 1.0) * fabs(start) + 1.0;
 }
 
 /* Walk until the determinant changes its sign. */
@@ -45,8 +53,7 @@ static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendre
       }
       last = *p;
     }
-    const double value = w->here.u[place];
-    if (value > widest_range * start || value * widest_range < start) break;
+    if (is_far(place, start, w->here.u[place])) break;
     if (w->here.growth > wildest) break;
   }
   return PENDRES_NOT_FOUND;
@@ -56,23 +63,15 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
                                 pendres_parameter parameter, pendres_fold *out)
 {
   if (near == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
-  const char *no_orbit = pendres_orbit_refuses_others(near);
-  if (no_orbit != NULL)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", no_orbit);
-  if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: unknown parameter");
+  const char *why = pendres_continuation_refuses(near, parameter);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "fold: %s", why);
   const double from = pendres_parameter_get(parameter, &near->pendulum);
   double u[PENDRES_U_COUNT], approach[2];
   pendres_located located;
   pendres_walk walk[2], ahead[2];
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2; i++) {
-    walk[i] = (pendres_walk){.map = pendres_continuation_map_of(near, u),
-                             .condition = PENDRES_CONDITION_NONE,
-                             .unknowns = 3,
-                             .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA + (int)parameter},
-                             .tolerance = 1e-7,
-                             .longest = 0.1};
+    walk[i] = pendres_walk_of(near, PENDRES_CONDITION_NONE, &parameter, 0.1, u);
     status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(ctx, status, "no orbit to start from at %s %g",

@@ -47,7 +47,7 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_continuat
   pendres_continuation_image image[3];
   double points[3][PENDRES_U_COUNT];
   pendres_status status = pendres_continuation_map_images(
-    ctx, map, steps, 1, (const double (*)[PENDRES_U_COUNT])u, image);
+    ctx, map, steps, 1, &parameter, 1, (const double (*)[PENDRES_U_COUNT])u, image);
   if (status != PENDRES_OK) return status;
   const double a = image[0].j[0][0], b = image[0].j[0][1], c = image[0].j[1][0],
                d = image[0].j[1][1];
@@ -60,7 +60,7 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_continuat
     points[i][PENDRES_U_Y] += (i - 1) * h * v[0] / length;
     points[i][PENDRES_U_W] += (i - 1) * h * v[1] / length;
   }
-  status = pendres_continuation_map_images(ctx, map, steps, 3,
+  status = pendres_continuation_map_images(ctx, map, steps, 1, &parameter, 3,
                                            (const double (*)[PENDRES_U_COUNT])points, image);
   if (status != PENDRES_OK) return status;
   double top = 0.0, bottom = 0.0;
@@ -118,7 +118,8 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
   enum { MOST_TRIES = 5 };
   const double tolerance = ctx->options.tolerance;
   int steps = 0;
-  pendres_status status = pendres_continuation_map_steps(ctx, u, 10.0 * tolerance, &steps);
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, map->force, u, 10.0 * tolerance, &steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
   for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {

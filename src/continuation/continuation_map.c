@@ -22,41 +22,71 @@ static const double nudge = 2e-9;
 static const double stencil_step = 8e-3;
 enum { STENCIL = 6 };
 
-pendres_pendulum pendres_continuation_map_pendulum(const double u[PENDRES_U_COUNT])
+pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
+                                                   const double u[PENDRES_U_COUNT])
 {
-  return (pendres_pendulum){.damping = u[PENDRES_U_GAMMA],
-                            .drive_amplitude = u[PENDRES_U_DRIVE],
-                            .drive_frequency = u[PENDRES_U_OMEGA]};
+  pendres_pendulum p = {.damping = u[PENDRES_U_GAMMA],
+                        .drive_amplitude = u[PENDRES_U_DRIVE],
+                        .drive_frequency = u[PENDRES_U_OMEGA],
+                        .torque = u[PENDRES_U_TORQUE],
+                        .parametric_amplitude = u[PENDRES_U_MODULATION],
+                        .force = force};
+  memcpy(p.force_coefficients, u + PENDRES_U_POWERS, sizeof p.force_coefficients);
+  return p;
 }
 
-pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o,
+void pendres_continuation_map_point(const pendres_pendulum *p, double y, double w,
+                                    double u[PENDRES_U_COUNT])
+{
+  u[PENDRES_U_Y] = y;
+  u[PENDRES_U_W] = w;
+  u[PENDRES_U_OMEGA] = p->drive_frequency;
+  u[PENDRES_U_GAMMA] = p->damping;
+  u[PENDRES_U_DRIVE] = p->drive_amplitude;
+  u[PENDRES_U_TORQUE] = p->torque;
+  u[PENDRES_U_MODULATION] = p->parametric_amplitude;
+  memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
+}
+
+/* Whether pendulums lose the mirror symmetry as an unknown changes. */
+static int breaks_symmetry(int place)
+{
+  return place == PENDRES_U_TORQUE || place == PENDRES_U_MODULATION ||
+         place == PENDRES_U_POWERS + 1 || place == PENDRES_U_POWERS + 3;
+}
+
+pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int unknowns,
+                                                     const int *unknown,
                                                      double u[PENDRES_U_COUNT])
 {
-  pendres_continuation_map map = {.period = o->period, .winding = o->winding};
+  pendres_continuation_map map = {.force = o->pendulum.force,
+                                  .symmetric = pendres_pendulum_symmetric(&o->pendulum),
+                                  .period = o->period,
+                                  .winding = o->winding};
   const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
-  u[PENDRES_U_Y] = s.y;
-  u[PENDRES_U_W] = s.w;
-  u[PENDRES_U_OMEGA] = o->pendulum.drive_frequency;
-  u[PENDRES_U_GAMMA] = o->pendulum.damping;
-  u[PENDRES_U_DRIVE] = o->pendulum.drive_amplitude;
-  if (o->symmetric && o->period % 2 != 0 && o->winding == 0) {
+  pendres_continuation_map_point(&o->pendulum, s.y, s.w, u);
+  for (int k = 0; k < unknowns; k++)
+    if (breaks_symmetry(unknown[k])) map.symmetric = 0;
+  if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0) {
     /* About the bottom of the well, or about the top of a barrier. */
+    const int periodic = pendres_model_of(map.force)->period > 0.0;
     map.mirror = 1;
-    map.winding = (int)rint(o->mean_angle / pi);
+    map.winding = periodic ? (int)rint(o->mean_angle / pi) : 0;
   }
   return map;
 }
 
-pendres_status pendres_continuation_map_steps(pendres_context *ctx,
+pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
                                               const double u[PENDRES_U_COUNT], double tolerance,
                                               int *steps)
 {
-  const pendres_pendulum p = pendres_continuation_map_pendulum(u);
+  const pendres_pendulum p = pendres_continuation_map_pendulum(force, u);
   const char *why = NULL;
   if (pendres_pendulum_check(&p, &why) != PENDRES_OK)
     return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the branch leaves the parameters: %s",
                                 why);
-  const double speed = fabs(u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
+  const double speed =
+    pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
   const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
   *steps += *steps % 2;
   return status;
@@ -108,7 +138,7 @@ static pendres_status run_block(pendres_block *b, const pendres_continuation_map
   pendres_status status = PENDRES_OK;
   pendres_block_resize(b, n);
   for (size_t i = 0; i < n; i++) {
-    const pendres_pendulum p = pendres_continuation_map_pendulum(u[i]);
+    const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u[i]);
     pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
   const int whole = map->mirror ? map->period / 2 : map->period;
@@ -121,14 +151,33 @@ static pendres_status run_block(pendres_block *b, const pendres_continuation_map
   return PENDRES_OK;
 }
 
-/* The first `columns` derivatives: those by the state, or all. */
+/* How many derivatives, in the order of u, blocks of a kind give. */
+static int columns_of(pendres_flow_kind kind)
+{
+  return kind == PENDRES_FLOW_VARIATIONAL   ? PENDRES_U_OMEGA
+         : kind == PENDRES_FLOW_SENSITIVITY ? PENDRES_U_TORQUE
+         : kind == PENDRES_FLOW_DRIVES      ? PENDRES_U_POWERS
+                                            : PENDRES_U_COUNT;
+}
+
+/* The blocks with the fewest rows that give derivatives by some unknowns. */
+static pendres_flow_kind kind_of(int unknowns, const int *unknown)
+{
+  static const pendres_flow_kind kinds[] = {PENDRES_FLOW_VARIATIONAL, PENDRES_FLOW_SENSITIVITY,
+                                            PENDRES_FLOW_DRIVES, PENDRES_FLOW_ALL};
+  int last = 0, k = 0;
+  for (int i = 0; i < unknowns; i++) last = unknown[i] > last ? unknown[i] : last;
+  while (columns_of(kinds[k]) <= last) k++;
+  return kinds[k];
+}
+
 static pendres_status images(pendres_context *ctx, const pendres_continuation_map *map, int steps,
-                             size_t n, const double (*u)[PENDRES_U_COUNT], int columns,
-                             pendres_continuation_image *out)
+                             size_t n, const double (*u)[PENDRES_U_COUNT],
+                             pendres_flow_kind kind, pendres_continuation_image *out)
 {
   pendres_block b;
-  pendres_status status = pendres_block_open(
-    ctx, columns > 2 ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
+  const int columns = columns_of(kind);
+  pendres_status status = pendres_block_open(ctx, kind, steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
@@ -140,10 +189,11 @@ static pendres_status images(pendres_context *ctx, const pendres_continuation_ma
 
 pendres_status pendres_continuation_map_images(pendres_context *ctx,
                                                const pendres_continuation_map *map, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               int unknowns, const int *unknown, size_t n,
+                                               const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  return images(ctx, map, steps, n, u, PENDRES_U_COUNT, out);
+  return images(ctx, map, steps, n, u, kind_of(unknowns, unknown), out);
 }
 
 pendres_status pendres_continuation_map_states(pendres_context *ctx,
@@ -151,7 +201,7 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  return images(ctx, map, steps, n, u, 2, out);
+  return images(ctx, map, steps, n, u, PENDRES_FLOW_VARIATIONAL, out);
 }
 
 /* ---- half maps ---- */
@@ -161,11 +211,13 @@ int pendres_continuation_map_half(const pendres_continuation_map *map,
 {
   if (map->mirror) return 0;
   if (map->period % 2 != 0) {
-    *half = (pendres_continuation_map){.mirror = 1, .period = map->period};
-    return map->winding == 0;
+    *half = *map;
+    half->mirror = 1;
+    return map->symmetric && map->winding == 0;
   }
-  *half =
-    (pendres_continuation_map){.period = map->period / 2, .winding = map->winding / 2};
+  *half = *map;
+  half->period /= 2;
+  half->winding /= 2;
   return map->winding % 2 == 0;
 }
 
@@ -289,7 +341,7 @@ pendres_status pendres_continuation_map_equations(pendres_context *ctx,
       memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
       if (k > 0) w.u[i * each + k][unknown[k - 1]] += nudge;
     }
-  status = pendres_continuation_map_images(ctx, map, steps, n * each,
+  status = pendres_continuation_map_images(ctx, map, steps, unknowns, unknown, n * each,
                                            (const double (*)[PENDRES_U_COUNT])w.u, w.image);
   if (status != PENDRES_OK) goto done;
   if (cusp) {
@@ -378,7 +430,7 @@ pendres_status pendres_continuation_map_solve(pendres_context *ctx,
     if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
     const double part = length > longest ? longest / length : 1.0;
     for (int k = 0; k < n; k++) u[unknown[k]] += part * d[k];
-    const pendres_pendulum p = pendres_continuation_map_pendulum(u);
+    const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
     /* The next step would be of its square, or of rounding. */
     if (length < 1e-8 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;

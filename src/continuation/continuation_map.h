@@ -4,8 +4,8 @@
  * Owns: evaluating, side by side in lanes, the stroboscopic map with its derivatives by state and
  * parameters, and Newton's method on the equations of fixed points, folds, flips and cusps.
  *
- * An unknown point is u = (y, w, omega, gamma, F0), y = x - pi/2 and w = v/omega at drive
- * phase 0. The map G is
+ * An unknown point is u = (y, w, omega, gamma, F0, I, b, a1, ..., a5), y = x - pi/2 (with a
+ * polynomial force x) and w = v/omega at drive phase 0. The map G is
  *
  *   the q-th iterate of the strobe map, less 2 pi p (winding p), or
  *   for an orbit that is its own mirror image, which has an odd q, q half periods followed by the
@@ -33,19 +33,24 @@ enum {
   PENDRES_U_OMEGA,
   PENDRES_U_GAMMA,
   PENDRES_U_DRIVE,
-  PENDRES_U_COUNT
+  PENDRES_U_TORQUE,
+  PENDRES_U_MODULATION,
+  PENDRES_U_POWERS, /* a1, and so on */
+  PENDRES_U_COUNT = PENDRES_U_POWERS + PENDRES_FORCE_COEFFICIENTS
 };
 
 typedef struct pendres_continuation_map {
-  int mirror;  /* q half periods and the reflection; q is odd */
-  int period;  /* q */
-  int winding; /* p */
+  pendres_force force;
+  int symmetric; /* all pendulums that it is asked for have the mirror symmetry */
+  int mirror;    /* q half periods and the reflection; q is odd */
+  int period;    /* q */
+  int winding;   /* p */
 } pendres_continuation_map;
 
 /* What one evaluation of the map finds. */
 typedef struct pendres_continuation_image {
   double f[2];                  /* G(z) - z */
-  double j[2][PENDRES_U_COUNT]; /* its derivatives by u */
+  double j[2][PENDRES_U_COUNT]; /* its derivatives by u; NaN by those that were not asked for */
   double n[2][2];               /* DG */
   double trace, determinant;    /* of DG; the latter from Liouville's formula */
 } pendres_continuation_image;
@@ -68,21 +73,31 @@ typedef struct pendres_continuation_equations {
   pendres_continuation_image image;
 } pendres_continuation_equations;
 
-pendres_pendulum pendres_continuation_map_pendulum(const double u[PENDRES_U_COUNT]);
+pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
+                                                   const double u[PENDRES_U_COUNT]);
 
-/* The map that an orbit is a fixed point of, and the point. */
-pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *orbit,
+/* The point of a pendulum in a state (y, w). */
+void pendres_continuation_map_point(const pendres_pendulum *p, double y, double w,
+                                    double u[PENDRES_U_COUNT]);
+
+/* The map that an orbit is a fixed point of, and the point. The first two of `unknown[unknowns]`
+   are y and w, the others change along the way: where one of them breaks the mirror symmetry, the
+   map of the whole period is meant. */
+pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *orbit, int unknowns,
+                                                     const int *unknown,
                                                      double u[PENDRES_U_COUNT]);
 
 /* Steps a period at a point, for an error of about `tolerance` a period. Always even. */
-pendres_status pendres_continuation_map_steps(pendres_context *ctx,
+pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
                                               const double u[PENDRES_U_COUNT], double tolerance,
                                               int *steps);
 
-/* The map at n points of any parameters, all of the given kind, period and steps. */
+/* The map at n points of any parameters, all of the given kind, period and steps, with the
+   derivatives by the unknowns listed, and by others that cost nothing more. */
 pendres_status pendres_continuation_map_images(pendres_context *ctx,
                                                const pendres_continuation_map *map, int steps,
-                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               int unknowns, const int *unknown, size_t n,
+                                               const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
 /* The same without the derivatives by the parameters, which become NaN. */

@@ -79,7 +79,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
     const pendres_continuation_pair *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
     memcpy(out[i].u, u, sizeof out[i].u);
-    guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(u),
+    guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(p->map.force, u),
                                      .period = p->map.period,
                                      .winding = winding_of(&p->map)};
     c[i] = (pendres_newton_candidate){.guess = &guess[i],
@@ -121,7 +121,7 @@ done:
 static void fill(const pendres_continuation_pair *pair, const reading *a, const reading *b,
                  pendres_orbit *o)
 {
-  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->fine);
+  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, pair->fine);
   const double omega = p.drive_frequency;
   const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                              pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "continuation/continuation_walk.h"
+#include "orbits/orbit_newton.h"
 
 static const char *const names[PENDRES_PARAMETER_COUNT] = {
 #define PARAMETER_NAME(code, name, field) name,
@@ -44,6 +45,20 @@ void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pe
 double pendres_parameter_scale(pendres_parameter parameter)
 {
   return pendres_walk_scale[PENDRES_U_OMEGA + (int)parameter];
+}
+
+const char *pendres_continuation_refuses(const pendres_orbit *o, pendres_parameter parameter)
+{
+  if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  const char *why = pendres_orbit_refuses(o);
+  if (why != NULL) return why;
+  const int coefficients = pendres_model_of(o->pendulum.force)->coefficients;
+  if ((int)parameter - PENDRES_FORCE_COEFFICIENT_1 >= coefficients)
+    return "this force has no such coefficient";
+  if (o->winding != 0 && o->pendulum.drive_amplitude == 0.0 &&
+      o->pendulum.parametric_amplitude == 0.0)
+    return "without a drive a rotation has a period of its own, and is no orbit of the strobe map";
+  return NULL;
 }
 
 const char *pendres_special_name(pendres_special special)

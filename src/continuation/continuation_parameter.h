@@ -1,6 +1,6 @@
 /*
- * continuation_parameter.h -- how long steps are in a parameter; for its value and name see
- * continuation.h.
+ * continuation_parameter.h -- how long steps are in a parameter, and who has it; for its value and
+ * name see continuation.h.
  */
 #ifndef PENDRES_CONTINUATION_PARAMETER_H
 #define PENDRES_CONTINUATION_PARAMETER_H
@@ -9,5 +9,8 @@
 
 /* Lengths that count as one in arclength. */
 double pendres_parameter_scale(pendres_parameter parameter);
+
+/* NULL, or why an orbit cannot be followed in a parameter: a static sentence. */
+const char *pendres_continuation_refuses(const pendres_orbit *orbit, pendres_parameter parameter);
 
 #endif

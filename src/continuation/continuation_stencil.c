@@ -8,38 +8,48 @@
 
 enum { PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 
+/* Point number k, in the turn that the one at hand is in. */
+static void next_to(const pendres_continuation_points *p, size_t k,
+                    const double here[PENDRES_U_COUNT], double u[PENDRES_U_COUNT])
+{
+  memcpy(u, p->u[k], PENDRES_U_COUNT * sizeof *u);
+  if (p->turn > 0.0)
+    u[PENDRES_U_Y] -= p->turn * rint((u[PENDRES_U_Y] - here[PENDRES_U_Y]) / p->turn);
+}
+
 /* A third and a fourth node: the first points beyond the chord that are not too close to it. */
-static void add_beyond(pendres_continuation_stencil *s, size_t count,
-                       const double (*u)[PENDRES_U_COUNT], int closed, size_t from, size_t other,
-                       int side)
+static void add_beyond(pendres_continuation_stencil *s, const pendres_continuation_points *p,
+                       size_t from, size_t other, int side)
 {
   const double least = 0.2 * s->length;
-  double away = 0.0;
+  double away = 0.0, here[PENDRES_U_COUNT], beyond[PENDRES_U_COUNT];
   size_t at = from;
+  memcpy(here, s->u[side < 0 ? 0 : 1], sizeof here);
   while (away < least) {
-    const int end = side < 0 ? at == 0 : at + 1 == count;
-    if (end && !closed) return;
-    const size_t next = (at + count + (size_t)(side < 0 ? count - 1 : 1)) % count;
-    if (next == other) return;
-    away += pendres_walk_distance(u[at], u[next]);
-    at = next;
+    const int end = side < 0 ? at == 0 : at + 1 == p->count;
+    if (end && !p->closed) return;
+    at = (at + p->count + (size_t)(side < 0 ? p->count - 1 : 1)) % p->count;
+    if (at == other) return;
+    next_to(p, at, here, beyond);
+    away += pendres_walk_distance(here, beyond);
+    memcpy(here, beyond, sizeof here);
   }
-  s->u[s->nodes] = u[at];
+  memcpy(s->u[s->nodes], here, sizeof here);
   s->t[s->nodes++] = side < 0 ? -away : s->length + away;
 }
 
-void pendres_continuation_stencil_init(pendres_continuation_stencil *s, size_t count,
-                                       const double (*u)[PENDRES_U_COUNT], int closed, size_t i)
+void pendres_continuation_stencil_init(pendres_continuation_stencil *s,
+                                       const pendres_continuation_points *p, size_t i)
 {
-  const size_t k = (i + 1) % count;
-  s->length = pendres_walk_distance(u[i], u[k]);
+  const size_t k = (i + 1) % p->count;
+  memcpy(s->u[0], p->u[i], sizeof s->u[0]);
+  next_to(p, k, s->u[0], s->u[1]);
+  s->length = pendres_walk_distance(s->u[0], s->u[1]);
   s->nodes = 2;
-  s->u[0] = u[i];
   s->t[0] = 0.0;
-  s->u[1] = u[k];
   s->t[1] = s->length;
-  add_beyond(s, count, u, closed, i, k, -1);
-  add_beyond(s, count, u, closed, k, i, 1);
+  add_beyond(s, p, i, k, -1);
+  add_beyond(s, p, k, i, 1);
 }
 
 void pendres_continuation_stencil_at(const pendres_continuation_stencil *s, double t,

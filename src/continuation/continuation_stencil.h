@@ -17,13 +17,21 @@ enum { PENDRES_STENCIL_NODES = 4, PENDRES_STENCIL_ROOTS = 3 };
 typedef struct pendres_continuation_stencil {
   int nodes;
   double t[PENDRES_STENCIL_NODES]; /* distance along the points, scaled as arclength */
-  const double *u[PENDRES_STENCIL_NODES];
+  double u[PENDRES_STENCIL_NODES][PENDRES_U_COUNT];
   double length;
 } pendres_continuation_stencil;
 
-/* The chord from point i to the next (after the last one the first, if closed). Keeps u. */
-void pendres_continuation_stencil_init(pendres_continuation_stencil *s, size_t count,
-                                       const double (*u)[PENDRES_U_COUNT], int closed, size_t i);
+/* The points of a curve in their order. */
+typedef struct pendres_continuation_points {
+  size_t count;
+  const double (*u)[PENDRES_U_COUNT];
+  int closed;  /* the last is followed by the first, */
+  double turn; /* whole turns of y away perhaps; 0: the coordinate has none */
+} pendres_continuation_points;
+
+/* The chord from point i to the next (after the last one the first, if closed). */
+void pendres_continuation_stencil_init(pendres_continuation_stencil *s,
+                                       const pendres_continuation_points *points, size_t i);
 
 void pendres_continuation_stencil_at(const pendres_continuation_stencil *s, double t,
                                      double u[PENDRES_U_COUNT]);

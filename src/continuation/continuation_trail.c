@@ -63,7 +63,8 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   u[0][place] = bound;
   memset(point->tangent, 0, sizeof point->tangent);
   point->tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
-  pendres_status status = pendres_continuation_map_steps(ctx, u[0], w->tolerance, &steps);
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, w->map.force, u[0], w->tolerance, &steps);
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
   const double chord = pendres_walk_distance(inside->u, outside->u);
@@ -79,28 +80,41 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
     point->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
-  status = pendres_continuation_map_images(ctx, &w->map, steps, 1,
+  status = pendres_continuation_map_images(ctx, &w->map, steps, w->unknowns, w->unknown, 1,
                                            (const double (*)[PENDRES_U_COUNT])u, &point->image);
   *landed = status == PENDRES_OK;
   return status;
 }
 
-/* Whether the chord from a to b passes the start in the start's own direction. */
-static int passes(const pendres_walk *w, const pendres_walk_point *start,
-                  const pendres_walk_point *a, const pendres_walk_point *b, double direction)
+/* By what y of a point is larger than that of another in whole turns: of a half map, whose mirror
+   stands in one place, and without a period of the coordinate nothing. */
+static double turns_between(const pendres_walk *w, const double from[PENDRES_U_COUNT],
+                            const double to[PENDRES_U_COUNT])
 {
-  double before = 0.0, behind = 0.0, along = 0.0;
+  const double turn = pendres_model_of(w->map.force)->period;
+  if (turn == 0.0 || w->map.mirror) return 0.0;
+  return turn * rint((to[PENDRES_U_Y] - from[PENDRES_U_Y]) / turn);
+}
+
+/* Whether the chord from a to b passes the start in the start's own direction, whole turns away
+   perhaps. */
+static int passes(const pendres_walk *w, const pendres_walk_point *start,
+                  const pendres_walk_point *a, const pendres_walk_point *b)
+{
+  double before = 0.0, behind = 0.0, along = 0.0, here[PENDRES_U_COUNT];
+  memcpy(here, start->u, sizeof here);
+  here[PENDRES_U_Y] += turns_between(w, start->u, a->u);
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
-    const double t = direction * start->tangent[k];
-    before += t * (a->u[i] - start->u[i]) / pendres_walk_scale[i];
-    behind += t * (b->u[i] - start->u[i]) / pendres_walk_scale[i];
+    const double t = start->tangent[k];
+    before += t * (a->u[i] - here[i]) / pendres_walk_scale[i];
+    behind += t * (b->u[i] - here[i]) / pendres_walk_scale[i];
     along += t * b->tangent[k];
   }
   const double chord = pendres_walk_distance(a->u, b->u);
   return before < 0.0 && behind >= 0.0 && along > 0.9 &&
-         pendres_walk_distance(a->u, start->u) <= chord &&
-         pendres_walk_distance(b->u, start->u) <= chord;
+         pendres_walk_distance(a->u, here) <= chord &&
+         pendres_walk_distance(b->u, here) <= chord;
 }
 
 /* Take over what a walk has found ahead of it. */
@@ -128,7 +142,7 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
       break;
     }
     if (p->arclength > 4.0 * pendres_walk_distance(last->u, p->u) &&
-        passes(w, start, last, p, 1.0)) {
+        passes(w, start, last, p)) {
       to->going = 0;
       to->end = PENDRES_END_CLOSED;
       break;
@@ -184,6 +198,7 @@ static pendres_status join(pendres_context *ctx, const pendres_walk *kind,
     for (int k = 0; k < kind->unknowns; k++) t->point[n].tangent[k] = -t->point[n].tangent[k];
   n++;
   for (size_t i = 0; i < ways[forth].count; i++) t->point[n++] = ways[forth].point[i];
+  if (t->closed) t->round = turns_between(kind, t->point[0].u, t->point[t->count - 1].u);
   const double shift = t->point[0].arclength;
   for (size_t i = 0; i < t->count; i++) t->point[i].arclength -= shift;
   t->end[0] = ways[back].end;
@@ -325,8 +340,9 @@ static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
     p->index[i] = i;
     pairs[i] = (pendres_continuation_pair){.map = t->kind.map};
     memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
-    status = pendres_continuation_map_steps(ctx, t->point[i].u, 10.0 * ctx->options.tolerance,
-                                            &pairs[i].coarse_steps);
+    status =
+      pendres_continuation_map_steps(ctx, t->kind.map.force, t->point[i].u,
+                                     10.0 * ctx->options.tolerance, &pairs[i].coarse_steps);
   }
   return status;
 }

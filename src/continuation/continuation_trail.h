@@ -17,7 +17,9 @@ typedef struct pendres_trail {
   size_t count, capacity;
   pendres_walk_point *point; /* in order, arclength ascending from 0 */
   pendres_branch_end end[2];
-  int closed; /* the last point is followed by the first */
+  int closed; /* the last point is followed by the first, */
+  double round; /* whose y is meant to be so much larger: whole turns, where the way round leads
+                   from well to well */
 } pendres_trail;
 
 /* Bounds of the parameters among the unknowns, in their order, and of the walk. */

@@ -7,7 +7,8 @@
 
 #include "engine/context_internal.h"
 
-const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1};
+const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1, 0.1,
+                                                    0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
 
 double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
 {
@@ -15,6 +16,20 @@ double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PEN
   for (int i = 0; i < PENDRES_U_COUNT; i++)
     sum = hypot(sum, (a[i] - b[i]) / pendres_walk_scale[i]);
   return sum;
+}
+
+pendres_walk pendres_walk_of(const pendres_orbit *orbit, pendres_continuation_condition condition,
+                             const pendres_parameter *parameter, double spacing,
+                             double u[PENDRES_U_COUNT])
+{
+  pendres_walk w = {.condition = condition,
+                    .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
+                    .unknown = {PENDRES_U_Y, PENDRES_U_W},
+                    .tolerance = 1e-7,
+                    .longest = spacing};
+  for (int k = 2; k < w.unknowns; k++) w.unknown[k] = PENDRES_U_OMEGA + (int)parameter[k - 2];
+  w.map = pendres_continuation_map_of(orbit, w.unknowns, w.unknown, u);
+  return w;
 }
 
 enum { MOST_ITERATIONS = 6 };
@@ -96,7 +111,7 @@ static void predict(candidate *c)
     c->u[w->unknown[k]] +=
       pendres_walk_scale[w->unknown[k]] * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
   memcpy(c->predicted, c->u, sizeof c->u);
-  const pendres_pendulum p = pendres_continuation_map_pendulum(c->u);
+  const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   c->state = pendres_pendulum_check(&p, NULL) == PENDRES_OK ? ACTIVE : FAILED;
 }
 
@@ -125,7 +140,7 @@ static void correct(candidate *c)
   for (int k = 0; k < n; k++) length = hypot(length, d[k]);
   if (!(length < 1.0)) return;
   for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_walk_scale[w->unknown[k]] * d[k];
-  const pendres_pendulum p = pendres_continuation_map_pendulum(c->u);
+  const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return;
   c->state = length < last_step ? CONVERGED : ACTIVE;
 }
@@ -150,6 +165,7 @@ static double rounding_of(const candidate *c)
 static int same_block(const candidate *a, const candidate *b)
 {
   return a->steps == b->steps && a->walk->condition == b->walk->condition &&
+         a->walk->map.force == b->walk->map.force &&
          a->walk->map.mirror == b->walk->map.mirror &&
          a->walk->map.period == b->walk->map.period &&
          a->walk->map.winding == b->walk->map.winding && a->walk->unknowns == b->walk->unknowns &&
@@ -340,7 +356,8 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
   w->step = 0.1 * w->longest;
   memset(w->bend, 0, sizeof w->bend);
   memcpy(place[0], u, sizeof place[0]);
-  pendres_status status = pendres_continuation_map_steps(ctx, u, w->tolerance, &steps);
+  pendres_status status =
+    pendres_continuation_map_steps(ctx, w->map.force, u, w->tolerance, &steps);
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, u, &e);
   if (status != PENDRES_OK) return status;
   if (!first_tangent(w, &e, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
@@ -420,7 +437,7 @@ pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk
     int steps = 0;
     w->found = 0;
     if (w->stuck) continue;
-    status = pendres_continuation_map_steps(ctx, w->here.u, w->tolerance, &steps);
+    status = pendres_continuation_map_steps(ctx, w->map.force, w->here.u, w->tolerance, &steps);
     if (status != PENDRES_OK) goto done;
     for (int k = 0; k < PENDRES_WALK_AHEAD; k++) {
       c[count] = (candidate){.walk = w, .tangent = w->here.tangent, .steps = steps, .rank = k};

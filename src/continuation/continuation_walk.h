@@ -11,6 +11,8 @@
 #ifndef PENDRES_CONTINUATION_WALK_H
 #define PENDRES_CONTINUATION_WALK_H
 
+#include <pendres/continuation.h>
+
 #include "continuation/continuation_map.h"
 
 enum { PENDRES_WALK_AHEAD = 8, PENDRES_WALK_UNKNOWNS = 4 };
@@ -45,11 +47,19 @@ typedef struct pendres_walk {
   int found;
 } pendres_walk;
 
-/* Lengths that count as one in arclength: y, w, omega, gamma, F0. */
+/* Lengths that count as one in arclength, in the order of u. */
 extern const double pendres_walk_scale[PENDRES_U_COUNT];
 
 /* Distance in the scale of arclength; what is held does not count, as it does not differ. */
 double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
+
+/*
+ * The curve of orbits (PENDRES_CONDITION_NONE: of one parameter) or of bifurcations (of two) that
+ * an orbit lies on, and its place there.
+ */
+pendres_walk pendres_walk_of(const pendres_orbit *orbit, pendres_continuation_condition condition,
+                             const pendres_parameter *parameter, double spacing,
+                             double u[PENDRES_U_COUNT]);
 
 /*
  * Start a walk at u, corrected to the curve across its tangent, towards growing (direction > 0) or

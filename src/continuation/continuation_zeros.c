@@ -18,8 +18,11 @@ double pendres_trail_between(const pendres_trail *t, const pendres_trail_zero *z
                              double u[PENDRES_U_COUNT])
 {
   const pendres_walk_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
-  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (b->u[i] - a->u[i]);
-  return pendres_walk_distance(a->u, b->u);
+  double end[PENDRES_U_COUNT];
+  memcpy(end, b->u, sizeof end);
+  if (z->i + 1 == t->count) end[PENDRES_U_Y] += t->round;
+  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (end[i] - a->u[i]);
+  return pendres_walk_distance(a->u, end);
 }
 
 /* ---- parabolas through three points ---- */
@@ -139,7 +142,7 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     int here = 0;
     memcpy(u[i], t->point[i].u, sizeof u[i]);
-    status = pendres_continuation_map_steps(ctx, u[i], t->kind.tolerance, &here);
+    status = pendres_continuation_map_steps(ctx, t->kind.map.force, u[i], t->kind.tolerance, &here);
     if (here > steps) steps = here;
   }
   if (status == PENDRES_OK)
@@ -169,7 +172,8 @@ static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
   *out = part < 0.5 ? *a : *b;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[0][i] = a->u[i] + part * (b->u[i] - a->u[i]);
   pendres_status status =
-    pendres_continuation_map_steps(ctx, u[0], 10.0 * ctx->options.tolerance, &steps);
+    pendres_continuation_map_steps(ctx, t->kind.map.force, u[0], 10.0 * ctx->options.tolerance,
+                                   &steps);
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, &t->kind, 1, out, &steps, u, &rounding);
   *good = status == PENDRES_OK && !isnan(rounding);

@@ -185,7 +185,8 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind
                                     pendres_flow **out)
 {
   static const size_t rows[PENDRES_FLOW_KINDS] = {
-    PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL, PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_STATE};
+    PENDRES_ROWS_STATE,  PENDRES_ROWS_VARIATIONAL, PENDRES_ROWS_SENSITIVITY,
+    PENDRES_ROWS_DRIVES, PENDRES_ROWS_ALL,         PENDRES_ROWS_STATE};
 
   if (ctx->flows[kind] == NULL) {
     const pendres_flow_options options = {.rows = rows[kind],

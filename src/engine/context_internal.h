@@ -17,6 +17,8 @@ typedef enum pendres_flow_kind {
   PENDRES_FLOW_STATE,
   PENDRES_FLOW_VARIATIONAL,
   PENDRES_FLOW_SENSITIVITY,
+  PENDRES_FLOW_DRIVES, /* sensitivities to torque and parametric drive as well */
+  PENDRES_FLOW_ALL,    /* and to the coefficients of a polynomial force */
   PENDRES_FLOW_ADAPTIVE, /* the state, by adaptive steps */
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;

@@ -193,7 +193,8 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   if (flow == NULL) return status;
 
   if (options->rows != PENDRES_ROWS_STATE && options->rows != PENDRES_ROWS_VARIATIONAL &&
-      options->rows != PENDRES_ROWS_SENSITIVITY) {
+      options->rows != PENDRES_ROWS_SENSITIVITY && options->rows != PENDRES_ROWS_DRIVES &&
+      options->rows != PENDRES_ROWS_ALL) {
     status = PENDRES_INVALID_ARGUMENT;
     goto fail;
   }

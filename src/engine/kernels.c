@@ -203,6 +203,15 @@ PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t str
   }
 }
 
+/* The pair of rows from `row` on: derivatives by a parameter by which w's slope changes by `by`. */
+PENDRES_VECTOR_INLINE void derive(const felt *a, double drag, double by, int row, size_t stride,
+                                  size_t i, const double *s, double *d)
+{
+  const size_t of_y = (size_t)row * stride + i, of_w = of_y + stride;
+  d[of_y] = s[of_w];
+  d[of_w] = FMA(a->spring, s[of_y], FMA(drag, s[of_w], by));
+}
+
 PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t stride,
                                            const pendres_coefficients *coefficients,
                                            double cos_theta, const double *restrict s,
@@ -224,14 +233,33 @@ PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t str
       k.inverse[i] * FMA(2.0, FMA(k.stiffness[i], a.force, -held), k.friction[i] * w);
     const double by_damping = -k.inverse[i] * w;
     const double by_amplitude = k.stiffness[i] * cos_theta;
-    d[6 * stride + i] = s[7 * stride + i];
-    d[7 * stride + i] =
-      FMA(a.spring, s[6 * stride + i], FMA(drag, s[7 * stride + i], by_frequency));
-    d[8 * stride + i] = s[9 * stride + i];
-    d[9 * stride + i] = FMA(a.spring, s[8 * stride + i], FMA(drag, s[9 * stride + i], by_damping));
-    d[10 * stride + i] = s[11 * stride + i];
-    d[11 * stride + i] =
-      FMA(a.spring, s[10 * stride + i], FMA(drag, s[11 * stride + i], by_amplitude));
+    derive(&a, drag, by_frequency, PENDRES_ROW_BY_OMEGA, stride, i, s, d);
+    derive(&a, drag, by_damping, PENDRES_ROW_BY_GAMMA, stride, i, s, d);
+    derive(&a, drag, by_amplitude, PENDRES_ROW_BY_DRIVE, stride, i, s, d);
+  }
+}
+
+/* The rows beyond rhs_sensitivity(): by torque, parametric drive and coefficients of the force. */
+PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, size_t stride,
+                                     const pendres_coefficients *coefficients, double cos_theta,
+                                     const double *restrict s, double *restrict d)
+{
+  const pendres_coefficients k = *coefficients;
+#pragma omp simd
+  for (size_t i = 0; i < stride; i++) {
+    const double y = s[i];
+    const felt a = feel(model, &k, i, cos_theta, y, s[stride + i]);
+    const double drag = -k.friction[i], strength = -k.stiffness[i] * a.modulation;
+    derive(&a, drag, k.stiffness[i], PENDRES_ROW_BY_TORQUE, stride, i, s, d);
+    derive(&a, drag, -k.stiffness[i] * a.bare * cos_theta, PENDRES_ROW_BY_MODULATION, stride, i,
+           s, d);
+    if (rows < PENDRES_ROWS_ALL) continue;
+    double by = strength * y;
+#pragma GCC unroll 8
+    for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) {
+      derive(&a, drag, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
+      by *= y;
+    }
   }
 }
 
@@ -350,6 +378,13 @@ PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, cons
       rhs_sensitivity(model, s->lanes, &s->k, o->cos_theta, from + s->at, o->slope + s->at);
     else if (o->sum == NULL)
       set(o, s->at, size);
+    if (model == PENDRES_MODEL_PLAIN || o->slope == NULL) continue;
+    if (rows == PENDRES_ROWS_DRIVES)
+      rhs_terms(model, PENDRES_ROWS_DRIVES, s->lanes, &s->k, o->cos_theta, from + s->at,
+                o->slope + s->at);
+    else if (model == PENDRES_MODEL_POLYNOMIAL && rows == PENDRES_ROWS_ALL)
+      rhs_terms(model, PENDRES_ROWS_ALL, s->lanes, &s->k, o->cos_theta, from + s->at,
+                o->slope + s->at);
   }
 }
 
@@ -391,7 +426,7 @@ static void run(size_t rows, const pendres_strip *s, const pendres_operation *o,
     run_states(s, o, n);
   else if (s->model == PENDRES_MODEL_POLYNOMIAL)
     run_rows_POLYNOMIAL(rows, s, o, n);
-  else if (s->model == PENDRES_MODEL_PENDULUM)
+  else if (s->model == PENDRES_MODEL_PENDULUM || rows > PENDRES_ROWS_SENSITIVITY)
     run_rows_PENDULUM(rows, s, o, n);
   else
     run_rows_PLAIN(rows, s, o, n);

@@ -47,8 +47,16 @@ typedef struct pendres_coefficients {
  *   2, 3 d(y,w)/dy0   4, 5 d(y,w)/dw0   the variational equation
  *   6, 7 d/domega  8, 9 d/dgamma  10, 11 d/dF0   parameter sensitivities, at fixed
  *                                       initial y0 and w0
+ *   12, 13 d/dI  14, 15 d/db            where they are asked for
+ *   16, 17 d/da1  ...  24, 25 d/da5     of a polynomial force
  */
-enum { PENDRES_ROWS_STATE = 2, PENDRES_ROWS_VARIATIONAL = 6, PENDRES_ROWS_SENSITIVITY = 12 };
+enum {
+  PENDRES_ROWS_STATE = 2,
+  PENDRES_ROWS_VARIATIONAL = 6,
+  PENDRES_ROWS_SENSITIVITY = 12,
+  PENDRES_ROWS_DRIVES = 16,
+  PENDRES_ROWS_ALL = PENDRES_ROWS_DRIVES + 2 * PENDRES_FORCE_COEFFICIENTS
+};
 typedef enum pendres_row {
   PENDRES_ROW_Y,
   PENDRES_ROW_W,
@@ -56,7 +64,10 @@ typedef enum pendres_row {
   PENDRES_ROW_BY_W = PENDRES_ROW_BY_Y + 2,
   PENDRES_ROW_BY_OMEGA = PENDRES_ROW_BY_W + 2,
   PENDRES_ROW_BY_GAMMA = PENDRES_ROW_BY_OMEGA + 2,
-  PENDRES_ROW_BY_DRIVE = PENDRES_ROW_BY_GAMMA + 2
+  PENDRES_ROW_BY_DRIVE = PENDRES_ROW_BY_GAMMA + 2,
+  PENDRES_ROW_BY_TORQUE = PENDRES_ROW_BY_DRIVE + 2,
+  PENDRES_ROW_BY_MODULATION = PENDRES_ROW_BY_TORQUE + 2,
+  PENDRES_ROW_BY_POWERS = PENDRES_ROW_BY_MODULATION + 2 /* a1, and so on */
 } pendres_row;
 
 /* The rows of a block, to be read: row r of lane i is at[r stride + i]. */

@@ -34,7 +34,8 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
       .at = s->rows * lane,
       .k = {.stiffness = k->stiffness + lane, .drive = k->drive + lane,
             .friction = k->friction + lane, .inverse = k->inverse + lane}};
-    if (s->model != PENDRES_MODEL_PLAIN) {
+    /* Kernels of the plain pendulum have no rows of derivatives by what it lacks. */
+    if (s->model != PENDRES_MODEL_PLAIN || s->rows > PENDRES_ROWS_SENSITIVITY) {
       strip.k.torque = k->torque + lane;
       strip.k.modulation = k->modulation + lane;
       for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) strip.k.power[i] = k->power[i] + lane;

@@ -68,7 +68,7 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
   static const int unknown[] = {PENDRES_U_Y, PENDRES_U_W};
   double u[PENDRES_U_COUNT], stable[2], unstable[2], left[2], unused[2], second = 0.0;
   pendres_continuation_equations at;
-  (void)pendres_continuation_map_of(saddle, u);
+  (void)pendres_continuation_map_of(saddle, 2, unknown, u);
   /* The whole period also where half of one would do: sides are kept then. */
   const pendres_continuation_map map = {.period = saddle->period, .winding = saddle->winding};
   pendres_status status = pendres_continuation_map_solve(ctx, &map, PENDRES_CONDITION_NONE, steps,
@@ -197,13 +197,10 @@ pendres_status pendres_boundary_grow_distance(pendres_context *ctx,
   }
   for (size_t i = 0; i < n; i++) order[i] = &nodes[i];
   qsort(order, n, sizeof *order, by_generation);
-  for (size_t i = 0; i < n; i++) {
-    u[i][PENDRES_U_Y] = order[i]->y;
-    u[i][PENDRES_U_W] = order[i]->w;
-    u[i][PENDRES_U_OMEGA] = seed->backward.drive_frequency;
-    u[i][PENDRES_U_GAMMA] = -seed->backward.damping;
-    u[i][PENDRES_U_DRIVE] = seed->backward.drive_amplitude;
-  }
+  pendres_pendulum forward = seed->backward;
+  forward.damping = -forward.damping;
+  for (size_t i = 0; i < n; i++)
+    pendres_continuation_map_point(&forward, order[i]->y, order[i]->w, u[i]);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     last = first;
     while (last < n && order[last]->generation == order[first]->generation) last++;

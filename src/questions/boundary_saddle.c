@@ -74,12 +74,8 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
   for (int i = 0; i < 2 && status == PENDRES_NOT_FOUND; i++) {
     const double up = attractor->phase_lag < 1.0 ? 1.0 : -1.0;
     double u[PENDRES_U_COUNT];
-    pendres_walk walk = {.map = pendres_continuation_map_of(attractor, u),
-                         .condition = PENDRES_CONDITION_NONE,
-                         .unknowns = 3,
-                         .unknown = {PENDRES_U_Y, PENDRES_U_W, PENDRES_U_OMEGA},
-                         .tolerance = 1e-7,
-                         .longest = 0.1};
+    const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
+    pendres_walk walk = pendres_walk_of(attractor, PENDRES_CONDITION_NONE, &along, 0.1, u);
     status = pendres_walk_begin(ctx, &walk, u, i == 0 ? up : -up);
     if (status == PENDRES_OK) status = walk_back(ctx, &walk, u);
     if (status == PENDRES_OK) status = refine(ctx, attractor, u, out);

@@ -63,7 +63,7 @@ static const char *refused(const pendres_phase_grid *g)
   const pendres_parameter along = g->options.parameter;
   if (along != PENDRES_DRIVE_FREQUENCY && along != PENDRES_DRIVE_AMPLITUDE)
     return "lines go along the drive frequency or the drive amplitude";
-  if ((unsigned)g->across >= PENDRES_PARAMETER_COUNT || g->across == along)
+  if ((unsigned)g->across > PENDRES_DRIVE_AMPLITUDE || g->across == along)
     return "lines differ in another parameter than changes along them";
   if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
     return "a diagram needs values of both its parameters";

@@ -1,0 +1,160 @@
+/*
+ * oracle.h -- driven pendulums and polynomial oscillators in long double, for tests alone.
+ *
+ * Owns: extrapolation of the modified midpoint rule (Gragg, Bulirsch and Stoer; Hairer, Norsett and
+ * Wanner I, II.9) over time t of x'' and its variational equation, and Newton's method on what a
+ * test asks of a period. It shares no code, no variables and no method with the library. Order 16
+ * and 32 steps a period leave less than 1e-15 of what the tests ask for.
+ */
+#ifndef ORACLE_H
+#define ORACLE_H
+
+#include <math.h>
+#include <string.h>
+
+#include <pendres/pendulum.h>
+
+#define ORACLE_PI 3.14159265358979323846264338L
+
+enum { ORACLE_SIZE = 6 };
+
+/* y'' + gamma y' + f(y) (1 + b cos omega t) = torque + drive cos omega t; f is sin y, or where
+   `polynomial` is set the sum of a[k - 1] y^k. */
+typedef struct oracle {
+  long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_COEFFICIENTS];
+  int polynomial;
+} oracle;
+
+static inline oracle oracle_of(const pendres_pendulum *p)
+{
+  oracle o = {.gamma = p->damping, .drive = p->drive_amplitude, .omega = p->drive_frequency,
+              .torque = p->torque, .b = p->parametric_amplitude,
+              .polynomial = p->force == PENDRES_FORCE_POLYNOMIAL};
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) o.a[k] = p->force_coefficients[k];
+  return o;
+}
+
+/* The slopes at time t of y, v and the derivatives of both by the initial y (2, 3) and v (4, 5). */
+static inline void oracle_slope(const oracle *p, long double t, const long double *s,
+                                long double *d)
+{
+  const long double drive = cosl(p->omega * t), y = s[0];
+  long double f = 0.0L, by = 0.0L, power = 1.0L;
+  for (int k = 1; p->polynomial && k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+    by += k * p->a[k - 1] * power;
+    power *= y;
+    f += p->a[k - 1] * power;
+  }
+  if (!p->polynomial) f = sinl(y), by = cosl(y);
+  const long double strength = 1.0L + p->b * drive;
+  for (int k = 0; k < ORACLE_SIZE; k += 2) {
+    d[k] = s[k + 1];
+    d[k + 1] = -p->gamma * s[k + 1] - strength * by * s[k];
+  }
+  d[1] = p->torque + p->drive * drive - p->gamma * s[1] - strength * f;
+}
+
+static inline void oracle_midpoint(const oracle *p, long double t, long double step, int n,
+                                   const long double *from, long double *to)
+{
+  long double before[ORACLE_SIZE], here[ORACLE_SIZE], next[ORACLE_SIZE], d[ORACLE_SIZE];
+  const long double h = step / n;
+  memcpy(before, from, sizeof before);
+  oracle_slope(p, t, from, d);
+  for (int i = 0; i < ORACLE_SIZE; i++) here[i] = from[i] + h * d[i];
+  for (int k = 1; k < n; k++) {
+    oracle_slope(p, t + k * h, here, d);
+    for (int i = 0; i < ORACLE_SIZE; i++) next[i] = before[i] + 2.0L * h * d[i];
+    memcpy(before, here, sizeof before);
+    memcpy(here, next, sizeof here);
+  }
+  oracle_slope(p, t + step, here, d);
+  for (int i = 0; i < ORACLE_SIZE; i++) to[i] = 0.5L * (before[i] + here[i] + h * d[i]);
+}
+
+/* From time 0 on, over so many periods; s is replaced. */
+static inline void oracle_advance(const oracle *p, int periods, long double *s)
+{
+  enum { COLUMNS = 8, PARTS = 32 };
+  const long double step = 2.0L * ORACLE_PI / p->omega / PARTS;
+  long double table[COLUMNS][ORACLE_SIZE];
+  for (int part = 0; part < PARTS * periods; part++) {
+    for (int k = 0; k < COLUMNS; k++) {
+      oracle_midpoint(p, part * step, step, 2 * (k + 1), s, table[k]);
+      for (int m = k - 1; m >= 0; m--) {
+        const long double ratio = (long double)(k + 1) / (m + 1);
+        for (int i = 0; i < ORACLE_SIZE; i++)
+          table[m][i] = table[m + 1][i] + (table[m + 1][i] - table[m][i]) / (ratio * ratio - 1.0L);
+      }
+    }
+    memcpy(s, table[0], sizeof table[0]);
+  }
+}
+
+/* How a start (y, v) misses being that of an orbit of so many periods and turns (0, 1), and the
+   determinant of the derivative of where it leads, less `sign` (2). */
+static inline void oracle_miss(const oracle *p, int periods, int winding, int sign,
+                               const long double *start, long double *miss)
+{
+  long double s[ORACLE_SIZE] = {start[0], start[1], 1.0L, 0.0L, 0.0L, 1.0L};
+  oracle_advance(p, periods, s);
+  miss[0] = s[0] - start[0] - 2.0L * ORACLE_PI * winding;
+  miss[1] = s[1] - start[1];
+  miss[2] = (s[2] - sign) * (s[5] - sign) - s[3] * s[4];
+}
+
+/* a x = b by elimination; a and b are overwritten, b by x. */
+static inline void oracle_solve(long double a[3][3], long double *b)
+{
+  for (int c = 0; c < 3; c++) {
+    int best = c;
+    for (int r = c + 1; r < 3; r++)
+      if (fabsl(a[r][c]) > fabsl(a[best][c])) best = r;
+    for (int k = 0; k < 3; k++) {
+      const long double t = a[c][k];
+      a[c][k] = a[best][k], a[best][k] = t;
+    }
+    const long double t = b[c];
+    b[c] = b[best], b[best] = t;
+    for (int r = 0; r < 3; r++) {
+      if (r == c) continue;
+      const long double f = a[r][c] / a[c][c];
+      for (int k = 0; k < 3; k++) a[r][k] -= f * a[c][k];
+      b[r] -= f * b[c];
+    }
+  }
+  for (int c = 0; c < 3; c++) b[c] /= a[c][c];
+}
+
+/*
+ * The value of *parameter, a field of *p, at which the orbit near (y, v) has a multiplier `sign`,
+ * by Newton's method with central differences from the values at hand on; *left is the last step.
+ */
+static inline double oracle_bifurcation(oracle *p, long double *parameter, int periods,
+                                        int winding, int sign, double y, double v, double *left)
+{
+  enum { ROUNDS = 3 };
+  const long double h = 1e-5L;
+  long double u[2] = {y, v};
+  for (int round = 0; round < ROUNDS; round++) {
+    long double a[3][3], r[3], side[2][3];
+    oracle_miss(p, periods, winding, sign, u, r);
+    for (int column = 0; column < 3; column++) {
+      long double *const moved = column < 2 ? &u[column] : parameter, old = *moved;
+      for (int k = 0; k < 2; k++) {
+        *moved = k == 0 ? old + h : old - h;
+        oracle_miss(p, periods, winding, sign, u, side[k]);
+      }
+      *moved = old;
+      for (int i = 0; i < 3; i++) a[i][column] = (side[0][i] - side[1][i]) / (2.0L * h);
+    }
+    oracle_solve(a, r);
+    u[0] -= r[0];
+    u[1] -= r[1];
+    *parameter -= r[2];
+    *left = (double)fabsl(r[2]);
+  }
+  return (double)*parameter;
+}
+
+#endif

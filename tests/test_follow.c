@@ -1,0 +1,200 @@
+/*
+ * test_follow.c -- orbits of driven oscillators followed in every parameter that these have.
+ *
+ * References: oracle.h (extrapolated midpoint rule in long double, time instead of phase, no shared
+ * code), Floquet theory of Mathieu's equation (GSL).
+ */
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pendres/pendres.h>
+
+#include "oracle.h"
+
+#define COUNT(a) (sizeof(a) / sizeof *(a))
+
+static const double half_pi = 1.57079632679489661923;
+
+static pendres_context *context(double tolerance)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = tolerance}, &ctx));
+  return ctx;
+}
+
+/* A field of the oracle's that is a parameter. */
+static long double *field_of(oracle *o, pendres_parameter parameter)
+{
+  switch (parameter) {
+  case PENDRES_DRIVE_FREQUENCY: return &o->omega;
+  case PENDRES_DAMPING: return &o->gamma;
+  case PENDRES_DRIVE_AMPLITUDE: return &o->drive;
+  case PENDRES_TORQUE: return &o->torque;
+  case PENDRES_PARAMETRIC_AMPLITUDE: return &o->b;
+  default: return &o->a[parameter - PENDRES_FORCE_COEFFICIENT_1];
+  }
+}
+
+/*
+ * The same bifurcation by the oracle, from a start that is off by 1e-6: it is within the error that
+ * is claimed, and that is within 1e-10. The oracle itself is good to 1e-14.
+ */
+static void check_bifurcation(const pendres_bifurcation *f)
+{
+  oracle o = oracle_of(&f->orbit.pendulum);
+  long double *const parameter = field_of(&o, f->parameter);
+  const double origin = o.polynomial ? 0.0 : half_pi;
+  const int sign = f->kind == PENDRES_PERIOD_DOUBLING ? -1 : 1;
+  double left = NAN;
+  *parameter += 1e-6L;
+  const double value = oracle_bifurcation(&o, parameter, f->orbit.period, f->orbit.winding, sign,
+                                          f->orbit.x - origin + 1e-6, f->orbit.v - 1e-6, &left);
+  assert_true(left < 1e-14);
+  assert_true(f->value_error < 1e-10);
+  check_near(f->value, value, f->value_error + 1e-14);
+}
+
+/* A branch of the state that a pendulum settles on from (x, v), along a parameter. */
+static pendres_branch *branch_of(pendres_context *ctx, const pendres_orbit *o,
+                                 pendres_parameter parameter, double low, double high)
+{
+  const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high};
+  pendres_branch *b = NULL;
+  check_ok(pendres_branch_follow(ctx, 1, o, &options, &b));
+  for (size_t i = 0; i < pendres_branch_count(b); i++)
+    assert_int_equal(pendres_branch_get(b, i)->doubt, 0);
+  return b;
+}
+
+static pendres_orbit settled(pendres_context *ctx, const pendres_pendulum *p)
+{
+  pendres_orbit_guess g = {.pendulum = *p, .period = 1};
+  pendres_status outcome = PENDRES_INTERNAL;
+  pendres_orbit o;
+  check_ok(pendres_strobe_advance(ctx, 1, p, &g.x, &g.v, 150, NULL));
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(outcome);
+  return o;
+}
+
+/* Duffing's and Helmholtz's oscillators along each of their parameters: so many bifurcations. */
+static void oscillators(void **state)
+{
+  static const struct {
+    pendres_pendulum p;
+    pendres_parameter parameter;
+    double low, high;
+    size_t bifurcations;
+  } cases[] = {
+#define DUFFING                                                            \
+  {.damping = 0.1, .drive_amplitude = 0.5, .drive_frequency = 1.3,         \
+   .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}}
+#define HELMHOLTZ                                                          \
+  {.damping = 0.1, .drive_amplitude = 0.06, .drive_frequency = 0.8,        \
+   .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}}
+    {DUFFING, PENDRES_DRIVE_FREQUENCY, 1.3, 2.22, 2},
+    {DUFFING, PENDRES_DRIVE_AMPLITUDE, 0.05, 0.6, 2},
+    {DUFFING, PENDRES_PARAMETRIC_AMPLITUDE, 0.0, 0.8, 1},
+    {DUFFING, PENDRES_FORCE_COEFFICIENT_3, 0.05, 1.1, 2},
+    {DUFFING, PENDRES_FORCE_COEFFICIENT_4, -0.6, 0.1, 1},
+    {HELMHOLTZ, PENDRES_DRIVE_FREQUENCY, 0.7, 1.0, 1},
+    {HELMHOLTZ, PENDRES_TORQUE, -0.1, 0.3, 5},
+    {HELMHOLTZ, PENDRES_FORCE_COEFFICIENT_1, 0.8, 1.2, 2},
+  };
+  pendres_context *ctx = context(1e-10);
+  (void)state;
+  for (size_t i = 0; i < COUNT(cases); i++) {
+    const pendres_orbit o = settled(ctx, &cases[i].p);
+    pendres_branch *b = branch_of(ctx, &o, cases[i].parameter, cases[i].low, cases[i].high);
+    assert_int_equal(pendres_branch_bifurcations(b), cases[i].bifurcations);
+    for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
+      check_bifurcation(pendres_branch_bifurcation(b, m));
+    pendres_branch_free(b);
+  }
+  pendres_context_free(ctx);
+}
+
+/* A state that turns over `winding` times a period, at the first torque that has one. */
+static pendres_orbit running(pendres_context *ctx, pendres_pendulum p, int winding)
+{
+  enum { TORQUES = 64, PERIODS = 60 };
+  pendres_pendulum pendulum[TORQUES];
+  double x[TORQUES], v[TORQUES], from[TORQUES];
+  for (int i = 0; i < TORQUES; i++) {
+    pendulum[i] = p;
+    pendulum[i].torque = 0.04 * i;
+    x[i] = half_pi;
+    v[i] = winding * p.drive_frequency;
+  }
+  check_ok(pendres_strobe_advance(ctx, TORQUES, pendulum, x, v, PERIODS, NULL));
+  memcpy(from, x, sizeof from);
+  check_ok(pendres_strobe_advance(ctx, TORQUES, pendulum, x, v, 1, NULL));
+  for (int i = 0; i < TORQUES; i++) {
+    const pendres_orbit_guess g = {
+      .pendulum = pendulum[i], .x = x[i], .v = v[i], .period = 1, .winding = winding};
+    pendres_status outcome;
+    pendres_orbit o;
+    if (fabs(x[i] - from[i] - 2.0 * (double)ORACLE_PI * winding) > 0.1) continue;
+    check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+    if (outcome == PENDRES_OK && o.stable) return o;
+  }
+  fail_msg("no orbit of winding %d", winding);
+  return (pendres_orbit){.period = 0};
+}
+
+/*
+ * Where Shapiro steps begin and end: the folds of states of winding 0 to 3 along the torque. Their
+ * branches close, the way round leading from one well to the next; the orbits that the states of no
+ * winding meet at their folds lie on top of the barrier, and the branch is its own mirror image.
+ */
+static void steps(void **state)
+{
+  static const pendres_pendulum p = {
+    .damping = 0.2, .drive_amplitude = 1.0, .drive_frequency = 1.6};
+  pendres_context *ctx = context(1e-10);
+  (void)state;
+  for (int winding = 0; winding <= 3; winding++) {
+    const pendres_orbit o = running(ctx, p, winding);
+    pendres_branch *b = branch_of(ctx, &o, PENDRES_TORQUE, -3.0, 3.0);
+    size_t folds = 0;
+    assert_int_equal(pendres_branch_end_of(b, 0), PENDRES_END_CLOSED);
+    for (size_t m = 0; m < pendres_branch_bifurcations(b); m++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation(b, m);
+      check_bifurcation(f);
+      folds += f->kind == PENDRES_FOLD;
+    }
+    assert_int_equal(folds, 2);
+    pendres_branch_free(b);
+  }
+  pendres_context_free(ctx);
+}
+
+/* What cannot be followed, or not along this, is refused. */
+static void refusals(void **state)
+{
+  pendres_context *ctx = context(1e-8);
+  const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 1.0, .drive_frequency = 1.6};
+  pendres_orbit o = settled(ctx, &p);
+  pendres_branch_options options = {
+    .parameter = PENDRES_FORCE_COEFFICIENT_1, .low = 0.0, .high = 1.0};
+  pendres_branch *b = NULL;
+  pendres_fold fold;
+  (void)state;
+  assert_int_equal(pendres_branch_follow(ctx, 1, &o, &options, &b), PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(pendres_context_message(ctx), "no such coefficient"));
+  o.pendulum.drive_amplitude = 0.0;
+  o.winding = 1;
+  assert_int_equal(pendres_fold_find_along(ctx, &o, PENDRES_TORQUE, &fold),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(pendres_context_message(ctx), "period of its own"));
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(oscillators), cmocka_unit_test(steps),
+                                     cmocka_unit_test(refusals)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
