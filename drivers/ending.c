@@ -79,3 +79,10 @@ void ending_done(void)
 {
   atomic_store(&done, 1);
 }
+
+void ending_forget(void)
+{
+  atomic_store(&watched, NULL);
+  atomic_store(&done, 1);
+  for (size_t i = 0; i < LENGTH(faults); i++) (void)signal(faults[i], SIG_DFL);
+}

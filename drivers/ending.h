@@ -26,4 +26,8 @@ void ending_told(int code);
 /* *store is gone: exit() is main's own. */
 void ending_done(void);
 
+/* In a process that was forked: what it does and how it ends is no matter of the run. Faults and
+   exits are the system's again, and *store is left alone. */
+void ending_forget(void);
+
 #endif

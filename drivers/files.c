@@ -10,6 +10,8 @@
 
 #include <pendres/store.h>
 
+#include "apart.h"
+
 enum { ROOM = DECK_PATH + 16 };
 
 /* The folder of a path, and the name within it. */
@@ -84,19 +86,35 @@ int files_writable(const deck *d, progress *p)
 
 /* ---- what is replaced ---------------------------------------------------------------------- */
 
-/* Does the file hold the results of this deck? Then nothing is lost with it. */
-static int same_deck(const char *path, const deck *d)
+/* A file, and a deck as resolved. */
+typedef struct held {
+  const char *path, *resolved;
+} held;
+
+/* 1: the file holds the results of the deck. */
+static int holds(const void *arg)
 {
+  const held *h = arg;
   pendres_store *store = NULL;
-  char *text = NULL, *resolved = NULL;
-  pendres_status status = pendres_store_open(path, &store);
+  char *text = NULL;
+  pendres_status status = pendres_store_open(h->path, &store);
   if (status == PENDRES_OK)
     status = pendres_store_read_text(store, "provenance", "deck_resolved", 0, &text);
-  if (status == PENDRES_OK) status = deck_resolved(d, &resolved);
-  const int same = status == PENDRES_OK && strcmp(text, resolved) == 0;
+  const int same = status == PENDRES_OK && strcmp(text, h->resolved) == 0;
   free(text);
-  free(resolved);
   pendres_store_free(store);
+  return same;
+}
+
+/* Does the file hold the results of this deck? Then nothing is lost with it. One that crashes its
+   reader may hold anything. */
+static int same_deck(const char *path, off_t bytes, const deck *d)
+{
+  char *resolved = NULL;
+  if (deck_resolved(d, &resolved) != PENDRES_OK) return 0;
+  const held h = { path, resolved };
+  const int same = apart(holds, &h, bytes) == 1;
+  free(resolved);
   return same;
 }
 
@@ -115,7 +133,8 @@ int files_keep(const deck *d, files_kept *kept, progress *p)
   *kept = (files_kept){ 0 };
   if (pendres_store_target(d->output, &kept->target, NULL, 0) != PENDRES_OK)
     return 0; /* the store tells */
-  if (stat(kept->target, &info) != 0 || info.st_size == 0 || same_deck(kept->target, d)) {
+  if (stat(kept->target, &info) != 0 || info.st_size == 0 ||
+      same_deck(kept->target, info.st_size, d)) {
     files_keep_end(kept, 1, p);
     return 0;
   }

@@ -1,27 +1,20 @@
 /* verify.c -- see verify.h. */
-#define _XOPEN_SOURCE 700 /* fork, setrlimit, stat */
+#define _XOPEN_SOURCE 700 /* stat */
 #include "verify.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <pendres/store.h>
 
+#include "apart.h"
 #include "options.h"
 #include "terminal/safe_text.h"
 
 enum { WHOLE = 0, DAMAGED = 1, UNTOLD = 2 };
-
-/* Reading may cost so much processor time, and a second more a megabyte: one that goes on has lost
-   its way in a damaged file. */
-enum { SECONDS = 60 };
 
 static int tell(const char *file, const char *verdict, const char *why)
 {
@@ -64,8 +57,10 @@ static int read_store(const char *file, pendres_store *store)
   return code;
 }
 
-static int read_file(const char *file)
+/* In the process that reads. */
+static int read_file(const void *arg)
 {
+  const char *file = arg;
   pendres_store *store = NULL;
   const pendres_status status = pendres_store_open(file, &store);
   const int code = status == PENDRES_OK ? read_store(file, store)
@@ -73,39 +68,21 @@ static int read_file(const char *file)
                           store != NULL ? pendres_store_message(store)
                                         : pendres_status_message(status));
   pendres_store_free(store);
-  return code;
-}
-
-/* The process that reads; it ends here. */
-static _Noreturn void read_apart(const char *file, off_t size)
-{
-  const rlim_t seconds = SECONDS + (rlim_t)(size / 1000000);
-  const struct rlimit no_core = { 0, 0 }, time_limit = { seconds, seconds };
-  (void)setrlimit(RLIMIT_CORE, &no_core);
-  (void)setrlimit(RLIMIT_CPU, &time_limit);
-  /* The last words of a crash are no use to anybody: the verdict is told. */
-  const int silent = freopen("/dev/null", "w", stderr) != NULL;
-  const int code = silent ? read_file(file) : tell(file, "cannot be read", strerror(errno));
-  _exit(fflush(stdout) == 0 ? code : UNTOLD);
+  return fflush(stdout) == 0 ? code : UNTOLD;
 }
 
 static int verify_file(const char *file)
 {
   struct stat info;
-  int end = 0;
   if (stat(file, &info) != 0) return tell(file, "cannot be read", strerror(errno));
   if (!S_ISREG(info.st_mode)) return tell(file, "cannot be read", "it is not a regular file");
   if (fflush(stdout) != 0) return DAMAGED; /* or both processes would write what is left */
-  const pid_t reader = fork();
-  if (reader == 0) read_apart(file, info.st_size);
-  if (reader < 0) return tell(file, "cannot be read", strerror(errno));
-  while (waitpid(reader, &end, 0) < 0)
-    if (errno != EINTR) return tell(file, "cannot be read", strerror(errno));
-  if (WIFEXITED(end) && WEXITSTATUS(end) == UNTOLD)
-    fputs("resonance: error: standard output cannot be written\n", stderr);
-  if (WIFEXITED(end)) return WEXITSTATUS(end) == WHOLE ? WHOLE : DAMAGED;
-  return tell(file, "damaged", WTERMSIG(end) == SIGXCPU || WTERMSIG(end) == SIGKILL
-                               ? "reading it does not end" : "HDF5 crashes when it reads it");
+  const int code = apart(read_file, file, info.st_size);
+  if (code == APART_FAILED) return tell(file, "cannot be read", strerror(errno));
+  if (code == APART_ENDLESS) return tell(file, "damaged", "reading it does not end");
+  if (code == APART_CRASHED) return tell(file, "damaged", "HDF5 crashes when it reads it");
+  if (code == UNTOLD) fputs("resonance: error: standard output cannot be written\n", stderr);
+  return code == WHOLE ? WHOLE : DAMAGED;
 }
 
 int verify_files(char *const *files, size_t count)

@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "apart.h"
 #include "ending.h"
 
 enum { RUNNING = -1 };
@@ -124,6 +125,40 @@ static void a_done_program_exits(void **state)
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 7);
 }
 
+static int call(const void *arg)
+{
+  breaking *const *how = arg;
+  if (*how == NULL) return 7;
+  (*how)();
+  return 8;
+}
+
+/* What is done apart may end in any way: the run has the verdict, and its part file as before. */
+static void what_is_done_apart_harms_nothing(void **state)
+{
+  static const struct { breaking *how; int code; } cases[] = {
+    { NULL, 7 }, { leave, 255 }, { fault, APART_CRASHED }, { give_up, APART_CRASHED }
+  };
+  int status = 0;
+  (void)state;
+  const pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) { /* whose handlers end with it */
+    static pendres_store *store;
+    if (ending_watch(&store) != 0) _exit(42);
+    if (pendres_store_create("run.h5", NULL, &store) != PENDRES_OK) _exit(43);
+    for (int i = 0; i < 4; i++) {
+      if (apart(call, &cases[i].how, 0) != cases[i].code) _exit(50 + i);
+      if (access("run.h5.part", F_OK) != 0) _exit(60 + i);
+    }
+    pendres_store_free(store);
+    _exit(0);
+  }
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status));
+  assert_int_equal(WEXITSTATUS(status), 0);
+}
+
 static int enter(void **state)
 {
   (void)state;
@@ -143,6 +178,7 @@ int main(void)
     cmocka_unit_test(a_fault_stays_one_and_leaves_nothing),
     cmocka_unit_test(what_is_told_stays),
     cmocka_unit_test(a_done_program_exits),
+    cmocka_unit_test(what_is_done_apart_harms_nothing),
   };
   return cmocka_run_group_tests(tests, enter, leave_folder);
 }
