@@ -221,19 +221,6 @@ pendres_sweep scene_sweep(const deck *d)
   return s;
 }
 
-pendres_status scene_write_uncertain(scene_run *run, int axes, const deck_axis_id *axis,
-                                     const int64_t *count)
-{
-  pendres_store_spec spec = { .name = "uncertain_members", .type = PENDRES_STORE_INT64,
-                              .long_name = "members that may belong to another state" };
-  size_t n = 1;
-  for (int i = 0; i < axes; i++) {
-    spec.dimensions[i] = deck_axis_name(axis[i]);
-    n *= run->deck->axis[axis[i]].count;
-  }
-  return pendres_store_put(run->store, &spec, count, n);
-}
-
 /* ---- the group `paper` --------------------------------------------------------------------- */
 
 enum { PAPER_PRINTED, PAPER_COMPUTED, PAPER_DIFFERENCE, PAPER_COUNT };

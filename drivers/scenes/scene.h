@@ -87,10 +87,6 @@ pendres_ensemble scene_ensemble(const deck *d);
    them as axes. */
 pendres_sweep scene_sweep(const deck *d);
 
-/* `uncertain_members` beside the means of an ensemble; count[] over one or two axes. */
-pendres_status scene_write_uncertain(scene_run *run, int axes, const deck_axis_id *axis,
-                                     const int64_t *count);
-
 /* The group `paper`: printed values beside computed ones. */
 typedef struct scene_printed {
   const char *name;      /* of the quantity, e.g. "resonance_period_gamma_0.24" */

@@ -35,8 +35,7 @@ static const scene_column columns[] = {
   SCENE_COLUMN(pendres_phase_point, la_fraction,
                "share of the members on the large-amplitude state", "1"),
   {.name = "regime", .long_name = "states of motion that members settle on", .type = SCENE_FLAG,
-   .value = offsetof(pendres_phase_point, regime), .flags = PENDRES_REGIME_COUNT,
-   .meanings = scene_lines_regimes},
+   .value = offsetof(pendres_phase_point, regime), .names = scene_regime_names},
 };
 
 /* ---- branches ------------------------------------------------------------------------------ */
@@ -50,16 +49,21 @@ typedef struct row {
   int stable, kind, doubt, number, period;
 } row;
 
-static const char *const no_yes[] = {"unstable", "stable"};
-static const char *const kinds[PENDRES_SPECIAL_COUNT] = {
-#define KIND_NAME(code, name) name,
-  PENDRES_SPECIAL_LIST(KIND_NAME)
-#undef KIND_NAME
-};
+static const char *stabilities(int value)
+{
+  static const char *const names[] = {"unstable", "stable"};
+  return value < 2 ? names[value] : NULL;
+}
+
 static const int8_t doubt_bits[] = {0, PENDRES_DOUBT_SIGN, PENDRES_DOUBT_TURN,
                                     PENDRES_DOUBT_BIFURCATION};
-static const char *const doubts[] = {"none", "unlisted_change", "turn_without_fold",
-                                     "bifurcation_without_its_signs"};
+
+static const char *doubts(int value)
+{
+  if (value == 0) return "none";
+  return value < (int)sizeof doubt_bits ? pendres_doubt_name((pendres_doubt)doubt_bits[value])
+                                        : NULL;
+}
 
 static const scene_column of_points[] = {
   SCENE_COLUMN(row, damping, "friction coefficient", "1"),
@@ -72,11 +76,11 @@ static const scene_column of_points[] = {
   {.name = "multiplier_im", .long_name = "imaginary part of the Floquet multiplier", .pairs = 1,
    .value = offsetof(row, multiplier_im), .error = offsetof(row, multiplier_error)},
   {.name = "stable", .long_name = "whether the orbit attracts", .type = SCENE_FLAG,
-   .value = offsetof(row, stable), .flags = 2, .meanings = no_yes},
+   .value = offsetof(row, stable), .names = stabilities},
   {.name = "kind", .long_name = "what happens at the point", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .flags = PENDRES_SPECIAL_COUNT, .meanings = kinds},
+   .value = offsetof(row, kind), .names = scene_special_names},
   {.name = "doubt", .long_name = "what the bifurcations do not explain there: sum of the flags",
-   .type = SCENE_FLAG, .value = offsetof(row, doubt), .flags = 4, .meanings = doubts,
+   .type = SCENE_FLAG, .value = offsetof(row, doubt), .names = doubts,
    .codes = doubt_bits},
   {.name = "number", .long_name = "number of the branch", .type = SCENE_NUMBER,
    .value = offsetof(row, number)},

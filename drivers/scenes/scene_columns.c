@@ -1,63 +1,121 @@
 /* scene_columns.c -- tables of results from arrays of structs; see scene_columns.h. */
 #include "scenes/scene_columns.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { MOST_NAMES = 16 };
 
 /* Room for a column, as it is stored. */
 typedef struct buffers {
   double *value, *error;
   int8_t *flag;
   int32_t *number;
+  int64_t *count;
+  const char **text;
 } buffers;
+
+#define NAMES(function, call) \
+  const char *function(int value) { return call; }
+NAMES(scene_label_names, pendres_label_name((pendres_label)value))
+NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
+NAMES(scene_special_names, pendres_special_name((pendres_special)value))
+NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
+NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
+NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
 
 static const char *field(const scene_table *t, size_t row, size_t offset)
 {
   return (const char *)t->rows + row * t->stride + offset;
 }
 
+static int missing(const scene_table *t, size_t row)
+{
+  return t->missing != NULL && t->missing[row] != 0;
+}
+
+static int is_real(scene_column_type type)
+{
+  return type == SCENE_REAL || type == SCENE_PLAIN;
+}
+
 static void gather_reals(const scene_table *t, const scene_column *c, buffers *b)
 {
   const size_t each = c->pairs ? 2 : 1;
   for (size_t i = 0; i < t->n; i++) {
-    memcpy(b->value + each * i, field(t, i, c->value), each * sizeof *b->value);
-    memcpy(b->error + each * i, field(t, i, c->error), each * sizeof *b->error);
+    double *value = b->value + each * i, *error = b->error + each * i;
+    memcpy(value, field(t, i, c->value), each * sizeof *value);
+    if (c->type == SCENE_REAL) memcpy(error, field(t, i, c->error), each * sizeof *error);
+    for (size_t k = 0; k < each && missing(t, i); k++) value[k] = error[k] = NAN;
   }
 }
 
-static void gather_integers(const scene_table *t, const scene_column *c, buffers *b)
+static void gather_others(const scene_table *t, const scene_column *c, buffers *b)
 {
   for (size_t i = 0; i < t->n; i++) {
-    int value;
-    memcpy(&value, field(t, i, c->value), sizeof value);
-    b->flag[i] = (int8_t)value;
-    b->number[i] = (int32_t)value;
+    int number = 0;
+    size_t count = 0;
+    b->text[i] = field(t, i, c->value);
+    if (c->type == SCENE_COUNT) memcpy(&count, b->text[i], sizeof count);
+    else if (c->type != SCENE_TEXT) memcpy(&number, b->text[i], sizeof number);
+    b->flag[i] = (int8_t)number;
+    b->number[i] = missing(t, i) ? 0 : (int32_t)number;
+    b->count[i] = missing(t, i) ? 0 : (int64_t)count;
+  }
+}
+
+static pendres_status put(scene_run *run, const scene_table *t, const scene_column *c, buffers *b,
+                          const pendres_store_spec *spec)
+{
+  const size_t n = c->pairs ? 2 * t->n : t->n;
+  if (is_real(c->type)) gather_reals(t, c, b);
+  else gather_others(t, c, b);
+  switch (c->type) {
+  case SCENE_REAL: return pendres_store_put_result(run->store, spec, b->value, b->error, n);
+  case SCENE_PLAIN: return pendres_store_put(run->store, spec, b->value, n);
+  case SCENE_NUMBER: return pendres_store_put(run->store, spec, b->number, n);
+  case SCENE_COUNT: return pendres_store_put(run->store, spec, b->count, n);
+  case SCENE_FLAG: return pendres_store_put(run->store, spec, b->flag, n);
+  default: return pendres_store_put(run->store, spec, b->text, n);
   }
 }
 
 static pendres_status write_column(scene_run *run, const scene_table *t, const scene_column *c,
                                    buffers *b)
 {
-  char name[64];
   static const pendres_store_type types[] = {[SCENE_REAL] = PENDRES_STORE_DOUBLE,
+                                             [SCENE_PLAIN] = PENDRES_STORE_DOUBLE,
                                              [SCENE_NUMBER] = PENDRES_STORE_INT32,
-                                             [SCENE_FLAG] = PENDRES_STORE_INT8};
-  pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = c->long_name,
-                             .units = c->units, .dimensions = {t->dimensions[0], t->dimensions[1]},
-                             .flag_count = c->flags, .flag_meanings = c->meanings,
-                             .flag_values = c->codes,
-                             .flag_bits = c->codes != NULL};
-  (void)snprintf(name, sizeof name, "%s%s%s", t->prefix != NULL ? t->prefix : "",
-                 t->prefix != NULL ? "_" : "", c->name);
-  if (c->pairs) spec.dimensions[t->dimensions[1] != NULL ? 2 : 1] = t->inner;
-  if (c->type == SCENE_REAL) {
-    gather_reals(t, c, b);
-    return pendres_store_put_result(run->store, &spec, b->value, b->error,
-                                    c->pairs ? 2 * t->n : t->n);
-  }
-  gather_integers(t, c, b);
-  return pendres_store_put(run->store, &spec,
-                           c->type == SCENE_FLAG ? (const void *)b->flag : b->number, t->n);
+                                             [SCENE_COUNT] = PENDRES_STORE_INT64,
+                                             [SCENE_FLAG] = PENDRES_STORE_INT8,
+                                             [SCENE_TEXT] = PENDRES_STORE_STRING};
+  char name[64], words[200];
+  const char *meanings[MOST_NAMES];
+  pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = words,
+                             .units = c->units, .comment = c->comment, .flag_meanings = meanings,
+                             .flag_values = c->codes, .flag_bits = c->codes != NULL};
+  (void)snprintf(name, sizeof name, "%s%s%s%s%s", t->prefix != NULL ? t->prefix : "",
+                 t->prefix != NULL ? "_" : "", c->name, t->suffix != NULL ? "_" : "",
+                 t->suffix != NULL ? t->suffix : "");
+  (void)snprintf(words, sizeof words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
+                 t->words != NULL ? t->words : "");
+  int k = 0;
+  for (; k < 3 && t->dimensions[k] != NULL; k++) spec.dimensions[k] = t->dimensions[k];
+  if (c->pairs) spec.dimensions[k] = t->inner;
+  for (int i = 0; c->names != NULL && i < MOST_NAMES && c->names(i) != NULL; i++)
+    meanings[spec.flag_count++] = c->names(i);
+  return put(run, t, c, b, &spec);
+}
+
+static void release(buffers *b)
+{
+  free(b->value);
+  free(b->error);
+  free(b->flag);
+  free(b->number);
+  free(b->count);
+  free(b->text);
 }
 
 pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
@@ -66,17 +124,50 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
   buffers b = {.value = malloc((2 * t->n + 1) * sizeof *b.value),
                .error = malloc((2 * t->n + 1) * sizeof *b.error),
                .flag = malloc(t->n + 1),
-               .number = malloc((t->n + 1) * sizeof *b.number)};
+               .number = malloc((t->n + 1) * sizeof *b.number),
+               .count = malloc((t->n + 1) * sizeof *b.count),
+               .text = malloc((t->n + 1) * sizeof *b.text)};
   pendres_status status = PENDRES_OK;
-  if (b.value == NULL || b.error == NULL || b.flag == NULL || b.number == NULL)
+  if (b.value == NULL || b.error == NULL || b.flag == NULL || b.number == NULL ||
+      b.count == NULL || b.text == NULL)
     status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", t->n);
   for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
     status = write_column(run, t, &columns[k], &b);
     if (status != PENDRES_OK) (void)scene_store_failed(run, status);
   }
-  free(b.value);
-  free(b.error);
-  free(b.flag);
-  free(b.number);
+  release(&b);
   return status;
+}
+
+/* ---- the short table ----------------------------------------------------------------------- */
+
+static void print_cell(FILE *out, const char *at, const scene_cell *cell)
+{
+  double value = 0.0;
+  size_t count = 0;
+  int number = 0;
+  if (is_real(cell->type)) memcpy(&value, at, sizeof value);
+  else if (cell->type == SCENE_COUNT) memcpy(&count, at, sizeof count);
+  else if (cell->type != SCENE_TEXT) memcpy(&number, at, sizeof number);
+  if (is_real(cell->type)) fprintf(out, cell->format, value);
+  else if (cell->type == SCENE_COUNT) fprintf(out, cell->format, count);
+  else if (cell->type == SCENE_TEXT) fprintf(out, cell->format, at);
+  else if (cell->names != NULL) fprintf(out, cell->format, cell->names(number));
+  else fprintf(out, cell->format, number);
+}
+
+void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t count,
+                         const scene_cell *cells, const char *(*instead)(const void *row))
+{
+  const size_t step = t->n > lines + lines / 5 ? t->n / lines + 1 : 1;
+  for (size_t k = 0; k < count; k++) fputs(cells[k].heading, out);
+  fputc('\n', out);
+  for (size_t i = 0; i < t->n; i++) {
+    if (i % step != 0 && i + 1 != t->n) continue;
+    const int whole = !missing(t, i);
+    for (size_t k = 0; k < (whole ? count : 1); k++)
+      print_cell(out, field(t, i, cells[k].value), &cells[k]);
+    if (!whole && instead != NULL) fputs(instead(field(t, i, 0)), out);
+    fputc('\n', out);
+  }
 }

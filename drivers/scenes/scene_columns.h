@@ -1,8 +1,8 @@
 /*
  * scene_columns.h -- tables of results from arrays of structs.
  *
- * Owns: writing a table whose columns are fields of a struct. A scene says of every column its
- * name, its words and where the field stands.
+ * Owns: writing a table whose columns are fields of a struct, and printing a short one. A scene
+ * says of every column its name, its words and where the field stands.
  */
 #ifndef SCENE_COLUMNS_H
 #define SCENE_COLUMNS_H
@@ -13,18 +13,24 @@
 
 typedef enum scene_column_type {
   SCENE_REAL = 0, /* double, with an error beside it */
+  SCENE_PLAIN,    /* double, without an error */
   SCENE_NUMBER,   /* int, stored as int32 */
-  SCENE_FLAG      /* int or an enum, stored as int8 with the names of its values */
+  SCENE_COUNT,    /* size_t, stored as int64 */
+  SCENE_FLAG,     /* int or an enum, stored as int8 with the names of its values */
+  SCENE_TEXT      /* array of char */
 } scene_column_type;
+
+/* The name of a value; NULL beyond the last. */
+typedef const char *(*scene_names)(int value);
 
 typedef struct scene_column {
   const char *name, *long_name, *units;
   scene_column_type type;
   size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
-  int flags;                   /* of a SCENE_FLAG: how many values it has, */
-  const char *const *meanings; /* their names, */
-  const int8_t *codes;         /* bits, if they are sums of such, else NULL */
+  scene_names names;           /* of a SCENE_FLAG, */
+  const int8_t *codes;         /* its bits, if it is a sum of such; names are those of 0, 1, 2 ... */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
+  const char *comment;
 } scene_column;
 
 /* A column of a struct with the fields NAME and NAME_error. */
@@ -32,16 +38,53 @@ typedef struct scene_column {
   {.name = #field, .long_name = words, .units = unit,           \
    .value = offsetof(row, field), .error = offsetof(row, field##_error)}
 
+/* A column of another type than real, called as its field. */
+#define SCENE_COLUMN_OF(kind, row, field, words) \
+  {.name = #field, .long_name = words, .type = kind, .value = offsetof(row, field)}
+
+/* Of the means of an ensemble. */
+#define SCENE_UNCERTAIN(row, field)                                                             \
+  {.name = "uncertain_members", .long_name = "members that may belong to another state",       \
+   .type = SCENE_COUNT, .value = offsetof(row, field)}
+
 typedef struct scene_table {
-  const char *dimensions[2]; /* of the rows, slowest first; the second may be NULL */
+  const char *dimensions[3]; /* of the rows, slowest first; none: one row of scalars */
   const char *prefix;        /* before all names, with an underscore between; may be NULL */
+  const char *suffix;        /* the same behind them */
+  const char *words;         /* behind all long names, after a blank; may be NULL */
   const char *inner;         /* of columns that are pairs */
   size_t n, stride;          /* rows; bytes from one to the next */
   const void *rows;
+  const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
 } scene_table;
 
 /* Write all columns; their dimensions exist. */
 pendres_status scene_columns_write(scene_run *run, const scene_table *table, size_t count,
                                    const scene_column *columns);
+
+/* Names of values of the library's enums, as columns take them. */
+const char *scene_label_names(int value);
+const char *scene_regime_names(int value);
+const char *scene_special_names(int value);
+const char *scene_jump_names(int value);
+const char *scene_cloud_names(int value);
+const char *scene_switching_names(int value);
+
+/* A cell of a printed line: what stands above it, its format, and where its field stands. */
+typedef struct scene_cell {
+  const char *heading, *format; /* with the blanks between it and the next */
+  scene_column_type type;
+  size_t value;
+  scene_names names; /* not NULL: the format is of the value's name */
+} scene_cell;
+
+/* A cell of a struct's double. */
+#define SCENE_CELL(row, field, words, form) \
+  {.heading = words, .format = form, .value = offsetof(row, field)}
+
+/* A line of headings and at most `lines` rows of the table, evenly chosen, with the last one; all
+   if there are not many more. A row that is missing has its first cell and the words instead. */
+void scene_columns_print(FILE *out, const scene_table *table, size_t lines, size_t count,
+                         const scene_cell *cells, const char *(*instead)(const void *row));
 
 #endif

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const endings[] = {"sa", "la", "other"};
-static const char *const kinds[PENDRES_SPECIAL_COUNT] = {
-#define KIND_NAME(code, name) name,
-  PENDRES_SPECIAL_LIST(KIND_NAME)
-#undef KIND_NAME
-};
+/* Which branch ends at a fold. */
+static const char *endings(int value)
+{
+  static const char *const names[] = {"sa", "la", "other"};
+  return value < 3 ? names[value] : NULL;
+}
 
 /* ---- points of curves, and bifurcations along lines ---------------------------------------- */
 
@@ -38,23 +38,23 @@ static const scene_column of_folds[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
    .type = SCENE_NUMBER, .value = offsetof(row, curve)},
   {.name = "branch", .long_name = "which branch ends there", .type = SCENE_FLAG,
-   .value = offsetof(row, branch), .flags = 3, .meanings = endings},
+   .value = offsetof(row, branch), .names = endings},
 };
 
 static const scene_column of_flips[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
    .type = SCENE_NUMBER, .value = offsetof(row, curve)},
   {.name = "kind", .long_name = "what happens there", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .flags = PENDRES_SPECIAL_COUNT, .meanings = kinds},
+   .value = offsetof(row, kind), .names = scene_special_names},
 };
 
 static const scene_column of_bifurcations[] = {
   SCENE_COLUMN(row, curvature, "of a fold: second derivative of the frequency by arclength in "
                "(x, v); below 0: orbits exist below", "1"),
   {.name = "kind", .long_name = "what happens there", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .flags = PENDRES_SPECIAL_COUNT, .meanings = kinds},
+   .value = offsetof(row, kind), .names = scene_special_names},
   {.name = "branch", .long_name = "which branch ends there", .type = SCENE_FLAG,
-   .value = offsetof(row, branch), .flags = 3, .meanings = endings},
+   .value = offsetof(row, branch), .names = endings},
 };
 
 /* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */

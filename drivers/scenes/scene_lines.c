@@ -9,12 +9,6 @@
 /* As long as settling its members: following branches and curves through a point. */
 enum { RUNS_A_POINT = 5 };
 
-const char *const scene_lines_regimes[PENDRES_REGIME_COUNT] = {
-#define REGIME_NAME(code, name) name,
-  PENDRES_REGIME_LIST(REGIME_NAME)
-#undef REGIME_NAME
-};
-
 /* ---- axes ---------------------------------------------------------------------------------- */
 
 static pendres_parameter parameter_of(deck_axis_id axis)
@@ -203,11 +197,15 @@ void scene_lines_free(scene_lines *l)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
+static scene_table table_of(const scene_lines *l)
+{
+  return (scene_table){.dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])},
+                       .n = l->n, .stride = sizeof *l->points, .rows = l->points};
+}
+
 pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
 {
-  const scene_table table = {
-    .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])},
-    .n = l->n, .stride = sizeof *l->points, .rows = l->points};
+  const scene_table table = table_of(l);
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     status = scene_dimension(l->run, "", l->axis[i]);
@@ -216,15 +214,12 @@ pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene
 
 pendres_status scene_lines_write_doubtful(const scene_lines *l)
 {
-  int64_t *count = malloc((l->n + 1) * sizeof *count);
-  if (count == NULL)
-    return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", l->n);
-  for (size_t i = 0; i < l->n; i++) count[i] = (int64_t)l->points[i].uncertain;
-  pendres_status status = scene_write_uncertain(l->run, 2, l->axis, count);
-  free(count);
-  if (status != PENDRES_OK) return scene_store_failed(l->run, status);
-  status = scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis);
-  return status == PENDRES_OK ? status : scene_store_failed(l->run, status);
+  static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
+  const scene_table table = table_of(l);
+  const pendres_status status = scene_columns_write(l->run, &table, 1, &uncertain);
+  return status == PENDRES_OK
+           ? scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis)
+           : status;
 }
 
 /* Points that the branches' bifurcations do not explain; *first is one of them. */

@@ -32,9 +32,6 @@ void scene_lines_free(scene_lines *l);
 /* Define the dimensions of the points and write columns of pendres_phase_point. */
 pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns);
 
-/* The names of the regimes, for a column of them. */
-extern const char *const scene_lines_regimes[PENDRES_REGIME_COUNT];
-
 /* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
 pendres_status scene_lines_write_doubtful(const scene_lines *l);
 

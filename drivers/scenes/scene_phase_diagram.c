@@ -15,23 +15,28 @@ static void plan(const deck *d, FILE *out)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-static const char *const others[] = {"none",    "asymmetric", "periodic",
-                                     "running", "chaotic",    "unresolved"};
 static const int8_t other_bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_PERIODIC,
                                     PENDRES_OTHER_RUNNING, PENDRES_OTHER_CHAOTIC,
                                     PENDRES_OTHER_UNRESOLVED};
 
+static const char *others(int value)
+{
+  if (value == 0) return "none";
+  return value < (int)sizeof other_bits ? pendres_other_name((pendres_other)other_bits[value])
+                                        : NULL;
+}
+
 static const scene_column columns[] = {
   {.name = "regime", .long_name = "state of motion that the members of the ensemble settle on",
    .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, regime),
-   .flags = PENDRES_REGIME_COUNT, .meanings = scene_lines_regimes},
+   .names = scene_regime_names},
   {.name = "regime_exact", .long_name = "states of motion that exist as attractors, by the "
                                         "branches, whether members reach them or not",
    .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, exact),
-   .flags = PENDRES_REGIME_COUNT, .meanings = scene_lines_regimes},
+   .names = scene_regime_names},
   {.name = "other", .long_name = "what else members settle on: sum of the flags",
-   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, other), .flags = 6,
-   .meanings = others, .codes = other_bits},
+   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, other), .names = others,
+   .codes = other_bits},
   SCENE_COLUMN(pendres_phase_point, sa_fraction,
                "share of the members on the small-amplitude state", NULL),
   SCENE_COLUMN(pendres_phase_point, la_fraction,
@@ -61,7 +66,7 @@ static void print_table(const scene_lines *l, FILE *out)
     skipped += pendres_branches_skipped(pendres_phase_diagram_branches(l->diagram, i));
   fprintf(out, "regime        points\n");
   for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
-    fprintf(out, "%-12s  %zu\n", scene_lines_regimes[r], tally[r]);
+    fprintf(out, "%-12s  %zu\n", scene_regime_names(r), tally[r]);
   fprintf(out, "members miss a state that exists at %zu of %zu points\n", differ, l->n);
   if (skipped > 0) fprintf(out, "orbits without a branch: %zu\n", skipped);
   scene_lines_print(l, out);

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
+#include "scenes/scene_peak.h"
 #include "scenes/scene_response_noise.h"
 
 enum { CHUNK = 16 /* points a task */ };
@@ -25,8 +25,8 @@ typedef struct grid {
   size_t chunks;              /* tasks a line */
   int peaked;                 /* whether lines have resonances: along the drive's frequency */
   pendres_response *points;   /* [line][value] */
-  pendres_resonance *peaks;   /* [line] */
-  pendres_status *outcome;    /* of the peaks */
+  scene_peak *peaks;          /* [line] */
+  int8_t *no_peak;            /* [line] not 0: there is none */
   scene_failures failed;      /* [line][value] */
   scene_failures peak_failed; /* [line] */
 } grid;
@@ -171,8 +171,8 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   if (task >= g->lines * g->chunks) {
     const peak_record *r = in->data;
     const size_t i = task - g->lines * g->chunks;
-    g->outcome[i] = r->outcome;
-    g->peaks[i] = r->peak;
+    g->peaks[i] = scene_peak_of(g->d->axis[g->axis[0]].value[i], r->outcome, &r->peak);
+    g->no_peak[i] = r->outcome != PENDRES_OK;
     scene_failures_take(&g->peak_failed, i, &r->verdict);
     return PENDRES_OK;
   }
@@ -213,74 +213,50 @@ static const scene_column columns[] = {
                "1"),
 };
 
-static pendres_status write_points(scene_run *run, const grid *g)
+static const scene_column uncertain = SCENE_UNCERTAIN(pendres_response, uncertain);
+
+static pendres_status write_points(scene_run *run, const grid *g, size_t count,
+                                   const scene_column *some)
 {
   const scene_table table = {
     .dimensions = {deck_axis_name(g->axis[0]), deck_axis_name(g->axis[1])},
     .n = g->lines * g->values, .stride = sizeof *g->points, .rows = g->points};
-  return scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
-}
-
-static pendres_status write_uncertain(scene_run *run, const grid *g)
-{
-  const size_t n = g->lines * g->values;
-  int64_t *count = malloc(n * sizeof *count);
-  if (count == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) count[i] = (int64_t)g->points[i].uncertain;
-  const pendres_status status = scene_write_uncertain(run, 2, g->axis, count);
-  free(count);
-  return status;
+  return scene_columns_write(run, &table, count, some);
 }
 
 /* ---- resonances ---------------------------------------------------------------------------- */
 
-typedef struct peak_row {
-  double period, period_error, frequency, frequency_error, loop_area, loop_area_error;
-  double amplitude, amplitude_error, phase_lag, phase_lag_error;
-} peak_row;
-
 static const scene_column by_period =
-  SCENE_COLUMN(peak_row, period, "drive period of the largest mean loop area", "1");
-static const scene_column by_frequency =
-  SCENE_COLUMN(peak_row, frequency, "drive frequency of the largest mean loop area", "1");
+  SCENE_COLUMN(scene_peak, resonance_period, "drive period of the largest mean loop area", "1");
+static const scene_column by_frequency = SCENE_COLUMN(
+  scene_peak, resonance_frequency, "drive frequency of the largest mean loop area", "1");
+
+#define AT_RESONANCE(label, field, words, unit)                                               \
+  {.name = "resonance_" #label, .long_name = words, .units = unit,                            \
+   .value = offsetof(scene_peak, field), .error = offsetof(scene_peak, field##_error)}
 static const scene_column of_peaks[] = {
-  SCENE_COLUMN(peak_row, loop_area, "mean loop area at resonance", "1"),
-  SCENE_COLUMN(peak_row, amplitude, "amplitude of the ensemble-averaged loop at resonance", "rad"),
-  SCENE_COLUMN(peak_row, phase_lag, "phase lag of the ensemble-averaged loop at resonance", "rad"),
+  AT_RESONANCE(loop_area, mean_loop_area, "mean loop area at resonance", "1"),
+  AT_RESONANCE(amplitude, mean_loop_amplitude,
+               "amplitude of the ensemble-averaged loop at resonance", "rad"),
+  AT_RESONANCE(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop at resonance", "rad"),
 };
 
-static peak_row peak_of(const grid *g, size_t line)
+static scene_table table_of_peaks(const grid *g)
 {
-  const pendres_resonance *r = &g->peaks[line];
-  const pendres_response *a = &r->response;
-  if (g->outcome[line] != PENDRES_OK)
-    return (peak_row){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-  const double period = 2.0 * PENDRES_PI / r->frequency;
-  return (peak_row){.period = period,
-                    .period_error = period * r->frequency_error / r->frequency,
-                    .frequency = r->frequency, .frequency_error = r->frequency_error,
-                    .loop_area = r->loop_area, .loop_area_error = r->loop_area_error,
-                    .amplitude = a->mean_loop_amplitude,
-                    .amplitude_error = a->mean_loop_amplitude_error,
-                    .phase_lag = a->phase_lag, .phase_lag_error = a->phase_lag_error};
+  return (scene_table){.dimensions = {deck_axis_name(g->axis[0])}, .n = g->lines,
+                       .stride = sizeof *g->peaks, .rows = g->peaks, .missing = g->no_peak};
 }
 
 static pendres_status write_peaks(scene_run *run, const grid *g)
 {
-  peak_row *rows = malloc(g->lines * sizeof *rows);
-  if (rows == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu resonances", g->lines);
-  for (size_t i = 0; i < g->lines; i++) rows[i] = peak_of(g, i);
-  const scene_table table = {.dimensions = {deck_axis_name(g->axis[0])}, .prefix = "resonance",
-                             .n = g->lines, .stride = sizeof *rows, .rows = rows};
+  const scene_table table = table_of_peaks(g);
   pendres_status status = scene_columns_write(run, &table, 1, &by_period);
   /* Who asked for frequencies gets the frequency too. */
   if (status == PENDRES_OK && g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
     status = scene_columns_write(run, &table, 1, &by_frequency);
-  if (status == PENDRES_OK)
-    status = scene_columns_write(run, &table, sizeof of_peaks / sizeof *of_peaks, of_peaks);
-  free(rows);
-  return status;
+  return status == PENDRES_OK
+           ? scene_columns_write(run, &table, sizeof of_peaks / sizeof *of_peaks, of_peaks)
+           : status;
 }
 
 static pendres_status write_failures(scene_run *run, const grid *g)
@@ -312,56 +288,39 @@ static pendres_status write_results(scene_run *run, const grid *g)
   pendres_status status = write_axis(run, g->axis[0]);
   if (status == PENDRES_OK) status = write_axis(run, g->axis[1]);
   if (status == PENDRES_OK)
-    status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0 ? scene_response_write_noise(run, &noisy)
-                                                         : write_points(run, g);
-  if (status == PENDRES_OK) status = write_uncertain(run, g);
+    status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0
+                 ? scene_response_write_noise(run, &noisy)
+                 : write_points(run, g, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = write_points(run, g, 1, &uncertain);
   if (status == PENDRES_OK && g->peaked) status = write_peaks(run, g);
   if (status == PENDRES_OK) status = write_failures(run, g);
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
-/* Resonant periods that the paper prints in the captions of Figs. 3 and 4, F0 = 0.2. */
 static pendres_status write_paper(scene_run *run, const grid *g)
 {
-  static const struct {
-    double damping, period;
-    const char *name;
-  } printed[] = {
-    {0.24, 6.66, "resonance_period_damping_0_24"},
-    {0.32, 6.542, "resonance_period_damping_0_32"},
-    {0.80, 6.865, "resonance_period_damping_0_80"},
-    {0.90, 7.02, "resonance_period_damping_0_90"},
-  };
-  scene_printed values[4];
-  size_t n = 0;
-  if (!g->peaked || !(fabs(g->d->pendulum.drive_amplitude - 0.2) <= 1e-12)) return PENDRES_OK;
-  for (size_t k = 0; k < 4; k++)
-    for (size_t i = 0; i < g->lines; i++) {
-      const double damping = g->d->axis[DECK_AXIS_DAMPING].value[i];
-      if (fabs(damping - printed[k].damping) > 1e-12 || g->outcome[i] != PENDRES_OK) continue;
-      const peak_row peak = peak_of(g, i);
-      values[n++] = (scene_printed){.name = printed[k].name, .printed = printed[k].period,
-                                    .computed = peak.period, .error = peak.period_error};
-    }
-  return n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
+  scene_printed values[SCENE_PRINTED_PERIODS];
+  const size_t n = scene_peak_printed(g->d, g->lines, g->peaks, values);
+  return g->peaked && n > 0 ? scene_write_paper(run, n, values) : PENDRES_OK;
 }
 
 static void print_table(FILE *out, const grid *g)
 {
   const int frequencies = g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY;
-  const deck_axis *across = &g->d->axis[g->axis[0]];
-  if (!g->peaked) return;
-  fprintf(out, "%-9s resonant %s  amplitude  phase lag  loop area\n",
-          g->axis[0] == DECK_AXIS_DAMPING ? "damping" : "drive", frequencies ? "freq. " : "period");
-  for (size_t i = 0; i < g->lines; i++) {
-    const peak_row r = peak_of(g, i);
-    if (g->outcome[i] == PENDRES_OK)
-      fprintf(out, "%-9.4g %.9f      %.6f   %.6f   %.8f\n", across->value[i],
-              frequencies ? r.frequency : r.period, r.amplitude, r.phase_lag, r.loop_area);
-    else
-      fprintf(out, "%-9.4g %s\n", across->value[i],
-              g->outcome[i] == PENDRES_NOT_FOUND ? "no peak in the range" : "failed");
-  }
+  const scene_cell cells[] = {
+    {.heading = g->axis[0] == DECK_AXIS_DAMPING ? "damping   " : "drive     ", .format = "%-9.4g ",
+     .value = offsetof(scene_peak, at)},
+    {.heading = frequencies ? "resonant freq.   " : "resonant period  ", .format = "%.9f      ",
+     .value = frequencies ? offsetof(scene_peak, resonance_frequency)
+                          : offsetof(scene_peak, resonance_period)},
+    SCENE_CELL(scene_peak, mean_loop_amplitude, "amplitude  ", "%.6f   "),
+    SCENE_CELL(scene_peak, phase_lag, "phase lag  ", "%.6f   "),
+    SCENE_CELL(scene_peak, mean_loop_area, "loop area", "%.8f"),
+  };
+  const scene_table table = table_of_peaks(g);
+  if (g->peaked)
+    scene_columns_print(out, &table, g->lines, sizeof cells / sizeof *cells, cells,
+                        scene_peak_instead);
 }
 
 static pendres_status run_scene(scene_run *run)
@@ -379,8 +338,8 @@ static pendres_status run_scene(scene_run *run)
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
   g.points = calloc(g.lines * g.values, sizeof *g.points);
   g.peaks = calloc(g.lines, sizeof *g.peaks);
-  g.outcome = calloc(g.lines, sizeof *g.outcome);
-  if (g.points == NULL || g.peaks == NULL || g.outcome == NULL ||
+  g.no_peak = calloc(g.lines, 1);
+  if (g.points == NULL || g.peaks == NULL || g.no_peak == NULL ||
       scene_failures_create(g.lines * g.values, &g.failed) != PENDRES_OK ||
       scene_failures_create(g.lines, &g.peak_failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu points", g.lines * g.values);
@@ -400,7 +359,7 @@ static pendres_status run_scene(scene_run *run)
 done:
   free(g.points);
   free(g.peaks);
-  free(g.outcome);
+  free(g.no_peak);
   scene_failures_free(&g.failed);
   scene_failures_free(&g.peak_failed);
   return status;
