@@ -19,7 +19,7 @@ src_doors='base/angles.h base/guard.h base/instructions.h base/mix.h base/studen
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_sample.h orbits/settle.h
-  noise/noise_plan.h continuation/continuation_map.h continuation/continuation_parameter.h
+  noise/langevin_moving.h noise/noise_plan.h continuation/continuation_map.h continuation/continuation_parameter.h
   continuation/continuation_walk.h'
 drivers_doors='terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h validation/hard_cases.h'

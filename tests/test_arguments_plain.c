@@ -80,6 +80,13 @@ static void nothing(void **state)
   assert_null(pendres_hysteresis_get(NULL, 0));
   assert_int_equal(pendres_hysteresis_jumps(NULL), 0);
   assert_null(pendres_hysteresis_jump(NULL, 0));
+  const pendres_ramp no_ramp = {.corners = 0};
+  pendres_ramp_summary summary;
+  assert_int_equal(pendres_ramp_periods(NULL), 0);
+  assert_int_equal(pendres_ramp_periods(&no_ramp), 0);
+  assert_true(isnan(pendres_ramp_value(NULL, 0.0)) && isnan(pendres_ramp_value(&no_ramp, 0.0)));
+  assert_int_equal(pendres_ramp_summarize(1, NULL, &summary), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_ramp_summarize(0, NULL, NULL), PENDRES_INVALID_ARGUMENT);
   assert_null(pendres_jump_kind_name(PENDRES_JUMP_COUNT));
   assert_int_equal(pendres_branches_count(NULL), 0);
   assert_null(pendres_branches_get(NULL, 0));

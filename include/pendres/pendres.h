@@ -40,6 +40,7 @@
 #include <pendres/basin.h>
 #include <pendres/langevin.h>
 #include <pendres/switching.h>
+#include <pendres/ramp.h>
 #include <pendres/reference.h>
 #include <pendres/store.h>
 

@@ -74,10 +74,10 @@ pendres_status pendres_langevin_accept_periods(pendres_context *ctx, long first,
                               "periods must be from 0 to 4294967295");
 }
 
-/* Show a strobe to the observer. */
-static pendres_langevin_answer show(pendres_context *ctx, const pendres_langevin_block *b,
-                                    size_t first, long period,
-                                    const pendres_langevin_observer *observer)
+pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
+                                              const pendres_langevin_block *b, size_t first,
+                                              long period,
+                                              const pendres_langevin_observer *observer)
 {
   const pendres_langevin_strobe strobe = {
     .first = first, .count = b->count, .period = period, .x = b->x, .v = b->v,
@@ -99,7 +99,7 @@ static pendres_status follow(pendres_context *ctx, pendres_langevin_block *b, si
     if (status != PENDRES_OK) return status;
     pendres_langevin_count(ctx, b);
     if (run->observer == NULL) continue;
-    switch (show(ctx, b, first, k + 1, run->observer)) {
+    switch (pendres_langevin_show(ctx, b, first, k + 1, run->observer)) {
     case PENDRES_LANGEVIN_GO_ON: break;
     case PENDRES_LANGEVIN_ENOUGH: return PENDRES_OK;
     default: return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted by the observer");
@@ -126,9 +126,8 @@ static void load(pendres_langevin_block *b, size_t first, const pendres_langevin
   pendres_langevin_block_finish(b);
 }
 
-/* Do all of the block's trajectories still have an angle? */
-static pendres_status check_ends(pendres_context *ctx, const pendres_langevin_block *b,
-                                 size_t first)
+pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_langevin_block *b,
+                                           size_t first)
 {
   for (size_t i = 0; i < b->count; i++)
     if (!(fabs(b->x[i]) <= farthest && isfinite(b->v[i])))
@@ -148,7 +147,7 @@ static pendres_status advance_all(pendres_context *ctx, const pendres_langevin_r
   for (size_t first = 0; first < run->n && status == PENDRES_OK; first += b.count) {
     load(&b, first, run, x, v);
     status = follow(ctx, &b, first, run);
-    if (status == PENDRES_OK) status = check_ends(ctx, &b, first);
+    if (status == PENDRES_OK) status = pendres_langevin_check_ends(ctx, &b, first);
     memcpy(end + first, b.x, b.count * sizeof *end);
     memcpy(end + run->n + first, b.v, b.count * sizeof *end);
   }

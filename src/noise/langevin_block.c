@@ -18,6 +18,10 @@
  * A is solved exactly. With y = u + pivot, pivot'' + gamma pivot' = F0 cos theta, u is free:
  * u += (1 - exp(-gamma t))/gamma w, w *= exp(-gamma t).
  *
+ * Where parameters move, they stand still during each step, at their values in its middle, and the
+ * frame is changed between two steps: an error of order two in the step, but times what they move by
+ * within one. Steps are parts of a turn of the drive, so that its phase goes on through all this.
+ *
  * First harmonics are sums over the ends of steps: between its kicks a step is accurate to
  * order two only. A period's equally spaced samples are accurate to any order, but for the
  * ramp that a trajectory which does not close adds; what the sum makes of a ramp is known.
@@ -148,8 +152,8 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
   return NULL;
 }
 
-void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p,
-                                 uint64_t id, double x, double v)
+/* All that a lane's parameters and the steps make: constants of a period. */
+static void set_constants(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p)
 {
   const double h = two_pi / p->drive_frequency / b->steps, g = p->damping;
   const double durations[PENDRES_LANGEVIN_DURATIONS] = {
@@ -157,9 +161,6 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
   const size_t pivot_cos = (size_t)(b->rows.pivot_cos - b->memory) + lane;
   const size_t apart = b->capacity;
 
-  b->id[lane] = id;
-  b->x[lane] = x;
-  b->v[lane] = v;
   b->drive[lane] = p->drive_amplitude;
   for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) {
     b->decay[d][lane] = exp(-g * durations[d]);
@@ -174,10 +175,19 @@ void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const p
   b->memory[pivot_cos + 6 * apart] = p->parametric_amplitude;
   for (size_t k = 0; k < COEFFICIENTS; k++)
     b->memory[pivot_cos + (7 + k) * apart] = p->force_coefficients[k];
+}
+
+void pendres_langevin_block_load(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p,
+                                 uint64_t id, double x, double v)
+{
+  b->id[lane] = id;
+  b->x[lane] = x;
+  b->v[lane] = v;
+  set_constants(b, lane, p);
   b->terms = pendres_model_kind(p);
   b->origin = pendres_model_origin(p);
   b->turn = pendres_model_turn(p);
-  if (p->temperature > 0.0 && g > 0.0) b->noisy = 1;
+  if (p->temperature > 0.0 && p->damping > 0.0) b->noisy = 1;
 }
 
 void pendres_langevin_block_finish(pendres_langevin_block *b)
@@ -270,6 +280,69 @@ pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t
   for (int step = 0; step < b->steps; step++) {
     if (stops(b, step)) return PENDRES_INTERRUPTED;
     for (int k = 2 * step; k < 2 * step + 2; k++) kick(b, k, noise(b, period, k));
+  }
+  leave(b);
+  return PENDRES_OK;
+}
+
+/* All lanes are this pendulum from now on. */
+static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
+{
+  enum { FIXED = 7 /* rows from pivot_cos on that hold no coefficient of a force */ };
+  double *row[2 + 2 * PENDRES_LANGEVIN_DURATIONS + FIXED] = {b->drive, b->pivot_speed};
+  size_t rows = 2;
+  for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) {
+    row[rows++] = b->reach[d];
+    row[rows++] = b->decay[d];
+  }
+  double *const first = b->memory + (b->rows.pivot_cos - b->memory);
+  for (size_t k = 0; k < FIXED; k++) row[rows++] = first + k * b->capacity;
+  set_constants(b, 0, p);
+  for (size_t k = 0; k < rows; k++)
+    for (size_t i = 1; i < b->stride; i++) row[k][i] = row[k][0];
+}
+
+/* The same, at a phase between two steps: the states stay as they are, seen from another frame. */
+static void retune(pendres_langevin_block *b, const pendres_pendulum *p, const double phase[2],
+                   double *frequency)
+{
+  const pendres_langevin_rows *r = &b->rows;
+  const double c = r->pivot_cos[0], s = r->pivot_sin[0], omega = *frequency;
+  tune(b, p);
+  *frequency = p->drive_frequency;
+  const double place = (c - r->pivot_cos[0]) * phase[0] + (s - r->pivot_sin[0]) * phase[1];
+  const double speed = (omega * s - *frequency * r->pivot_sin[0]) * phase[0] -
+                       (omega * c - *frequency * r->pivot_cos[0]) * phase[1];
+  for (size_t i = 0; i < b->stride; i++) {
+    r->u[i] += place;
+    r->w[i] += speed;
+  }
+}
+
+pendres_status pendres_langevin_block_moving(pendres_langevin_block *b, uint32_t period,
+                                             pendres_langevin_motion *motion, void *arg)
+{
+  const double *const edge = b->reach[PENDRES_LANGEVIN_EDGE];
+  const double *const inner = b->reach[PENDRES_LANGEVIN_INNER];
+  double frequency = 0.0;
+  for (int step = 0; step < b->steps; step++) {
+    const double *start = b->phases + 6 * step;
+    if (stops(b, step)) return PENDRES_INTERRUPTED;
+    const pendres_pendulum p = motion(arg, (double)period + (step + 0.5) / b->steps);
+    if (step == 0) {
+      tune(b, &p);
+      frequency = p.drive_frequency;
+      enter(b);
+    } else {
+      if (b->harmonics)
+        b->kernels->sample(b->stride, &b->rows, edge, start[0], start[1], b->cosine, b->sine);
+      b->kernels->drift(b->stride, edge, b->decay[PENDRES_LANGEVIN_EDGE], b->rows.u, b->rows.w);
+      retune(b, &p, start, &frequency);
+    }
+    b->kernels->kick[b->terms](b->stride, &b->rows, edge, b->decay[PENDRES_LANGEVIN_EDGE],
+                               start[2], start[3], noise(b, period, 2 * step));
+    b->kernels->kick[b->terms](b->stride, &b->rows, inner, b->decay[PENDRES_LANGEVIN_INNER],
+                               start[4], start[5], noise(b, period, 2 * step + 1));
   }
   leave(b);
   return PENDRES_OK;

@@ -27,4 +27,14 @@ pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendu
 /* Check the numbers of periods. */
 pendres_status pendres_langevin_accept_periods(pendres_context *ctx, long first, long periods);
 
+/* Show a strobe to the observer; `first` is the number of the block's first trajectory. */
+pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
+                                              const pendres_langevin_block *b, size_t first,
+                                              long period,
+                                              const pendres_langevin_observer *observer);
+
+/* Do all of the block's trajectories still have an angle? */
+pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_langevin_block *b,
+                                           size_t first);
+
 #endif

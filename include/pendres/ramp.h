@@ -1,0 +1,136 @@
+/**
+ * @file ramp.h
+ * @brief A pendulum one of whose parameters moves in real time, with noise or without.
+ *
+ * Owns: what a pendulum does while a parameter moves at a finite rate; how much later it leaves a
+ * state than it would if the parameter moved infinitely slowly (hysteresis.h); and how this
+ * scatters with thermal noise, as in measurements of switching currents.
+ *
+ * Time is counted in drive periods: it is the drive's phase over 2 pi, the integral of the drive's
+ * frequency, and goes on steadily when the frequency is what moves. Between two corners of a ramp
+ * the parameter is a linear function of this time.
+ *
+ * When a pendulum leaves a state is measured as with a lock-in amplifier, by the first harmonic
+ * a + i b of its angle over each drive period. It has left once that is farther from the first
+ * harmonic of the old state, at the same value of the parameter or, beyond its end, at the last
+ * value that it has, than half the distance between the old state and the new one, and does not
+ * come back within the time 2/damping in which a motion dies away. Where old and new state differ
+ * by their mean velocity, by half a radian a period or more, that takes the harmonic's place. Within
+ * a period the time is interpolated. What is called a delay is, for slow ramps past a fold, 2.338
+ * times a time that grows as rate^(-1/3), plus terms that grow as less: it depends on this
+ * definition by some drive periods.
+ *
+ * Integrator, random numbers and their streams: those of langevin.h, of order four at temperature
+ * zero as well. Parameters stand still within a step, at their value in its middle.
+ *
+ * Source: Haberman, SIAM Journal on Applied Mathematics 37 (1979) 69, for delays past a fold;
+ * Fulton and Dunkleberger, Physical Review B 9 (1974) 4760, for distributions of switching currents.
+ *
+ * Thread safety: that of the context (context.h); functions without one are pure.
+ */
+#ifndef PENDRES_RAMP_H
+#define PENDRES_RAMP_H
+
+#include <pendres/hysteresis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/** A ramp. Everything that it points to is read, and not kept. */
+typedef struct pendres_ramp {
+  pendres_pendulum pendulum;   /**< what stands still; its value of the parameter is not read */
+  pendres_parameter parameter; /**< what moves */
+  size_t corners;              /**< at least 2 */
+  const long *period;          /**< [corners] times in drive periods: 0, then ascending */
+  const double *value;         /**< [corners] of the parameter at these times */
+  size_t points;               /**< of the path that a ramp which is infinitely slow would take */
+  const pendres_hysteresis_point *point; /**< [points] the path, as pendres_hysteresis_get(h, 0)
+                                    points to it: through the same values in the same order. The
+                                    ramp starts at its first value, in the state of its first point;
+                                    more points between two values make the old state better known */
+  size_t jumps;                /**< on the path */
+  const pendres_jump *jump;    /**< [jumps] as pendres_hysteresis_jump(h, 0) points to them */
+} pendres_ramp;
+
+/** When a pendulum leaves the state that jump k of the path ends. */
+typedef struct pendres_ramp_jump {
+  double time;        /**< in drive periods since the ramp's start; NaN where the pendulum is not in
+                           that state, does not leave it before the parameter turns round, or the
+                           path's jump is gradual or from or to chaos, so that no first harmonics
+                           tell the states apart */
+  double value;       /**< of the parameter then */
+  double value_error; /**< its error, from two runs of different steps */
+  double delay;       /**< how far beyond the path's jump this is, in the direction of the ramp */
+  double delay_error; /**< its error, that of the path's jump included */
+} pendres_ramp_jump;
+
+/** Where to record a ramp. */
+typedef struct pendres_ramp_record {
+  long every;      /**< drive periods from one point to the next, at least 1. Point k is at time
+                        k every, the first is the start */
+  double *x;       /**< [pendres_ramp_periods(ramp) / every + 1] position at drive phase 0, whole
+                        turns included */
+  double *v;       /**< velocity, likewise */
+  double *x_error; /**< error of x, from two runs of different steps; infinite from where these
+                        have lost each other */
+  double *v_error; /**< error of v, likewise */
+} pendres_ramp_record;
+
+/** Drive periods from the ramp's start to its end; 0 if it has none. */
+long pendres_ramp_periods(const pendres_ramp *ramp);
+
+/** The parameter at a time in drive periods; NaN before the start, behind the end, without a ramp. */
+double pendres_ramp_value(const pendres_ramp *ramp, double time);
+
+/**
+ * Follow a ramp without noise. record may be NULL, jump[ramp->jumps] as well.
+ *
+ * The temperature is not looked at. Steps are chosen such that the errors of the strobe points meet
+ * the context's tolerance while the pendulum is in the states of the path (or are the context's
+ * steps_per_period); the run is repeated with half as many.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT (the message says which), PENDRES_OUT_OF_MEMORY,
+ * PENDRES_INTERRUPTED, PENDRES_INTEGRATION_FAILED. What was written is to be ignored then.
+ */
+pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
+                                   const pendres_ramp_record *record, pendres_ramp_jump *jump);
+
+/**
+ * Follow n noisy trajectories through a ramp at the pendulum's temperature. All start from the state
+ * of the path's first point: let the ramp begin some 1/damping before what is of interest.
+ *
+ * time[jumps][n] receives when trajectory first_id + i leaves the state that jump k ends, in drive
+ * periods; NaN where it does not (see pendres_ramp_jump). value[jumps][n] receives the parameter
+ * then; it may be NULL. Trajectories are the same bytes whatever n is and whoever is beside them.
+ *
+ * Steps are the context's steps_per_period or, if these are not chosen, such that without noise the
+ * strobe points meet the tolerance, or 1e-6 if that is more.
+ *
+ * Errors: as pendres_ramp_follow.
+ */
+pendres_status pendres_ramp_scatter(pendres_context *ctx, const pendres_ramp *ramp, size_t n,
+                                    uint64_t first_id, double *time, double *value);
+
+/** A distribution of jumps. */
+typedef struct pendres_ramp_summary {
+  size_t count;           /**< how many numbers there are; NaN are not counted */
+  double mean;            /**< of these; NaN if there are none */
+  double mean_error;      /**< its standard error; NaN if there are fewer than two */
+  double deviation;       /**< standard deviation; NaN if there are fewer than two */
+  double deviation_error; /**< its standard error, by the fourth moment; NaN if there are fewer than
+                               four */
+} pendres_ramp_summary;
+
+/**
+ * Mean and standard deviation of n jumps. Errors: PENDRES_INVALID_ARGUMENT if value (where n > 0) or
+ * out is NULL.
+ */
+pendres_status pendres_ramp_summarize(size_t n, const double *value, pendres_ramp_summary *out);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
+#endif

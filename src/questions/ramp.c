@@ -1,0 +1,341 @@
+/* ramp.c -- a parameter that moves in real time; see ramp.h. */
+#include <pendres/ramp.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/strobe_run.h"
+#include "noise/langevin_moving.h"
+#include "questions/hysteresis_jump.h"
+#include "questions/ramp_watch.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+enum { FEWEST_STEPS = 16, MOST_STEPS = 65536, PROBES = 8 };
+
+/* ---- ramps ---- */
+
+long pendres_ramp_periods(const pendres_ramp *ramp)
+{
+  return ramp != NULL && ramp->corners > 0 && ramp->period != NULL
+           ? ramp->period[ramp->corners - 1] : 0;
+}
+
+double pendres_ramp_value(const pendres_ramp *ramp, double time)
+{
+  if (ramp == NULL || ramp->corners < 2 || ramp->period == NULL || ramp->value == NULL) return NAN;
+  size_t low = 0, high = ramp->corners - 1;
+  if (!(time >= (double)ramp->period[low] && time <= (double)ramp->period[high])) return NAN;
+  while (high - low > 1) {
+    const size_t middle = (low + high) / 2;
+    if (time < (double)ramp->period[middle]) high = middle;
+    else low = middle;
+  }
+  const double begin = (double)ramp->period[low], end = (double)ramp->period[high];
+  const double part = (time - begin) / (end - begin);
+  return ramp->value[low] + part * (ramp->value[high] - ramp->value[low]);
+}
+
+/* What moves, and at which temperature. */
+typedef struct motion {
+  const pendres_ramp *ramp;
+  double temperature;
+} motion;
+
+static pendres_pendulum pendulum_at(void *arg, double time)
+{
+  const motion *m = arg;
+  pendres_pendulum p = m->ramp->pendulum;
+  p.temperature = m->temperature;
+  pendres_parameter_set(m->ramp->parameter, pendres_ramp_value(m->ramp, time), &p);
+  return p;
+}
+
+static const char *refuses(const pendres_ramp *r)
+{
+  if ((unsigned)r->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  if (r->corners < 2) return "a ramp has two corners or more";
+  if (r->period[0] != 0) return "a ramp starts at time 0";
+  for (size_t i = 1; i < r->corners; i++)
+    if (r->period[i] <= r->period[i - 1]) return "the times of a ramp's corners must ascend";
+  if (r->period[r->corners - 1] > (long)UINT32_MAX) return "a ramp ends before period 2^32";
+  if (r->points < 1) return "the path of an infinitely slow ramp is needed";
+  if (r->point[0].value != r->value[0]) return "path and ramp must start at the same value";
+  for (size_t k = 0; k < r->jumps; k++)
+    if (r->jump[k].step < 1 || r->jump[k].step >= r->points ||
+        (k > 0 && r->jump[k].step < r->jump[k - 1].step))
+      return "the jumps are not of this path";
+  return NULL;
+}
+
+static pendres_status check(pendres_context *ctx, const pendres_ramp *r)
+{
+  if (r == NULL) return PENDRES_CONTEXT_NULL(ctx, "ramp");
+  if (r->period == NULL || r->value == NULL || r->point == NULL ||
+      (r->jumps > 0 && r->jump == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "period, value, point and jump");
+  const char *why = refuses(r);
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
+  motion m = {.ramp = r, .temperature = r->pendulum.temperature};
+  const pendres_langevin_moving run = {.motion = pendulum_at, .arg = &m, .steps = MOST_STEPS,
+                                       .x = r->point[0].x, .v = r->point[0].v};
+  for (size_t i = 0; i < r->corners; i++) {
+    const pendres_status status = pendres_langevin_moving_accept(ctx, &run, (double)r->period[i]);
+    if (status != PENDRES_OK) return status;
+    if (!(pendulum_at(&m, (double)r->period[i]).damping > 0.0))
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                  "without damping a pendulum does not stay in a state");
+  }
+  return PENDRES_OK;
+}
+
+/* ---- steps ---- */
+
+static pendres_pendulum standing_still(void *arg, double time)
+{
+  const pendres_hysteresis_point *point = arg;
+  pendres_pendulum p = point->attractor.orbit.pendulum;
+  (void)time;
+  p.temperature = 0.0;
+  return p;
+}
+
+static pendres_langevin_answer take_end(void *arg, const pendres_langevin_strobe *s)
+{
+  double *end = arg;
+  end[0] = s->x[0];
+  end[1] = s->v[0];
+  return PENDRES_LANGEVIN_GO_ON;
+}
+
+/* How far off a period of a state is by so many steps, seen by twice as many; errors of later
+   periods add to it until it has died away. */
+static pendres_status probe(pendres_context *ctx, const pendres_hysteresis_point *point, int steps,
+                            double *off)
+{
+  const pendres_pendulum p = point->attractor.orbit.pendulum;
+  const double lost = -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
+  double end[2][2];
+  pendres_status status = PENDRES_OK;
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    const pendres_langevin_observer observer = {.see = take_end, .arg = end[k]};
+    const pendres_langevin_moving run = {
+      .motion = standing_still, .arg = (void *)(uintptr_t)point, .n = 1, .periods = 1,
+      .steps = steps << k, .x = point->x, .v = point->v, .observer = &observer};
+    status = pendres_langevin_move(ctx, &run);
+  }
+  if (status == PENDRES_OK)
+    *off = fmax(fabs(end[1][0] - end[0][0]), fabs(end[1][1] - end[0][1])) / lost;
+  return status;
+}
+
+/* The steps whose strobe points meet a tolerance in the states of the path; order four. */
+static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, double tolerance,
+                                   int *steps)
+{
+  *steps = ctx->options.steps_per_period;
+  if (*steps > 0) return PENDRES_OK;
+  *steps = FEWEST_STEPS;
+  const size_t apart = (r->points + PROBES - 1) / PROBES;
+  for (size_t i = 0; i < r->points; i += apart) {
+    if (!pendres_settled_closed(&r->point[i].attractor)) continue;
+    for (;;) {
+      double off = 0.0;
+      const pendres_status status = probe(ctx, &r->point[i], *steps, &off);
+      if (status != PENDRES_OK) return status;
+      if (off <= tolerance || *steps >= MOST_STEPS) break;
+      *steps *= 2;
+    }
+  }
+  return PENDRES_OK;
+}
+
+/* ---- without noise ---- */
+
+/* One run, watched. */
+typedef struct run {
+  pendres_ramp_watch watch;
+  long every;
+  double *x, *v; /* points; NULL: not wanted */
+} run;
+
+static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *s)
+{
+  run *r = arg;
+  pendres_ramp_watch_see(&r->watch, s);
+  if (r->x != NULL && s->period % r->every == 0) {
+    r->x[s->period / r->every] = s->x[0];
+    r->v[s->period / r->every] = s->v[0];
+  }
+  return PENDRES_LANGEVIN_GO_ON;
+}
+
+/* n trajectories; time[jumps][n]. x and v, which belong to the first, may be NULL. */
+static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t n,
+                             uint64_t first_id, long every, double *x, double *v, double *time)
+{
+  const pendres_ramp *ramp = m->ramp;
+  run r = {.every = every, .x = x, .v = v};
+  const pendres_langevin_observer observer = {.see = see, .arg = &r, .harmonics = 1};
+  const pendres_langevin_moving moving = {
+    .motion = pendulum_at, .arg = m, .n = n, .first_id = first_id,
+    .periods = pendres_ramp_periods(ramp), .steps = steps, .x = ramp->point[0].x,
+    .v = ramp->point[0].v, .observer = &observer};
+  if (x != NULL) {
+    x[0] = moving.x;
+    v[0] = moving.v;
+  }
+  pendres_status status = pendres_ramp_watch_open(ctx, ramp, n, time, &r.watch);
+  if (status == PENDRES_OK) status = pendres_langevin_move(ctx, &moving);
+  if (status == PENDRES_OK) pendres_ramp_watch_end(&r.watch);
+  pendres_ramp_watch_close(&r.watch);
+  return status;
+}
+
+/*
+ * Half as many steps are off by four times as much where the parameter's motion counts, at order two,
+ * and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth to a
+ * third of the distance. Both together may cancel in part, and so all of it is claimed.
+ */
+static double error_of(double distance)
+{
+  return pendres_strobe_doubt(distance) < INFINITY ? distance : INFINITY;
+}
+
+/* What steps round off, until it has died away. */
+static double rounding_of(const pendres_ramp *r, int steps)
+{
+  motion m = {.ramp = r};
+  const pendres_pendulum p = pendulum_at(&m, 0.0);
+  return 4.4e-16 * sqrt(steps) / -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
+}
+
+/* x_error and v_error hold the coarser run before. */
+static void compare(const pendres_ramp_record *record, size_t n, double rounding)
+{
+  double lost = 0.0;
+  for (size_t k = 0; k < n; k++) {
+    const double dx = fabs(record->x[k] - record->x_error[k]);
+    const double dv = fabs(record->v[k] - record->v_error[k]);
+    const double off = error_of(fmax(dx, dv));
+    if (!(off < INFINITY)) lost = INFINITY;
+    record->x_error[k] = lost + off + rounding + 2.2e-16 * fabs(record->x[k]);
+    record->v_error[k] = lost + off + rounding;
+  }
+  if (n > 0) record->x_error[0] = record->v_error[0] = 0.0;
+}
+
+static void judge(const pendres_ramp *r, const double *coarse, const double *fine,
+                  double rounding, pendres_ramp_jump *jump)
+{
+  for (size_t k = 0; k < r->jumps; k++) {
+    const pendres_jump *j = &r->jump[k];
+    pendres_ramp_jump *out = &jump[k];
+    *out = (pendres_ramp_jump){.time = fine[k], .value = NAN, .value_error = NAN, .delay = NAN,
+                               .delay_error = NAN};
+    if (isnan(fine[k])) continue;
+    const double off = fabs(fine[k] - coarse[k]), behind = fmin(fine[k] + 1.0,
+      (double)pendres_ramp_periods(r));
+    out->value = pendres_ramp_value(r, fine[k]);
+    const double rate = fabs(pendres_ramp_value(r, behind) - out->value);
+    /* Not less than rounding, of the state and of the parameter itself. */
+    out->value_error = (isnan(off) ? INFINITY : rate * (off + 10.0 * rounding)) +
+                       4.4e-16 * fabs(out->value);
+    out->delay = j->direction * (out->value - j->value);
+    out->delay_error = out->value_error + j->value_error;
+  }
+}
+
+static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
+                                  const pendres_ramp_record *record, pendres_ramp_jump *jump)
+{
+  const pendres_ramp_record none = {.every = 1}, *to = record != NULL ? record : &none;
+  pendres_status status = check(ctx, ramp);
+  if (status != PENDRES_OK) return status;
+  if (record != NULL && (to->x == NULL || to->v == NULL || to->x_error == NULL ||
+                         to->v_error == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "the arrays of a record");
+  if (to->every < 1)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "points of a record are at least a drive period apart");
+  double *time = malloc((2 * ramp->jumps + 1) * sizeof *time);
+  if (time == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for jumps");
+  double *fine = time + ramp->jumps;
+  motion m = {.ramp = ramp, .temperature = 0.0};
+  int steps = 0;
+  status = choose_steps(ctx, ramp, ctx->options.tolerance, &steps);
+  const int half = (steps + 1) / 2;
+  if (status == PENDRES_OK)
+    status = follow(ctx, &m, half, 1, 0, to->every, to->x_error, to->v_error, time);
+  if (status == PENDRES_OK)
+    status = follow(ctx, &m, 2 * half, 1, 0, to->every, to->x, to->v, fine);
+  const double rounding = rounding_of(ramp, 2 * half);
+  if (status == PENDRES_OK && jump != NULL) judge(ramp, time, fine, rounding, jump);
+  if (status == PENDRES_OK && record != NULL)
+    compare(record, (size_t)(pendres_ramp_periods(ramp) / record->every) + 1, rounding);
+  free(time);
+  return status;
+}
+
+pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
+                                   const pendres_ramp_record *record, pendres_ramp_jump *jump)
+{
+  return PENDRES_CONTEXT_CALL(ctx, ramp_follow(ctx, ramp, record, jump));
+}
+
+/* ---- with noise ---- */
+
+static pendres_status ramp_scatter(pendres_context *ctx, const pendres_ramp *ramp, size_t n,
+                                   uint64_t first_id, double *time, double *value)
+{
+  pendres_status status = check(ctx, ramp);
+  if (status != PENDRES_OK) return status;
+  if (time == NULL && n > 0 && ramp->jumps > 0) return PENDRES_CONTEXT_NULL(ctx, "time");
+  motion m = {.ramp = ramp, .temperature = ramp->pendulum.temperature};
+  int steps = 0;
+  status = choose_steps(ctx, ramp, fmax(1e-6, ctx->options.tolerance), &steps);
+  if (status == PENDRES_OK)
+    status = follow(ctx, &m, steps, n, first_id, 1, NULL, NULL, time);
+  for (size_t i = 0; i < ramp->jumps * n && status == PENDRES_OK && value != NULL; i++)
+    value[i] = pendres_ramp_value(ramp, time[i]);
+  return status;
+}
+
+pendres_status pendres_ramp_scatter(pendres_context *ctx, const pendres_ramp *ramp, size_t n,
+                                    uint64_t first_id, double *time, double *value)
+{
+  return PENDRES_CONTEXT_CALL(ctx, ramp_scatter(ctx, ramp, n, first_id, time, value));
+}
+
+pendres_status pendres_ramp_summarize(size_t n, const double *value, pendres_ramp_summary *out)
+{
+  double sum = 0.0, two = 0.0, four = 0.0;
+  if (out == NULL) return PENDRES_INVALID_ARGUMENT;
+  *out = (pendres_ramp_summary){.mean = NAN, .mean_error = NAN, .deviation = NAN,
+                                .deviation_error = NAN};
+  if (n > 0 && value == NULL) return PENDRES_INVALID_ARGUMENT;
+  for (size_t i = 0; i < n; i++)
+    if (!isnan(value[i])) {
+      out->count++;
+      sum += value[i];
+    }
+  const double count = (double)out->count;
+  if (out->count > 0) out->mean = sum / count;
+  for (size_t i = 0; i < n; i++)
+    if (!isnan(value[i])) {
+      const double square = (value[i] - out->mean) * (value[i] - out->mean);
+      two += square;
+      four += square * square;
+    }
+  if (out->count < 2) return PENDRES_OK;
+  out->deviation = sqrt(two / (count - 1.0));
+  out->mean_error = out->deviation / sqrt(count);
+  if (out->count < 4 || out->deviation == 0.0) return PENDRES_OK;
+  /* The variance of a sample's variance, by its fourth moment. */
+  const double variance = two / (count - 1.0);
+  const double spread = four / count - variance * variance * (count - 3.0) / (count - 1.0);
+  out->deviation_error = 0.5 * sqrt(fmax(0.0, spread) / count) / out->deviation;
+  return PENDRES_OK;
+}
