@@ -2,6 +2,7 @@
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,6 +32,13 @@ pendres_pendulum scene_along_pendulum(const deck *d)
     if (d->axis[parameters[i]].count > 0)
       scene_along_set(&p, parameters[i], d->axis[parameters[i]].value[0]);
   return p;
+}
+
+const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis)
+{
+  *axis = DECK_AXIS_DAMPING;
+  (void)deck_moving(d, 1, axis);
+  return &d->axis[*axis];
 }
 
 pendres_parameter scene_along_parameter(deck_axis_id axis)
@@ -147,45 +155,59 @@ int scene_along_closed(const pendres_hysteresis_point *point)
          point->attractor.label != PENDRES_LABEL_UNRESOLVED;
 }
 
-void scene_along_label_flags(pendres_store_spec *spec)
+scene_along_row *scene_along_rows(const scene_along_path *path)
 {
-  static const char *const meanings[PENDRES_LABEL_COUNT] = { "sa",      "la",      "periodic",
-                                                             "running", "chaotic", "unresolved" };
-  spec->type = PENDRES_STORE_INT8;
-  spec->flag_count = PENDRES_LABEL_COUNT;
-  spec->flag_meanings = meanings;
+  scene_along_row *rows = malloc((path->points + 1) * sizeof *rows);
+  for (size_t i = 0; i < path->points && rows != NULL; i++) {
+    const pendres_hysteresis_point *p = &path->point[i];
+    const pendres_attractor *a = &p->attractor;
+    const pendres_orbit *o = &a->orbit;
+    const double closed = scene_along_closed(p) ? 0.0 : NAN;
+    const int lost = a->label == PENDRES_LABEL_UNRESOLVED;
+    rows[i] = (scene_along_row){
+      .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
+      .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
+      .loop_area = o->loop_area, .loop_area_error = o->loop_area_error,
+      .mean_velocity = p->mean_velocity, .mean_velocity_error = p->mean_velocity_error,
+      .lyapunov = a->lyapunov, .lyapunov_error = a->lyapunov_error,
+      .period = o->period + closed, .period_error = closed,
+      .winding = o->winding + closed, .winding_error = closed, .label = (int)a->label,
+      .failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE};
+  }
+  return rows;
 }
 
-pendres_status scene_along_write_labels(scene_run *run, deck_axis_id axis,
-                                        const scene_along_path *path, int ways)
+scene_along_jump *scene_along_jumps(const scene_along_path *path)
+{
+  scene_along_jump *rows = malloc((path->jumps + 1) * sizeof *rows);
+  for (size_t i = 0; i < path->jumps && rows != NULL; i++) {
+    const pendres_jump *j = &path->jump[i];
+    rows[i] = (scene_along_jump){
+      .parameter = j->value, .parameter_error = j->value_error,
+      .period = j->to_period > 0 ? j->to_period : NAN,
+      .period_error = j->to_period > 0 ? 0.0 : NAN, .share = j->share,
+      .share_error = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS),
+      .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
+      .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
+  }
+  return rows;
+}
+
+const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
+  { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
+    .value = offsetof(scene_along_row, label), .names = scene_label_names },
+  { .name = "failed", .long_name = "why there is no attractor", .type = SCENE_FLAG,
+    .value = offsetof(scene_along_row, failed), .names = scene_failure_names },
+};
+
+void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways)
 {
   static const char *const words[] = { "upwards", "downwards" };
-  const size_t n = path->points, values = n / (size_t)ways;
-  const char *name = deck_axis_name(axis);
-  pendres_store_spec label = { .name = "label", .dimensions = { name },
-                               .long_name = "kind of attractor that the pendulum is on" };
-  pendres_store_spec mark = { .name = "failed", .dimensions = { name },
-                              .long_name = "why there is no attractor" };
-  int8_t *code = malloc(2 * n);
-  if (code == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
-  if (ways > 1) {
-    label.dimensions[0] = mark.dimensions[0] = "direction";
-    label.dimensions[1] = mark.dimensions[1] = name;
+  const size_t values = path->points / (size_t)ways;
+  for (size_t i = 0; i < path->points; i++) {
+    if (path->point[i].attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
+    run->failed_points++;
+    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%s %.10g, %s", deck_axis_name(axis),
+                       path->point[i].value, words[i / values]);
   }
-  scene_along_label_flags(&label);
-  scene_failure_flags(&mark);
-  for (size_t i = 0; i < n; i++) {
-    const int lost = path->point[i].attractor.label == PENDRES_LABEL_UNRESOLVED;
-    code[i] = (int8_t)path->point[i].attractor.label;
-    code[n + i] = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
-    run->failed_points += (size_t)lost;
-    if (lost)
-      scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%s %.10g, %s", name,
-                         path->point[i].value, words[i / values]);
-  }
-  pendres_status status = pendres_store_put(run->store, &label, code, n);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, code + n, n);
-  free(code);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }

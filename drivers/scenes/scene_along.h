@@ -7,13 +7,16 @@
 #ifndef SCENE_ALONG_H
 #define SCENE_ALONG_H
 
-#include "scenes/scene.h"
+#include "scenes/scene_columns.h"
 
 /* The deck's pendulum; what moves has its first value. */
 pendres_pendulum scene_along_pendulum(const deck *d);
 
 /* Set the quantity of an axis. */
 void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value);
+
+/* The axis that a deck moves, and its values. */
+const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis);
 
 /* The library's number of an axis. */
 pendres_parameter scene_along_parameter(deck_axis_id axis);
@@ -44,12 +47,31 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);
 
-/* The flags of a variable of labels. */
-void scene_along_label_flags(pendres_store_spec *spec);
+/* A point as a row of results. */
+typedef struct scene_along_row {
+  double amplitude, amplitude_error, phase_lag, phase_lag_error, loop_area, loop_area_error;
+  double mean_velocity, mean_velocity_error, lyapunov, lyapunov_error;
+  double period, period_error, winding, winding_error; /* NaN unless the orbit closes */
+  int label, failed;                                   /* failed: a scene_failure */
+} scene_along_row;
 
-/* `label` and `failed` over the axis, or over direction and axis where there are two ways; what
-   failed is counted and told. Points of the way back are in the order of the axis, too. */
-pendres_status scene_along_write_labels(scene_run *run, deck_axis_id axis,
-                                        const scene_along_path *path, int ways);
+/* What ends a state, as a row of results. */
+typedef struct scene_along_jump {
+  double parameter, parameter_error, period, period_error; /* period: of the orbit jumped to; NaN */
+  double share, share_error;                               /* of trials: the binomial error */
+  int direction, kind, from, to, gradual, certain, to_period;
+} scene_along_jump;
+
+/* All points and jumps of a path as rows, to be freed by free(); NULL without memory. */
+scene_along_row *scene_along_rows(const scene_along_path *path);
+scene_along_jump *scene_along_jumps(const scene_along_path *path);
+
+/* Columns of a table of scene_along_row: `label` and `failed`. */
+enum { SCENE_ALONG_VERDICTS = 2 };
+extern const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS];
+
+/* Count what failed and tell it. Points of the way back, if there are two ways, are in the order of
+   the axis, too. */
+void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways);
 
 #endif

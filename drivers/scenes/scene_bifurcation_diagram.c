@@ -13,13 +13,18 @@
 
 enum { TABLE_ROWS = 40 };
 
+/* A strobe point. */
+typedef struct strobe {
+  double x, x_error, v, v_error;
+} strobe;
+
 typedef struct work {
   const deck *d;
   deck_axis_id axis;
   size_t values, strobes;
   scene_along_path path;
-  double *x, *v, *x_error, *v_error; /* [values][strobes] */
-  int32_t *attractors;               /* [values] */
+  strobe *strobe; /* [values][strobes] */
+  int *attractors; /* [values] */
   pendres_cascade cascade;
 } work;
 
@@ -105,137 +110,111 @@ static pendres_status collect_strobes(void *arg, size_t task, const farm_record 
   const pendres_hysteresis_point *point = &w->path.point[task];
   /* Points of chaos are its own, but how far they are off the pendulum's is not known. */
   const int closed = scene_along_closed(point);
-  w->attractors[task] = (int32_t)r->attractors;
-  for (size_t k = 0; k < w->strobes; k++) {
-    const size_t at = task * w->strobes + k;
-    w->x[at] = within_a_turn(x[k]);
-    w->v[at] = v[k];
-    w->x_error[at] = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
-    w->v_error[at] = closed ? point->attractor.orbit.v_error + w->d->precision.tolerance : NAN;
-  }
+  w->attractors[task] = (int)r->attractors;
+  const double x_error = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
+  const double v_error = closed ? point->attractor.orbit.v_error + w->d->precision.tolerance : NAN;
+  for (size_t k = 0; k < w->strobes; k++)
+    w->strobe[task * w->strobes + k] = (strobe){within_a_turn(x[k]), x_error, v[k], v_error};
   return PENDRES_OK;
 }
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-static pendres_status put(scene_run *run, const char *name, const char *dimension,
-                          const char *second, const char *words, const double *value,
-                          const double *error, size_t n)
-{
-  const pendres_store_spec spec = {
-    .name = name, .dimensions = {dimension, second}, .long_name = words};
-  const pendres_status status = pendres_store_put_result(run->store, &spec, value, error, n);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
-}
+static const scene_column of_strobes[] = {
+  SCENE_COLUMN(strobe, x, "position at drive phase 0, within one turn", "1"),
+  SCENE_COLUMN(strobe, v, "velocity at drive phase 0", "1"),
+};
 
-static pendres_status put_values(scene_run *run, const work *w)
+static const scene_column of_points[] = {
+  SCENE_COLUMN(scene_along_row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
+};
+
+static const scene_column of_attractors = {
+  .name = "attractors", .long_name = "attractors that are found there", .type = SCENE_NUMBER};
+
+static const scene_column of_bifurcations[] = {
+  {.name = "kind", .long_name = "what ends the motion there", .type = SCENE_FLAG,
+   .value = offsetof(scene_along_jump, kind), .names = scene_jump_names},
+  SCENE_COLUMN(scene_along_jump, parameter, "value at which it is", "1"),
+  SCENE_COLUMN(scene_along_jump, period,
+               "drive periods of the orbit that the pendulum is on then", "1"),
+};
+
+/* The doublings are two arrays of the cascade, not one of structs: a step is that of its doubles. */
+static const scene_column of_doublings = {
+  .name = "parameter", .long_name = "value at which the period doubles",
+  .value = offsetof(pendres_cascade, value), .error = offsetof(pendres_cascade, value_error)};
+
+static const scene_column of_cascade[] = {
+  SCENE_COLUMN(pendres_cascade, limit, "value at which doublings accumulate", "1"),
+  SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings", "1"),
+};
+
+#define WRITE(run, table, columns) \
+  scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
+
+static pendres_status write_values(scene_run *run, const work *w)
 {
-  const size_t n = w->values;
   const char *axis = deck_axis_name(w->axis);
-  double *a = malloc(4 * n * sizeof *a);
-  if (a == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
-  for (size_t i = 0; i < n; i++) {
-    const pendres_attractor *at = &w->path.point[i].attractor;
-    const int closed = scene_along_closed(&w->path.point[i]);
-    a[i] = at->lyapunov;
-    a[n + i] = at->lyapunov_error;
-    a[2 * n + i] = closed ? at->orbit.period : NAN;
-    a[3 * n + i] = closed ? 0.0 : NAN;
-  }
-  const pendres_store_spec count = {.name = "attractors", .type = PENDRES_STORE_INT32,
-                                    .dimensions = {axis},
-                                    .long_name = "attractors that are found there"};
-  pendres_status status = put(run, "lyapunov", axis, NULL, "largest Lyapunov exponent a unit time",
-                              a, a + n, n);
+  scene_along_row *rows = scene_along_rows(&w->path);
+  const scene_table strobes = {.dimensions = {axis, "strobe"}, .prefix = "strobe",
+                               .n = w->values * w->strobes, .stride = sizeof *w->strobe,
+                               .rows = w->strobe};
+  const scene_table points = {.dimensions = {axis}, .n = w->path.points, .stride = sizeof *rows,
+                              .rows = rows};
+  const scene_table counts = {.dimensions = {axis}, .n = w->values,
+                              .stride = sizeof *w->attractors, .rows = w->attractors};
+  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
+  pendres_status status = WRITE(run, &strobes, of_strobes);
+  if (status == PENDRES_OK) status = WRITE(run, &points, of_points);
+  if (status == PENDRES_OK) status = scene_columns_write(run, &counts, 1, &of_attractors);
   if (status == PENDRES_OK)
-    status = put(run, "period", axis, NULL, "drive periods until the orbit closes", a + 2 * n,
-                 a + 3 * n, n);
-  free(a);
-  if (status != PENDRES_OK) return status;
-  status = pendres_store_put(run->store, &count, w->attractors, n);
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  return scene_along_write_labels(run, w->axis, &w->path, 1);
-}
-
-static pendres_status put_bifurcations(scene_run *run, const work *w)
-{
-  const size_t n = w->path.jumps;
-  const char *kinds[PENDRES_JUMP_COUNT];
-  double *a = malloc((4 * n + 1) * sizeof *a);
-  int8_t *kind = malloc(n + 1);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (a == NULL || kind == NULL) {
-    (void)scene_fail(run, status, "out of memory for bifurcations");
-    goto done;
-  }
-  for (int i = 0; i < PENDRES_JUMP_COUNT; i++)
-    kinds[i] = pendres_jump_kind_name((pendres_jump_kind)i);
-  for (size_t i = 0; i < n; i++) {
-    const pendres_jump *j = &w->path.jump[i];
-    a[i] = j->value;
-    a[n + i] = j->value_error;
-    a[2 * n + i] = j->to_period > 0 ? j->to_period : NAN;
-    a[3 * n + i] = j->to_period > 0 ? 0.0 : NAN;
-    kind[i] = (int8_t)j->kind;
-  }
-  const pendres_store_spec spec = {.name = "bifurcation_kind", .type = PENDRES_STORE_INT8,
-                                   .dimensions = {"bifurcation"},
-                                   .long_name = "what ends the motion there",
-                                   .flag_count = PENDRES_JUMP_COUNT, .flag_meanings = kinds};
-  status = pendres_store_dimension(run->store, NULL, "bifurcation", n, NULL,
-                                   "number of the bifurcation", "1");
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, kind, n);
-  if (status != PENDRES_OK) {
-    (void)scene_store_failed(run, status);
-    goto done;
-  }
-  status = put(run, "bifurcation_parameter", "bifurcation", NULL, "value at which it is", a, a + n,
-               n);
-  if (status == PENDRES_OK)
-    status = put(run, "bifurcation_period", "bifurcation", NULL,
-                 "drive periods of the orbit that the pendulum is on then", a + 2 * n, a + 3 * n,
-                 n);
-done:
-  free(a);
-  free(kind);
+    status = scene_columns_write(run, &points, SCENE_ALONG_VERDICTS, scene_along_verdicts);
+  free(rows);
+  scene_along_tell(run, w->axis, &w->path, 1);
   return status;
 }
 
-static pendres_status put_cascade(scene_run *run, const work *w)
+static pendres_status write_bifurcations(scene_run *run, const work *w)
+{
+  scene_along_jump *rows = scene_along_jumps(&w->path);
+  const scene_table table = {.dimensions = {"bifurcation"}, .prefix = "bifurcation",
+                             .n = w->path.jumps, .stride = sizeof *rows, .rows = rows};
+  pendres_status status = PENDRES_OK;
+  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  status = pendres_store_dimension(run->store, NULL, "bifurcation", table.n, NULL,
+                                   "number of the bifurcation", "1");
+  if (status == PENDRES_OK) status = WRITE(run, &table, of_bifurcations);
+  else (void)scene_store_failed(run, status);
+  free(rows);
+  return status;
+}
+
+static pendres_status write_cascade(scene_run *run, const work *w)
 {
   const pendres_cascade *c = &w->cascade;
-  const size_t n = (size_t)c->doublings;
-  pendres_status status = pendres_store_dimension(run->store, NULL, "cascade", n, NULL,
+  const scene_table doublings = {.dimensions = {"cascade"}, .prefix = "cascade",
+                                 .n = (size_t)c->doublings, .stride = sizeof c->value[0],
+                                 .rows = c};
+  const scene_table whole = {.prefix = "cascade", .n = 1, .stride = sizeof *c, .rows = c};
+  pendres_status status = pendres_store_dimension(run->store, NULL, "cascade", doublings.n, NULL,
                                                   "number of the doubling", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = put(run, "cascade_parameter", "cascade", NULL, "value at which the period doubles",
-               c->value, c->value_error, n);
-  if (status == PENDRES_OK)
-    status = put(run, "cascade_limit", NULL, NULL, "value at which doublings accumulate", &c->limit,
-                 &c->limit_error, 1);
-  if (status == PENDRES_OK)
-    status = put(run, "cascade_ratio", NULL, NULL, "ratio of the last two distances of doublings",
-                 &c->ratio, &c->ratio_error, 1);
-  return status;
+  status = scene_columns_write(run, &doublings, 1, &of_doublings);
+  return status == PENDRES_OK ? WRITE(run, &whole, of_cascade) : status;
 }
 
 static pendres_status write_all(scene_run *run, const work *w)
 {
-  const size_t n = w->values * w->strobes;
-  const char *axis = deck_axis_name(w->axis);
   pendres_status status = scene_dimension(run, NULL, w->axis);
   if (status != PENDRES_OK) return status;
   status = pendres_store_dimension(run->store, NULL, "strobe", w->strobes, NULL,
                                    "number of the strobe point", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = put(run, "strobe_x", axis, "strobe", "position at drive phase 0, within one turn", w->x,
-               w->x_error, n);
-  if (status == PENDRES_OK)
-    status = put(run, "strobe_v", axis, "strobe", "velocity at drive phase 0", w->v, w->v_error, n);
-  if (status == PENDRES_OK) status = put_values(run, w);
-  if (status == PENDRES_OK) status = put_bifurcations(run, w);
-  if (status == PENDRES_OK) status = put_cascade(run, w);
-  return status;
+  status = write_values(run, w);
+  if (status == PENDRES_OK) status = write_bifurcations(run, w);
+  return status == PENDRES_OK ? write_cascade(run, w) : status;
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -269,24 +248,20 @@ static pendres_status compute(scene_run *run, work *w)
 static pendres_status run_scene(scene_run *run)
 {
   work w = {.d = run->deck, .strobes = (size_t)run->deck->diagram.strobes};
-  (void)deck_moving(run->deck, 1, &w.axis);
-  w.values = run->deck->axis[w.axis].count;
+  w.values = scene_along_axis(run->deck, &w.axis)->count;
   const size_t n = w.values * w.strobes;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  w.x = malloc(4 * n * sizeof *w.x);
+  w.strobe = malloc(n * sizeof *w.strobe);
   w.attractors = malloc(w.values * sizeof *w.attractors);
-  if (w.x == NULL || w.attractors == NULL) {
+  if (w.strobe == NULL || w.attractors == NULL) {
     (void)scene_fail(run, status, "out of memory for %zu points", n);
     goto done;
   }
-  w.v = w.x + n;
-  w.x_error = w.v + n;
-  w.v_error = w.x_error + n;
   status = compute(run, &w);
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);
 done:
-  free(w.x);
+  free(w.strobe);
   free(w.attractors);
   scene_along_path_free(&w.path);
   return status;
@@ -294,9 +269,8 @@ done:
 
 static void plan(const deck *d, FILE *out)
 {
-  deck_axis_id axis = DECK_AXIS_DAMPING;
-  (void)deck_moving(d, 1, &axis);
-  const deck_axis *a = &d->axis[axis];
+  deck_axis_id axis;
+  const deck_axis *a = scene_along_axis(d, &axis);
   fprintf(out, "%lld strobe points at each of %zu values of %s from %g to %g, which grows slowly;\n"
                "bifurcations on the way, and the cascade of doublings of the first orbit\n",
           (long long)d->diagram.strobes, a->count, deck_axis_name(axis), a->value[0],

@@ -124,6 +124,11 @@ static void name_point(const deck *d, size_t point, int axes, const deck_axis_id
 
 /* ---- the file ------------------------------------------------------------------------------ */
 
+const char *scene_failure_names(int value)
+{
+  return value >= 0 && value < SCENE_FAILURE_COUNT ? reasons[value].meaning : NULL;
+}
+
 void scene_failure_flags(pendres_store_spec *spec)
 {
   static const char *const meanings[] = {

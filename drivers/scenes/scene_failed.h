@@ -82,6 +82,9 @@ void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v
 pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
                                     const char *what, int axes, const deck_axis_id *axis);
 
+/* The names of the codes, as columns take them; NULL beyond the last. */
+const char *scene_failure_names(int value);
+
 /* For scenes that write their marks themselves, as int8: the flags of a variable ... */
 void scene_failure_flags(pendres_store_spec *spec);
 /* ... and a line for the terminal, unless there are many already. */

@@ -2,9 +2,7 @@
  * scene_hysteresis.c -- one parameter swept slowly, up and then down, from a stated state: what an
  * experimenter sees. One task: each value is approached from the one before.
  */
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
@@ -50,172 +48,82 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return PENDRES_OK;
 }
 
-/* ---- writing the points -------------------------------------------------------------------- */
+/* ---- results ------------------------------------------------------------------------------- */
 
-/* The quantities of a point with their errors. */
-enum { AMPLITUDE, PHASE_LAG, LOOP_AREA, MEAN_VELOCITY, PERIOD, WINDING, LYAPUNOV, QUANTITIES };
-
-static const struct {
-  const char *name, *long_name, *units;
-} quantities[QUANTITIES] = {
-  {"amplitude", "half peak to peak of the angle", "rad"},
-  {"phase_lag", "lag of the first harmonic behind the drive", "rad"},
-  {"loop_area", "area of the hysteresis loop, a drive cycle", "1"},
-  {"mean_velocity", "mean velocity of x", "1"},
-  {"period", "drive periods until the orbit closes", "1"},
-  {"winding", "whole turns until the orbit closes", "1"},
-  {"lyapunov", "largest Lyapunov exponent a unit time", "1"},
+static const scene_column of_points[] = {
+  SCENE_COLUMN(scene_along_row, amplitude, "half peak to peak of the angle", "rad"),
+  SCENE_COLUMN(scene_along_row, phase_lag, "lag of the first harmonic behind the drive", "rad"),
+  SCENE_COLUMN(scene_along_row, loop_area, "area of the hysteresis loop, a drive cycle", "1"),
+  SCENE_COLUMN(scene_along_row, mean_velocity, "mean velocity of x", "1"),
+  SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
+  SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
+  SCENE_COLUMN(scene_along_row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
 };
 
-static void values_of(const pendres_hysteresis_point *p, double value[QUANTITIES],
-                      double error[QUANTITIES])
+static const char *const directions[DIRECTIONS] = {"up", "down"};
+
+static const char *direction_names(int value)
 {
-  const pendres_orbit *o = &p->attractor.orbit;
-  const double closed = scene_along_closed(p) ? 0.0 : NAN;
-  const double v[QUANTITIES] = {o->amplitude, o->phase_lag, o->loop_area, p->mean_velocity,
-                                o->period + closed, o->winding + closed, p->attractor.lyapunov};
-  const double e[QUANTITIES] = {o->amplitude_error, o->phase_lag_error, o->loop_area_error,
-                                p->mean_velocity_error, closed, closed,
-                                p->attractor.lyapunov_error};
-  memcpy(value, v, sizeof v);
-  memcpy(error, e, sizeof e);
+  return value < DIRECTIONS ? directions[value] : NULL;
 }
 
-static pendres_status put_quantities(scene_run *run, const work *w)
+static const char *gradual_names(int value)
 {
-  const size_t n = DIRECTIONS * w->values;
-  double *value = malloc(2 * n * sizeof *value);
-  pendres_status status = PENDRES_OK;
-  if (value == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
-  for (int q = 0; q < QUANTITIES && status == PENDRES_OK; q++) {
-    const pendres_store_spec spec = {.name = quantities[q].name,
-                                     .dimensions = {"direction", deck_axis_name(w->axis)},
-                                     .long_name = quantities[q].long_name,
-                                     .units = quantities[q].units};
-    for (size_t i = 0; i < n; i++) {
-      double values[QUANTITIES], errors[QUANTITIES];
-      values_of(&w->path.point[i], values, errors);
-      value[i] = values[q];
-      value[n + i] = errors[q];
-    }
-    status = pendres_store_put_result(run->store, &spec, value, value + n, n);
-  }
-  free(value);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return value == 0 ? "jump" : value == 1 ? "gradual" : NULL;
 }
 
-/* ---- writing the jumps --------------------------------------------------------------------- */
-
-/* A code of each jump. */
-static pendres_status put_codes(scene_run *run, const work *w, const pendres_store_spec *spec,
-                                int8_t (*code_of)(const pendres_jump *j))
+static const char *certain_names(int value)
 {
-  int8_t *code = malloc(w->path.jumps + 1);
-  if (code == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", w->path.jumps);
-  for (size_t i = 0; i < w->path.jumps; i++) code[i] = code_of(&w->path.jump[i]);
-  const pendres_status status = pendres_store_put(run->store, spec, code, w->path.jumps);
-  free(code);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return value == 0 ? "uncertain" : value == 1 ? "certain" : NULL;
 }
 
-static int8_t direction_of(const pendres_jump *j)
-{
-  return (int8_t)(j->direction < 0);
-}
+#define CODE(label, code_names, words)                      \
+  {.name = #label, .long_name = words, .type = SCENE_FLAG, \
+   .value = offsetof(scene_along_jump, label), .names = code_names}
+static const scene_column of_jumps[] = {
+  SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends", "1"),
+  SCENE_COLUMN(scene_along_jump, period, "drive periods of the orbit jumped to", "1"),
+  SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state", "1"),
+  CODE(direction, direction_names, "way in which the parameter goes"),
+  CODE(kind, scene_jump_names, "bifurcation that ends the state"),
+  CODE(from, scene_label_names, "state that ends"),
+  CODE(to, scene_label_names, "state that the pendulum goes to"),
+  CODE(gradual, gradual_names, "whether the new state grows out of the old one"),
+  CODE(certain, certain_names, "whether all trials went to the same state"),
+};
 
-static int8_t kind_of(const pendres_jump *j)
+static pendres_status write_points(scene_run *run, const work *w)
 {
-  return (int8_t)j->kind;
-}
-
-static int8_t from_of(const pendres_jump *j)
-{
-  return (int8_t)j->from;
-}
-
-static int8_t to_of(const pendres_jump *j)
-{
-  return (int8_t)j->to;
-}
-
-static int8_t gradual_of(const pendres_jump *j)
-{
-  return (int8_t)j->gradual;
-}
-
-static int8_t certain_of(const pendres_jump *j)
-{
-  return (int8_t)j->certain;
-}
-
-static pendres_status put_jump_codes(scene_run *run, const work *w)
-{
-  static const char *const directions[] = {"up", "down"};
-  static const char *const ways[] = {"jump", "gradual"};
-  static const char *const certainties[] = {"uncertain", "certain"};
-  const char *kinds[PENDRES_JUMP_COUNT];
-  for (int i = 0; i < PENDRES_JUMP_COUNT; i++)
-    kinds[i] = pendres_jump_kind_name((pendres_jump_kind)i);
-  struct {
-    pendres_store_spec spec;
-    int8_t (*code_of)(const pendres_jump *j);
-  } codes[] = {
-    {{.name = "jump_direction", .long_name = "way in which the parameter goes", .flag_count = 2,
-      .flag_meanings = directions}, direction_of},
-    {{.name = "jump_kind", .long_name = "bifurcation that ends the state",
-      .flag_count = PENDRES_JUMP_COUNT, .flag_meanings = kinds}, kind_of},
-    {{.name = "jump_from", .long_name = "state that ends"}, from_of},
-    {{.name = "jump_to", .long_name = "state that the pendulum goes to"}, to_of},
-    {{.name = "jump_gradual", .long_name = "whether the new state grows out of the old one",
-      .flag_count = 2, .flag_meanings = ways}, gradual_of},
-    {{.name = "jump_certain", .long_name = "whether all trials went to the same state",
-      .flag_count = 2, .flag_meanings = certainties}, certain_of},
-  };
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof codes / sizeof *codes && status == PENDRES_OK; k++) {
-    codes[k].spec.type = PENDRES_STORE_INT8;
-    codes[k].spec.dimensions[0] = "jump";
-    if (codes[k].spec.flag_count == 0) scene_along_label_flags(&codes[k].spec);
-    status = put_codes(run, w, &codes[k].spec, codes[k].code_of);
-  }
+  scene_along_row *rows = scene_along_rows(&w->path);
+  const scene_table table = {.dimensions = {"direction", deck_axis_name(w->axis)},
+                             .n = w->path.points, .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", table.n);
+  pendres_status status =
+    scene_columns_write(run, &table, sizeof of_points / sizeof *of_points, of_points);
+  if (status == PENDRES_OK)
+    status = scene_columns_write(run, &table, SCENE_ALONG_VERDICTS, scene_along_verdicts);
+  free(rows);
+  scene_along_tell(run, w->axis, &w->path, DIRECTIONS);
   return status;
 }
 
-static pendres_status put_jumps(scene_run *run, const work *w)
+static pendres_status write_jumps(scene_run *run, const work *w)
 {
-  const size_t n = w->path.jumps;
-  double *value = malloc((6 * n + 1) * sizeof *value);
-  if (value == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", n);
-  double *error = value + n, *share = error + n, *period = share + n, *no_error = period + n;
-  for (size_t i = 0; i < n; i++) {
-    const pendres_jump *j = &w->path.jump[i];
-    value[i] = j->value;
-    error[i] = j->value_error;
-    share[i] = j->share;
-    period[i] = j->to_period > 0 ? j->to_period : NAN;
-    no_error[i] = j->to_period > 0 ? 0.0 : NAN;
-    /* Of a share of trials: the binomial standard error. */
-    no_error[n + i] = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS);
-  }
-  const pendres_store_spec parameter = {.name = "jump_parameter", .dimensions = {"jump"},
-                                        .long_name = "value at which the state ends"};
-  const pendres_store_spec where = {.name = "jump_period", .dimensions = {"jump"},
-                                    .long_name = "drive periods of the orbit jumped to"};
-  const pendres_store_spec shares = {.name = "jump_share", .dimensions = {"jump"},
-                                     .long_name = "share of the trials that went to that state"};
-  pendres_status status =
-    pendres_store_dimension(run->store, NULL, "jump", n, NULL, "number of the jump", "1");
+  scene_along_jump *rows = scene_along_jumps(&w->path);
+  const scene_table table = {.dimensions = {"jump"}, .prefix = "jump", .n = w->path.jumps,
+                             .stride = sizeof *rows, .rows = rows};
+  pendres_status status = PENDRES_OK;
+  if (rows == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", table.n);
+  status =
+    pendres_store_dimension(run->store, NULL, "jump", table.n, NULL, "number of the jump", "1");
   if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &parameter, value, error, n);
-  if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &where, period, no_error, n);
-  if (status == PENDRES_OK)
-    status = pendres_store_put_result(run->store, &shares, share, no_error + n, n);
-  free(value);
-  return status == PENDRES_OK ? put_jump_codes(run, w) : scene_store_failed(run, status);
+    status = scene_columns_write(run, &table, sizeof of_jumps / sizeof *of_jumps, of_jumps);
+  else
+    (void)scene_store_failed(run, status);
+  free(rows);
+  return status;
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -238,22 +146,19 @@ static void tabulate(FILE *out, const work *w)
 
 static pendres_status write_all(scene_run *run, const work *w)
 {
-  static const char *const directions[DIRECTIONS] = {"up", "down"};
   pendres_status status = pendres_store_dimension_text(
     run->store, NULL, "direction", DIRECTIONS, directions, "way in which the parameter goes");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   status = scene_dimension(run, NULL, w->axis);
-  if (status == PENDRES_OK) status = put_quantities(run, w);
-  if (status == PENDRES_OK) status = scene_along_write_labels(run, w->axis, &w->path, DIRECTIONS);
-  if (status == PENDRES_OK) status = put_jumps(run, w);
+  if (status == PENDRES_OK) status = write_points(run, w);
+  if (status == PENDRES_OK) status = write_jumps(run, w);
   return status;
 }
 
 static pendres_status run_scene(scene_run *run)
 {
   work w = {.d = run->deck};
-  (void)deck_moving(run->deck, 1, &w.axis);
-  w.values = run->deck->axis[w.axis].count;
+  w.values = scene_along_axis(run->deck, &w.axis)->count;
   const farm_stage stage = {.what = "sweeps", .tasks = 1, .record_size = 1,
                             .task = follow, .collect = collect, .arg = &w};
   pendres_status status = scene_compute(run, &stage);
@@ -265,9 +170,8 @@ static pendres_status run_scene(scene_run *run)
 
 static void plan(const deck *d, FILE *out)
 {
-  deck_axis_id axis = DECK_AXIS_DAMPING;
-  (void)deck_moving(d, 1, &axis);
-  const deck_axis *a = &d->axis[axis];
+  deck_axis_id axis;
+  const deck_axis *a = scene_along_axis(d, &axis);
   fprintf(out, "the state of a pendulum while %s goes slowly from %g to %g and back,\n"
                "at %zu values each way, and the jumps on the way; ",
           deck_axis_name(axis), a->value[0], a->value[a->count - 1], a->count);

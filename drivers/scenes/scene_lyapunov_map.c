@@ -4,6 +4,7 @@
  */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
@@ -13,31 +14,24 @@ enum {
   CHUNK = 2048 /* points of a task: enough for full blocks */
 };
 
-/* What is written, as doubles: NaN where it does not exist. */
-enum { LYAPUNOV, ROTATION, PERIOD, WINDING, QUANTITIES };
-
-static const struct {
-  const char *name, *long_name;
-} quantities[QUANTITIES] = {
-  {"lyapunov", "largest Lyapunov exponent a unit time"},
-  {"rotation", "mean whole turns a drive period"},
-  {"period", "drive periods until the orbit closes"},
-  {"winding", "whole turns until the orbit closes"},
-};
+/* What is written of a point: NaN where it does not exist. */
+typedef struct row {
+  double lyapunov, lyapunov_error, rotation, rotation_error;
+  double period, period_error, winding, winding_error;
+  int label, failed;
+} row;
 
 typedef struct work {
   const deck *d;
   pendres_pendulum pendulum;
   deck_axis_id axis[AXES]; /* the second one runs fastest */
   size_t count;
-  double *value[QUANTITIES], *error[QUANTITIES];
-  int8_t *label, *failed;
+  row *rows;
 } work;
 
 /* What a task finds. */
 typedef struct record {
-  double value[CHUNK][QUANTITIES], error[CHUNK][QUANTITIES];
-  int8_t label[CHUNK];
+  row rows[CHUNK];
 } record;
 
 static size_t count_of(const work *w, size_t task)
@@ -55,18 +49,15 @@ static double coordinate(const work *w, size_t point, int axis)
 
 /* ---- computing ----------------------------------------------------------------------------- */
 
-static void keep(const pendres_lyapunov *l, double value[QUANTITIES], double error[QUANTITIES],
-                 int8_t *label)
+static row row_of(const pendres_lyapunov *l)
 {
   const double closed = l->period > 0 ? 0.0 : NAN;
-  value[LYAPUNOV] = l->exponent;
-  error[LYAPUNOV] = l->exponent_error;
-  value[ROTATION] = l->rotation;
-  error[ROTATION] = l->rotation_error;
-  value[PERIOD] = l->period + closed;
-  value[WINDING] = l->winding + closed;
-  error[PERIOD] = error[WINDING] = closed;
-  *label = (int8_t)l->label;
+  return (row){.lyapunov = l->exponent, .lyapunov_error = l->exponent_error,
+               .rotation = l->rotation, .rotation_error = l->rotation_error,
+               .period = l->period + closed, .period_error = closed,
+               .winding = l->winding + closed, .winding_error = closed, .label = (int)l->label,
+               .failed = l->label == PENDRES_LABEL_UNRESOLVED ? SCENE_FAILURE_UNRESOLVED
+                                                              : SCENE_FAILURE_NONE};
 }
 
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
@@ -89,8 +80,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   }
   if (p != NULL && found != NULL && x != NULL)
     status = pendres_lyapunov_find(ctx, n, p, x, x + n, &options, found);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    keep(&found[i], r->value[i], r->error[i], &r->label[i]);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) r->rows[i] = row_of(&found[i]);
   free(p);
   free(found);
   free(x);
@@ -101,16 +91,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
   const record *r = in->data;
-  for (size_t i = 0; i < count_of(w, task); i++) {
-    const size_t at = task * CHUNK + i;
-    for (int q = 0; q < QUANTITIES; q++) {
-      w->value[q][at] = r->value[i][q];
-      w->error[q][at] = r->error[i][q];
-    }
-    w->label[at] = r->label[i];
-    w->failed[at] =
-      r->label[i] == PENDRES_LABEL_UNRESOLVED ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
-  }
+  memcpy(w->rows + task * CHUNK, r->rows, count_of(w, task) * sizeof *r->rows);
   return PENDRES_OK;
 }
 
@@ -119,7 +100,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 static void tell_failed(scene_run *run, const work *w)
 {
   for (size_t i = 0; i < w->count; i++) {
-    if (w->failed[i] == SCENE_FAILURE_NONE) continue;
+    if (w->rows[i].failed == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
     scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, "neither an orbit nor chaos within its time",
                        "%s %.10g, %s %.10g", deck_axis_name(w->axis[0]), coordinate(w, i, 0),
@@ -127,29 +108,27 @@ static void tell_failed(scene_run *run, const work *w)
   }
 }
 
+static const scene_column columns[] = {
+  SCENE_COLUMN(row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_COLUMN(row, rotation, "mean whole turns a drive period", "1"),
+  SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
+  SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),
+  {.name = "label", .long_name = "kind of motion", .type = SCENE_FLAG,
+   .value = offsetof(row, label), .names = scene_label_names},
+  {.name = "failed", .long_name = "why there is no verdict", .type = SCENE_FLAG,
+   .value = offsetof(row, failed), .names = scene_failure_names},
+};
+
 static pendres_status write_all(scene_run *run, const work *w)
 {
-  const char *meanings[PENDRES_LABEL_COUNT];
-  const char *const axes[AXES] = {deck_axis_name(w->axis[0]), deck_axis_name(w->axis[1])};
-  pendres_store_spec label = {.name = "label", .type = PENDRES_STORE_INT8,
-                              .dimensions = {axes[0], axes[1]}, .long_name = "kind of motion",
-                              .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings};
-  pendres_store_spec mark = {.name = "failed", .dimensions = {axes[0], axes[1]},
-                             .long_name = "why there is no verdict"};
-  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
-    meanings[i] = pendres_label_name((pendres_label)i);
-  scene_failure_flags(&mark);
+  const scene_table table = {
+    .dimensions = {deck_axis_name(w->axis[0]), deck_axis_name(w->axis[1])},
+    .n = w->count, .stride = sizeof *w->rows, .rows = w->rows};
   pendres_status status = scene_dimension(run, NULL, w->axis[0]);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis[1]);
-  if (status != PENDRES_OK) return status;
-  for (int q = 0; q < QUANTITIES && status == PENDRES_OK; q++) {
-    const pendres_store_spec spec = {.name = quantities[q].name, .dimensions = {axes[0], axes[1]},
-                                     .long_name = quantities[q].long_name};
-    status = pendres_store_put_result(run->store, &spec, w->value[q], w->error[q], w->count);
-  }
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &label, w->label, w->count);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, w->failed, w->count);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return status == PENDRES_OK
+           ? scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns)
+           : status;
 }
 
 static void tabulate(FILE *out, const work *w)
@@ -157,10 +136,10 @@ static void tabulate(FILE *out, const work *w)
   size_t counts[PENDRES_LABEL_COUNT] = {0}, most = 0;
   if (out == NULL) return;
   for (size_t i = 0; i < w->count; i++) {
-    counts[w->label[i]]++;
-    if (w->label[i] == PENDRES_LABEL_CHAOTIC &&
-        (w->label[most] != PENDRES_LABEL_CHAOTIC ||
-         w->value[LYAPUNOV][i] > w->value[LYAPUNOV][most]))
+    counts[w->rows[i].label]++;
+    if (w->rows[i].label == PENDRES_LABEL_CHAOTIC &&
+        (w->rows[most].label != PENDRES_LABEL_CHAOTIC ||
+         w->rows[i].lyapunov > w->rows[most].lyapunov))
       most = i;
   }
   fprintf(out, "%-12s %10s %8s\n", "motion", "points", "share");
@@ -169,34 +148,12 @@ static void tabulate(FILE *out, const work *w)
       fprintf(out, "%-12s %10zu %8.4f\n", pendres_label_name((pendres_label)i), counts[i],
               (double)counts[i] / (double)w->count);
   if (counts[PENDRES_LABEL_CHAOTIC] > 0)
-    fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", w->value[LYAPUNOV][most],
-            w->error[LYAPUNOV][most], deck_axis_name(w->axis[0]), coordinate(w, most, 0),
+    fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", w->rows[most].lyapunov,
+            w->rows[most].lyapunov_error, deck_axis_name(w->axis[0]), coordinate(w, most, 0),
             deck_axis_name(w->axis[1]), coordinate(w, most, 1));
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
-
-static int create(work *w)
-{
-  int good = (w->label = malloc(w->count)) != NULL;
-  good = (w->failed = malloc(w->count)) != NULL && good;
-  for (int q = 0; q < QUANTITIES; q++) {
-    w->value[q] = malloc(w->count * sizeof(double));
-    w->error[q] = malloc(w->count * sizeof(double));
-    good = good && w->value[q] != NULL && w->error[q] != NULL;
-  }
-  return good;
-}
-
-static void destroy(work *w)
-{
-  for (int q = 0; q < QUANTITIES; q++) {
-    free(w->value[q]);
-    free(w->error[q]);
-  }
-  free(w->label);
-  free(w->failed);
-}
 
 static pendres_status run_scene(scene_run *run)
 {
@@ -207,12 +164,13 @@ static pendres_status run_scene(scene_run *run)
                             .tasks = (w.count + CHUNK - 1) / CHUNK, .record_size = sizeof(record),
                             .task = compute, .collect = collect, .arg = &w};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (!create(&w)) (void)scene_fail(run, status, "out of memory for %zu points", w.count);
+  w.rows = malloc((w.count + 1) * sizeof *w.rows);
+  if (w.rows == NULL) (void)scene_fail(run, status, "out of memory for %zu points", w.count);
   else status = scene_compute(run, &stage);
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tell_failed(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);
-  destroy(&w);
+  free(w.rows);
   return status;
 }
 
