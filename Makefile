@@ -35,8 +35,11 @@
 
 VERSION_H := include/pendres/version.h
 version_part = $(shell sed -n 's/^.define PENDRES_VERSION_$(1) //p' $(VERSION_H))
-SOVERSION := $(call version_part,MAJOR)
-VERSION := $(SOVERSION).$(call version_part,MINOR).$(call version_part,PATCH)
+MAJOR := $(call version_part,MAJOR)
+MINOR := $(call version_part,MINOR)
+VERSION := $(MAJOR).$(MINOR).$(call version_part,PATCH)
+# Before 1.0 a minor version may change the interface: each has a name of its own.
+SOVERSION := $(if $(filter 0,$(MAJOR)),0.$(MINOR),$(MAJOR))
 
 # ---- What a user may set ---------------------------------------------------------------------
 
@@ -195,7 +198,7 @@ help:
 
 # Objects are made anew when a compiler or a flag has changed.
 ifneq ($(BUILDING),)
-FLAGS_TEXT := $(strip $(LINK) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(DRIVER_LIBS) $(FLAGS_avx2) $(FLAGS_avx512) \
+FLAGS_TEXT := $(strip $(LINK) $(SONAME) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(DRIVER_LIBS) $(FLAGS_avx2) $(FLAGS_avx512) \
   $(SANITIZE_KERNELS))
 ifneq ($(FLAGS_TEXT),$(strip $(file <$(BUILD)/flags)))
 $(shell mkdir -p $(BUILD))

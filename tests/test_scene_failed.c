@@ -143,6 +143,9 @@ static void states_are_marked(void **state)
   }
   assert_true(unresolved > 0);
   assert_int_equal(marked, unresolved);
+  assert_non_null(strstr(scene_told, "of 30 states did not settle within 12 periods (weakest "
+                                     "multiplier 0."));
+  assert_non_null(strstr(scene_told, "raise precision.period_budget"));
 }
 
 int main(void)

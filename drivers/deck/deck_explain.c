@@ -97,11 +97,31 @@ static int add_default(char *text, const deck_key *key)
   return 1;
 }
 
+/* A parameter of the pendulum that may be an axis, or the reverse: the group in which these scenes
+   take it instead; NULL if there is none. */
+static const char *other_group(const deck_key *key, unsigned scenes)
+{
+  const char *other = strcmp(key->group, "pendulum") == 0 ? "sweep"
+                      : strcmp(key->group, "sweep") == 0  ? "pendulum"
+                                                          : NULL;
+  unsigned taken = 0;
+  for (size_t i = 0; i < deck_table_size && other != NULL; i++)
+    if (strcmp(deck_table[i].group, other) == 0 && strcmp(deck_table[i].name, key->name) == 0)
+      taken |= deck_table[i].scenes;
+  return (taken & scenes) == scenes ? other : NULL;
+}
+
 /* Whether it must be given in that scene (or, for 0, in all of its own), else its default. */
 static void add_need(char *text, const deck_key *key, unsigned scene)
 {
   const unsigned scenes = scene != 0 ? scene : key->scenes;
-  if ((key->needed & scenes) == scenes) add(text, "needed");
+  if ((key->needed & scenes) == scenes) {
+    add(text, "needed");
+    if (other_group(key, scenes) == NULL) return;
+    add(text, ", in &");
+    add(text, other_group(key, scenes));
+    add(text, " or here");
+  }
   else if (is_by_drive(key)) add(text, "one of the two is needed");
   else if (!add_default(text, key)) add(text, "none");
 }
@@ -364,6 +384,10 @@ static void reference_kind(FILE *out, deck_kind kind)
     add(list, ".");
     add(list, key->name);
     add(list, "`");
+    if (list == others || other_group(key, scene) == NULL) continue;
+    add(list, " (or in `&");
+    add(list, other_group(key, scene));
+    add(list, "`)");
   }
   fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_words(kind));
   if (needed[0] != '\0') fprintf(out, "Needs %s.\n\n", needed);

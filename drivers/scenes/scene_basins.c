@@ -324,6 +324,20 @@ static pendres_status find_attractors(basins *b)
                               : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
 }
 
+/* The states that stayed without an attractor, and what may help. */
+static void tell_unresolved(const basins *b)
+{
+  char words[200];
+  double weakest = NAN;
+  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
+    const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;
+    weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
+  }
+  scene_failure_unsettled(b->d, b->unresolved, b->grid.nx * b->grid.nv, "states", weakest, words,
+                          sizeof words);
+  scene_failure_tell(b->run, SCENE_FAILURE_UNRESOLVED, words, "basins");
+}
+
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
@@ -344,9 +358,7 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK) status = basins_write_results(&b);
   if (status == PENDRES_OK) status = scene_basins_write_clouds(run, b.set);
   run->failed_points += b.unresolved;
-  if (b.unresolved > 0)
-    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%zu of %zu states", b.unresolved,
-                       b.grid.nx * b.grid.nv);
+  if (b.unresolved > 0) tell_unresolved(&b);
   pendres_attractors_free(b.set);
   pendres_basin_sums_free(b.sums);
   free(b.cut);

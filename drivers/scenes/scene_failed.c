@@ -90,6 +90,18 @@ pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const
   return PENDRES_OK;
 }
 
+void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
+                             double multiplier, char *words, size_t size)
+{
+  char periods[80] = "the budget of periods that damping and tolerance make", weakest[60] = "";
+  if (d->precision.period_budget > 0)
+    snprintf(periods, sizeof periods, "%lld periods", (long long)d->precision.period_budget);
+  if (!isnan(multiplier))
+    snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
+  snprintf(words, size, "%zu of %zu %s did not settle within %s%s: raise precision.period_budget",
+           some, all, what, periods, weakest);
+}
+
 /* ---- the terminal -------------------------------------------------------------------------- */
 
 void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,

@@ -22,7 +22,8 @@
   X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
   X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
   X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
-  X(BUDGET, "budget", "the search ended at its budget of work: there may be more")
+  X(BUDGET, "budget", "the search ended at its budget of work: there may be more; a narrower "   \
+                      "sweep.drive_frequency_range leaves more for each frequency")
 
 typedef enum scene_failure {
 #define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,
@@ -56,6 +57,14 @@ void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *word
 /* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
    it is. words: the message of the context that failed. */
 pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words);
+
+/*
+ * What to say of `some` of `all` pendulums ("members", "states") that did not settle, with the
+ * remedy. multiplier: the largest modulus among the attractors that are known, which tells how
+ * slowly the weakest of them attracts; NaN if none is known.
+ */
+void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
+                             double multiplier, char *words, size_t size);
 
 /* The reasons of n points; all SCENE_FAILURE_NONE at first. */
 typedef struct scene_failures {

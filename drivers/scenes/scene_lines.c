@@ -136,7 +136,7 @@ static void leave_out(scene_lines *l)
 static void judge(scene_lines *l)
 {
   for (size_t i = 0; i < l->n; i++) {
-    char words[80];
+    char words[200];
     const char *message = NULL;
     const size_t unresolved = l->points[i].unresolved;
     const pendres_status outcome = pendres_phase_diagram_outcome(l->diagram, i, &message);
@@ -144,8 +144,8 @@ static void judge(scene_lines *l)
     if (reason != SCENE_FAILURE_NONE) {
       scene_failures_mark(&l->failed, i, reason, message);
     } else if (outcome == PENDRES_OK && unresolved > 0) {
-      snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
-               "do", unresolved, l->grid.options.ensemble.members);
+      scene_failure_unsettled(l->run->deck, unresolved, l->grid.options.ensemble.members, "members",
+                              NAN, words, sizeof words);
       scene_failures_mark(&l->failed, i, SCENE_FAILURE_UNRESOLVED, words);
     }
   }

@@ -126,9 +126,14 @@ static void judge_point(const grid *g, const pendres_response *p, scene_verdict 
 {
   if (verdict->reason != SCENE_FAILURE_NONE) return;
   if (p->unresolved > 0) {
-    char words[80];
-    snprintf(words, sizeof words, "%zu of %zu members did not settle: a larger period_budget may "
-             "do", p->unresolved, g->ensemble.members);
+    char words[200];
+    double weakest = NAN;
+    for (size_t i = 0; i < p->states; i++) {
+      const pendres_orbit *o = &p->state[i].orbit;
+      weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
+    }
+    scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members", weakest, words,
+                            sizeof words);
     scene_verdict_mark(verdict, SCENE_FAILURE_UNRESOLVED, words);
   } else if (isnan(p->mean_loop_area)) {
     scene_verdict_mark(verdict, SCENE_FAILURE_NO_MEAN, NULL);

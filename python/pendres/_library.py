@@ -42,21 +42,23 @@ def headers():
     return _headers.folder_text(os.path.join(folder, "pendres"))
 
 
-def _candidates(major):
+def _candidates(constants):
     """Where the library may be, the likeliest first."""
+    major, minor = constants["PENDRES_VERSION_MAJOR"], constants["PENDRES_VERSION_MINOR"]
+    name = f"libpendres.so.{major if major else f'0.{minor}'}"  # as the Makefile's SOVERSION
     yield os.environ.get("PENDRES_LIBRARY")
     if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
         yield os.path.join(TREE, "build", "libpendres.so")
-    yield f"libpendres.so.{major}"
+    yield name
     folder = _pkg_config("libdir")
     if folder:
-        yield os.path.join(folder, f"libpendres.so.{major}")
+        yield os.path.join(folder, name)
     yield ctypes.util.find_library("pendres")
 
 
 def _open(ffi, constants):
     tried = []
-    for path in _candidates(constants["PENDRES_VERSION_MAJOR"]):
+    for path in _candidates(constants):
         if not path:
             continue
         try:
