@@ -40,6 +40,11 @@ static int is_real(scene_column_type type)
   return type == SCENE_REAL || type == SCENE_PLAIN;
 }
 
+static int is_count(scene_column_type type)
+{
+  return type == SCENE_COUNT || type == SCENE_COUNT32;
+}
+
 static void gather_reals(const scene_table *t, const scene_column *c, buffers *b)
 {
   const size_t each = c->pairs ? 2 : 1;
@@ -57,8 +62,9 @@ static void gather_others(const scene_table *t, const scene_column *c, buffers *
     int number = 0;
     size_t count = 0;
     b->text[i] = field(t, i, c->value);
-    if (c->type == SCENE_COUNT) memcpy(&count, b->text[i], sizeof count);
+    if (is_count(c->type)) memcpy(&count, b->text[i], sizeof count);
     else if (c->type != SCENE_TEXT) memcpy(&number, b->text[i], sizeof number);
+    if (c->type == SCENE_COUNT32) number = (int)count;
     b->flag[i] = (int8_t)number;
     b->number[i] = missing(t, i) ? 0 : (int32_t)number;
     b->count[i] = missing(t, i) ? 0 : (int64_t)count;
@@ -74,7 +80,8 @@ static pendres_status put(scene_run *run, const scene_table *t, const scene_colu
   switch (c->type) {
   case SCENE_REAL: return pendres_store_put_result(run->store, spec, b->value, b->error, n);
   case SCENE_PLAIN: return pendres_store_put(run->store, spec, b->value, n);
-  case SCENE_NUMBER: return pendres_store_put(run->store, spec, b->number, n);
+  case SCENE_NUMBER:
+  case SCENE_COUNT32: return pendres_store_put(run->store, spec, b->number, n);
   case SCENE_COUNT: return pendres_store_put(run->store, spec, b->count, n);
   case SCENE_FLAG: return pendres_store_put(run->store, spec, b->flag, n);
   default: return pendres_store_put(run->store, spec, b->text, n);
@@ -88,6 +95,7 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
                                              [SCENE_PLAIN] = PENDRES_STORE_DOUBLE,
                                              [SCENE_NUMBER] = PENDRES_STORE_INT32,
                                              [SCENE_COUNT] = PENDRES_STORE_INT64,
+                                             [SCENE_COUNT32] = PENDRES_STORE_INT32,
                                              [SCENE_FLAG] = PENDRES_STORE_INT8,
                                              [SCENE_TEXT] = PENDRES_STORE_STRING};
   char name[64], words[200];
@@ -95,9 +103,11 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
   pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = words,
                              .units = c->units, .comment = c->comment, .flag_meanings = meanings,
                              .flag_values = c->codes, .flag_bits = c->codes != NULL};
-  (void)snprintf(name, sizeof name, "%s%s%s%s%s", t->prefix != NULL ? t->prefix : "",
-                 t->prefix != NULL ? "_" : "", c->name, t->suffix != NULL ? "_" : "",
-                 t->suffix != NULL ? t->suffix : "");
+  const size_t before = strcspn(c->name, "*");
+  const int starred = c->name[before] != '\0';
+  (void)snprintf(name, sizeof name, "%s%s%.*s%s%s", t->prefix != NULL ? t->prefix : "",
+                 t->prefix != NULL ? "_" : "", (int)before, c->name,
+                 starred && t->star != NULL ? t->star : "", c->name + before + starred);
   (void)snprintf(words, sizeof words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
                  t->words != NULL ? t->words : "");
   int k = 0;
@@ -147,10 +157,10 @@ static void print_cell(FILE *out, const char *at, const scene_cell *cell)
   size_t count = 0;
   int number = 0;
   if (is_real(cell->type)) memcpy(&value, at, sizeof value);
-  else if (cell->type == SCENE_COUNT) memcpy(&count, at, sizeof count);
+  else if (is_count(cell->type)) memcpy(&count, at, sizeof count);
   else if (cell->type != SCENE_TEXT) memcpy(&number, at, sizeof number);
   if (is_real(cell->type)) fprintf(out, cell->format, value);
-  else if (cell->type == SCENE_COUNT) fprintf(out, cell->format, count);
+  else if (is_count(cell->type)) fprintf(out, cell->format, count);
   else if (cell->type == SCENE_TEXT) fprintf(out, cell->format, at);
   else if (cell->names != NULL) fprintf(out, cell->format, cell->names(number));
   else fprintf(out, cell->format, number);

@@ -15,7 +15,8 @@ typedef enum scene_column_type {
   SCENE_REAL = 0, /* double, with an error beside it */
   SCENE_PLAIN,    /* double, without an error */
   SCENE_NUMBER,   /* int, stored as int32 */
-  SCENE_COUNT,    /* size_t, stored as int64 */
+  SCENE_COUNT,    /* size_t, stored as int64, ... */
+  SCENE_COUNT32,  /* ... or as int32 */
   SCENE_FLAG,     /* int or an enum, stored as int8 with the names of its values */
   SCENE_TEXT      /* array of char */
 } scene_column_type;
@@ -50,7 +51,7 @@ typedef struct scene_column {
 typedef struct scene_table {
   const char *dimensions[3]; /* of the rows, slowest first; none: one row of scalars */
   const char *prefix;        /* before all names, with an underscore between; may be NULL */
-  const char *suffix;        /* the same behind them */
+  const char *star;          /* in the place of the * in names; may be NULL */
   const char *words;         /* behind all long names, after a blank; may be NULL */
   const char *inner;         /* of columns that are pairs */
   size_t n, stride;          /* rows; bytes from one to the next */

@@ -5,11 +5,9 @@
  */
 #include "scenes/scene_response_noise.h"
 
-#include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
 /* A point, as a task finds it. */
@@ -49,113 +47,77 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-static const struct {
-  const char *name, *bias, *long_name, *units;
-  size_t of; /* where it stands in a response */
-} results[] = {
-  { "mean_loop_area", "bias_loop_area", "mean loop area of the ensemble", "1",
-    offsetof(pendres_response_noise, loop_area) },
-  { "first_harmonic_amplitude", "bias_first_harmonic_amplitude",
-    "amplitude of the mean loop's first harmonic", "rad", offsetof(pendres_response_noise, amplitude) },
-  { "phase_lag", "bias_phase_lag", "phase lag of the ensemble-averaged loop", "rad",
-    offsetof(pendres_response_noise, phase_lag) },
-  { "mean_power", "bias_mean_power", "mean power taken up from the drive", "1",
-    offsetof(pendres_response_noise, mean_power) },
+#define MEAN(label, field, words, unit)                                                       \
+  {.name = #label, .long_name = words, .units = unit,                                         \
+   .value = offsetof(pendres_response_noise, field.value),                                    \
+   .error = offsetof(pendres_response_noise, field.error)}
+#define BIAS(label, field, words, unit)                                                       \
+  {.name = "bias_" #label, .long_name = "bias by finite steps: " words, .units = unit,        \
+   .value = offsetof(pendres_response_noise, field.bias),                                     \
+   .error = offsetof(pendres_response_noise, field.bias_error)}
+
+static const scene_column results[] = {
+  MEAN(mean_loop_area, loop_area, "mean loop area of the ensemble", "1"),
+  BIAS(loop_area, loop_area, "mean loop area of the ensemble", "1"),
+  MEAN(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
+  BIAS(first_harmonic_amplitude, amplitude, "amplitude of the mean loop's first harmonic", "rad"),
+  MEAN(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  BIAS(phase_lag, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  MEAN(mean_power, mean_power, "mean power taken up from the drive", "1"),
+  BIAS(mean_power, mean_power, "mean power taken up from the drive", "1"),
 };
 
+static const scene_column steps = {
+  .name = "noise_steps_per_period", .long_name = "steps a drive period of the noisy integrator",
+  .type = SCENE_NUMBER, .value = offsetof(pendres_response_noise, steps_per_period)};
+
 /* What is known without noise alone. */
-#define STILL(name, text, unit) \
-  { #name, text, unit, offsetof(pendres_response, name), offsetof(pendres_response, name##_error) }
-static const struct {
-  const char *name, *long_name, *units;
-  size_t value, error;
-} still[] = {
+#define STILL(field, words, unit)                                                             \
+  {.name = #field, .long_name = words, .units = unit, .comment = "at temperature 0 alone",    \
+   .value = offsetof(pendres_response, field), .error = offsetof(pendres_response, field##_error)}
+static const scene_column still[] = {
   STILL(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
   STILL(mean_amplitude, "mean of the members' amplitudes", "rad"),
   STILL(sa_fraction, "share of the members on the small-amplitude state", "1"),
   STILL(la_fraction, "share of the members on the large-amplitude state", "1"),
 };
 
-static pendres_status put(scene_run *run, const work *w, const char *name, const char *long_name,
-                          const char *units, const char *comment, const double *value,
-                          const double *error)
+static pendres_status write_still(scene_run *run, const work *w, const scene_table *table)
 {
-  const pendres_store_spec spec = {
-    .name = name, .dimensions = { "temperature", w->grid->damping, w->grid->drive },
-    .long_name = long_name, .units = units, .comment = comment };
-  return pendres_store_put_result(run->store, &spec, value, error,
-                                  w->temperatures * w->grid->dampings * w->grid->drives);
-}
-
-static pendres_status write_noisy(scene_run *run, const work *w, double *value, double *error)
-{
-  const size_t plane = w->grid->dampings * w->grid->drives, n = w->temperatures * plane;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < 2 * sizeof results / sizeof results[0] && status == PENDRES_OK; k++) {
-    const size_t r = k / 2;
-    const int bias = k % 2 == 1;
-    char words[120];
-    for (size_t i = 0; i < n; i++) {
-      pendres_response_mean q;
-      memcpy(&q, (const char *)&w->points[i] + results[r].of, sizeof q);
-      value[i] = bias ? q.bias : q.value;
-      error[i] = bias ? q.bias_error : q.error;
-    }
-    snprintf(words, sizeof words, bias ? "bias by finite steps: %s" : "%s", results[r].long_name);
-    status = put(run, w, bias ? results[r].bias : results[r].name, words, results[r].units, NULL,
-                 value, error);
-  }
-  return status;
-}
-
-static double field(const pendres_response *r, size_t offset)
-{
-  double value;
-  memcpy(&value, (const char *)r + offset, sizeof value);
-  return value;
-}
-
-static pendres_status write_still(scene_run *run, const work *w, double *value, double *error)
-{
-  const size_t plane = w->grid->dampings * w->grid->drives, n = w->temperatures * plane;
+  const size_t plane = w->grid->dampings * w->grid->drives;
   const double *temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof still / sizeof still[0] && status == PENDRES_OK; k++) {
-    for (size_t i = 0; i < n; i++) {
-      const int cold = !(temperature[i / plane] > 0.0);
-      value[i] = cold ? field(&w->grid->points[i % plane], still[k].value) : NAN;
-      error[i] = cold ? field(&w->grid->points[i % plane], still[k].error) : NAN;
-    }
-    status = put(run, w, still[k].name, still[k].long_name, still[k].units,
-                 "at temperature 0 alone", value, error);
+  pendres_response *rows = malloc(table->n * sizeof *rows);
+  int8_t *warm = malloc(table->n);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (rows == NULL || warm == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu results", table->n);
+    goto done;
   }
+  for (size_t i = 0; i < table->n; i++) {
+    rows[i] = w->grid->points[i % plane];
+    warm[i] = temperature[i / plane] > 0.0;
+  }
+  scene_table without = *table;
+  without.stride = sizeof *rows;
+  without.rows = rows;
+  without.missing = warm;
+  status = scene_columns_write(run, &without, sizeof still / sizeof *still, still);
+done:
+  free(rows);
+  free(warm);
   return status;
 }
 
 static pendres_status write_results(scene_run *run, const work *w)
 {
-  const size_t n = w->temperatures * w->grid->dampings * w->grid->drives;
-  const pendres_store_spec steps = {
-    .name = "noise_steps_per_period", .type = PENDRES_STORE_INT32,
-    .dimensions = { "temperature", w->grid->damping, w->grid->drive },
-    .long_name = "steps a drive period of the noisy integrator" };
-  double *value = malloc(2 * n * sizeof *value);
-  int32_t *steps_of = malloc(n * sizeof *steps_of);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (value == NULL || steps_of == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu results", n);
-    goto done;
-  }
-  for (size_t i = 0; i < n; i++) steps_of[i] = w->points[i].steps_per_period;
-  status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  if (status == PENDRES_OK) status = write_noisy(run, w, value, value + n);
-  if (status == PENDRES_OK) status = write_still(run, w, value, value + n);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, steps_of, n);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-done:
-  free(value);
-  free(steps_of);
-  return status;
+  const scene_table table = {.dimensions = {"temperature", w->grid->damping, w->grid->drive},
+                             .n = w->temperatures * w->grid->dampings * w->grid->drives,
+                             .stride = sizeof *w->points, .rows = w->points};
+  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  if (status == PENDRES_OK)
+    status = scene_columns_write(run, &table, sizeof results / sizeof *results, results);
+  if (status == PENDRES_OK) status = write_still(run, w, &table);
+  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &steps) : status;
 }
 
 /* Along the temperatures, at the first damping and the middle of the drive axis. */
@@ -163,7 +125,8 @@ static void print_table(FILE *out, const work *w)
 {
   const size_t plane = w->grid->dampings * w->grid->drives, at = w->grid->drives / 2;
   const pendres_pendulum *p = &w->grid->points[at].pendulum;
-  fprintf(out, "damping %g, drive period %g:\n", p->damping, 2.0 * PENDRES_PI / p->drive_frequency);
+  fprintf(out, "damping %g, drive period %g:\n", p->damping,
+          2.0 * PENDRES_PI / p->drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
   for (size_t i = 0; i < w->temperatures; i++) {
     const pendres_response_noise *q = &w->points[i * plane + at];

@@ -7,10 +7,9 @@
  * the steps of a state cannot be chosen.
  */
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
 static const double level = 0.95;
@@ -219,36 +218,43 @@ static pendres_status compute(scene_run *run, work *w)
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-#define RATE(name) offsetof(pendres_switching_rate, name)
-#define FIT(name) offsetof(pendres_switching_activation, name)
-
-/* Of a rate, against temperature; error 0: none is written. */
-static const struct {
-  const char *format, *words;
-  size_t value, error;
-} of_rates[] = {
-  { "rate_%s", "transitions a unit time", RATE(value), RATE(error) },
-  { "rate_%s_lower", "lower end of the rate's confidence interval,", RATE(lower), 0 },
-  { "rate_%s_upper", "upper end of the rate's confidence interval,", RATE(upper), 0 },
-  { "events_%s", "transitions counted", RATE(events), 0 },
-  { "dispersion_%s", "variance of the trajectories' counts by that of independent events,",
-    RATE(dispersion), 0 },
+/* Of a rate, against temperature, and of a fit; * is the way, whose words follow. */
+#define RATE(label, words, what, field) \
+  {.name = label, .long_name = words, .type = what, .value = offsetof(pendres_switching_rate, field)}
+static const scene_column of_rates[] = {
+  {.name = "rate_*", .long_name = "transitions a unit time",
+   .value = offsetof(pendres_switching_rate, value),
+   .error = offsetof(pendres_switching_rate, error)},
+  RATE("rate_*_lower", "lower end of the rate's confidence interval,", SCENE_PLAIN, lower),
+  RATE("rate_*_upper", "upper end of the rate's confidence interval,", SCENE_PLAIN, upper),
+  RATE("events_*", "transitions counted", SCENE_PLAIN, events),
+  RATE("dispersion_*",
+       "variance of the trajectories' counts by that of independent events,", SCENE_PLAIN,
+       dispersion),
 };
 
-/* Of a fit, one number each. */
-static const struct {
-  const char *format, *words;
-  size_t value, error;
-} of_fits[] = {
-  { "activation_energy_%s", "activation energy: rate = prefactor exp(-energy / temperature),",
-    FIT(energy), FIT(energy_error) },
-  { "log_prefactor_%s", "ln of the rate's prefactor at the temperature of the fit,",
-    FIT(log_prefactor), FIT(log_prefactor_error) },
-  { "prefactor_exponent_%s",
-    "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
-    FIT(exponent), FIT(exponent_error) },
-  { "fit_temperature_%s", "geometric mean of the fit's temperatures,", FIT(temperature), 0 },
-  { "fit_chi2_%s", "chi squared of the fit,", FIT(chi2), 0 },
+#define FIT(label, words, field)                                            \
+  {.name = label, .long_name = words,                                       \
+   .value = offsetof(pendres_switching_activation, field),                  \
+   .error = offsetof(pendres_switching_activation, field##_error)}
+#define OF_FIT(label, words, what, field)                  \
+  {.name = label, .long_name = words, .type = what,        \
+   .value = offsetof(pendres_switching_activation, field)}
+static const scene_column of_fits[] = {
+  FIT("activation_energy_*", "activation energy: rate = prefactor exp(-energy / temperature),",
+      energy),
+  FIT("log_prefactor_*", "ln of the rate's prefactor at the temperature of the fit,",
+      log_prefactor),
+  FIT("prefactor_exponent_*",
+      "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
+      exponent),
+  OF_FIT("fit_temperature_*", "geometric mean of the fit's temperatures,", SCENE_PLAIN,
+         temperature),
+  OF_FIT("fit_chi2_*", "chi squared of the fit,", SCENE_PLAIN, chi2),
+  {.name = "fit_*", .long_name = "what became of the fit of ln rate against 1/temperature,",
+   .type = SCENE_FLAG, .value = offsetof(pendres_switching_activation, verdict),
+   .names = scene_switching_names},
+  OF_FIT("fit_points_*", "temperatures with 10 events or more,", SCENE_COUNT32, points),
 };
 
 /* What the table says of a fit, after its energy if there is one. */
@@ -262,109 +268,52 @@ static const char *const verdicts[PENDRES_SWITCHING_VERDICTS] = {
     " (less than twice the temperature: no barrier to speak of)",
 };
 
-static double number_at(const void *record, size_t offset)
-{
-  double number;
-  memcpy(&number, (const char *)record + offset, sizeof number);
-  return number;
-}
-
-static pendres_status write_rates(scene_run *run, const work *w, int way, double *value,
-                                  double *error)
-{
-  const size_t n = w->temperatures;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof of_rates / sizeof *of_rates && status == PENDRES_OK; k++) {
-    char name[64], words[160];
-    snprintf(name, sizeof name, of_rates[k].format, w->suffix[way]);
-    snprintf(words, sizeof words, "%s %s", of_rates[k].words, w->words[way]);
-    const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
-                                      .long_name = words };
-    for (size_t i = 0; i < n; i++) {
-      value[i] = number_at(&w->rates[i].way[way], of_rates[k].value);
-      error[i] = number_at(&w->rates[i].way[way], of_rates[k].error);
-    }
-    status = of_rates[k].error > 0 ? pendres_store_put_result(run->store, &spec, value, error, n)
-                                   : pendres_store_put(run->store, &spec, value, n);
-  }
-  return status;
-}
-
-static pendres_status write_verdict(scene_run *run, const work *w, int way)
-{
-  const char *meanings[PENDRES_SWITCHING_VERDICTS];
-  const int8_t verdict = (int8_t)w->activation[way].verdict;
-  const int32_t points = (int32_t)w->activation[way].points;
-  char name[2][64], words[2][160];
-  for (int k = 0; k < PENDRES_SWITCHING_VERDICTS; k++)
-    meanings[k] = pendres_switching_verdict_name((pendres_switching_verdict)k);
-  snprintf(name[0], sizeof name[0], "fit_%s", w->suffix[way]);
-  snprintf(words[0], sizeof words[0], "%s %s",
-           "what became of the fit of ln rate against 1/temperature,", w->words[way]);
-  snprintf(name[1], sizeof name[1], "fit_points_%s", w->suffix[way]);
-  snprintf(words[1], sizeof words[1], "%s %s", "temperatures with 10 events or more,",
-           w->words[way]);
-  const pendres_store_spec flag = { .name = name[0], .long_name = words[0],
-                                    .type = PENDRES_STORE_INT8, .flag_meanings = meanings,
-                                    .flag_count = PENDRES_SWITCHING_VERDICTS };
-  const pendres_store_spec used = { .name = name[1], .long_name = words[1],
-                                    .type = PENDRES_STORE_INT32 };
-  const pendres_status status = pendres_store_put(run->store, &flag, &verdict, 1);
-  return status == PENDRES_OK ? pendres_store_put(run->store, &used, &points, 1) : status;
-}
-
-static pendres_status write_fit(scene_run *run, const work *w, int way)
-{
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof of_fits / sizeof *of_fits && status == PENDRES_OK; k++) {
-    const double value = number_at(&w->activation[way], of_fits[k].value);
-    const double error = number_at(&w->activation[way], of_fits[k].error);
-    char name[64], words[160];
-    snprintf(name, sizeof name, of_fits[k].format, w->suffix[way]);
-    snprintf(words, sizeof words, "%s %s", of_fits[k].words, w->words[way]);
-    const pendres_store_spec spec = { .name = name, .long_name = words };
-    status = of_fits[k].error > 0 ? pendres_store_put_result(run->store, &spec, &value, &error, 1)
-                                  : pendres_store_put(run->store, &spec, &value, 1);
-  }
-  return status == PENDRES_OK ? write_verdict(run, w, way) : status;
-}
-
 /* Exposures, steps, and the interval's level. */
-static pendres_status write_circumstances(scene_run *run, const work *w, double *value)
+static pendres_status write_circumstances(scene_run *run, const work *w)
 {
-  const pendres_store_spec confidence = { .name = "confidence_level",
-                                          .long_name = "level of the confidence intervals" };
-  const int32_t steps_per_period = w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA];
-  const pendres_store_spec steps = { .name = "steps_per_period", .type = PENDRES_STORE_INT32,
-                                     .long_name = "steps a drive period of the noisy integrator" };
-  pendres_status status = pendres_store_put(run->store, &confidence, &level, 1);
+  static const scene_column exposure = {
+    .name = "exposure_*", .long_name = "time spent on", .type = SCENE_PLAIN};
+  typedef struct whole {
+    double level;
+    int steps;
+  } whole;
+  static const scene_column confidence = {
+    .name = "confidence_level", .long_name = "level of the confidence intervals",
+    .type = SCENE_PLAIN, .value = offsetof(whole, level)};
+  static const scene_column steps = {
+    .name = "steps_per_period", .long_name = "steps a drive period of the noisy integrator",
+    .type = SCENE_NUMBER, .value = offsetof(whole, steps)};
+  const whole of = {level, w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA]};
+  const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
+  pendres_status status = scene_columns_write(run, &scalars, 1, &confidence);
   for (int s = 0; s < STATES && status == PENDRES_OK; s++) {
-    char name[32], words[64];
-    snprintf(name, sizeof name, "exposure_%s", w->name[s]);
-    snprintf(words, sizeof words, "time spent on %s", w->state[s]);
-    const pendres_store_spec spec = { .name = name, .dimensions = { "temperature" },
-                                      .long_name = words };
-    for (size_t i = 0; i < w->temperatures; i++) value[i] = w->rates[i].exposure[s];
-    status = pendres_store_put(run->store, &spec, value, w->temperatures);
+    const scene_table table = {
+      .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
+      .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
+    status = scene_columns_write(run, &table, 1, &exposure);
   }
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &steps, &steps_per_period, 1);
-  return status;
+  return status == PENDRES_OK ? scene_columns_write(run, &scalars, 1, &steps) : status;
 }
 
 static pendres_status write_results(scene_run *run, const work *w)
 {
   const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
-  double *value = malloc(2 * w->temperatures * sizeof *value);
-  if (value == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
   pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  for (int k = 0; k < WAYS && status == PENDRES_OK; k++)
-    status = write_rates(run, w, k, value, value + w->temperatures);
-  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) status = write_fit(run, w, k);
-  if (status == PENDRES_OK) status = write_circumstances(run, w, value);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-  free(value);
-  if (status != PENDRES_OK) return status;
-  return scene_failures_write(run, &w->failed, "failed", "switching", 1, axes);
+  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) {
+    const scene_table table = {
+      .dimensions = {"temperature"}, .star = w->suffix[k], .words = w->words[k],
+      .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].way[k]};
+    status = scene_columns_write(run, &table, sizeof of_rates / sizeof *of_rates, of_rates);
+  }
+  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) {
+    const scene_table table = {.star = w->suffix[k], .words = w->words[k], .n = 1,
+                               .stride = sizeof *w->activation, .rows = &w->activation[k]};
+    status = scene_columns_write(run, &table, sizeof of_fits / sizeof *of_fits, of_fits);
+  }
+  if (status == PENDRES_OK) status = write_circumstances(run, w);
+  return status == PENDRES_OK
+           ? scene_failures_write(run, &w->failed, "failed", "switching", 1, axes)
+           : status;
 }
 
 /* A mean time and its error or, where nothing was seen, how long it is at least. */
