@@ -148,7 +148,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
     pendres_orbit_error(pair->coarse[PENDRES_U_OMEGA] * pair->coarse[PENDRES_U_W], o->v, omega,
                         &doubt) +
     fmax(0.0, 1.0 - omega) * doubt.rounding;
-  pendres_orbit_spectrum spectrum = {.rounding = matrix_rounding * sqrt(o->steps * o->period)};
+  pendres_orbit_spectrum spectrum = {.left = matrix_rounding * sqrt(o->steps * o->period)};
   memcpy(spectrum.by_point, a->m_by, sizeof spectrum.by_point);
   memcpy(spectrum.coarse, a->m, sizeof spectrum.coarse);
   memcpy(spectrum.fine, b->m, sizeof spectrum.fine);

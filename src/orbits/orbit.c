@@ -22,7 +22,9 @@ typedef struct result {
   double off[2];        /* from the point that m was taken at to the corrected one */
   double dy, dw; /* by omega */
   double slope;  /* dA/domega */
+  double slope_apart; /* from the same integral by parts */
   double derivative; /* root mean square of dw/domega along the orbit */
+  pendres_newton_noise noise; /* of the finer run */
   pendres_orbit_measures measures;
 } result;
 
@@ -41,65 +43,122 @@ static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
   memcpy(out->off, shift, sizeof out->off);
-  out->slope = out->derivative = NAN;
+  out->slope = out->slope_apart = out->derivative = NAN;
   if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) {
     if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
-    double sum = 0.0, squares = 0.0;
+    double sum = 0.0, parts = 0.0, squares = 0.0;
     for (size_t k = 0; k < n; k++) {
       const double *row = pendres_newton_sample(tape, k, c->lane);
       const double theta = two_pi * c->guess->period * (double)k / (double)n;
       const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
       sum += cos(theta) * derivative;
+      parts += sin(theta) * (row[6] + row[2] * by_omega[0] + row[4] * by_omega[1]);
       squares += derivative * derivative;
     }
+    const double cycle = c->guess->pendulum.drive_amplitude * two_pi;
     out->derivative = sqrt(squares / (double)n);
-    out->slope = c->guess->pendulum.drive_amplitude * two_pi * sum / (double)n;
+    out->slope = cycle * sum / (double)n;
+    /* Harmonics next to the number of samples pass for the first: in slopes they count as often as
+       they swing, in angles once. */
+    out->slope_apart = cycle * (sum - parts) / (double)n;
   }
   out->dy = by_omega[0];
   out->dw = by_omega[1];
+  if (!tape->bends) out->noise = pendres_newton_noise_of(c, tape);
   const pendres_orbit_samples samples = {
     .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
     .tables = tables};
   return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
 }
 
-/* rounding: of a step, of an angle of order one. */
-static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
-                 double rounding, pendres_orbit *o)
+static double size_of(const double m[2][2])
 {
-  const pendres_pendulum *p = &c->guess->pendulum;
-  const double omega = p->drive_frequency, q = c->guess->period;
-  const double point = hypot(fine->y - coarse->y, fine->w - coarse->w);
+  return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
+}
+
+/*
+ * How far two computations would be apart a little beside the orbit, by what the derivatives of
+ * their maps differ by. That the maps agree on the orbit, all along it, may be chance; that they
+ * agree beside it as well is none. A little: a share of the orbit's size, and of the way on which
+ * the derivative changes by itself.
+ */
+static double apart_beside(const result *coarse, const result *fine)
+{
+  static const double little = 0.2;
+  const double from[2] = {fine->y - fine->off[0] - coarse->y + coarse->off[0],
+                          fine->w - fine->off[1] - coarse->w + coarse->off[1]};
+  double squares = 0.0;
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++) {
+      /* Not because they were taken at two points. */
+      const double moved = coarse->m_by[0][i][j] * from[0] + coarse->m_by[1][i][j] * from[1];
+      const double off = fmax(0.0, fabs(fine->m[i][j] - coarse->m[i][j]) - fabs(moved));
+      squares += off * off;
+    }
+  const double way =
+    size_of(fine->m) / hypot(size_of(coarse->m_by[0]), size_of(coarse->m_by[1]));
+  return little * fmin(fine->measures.amplitude, way) * sqrt(squares) *
+         pendres_newton_share(fine->m);
+}
+
+/* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order. */
+static void left_over(const result *coarse, const result *fine, double left[2])
+{
+  double bent[2] = {0.0, 0.0};
+  left[0] = left[1] = 0.0;
+  for (int k = 0; k < 2; k++)
+    for (int i = 0; i < 2; i++)
+      for (int j = 0; j < 2; j++)
+        bent[i] += 0.5 * coarse->m_by[k][i][j] * fine->off[k] * fine->off[j];
+  (void)pendres_newton_solve(fine->m, bent, left, NULL);
+}
+
+/* The Poincaré point and its errors; turns: of the orbit's mean. */
+static void set_point(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
+                      long turns, pendres_orbit *o)
+{
+  /* Half more, since terms of third order follow. */
+  static const double rest = 1.5;
+  const pendres_pendulum *p = &o->pendulum;
+  const double omega = p->drive_frequency;
+  const pendres_place s = {.y = fine->y, .w = fine->w, .turns = -turns};
+  double left[2];
+  left_over(coarse, fine, left);
+  pendres_passage_out(p, &s, &o->x, &o->v);
+  /* x itself is a double, and half of pi is none. */
+  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, doubt) + rest * fabs(left[0]) +
+               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
+  /* Rounding swings to and fro between y and v. */
+  const double w_error = pendres_orbit_error(coarse->w, fine->w, 1.0, doubt) + rest * fabs(left[1]);
+  o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * doubt->rounding;
+}
+
+static void set_slope(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
+                      double rounding, pendres_orbit *o)
+{
+  const double omega = o->pendulum.drive_frequency, drive = fabs(o->pendulum.drive_amplitude);
   double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
 
   (void)pendres_newton_solve(fine->m, unit, z, &stretch);
-  /* Rounding errors of steps add at random, and the fixed point feels them amplified by
-     (I - M)^-1. */
-  const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
-  const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
-  const double noise = sqrt(c->steps * q);
-  const pendres_orbit_doubt doubt = {
-    .apart = fmax(point, pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
-                                                      c->guess->period)),
-    .rounding = last_place * noise * fmax(1.0, stretch)};
+  o->frequency_derivative[0] = fine->dy;
+  o->frequency_derivative[1] = fine->w + omega * fine->dw;
+  o->loop_area_slope = fine->slope;
+  /* What the point is to the other measures its derivative is to the slope. */
+  const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
+  const pendres_orbit_doubt slope_doubt = {
+    .apart = 1.5 * (derivative + doubt->apart),
+    .rounding = 2.0 * doubt->rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
+                12.0 * rounding * fine->derivative};
+  o->loop_area_slope_error =
+    pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_doubt) +
+    1.5 * fabs(fine->slope_apart);
+}
 
-  memset(o, 0, sizeof *o);
-  o->pendulum = *p;
-  o->period = c->guess->period;
-  o->winding = c->guess->winding;
-  o->steps = c->steps;
-  /* The mean angle belongs into well 0. */
-  const long turns = pendres_orbit_set_measures(&coarse->measures, &fine->measures, &doubt, o);
-  const pendres_place s = {.y = fine->y, .w = fine->w, .turns = -turns};
-  pendres_passage_out(p, &s, &o->x, &o->v);
-  /* x itself is a double, and half of pi is none. */
-  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, &doubt) +
-               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
-  /* Rounding swings to and fro between y and v. */
-  o->v_error = omega * pendres_orbit_error(coarse->w, fine->w, 1.0, &doubt) +
-               fmax(0.0, 1.0 - omega) * doubt.rounding;
-
-  pendres_orbit_spectrum spectrum = {.rounding = 6.0 * rounding * noise};
+/* rounding: of a step along the whole orbit, of an angle of order one. */
+static void set_spectrum(const result *coarse, const result *fine,
+                         const pendres_orbit_doubt *doubt, double rounding, pendres_orbit *o)
+{
+  pendres_orbit_spectrum spectrum = {.left = 6.0 * rounding};
   memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
   memcpy(spectrum.by_point, coarse->m_by, sizeof spectrum.by_point);
   /* The matrix belongs to the corrected point. */
@@ -107,19 +166,41 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
     for (int j = 0; j < 2; j++)
       spectrum.fine[i][j] = fine->m[i][j] + coarse->m_by[0][i][j] * fine->off[0] +
                             coarse->m_by[1][i][j] * fine->off[1];
-  pendres_orbit_set_spectrum(&spectrum, &doubt, o);
+  /* What that leaves, the matrix changing on like an exponential; the change itself comes from
+     difference quotients. */
+  const double by_y = size_of(coarse->m_by[0]), by_w = size_of(coarse->m_by[1]);
+  const double size = fmax(size_of(fine->m), DBL_MIN);
+  const double change = (by_y * fabs(fine->off[0]) + by_w * fabs(fine->off[1])) / size;
+  spectrum.left += 0.5 * change * (change + pendres_newton_aside * hypot(by_y, by_w) / size);
+  pendres_orbit_set_spectrum(&spectrum, doubt, o);
+}
 
-  o->frequency_derivative[0] = fine->dy;
-  o->frequency_derivative[1] = fine->w + omega * fine->dw;
-  o->loop_area_slope = fine->slope;
-  /* What the point is to the other measures its derivative is to the slope. */
-  const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
-  const pendres_orbit_doubt slope_doubt = {
-    .apart = 1.5 * (derivative + doubt.apart),
-    .rounding = 2.0 * doubt.rounding * (stretch / pi + hypot(fine->dy, fine->dw)) +
-                12.0 * rounding * noise * fine->derivative};
-  o->loop_area_slope_error = pendres_orbit_error(coarse->slope, fine->slope,
-                                                 pi * fabs(p->drive_amplitude), &slope_doubt);
+/* rounding: of a step, of an angle of order one. */
+static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
+                 double rounding, pendres_orbit *o)
+{
+  const double noise = sqrt(c->steps * (double)c->guess->period);
+  /* Rounding errors of steps add at random. */
+  const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
+  const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
+  const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
+  const double along = pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
+                                                    c->guess->period);
+  const double apart = fmax(fmax(there, along), apart_beside(coarse, fine));
+  const pendres_orbit_doubt at_start = {apart, last_place * fine->noise.start};
+  const pendres_orbit_doubt all_along = {apart, last_place * fine->noise.along};
+
+  memset(o, 0, sizeof *o);
+  o->pendulum = c->guess->pendulum;
+  o->period = c->guess->period;
+  o->winding = c->guess->winding;
+  o->steps = c->steps;
+  /* The mean angle belongs into well 0. */
+  const long turns =
+    pendres_orbit_set_measures(&coarse->measures, &fine->measures, &all_along, o);
+  set_point(coarse, fine, &at_start, turns, o);
+  set_spectrum(coarse, fine, &at_start, rounding * noise, o);
+  set_slope(coarse, fine, &all_along, rounding * noise, o);
 }
 
 static int accurate(const pendres_orbit *o, double tolerance)

@@ -96,7 +96,7 @@ static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbi
   const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
                             s->by_point[1][0][0] + s->by_point[1][1][1]);
   return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) +
-         bend * (0.1 * doubt->apart + doubt->rounding) + s->rounding * size_of(s->fine);
+         bend * (0.1 * doubt->apart + doubt->rounding) + s->left * size_of(s->fine);
 }
 
 void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,

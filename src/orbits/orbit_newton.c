@@ -69,8 +69,7 @@ static void record(void *arg, int step, const pendres_rows *rows)
       *to++ = pendres_rows_get(rows, (int)row, lane);
 }
 
-/* Companions of a candidate start this much beside it, in y and in w: see read_companions. */
-static const double aside = 1e-6;
+const double pendres_newton_aside = 1e-6;
 
 static void load_lanes(pendres_block *b, size_t lanes, int companions, pendres_newton_candidate *c)
 {
@@ -80,8 +79,8 @@ static void load_lanes(pendres_block *b, size_t lanes, int companions, pendres_n
     c[i].lane = i;
     pendres_block_load(b, i, p, c[i].y, c[i].w);
     if (companions == 0) continue;
-    pendres_block_load(b, lanes + i, p, c[i].y + aside, c[i].w);
-    pendres_block_load(b, 2 * lanes + i, p, c[i].y, c[i].w + aside);
+    pendres_block_load(b, lanes + i, p, c[i].y + pendres_newton_aside, c[i].w);
+    pendres_block_load(b, 2 * lanes + i, p, c[i].y, c[i].w + pendres_newton_aside);
   }
 }
 
@@ -93,7 +92,7 @@ static void read_companions(const pendres_rows *rows, size_t lanes, pendres_newt
     pendres_rows_tangent(rows, (k + 1) * lanes + c->lane, m);
     for (size_t row = 0; row < 2; row++)
       for (size_t column = 0; column < 2; column++)
-        c->m_by[k][row][column] = (m[row][column] - c->m[row][column]) / aside;
+        c->m_by[k][row][column] = (m[row][column] - c->m[row][column]) / pendres_newton_aside;
   }
 }
 
@@ -169,6 +168,69 @@ int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newto
     w[k] = row[1] + row[3] * shift[0] + row[5] * shift[1];
   }
   return 1;
+}
+
+/* The square of the size of the tangent at a sample. */
+static double tangent_at(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                         size_t sample)
+{
+  const double *row = pendres_newton_sample(tape, sample, c->lane);
+  return row[2] * row[2] + row[3] * row[3] + row[4] * row[4] + row[5] * row[5];
+}
+
+/*
+ * What step j adds has grown by g_k / g_j at step k, the g being sizes of tangents: errors that
+ * grow much lie in one direction. For a step behind k it is once more around, by the multiplier.
+ * Squares of the growth from all steps: to the end, and to anywhere on the average.
+ */
+static void growth(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                   double *to_end, double *to_any)
+{
+  const size_t n = tape->samples;
+  const double first_row = hypot(c->m[0][0], c->m[0][1]);
+  const double last_row = hypot(c->m[1][0], c->m[1][1]);
+  const double last = first_row * first_row + last_row * last_row;
+  const double around = last / tangent_at(c, tape, 0);
+  double before = 0.0, after = 0.0, sum = 0.0, back = 1.0 / last;
+  for (size_t k = 1; k < n; k++) {
+    const double here = tangent_at(c, tape, k);
+    before += 1.0 / here;
+    sum += here * before;
+  }
+  for (size_t k = n; k-- > 0;) {
+    const double here = tangent_at(c, tape, k);
+    after += back;
+    back = 1.0 / here;
+    sum += here * around * after;
+  }
+  *to_end = 1.0 + last * before;
+  *to_any = sum / (double)n;
+}
+
+double pendres_newton_share(const double m[2][2])
+{
+  const int larger = hypot(m[0][1], m[1][1]) > hypot(m[0][0], m[1][0]);
+  const double ahead[2] = {m[0][larger], m[1][larger]}, size = hypot(ahead[0], ahead[1]);
+  double back[2] = {0.0, 0.0};
+  /* Where all has faded at the end of a period nothing comes back. */
+  if (!(size > 0.0) || !pendres_newton_solve(m, ahead, back, NULL)) return 1.0;
+  return hypot(back[0], back[1]) / size;
+}
+
+pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
+                                             const pendres_newton_tape *tape)
+{
+  const double unit[2] = {1.0, 1.0};
+  double z[2], stretch = 1.0, to_end, to_any;
+
+  (void)pendres_newton_solve(c->m, unit, z, &stretch);
+  growth(c, tape, &to_end, &to_any);
+  const double share = pendres_newton_share(c->m);
+  const double plain = sqrt((double)tape->samples) * fmax(1.0, stretch);
+  const double start = share * sqrt(to_end), along = share * sqrt(to_any);
+  /* A tangent that has faded beyond what a double holds tells nothing. */
+  return (pendres_newton_noise){.start = isfinite(start) ? fmax(plain, start) : plain,
+                                .along = isfinite(along) ? fmax(plain, along) : plain};
 }
 
 /* One Newton step from what the latest pass found. */

@@ -31,6 +31,9 @@ typedef struct pendres_newton_candidate {
   double m_by[2][2][2]; /* derivatives of m by y and by w, from a pass that was asked for them */
 } pendres_newton_candidate;
 
+/* By so much, in y and in w, companions of a candidate start beside it, to find m_by. */
+extern const double pendres_newton_aside;
+
 /* Samples 0 .. samples-1 of a pass, all lanes. */
 typedef struct pendres_newton_tape {
   int bends; /* set by the caller: find m_by as well, from two more lanes a candidate */
@@ -68,11 +71,28 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n,
 /* (I - M) z = r; 0 if singular. *stretch (may be NULL) bounds how much errors of r grow. */
 int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], double *stretch);
 
+/* (I - M)^-1 of what has been multiplied most, of length 1: the direction of M's larger column. */
+double pendres_newton_share(const double m[2][2]);
+
 /*
  * The samples of a candidate on the tape, moved by the linearised flow to the orbit that closes:
  * by *shift at its start. y and w have as many places as the tape has samples. 0 if singular.
  */
 int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
                           double *y, double *w, double shift[2]);
+
+/*
+ * What rounding errors of the steps, one unit each and at random, make of the orbit that closes:
+ * where it starts, and all along it, root mean square. An orbit may lose what it is off by over a
+ * period, and have multiplied it a thousandfold on the way: strong friction keeps a pendulum for
+ * long beside the top, where errors grow, and damps the more elsewhere.
+ */
+typedef struct pendres_newton_noise {
+  double start, along;
+} pendres_newton_noise;
+
+/* Of a candidate whose samples are on the tape with their tangents. */
+pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
+                                             const pendres_newton_tape *tape);
 
 #endif

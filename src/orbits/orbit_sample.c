@@ -30,8 +30,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   pendres_newton_tape tape = {0};
   pendres_orbit_tables tables = {0};
   size_t last = 0;
-  double shift[2], z[2], stretch = 1.0;
-  const double unit[2] = {1.0, 1.0};
+  double shift[2];
   pendres_status status =
     pendres_newton_pass(ctx, 1, &c, 0, PENDRES_ORBIT_PLAIN, &tape, &last);
   if (status != PENDRES_OK) goto done;
@@ -52,9 +51,8 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   status = pendres_orbit_samples_series(&o->pendulum, &samples, memory + 2 * n, &out->series);
   if (status != PENDRES_OK)
     status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
-  (void)pendres_newton_solve((const double(*)[2])c.m, unit, z, &stretch);
   out->rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table) *
-                  fmax(o->amplitude, fabs(c.w)) * sqrt((double)n) * fmax(1.0, stretch);
+                  fmax(o->amplitude, fabs(c.w)) * pendres_newton_noise_of(&c, &tape).along;
 done:
   pendres_orbit_tables_free(&tables);
   pendres_newton_tape_free(&tape);
