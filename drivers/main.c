@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include "csv.h"
+#include "dry_run.h"
 #include "ending.h"
+#include "estimate.h"
 #include "farm/ranks.h"
 #include "deck/deck_explain.h"
 #include "files.h"
@@ -161,25 +163,24 @@ static int dump(job *j)
   return check_stdout(j);
 }
 
-static void print_line(const char *name, const char *text)
+/* What a library does when it ends the program is known from here on. */
+static int watch(job *j)
 {
-  printf("%-9s ", name);
-  safe_text_write(stdout, text);
-  putchar('\n');
+  if (!j->watched && ending_watch(&j->run.store) != 0) {
+    progress_error(&j->progress, "the system refuses handlers of exits and faults");
+    return FAILED;
+  }
+  j->watched = 1;
+  return DONE;
 }
 
-static int dry_run(job *j)
+static int look_ahead(job *j)
 {
-  const deck *d = &j->deck;
-  print_line("deck", d->name);
-  if (d->title[0] != '\0') print_line("title", d->title);
-  print_line("scene", deck_kind_name(d->kind));
-  print_line("output", d->output);
-  printf("tolerance %g\n", d->precision.tolerance);
-  printf("threads   %d\n\n", farm_threads(j->farm));
-  j->scene->plan(d, stdout);
-  const int code = check_stdout(j);
-  return code != DONE ? code : files_writable(d, &j->progress);
+  j->run = (scene_run){ .deck = &j->deck, .farm = j->farm };
+  const int code = files_writable(&j->deck, &j->progress);
+  if (code != DONE || watch(j) != DONE) return FAILED;
+  dry_run(&j->run, j->scene);
+  return signals_stop(NULL) ? STOPPED : check_stdout(j);
 }
 
 static int open_log(job *j)
@@ -218,11 +219,7 @@ static int open_output(job *j)
   const pendres_store_options options = { .title = title, .history = history, .source = source,
                                           .references = j->scene->references };
   j->run = (scene_run){ .deck = d, .farm = j->farm };
-  if (!j->watched && ending_watch(&j->run.store) != 0) {
-    progress_error(&j->progress, "the system refuses handlers of exits and faults");
-    return FAILED;
-  }
-  j->watched = 1;
+  if (watch(j) != DONE) return FAILED;
   char output[DECK_PATH + SHARD_NAME], suffix[SHARD_NAME] = "";
   if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
   snprintf(output, sizeof output, "%s%s", d->output, suffix);
@@ -231,6 +228,7 @@ static int open_output(job *j)
     progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
     return FAILED;
   }
+  if (!together_helping()) estimate_check_space(d, output, &j->progress);
   j->run.table = open_memstream(&j->table, &j->table_size);
   if (j->run.table != NULL) return DONE;
   progress_error(&j->progress, "out of memory for the table of results");
@@ -395,8 +393,8 @@ static int run_deck(job *j)
   provenance_start(&j->provenance);
   code = find_scene(j);                                              /* 3 its scene */
   if (code == DONE) code = start_farm(j);                            /* 4 threads */
-  if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return dry_run(j);
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
+  if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return look_ahead(j);
   if (code == DONE && !together_helping()) code = open_log(j);       /* 6 the log */
   if (code == DONE) code = open_output(j);                           /* 7 the file */
   if (code == DONE && !together_helping()) code = open_journal(j);   /* 8 what is done already */

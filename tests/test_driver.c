@@ -76,6 +76,9 @@ static void test_dry(void **state)
   for (size_t i = 0; i < 2; i++) {
     check_code(RUN("--dry-run", decks[i]), DONE);
     check_says(out, "scene");
+    check_says(out, "all of it was computed to see");
+    check_says(out, "memory    about ");
+    check_says(out, "output    about ");
     assert_string_equal(err, "");
     check_code(RUN("--dump-namelist", decks[i]), DONE);
     strcpy(first, out);

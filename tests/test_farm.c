@@ -19,6 +19,8 @@
 #endif
 
 #include "farm/farm.h"
+#include "farm/journal.h"
+#include "farm/trial.h"
 
 enum { TASKS = 200 };
 
@@ -309,6 +311,47 @@ static void test_long_task(void **state)
   assert_non_null(strstr(text, " s; the longest at work is number 7, for 400 s"));
 }
 
+/* A trial computes some tasks, and concludes from them; all of them, if there is time. */
+static void test_trial(void **state)
+{
+  (void)state;
+  for (int all = 0; all < 2; all++) {
+    scene *s = new_scene();
+    farm *f = new_farm(3, s);
+    farm_trial t = { .few = all ? 1e9 : 0.0, .most = 1e9 };
+    farm_set_trial(f, &t);
+    assert_int_equal(run(f, TASKS, collect, s), all ? PENDRES_OK : PENDRES_INTERRUPTED);
+    assert_int_equal(t.tasks, TASKS);
+    assert_int_equal(t.tried, all ? TASKS : 1); /* a second one is not begun after no time at all */
+    assert_int_equal(atomic_load(&s->runs[TASKS / 2]), 1);
+    check_collected(s, all ? TASKS : 0);
+    if (all) assert_null(t.what);
+    else assert_string_equal(t.what, "tasks");
+    /* A record is a number. */
+    check_near(t.journal, TASKS * (double)(sizeof(double) + sizeof(journal_entry)), 0.0);
+    assert_true(t.seconds > 0.0 && t.cost.pendulum_periods >= 3.0 * TASKS);
+    assert_true(farm_trial_outside(&t) >= 0.0);
+    farm_free(f);
+    free(s);
+  }
+}
+
+/* Whatever takes too long is stopped, and nothing is concluded from it. */
+static void test_trial_of_long_tasks(void **state)
+{
+  scene *s = new_scene();
+  farm *f = new_farm(1, s);
+  farm_trial t = { .few = 0.0, .most = 0.01 };
+  (void)state;
+  s->endless = 0;
+  farm_set_trial(f, &t);
+  assert_int_equal(run(f, TASKS, collect, s), PENDRES_INTERRUPTED);
+  assert_int_equal(t.tried, 0);
+  assert_string_equal(t.what, "tasks");
+  farm_free(f);
+  free(s);
+}
+
 /* The context outside of tasks stops at a signal as well. */
 static void test_context(void **state)
 {
@@ -339,6 +382,8 @@ int main(void)
 #endif
     cmocka_unit_test(test_context),
     cmocka_unit_test(test_long_task),
+    cmocka_unit_test(test_trial),
+    cmocka_unit_test(test_trial_of_long_tasks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -340,6 +340,7 @@ pendres_status farm_run(farm *f, const farm_stage *stage)
   const int threads = threads_for(f, stage);
   f->message[0] = '\0';
   if (stage->tasks == 0) return PENDRES_OK;
+  if (f->trial != NULL) return trial_run(f, stage);
   hand *hands = calloc((size_t)threads, sizeof *hands);
   if (hands == NULL || crew_create(&c, f, stage, threads) != PENDRES_OK) {
     free(hands);

@@ -11,6 +11,7 @@
 
 int farm_stop(const farm *f)
 {
+  if (f->trial != NULL && trial_over(f->trial)) return 1;
   return f->options.stop != NULL && f->options.stop(f->options.stop_arg);
 }
 

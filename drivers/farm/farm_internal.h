@@ -16,6 +16,7 @@ struct farm {
   pendres_context **context; /* one a thread, made at its first task */
   journal *journal;          /* NULL: none */
   farm_share share;
+  struct farm_trial *trial;  /* NULL: a run proper */
   int left;                  /* a stage was left to other shards */
   size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];
@@ -29,6 +30,11 @@ pendres_status farm_context_of(farm *f, int thread, pendres_context **out);
 
 /* Add to what the farm has spent; any thread may. */
 void farm_spend(farm *f, const pendres_cost *cost);
+
+/* trial.c: try a stage that has tasks, in the place of running it. */
+pendres_status trial_run(farm *f, const farm_stage *stage);
+/* Is there no more time for that? */
+int trial_over(const struct farm_trial *t);
 
 /* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */
 int farm_start_thread(pthread_t *thread, void *(*run)(void *), void *arg);

@@ -1,0 +1,160 @@
+/* estimate.c -- rules and words; see estimate.h. */
+#define _POSIX_C_SOURCE 200809L /* statvfs */
+#include "estimate.h"
+
+#include <math.h>
+#include <string.h>
+#include <sys/statvfs.h>
+
+/*
+ * Bytes that a file has beside its points (headers and provenance), bytes a point and bytes of
+ * memory a point; how many times the journal of a first stage comes again in later ones; processor
+ * time of all of a run over that of its first stage, and seconds a point where not even one task
+ * can be tried, on a processor of 3 GHz.
+ */
+typedef struct rule {
+  double head, point, memory, stages, after, seconds;
+} rule;
+
+static const rule rules[DECK_KIND_COUNT] = {
+  [DECK_FREE_OSCILLATION] = { 26e3, 40.0, 100.0, 1.0, 1.0, 1e-5 },
+  [DECK_RESONANCE_CURVE] = { 32e3, 240.0, 2e3, 1.0, 1.0, 0.02 },
+  [DECK_RESPONSE] = { 50e3, 128.0, 7e3, 2.0, 1.0, 4e-4 },
+  [DECK_ORBIT] = { 45e3, 36.0, 60.0, 1.0, 1.0, 1e-5 },
+  [DECK_BASINS] = { 65e3, 0.9, 30.0, 1.0, 1.2, 4e-6 },
+  [DECK_PHASE_DIAGRAM] = { 60e3, 36.0, 1e3, 3.0, 1.2, 1e-3 },
+  [DECK_BRANCHES] = { 60e3, 470.0, 1e3, 2.0, 1.1, 2e-3 },
+  [DECK_WORK_PRECISION] = { 45e3, 200.0, 1e3, 0.0, 1.0, 0.5 },
+  [DECK_HARD_CASES] = { 24e3, 100.0, 1e3, 1.0, 1.0, 10.0 },
+  [DECK_SWITCHING] = { 55e3, 400.0, 1e3, 1.0, 1.0, 2.0 },
+  [DECK_HYSTERESIS] = { 40e3, 240.0, 60e3, 1.0, 1.0, 0.03 },
+  [DECK_BIFURCATION_DIAGRAM] = { 60e3, 1e3, 20e3, 2.0, 1.0, 0.3 },
+  [DECK_LYAPUNOV_MAP] = { 40e3, 18.0, 100.0, 1.0, 1.0, 5e-4 },
+};
+
+/* What every run has in memory, and what a thread adds. */
+static const double program_memory = 19e6, thread_memory = 9e6;
+
+/* Points of the results' grid. */
+static double points_of(const deck *d)
+{
+  double points = 1.0;
+  for (int axis = 0; axis < DECK_AXIS_COUNT; axis++)
+    if (axis != DECK_AXIS_TEMPERATURE && d->axis[axis].count > 0)
+      points *= (double)d->axis[axis].count;
+  if (d->kind == DECK_ORBIT) points = (double)d->orbit.periods * (double)d->orbit.samples;
+  if (d->kind == DECK_WORK_PRECISION) points *= (double)(1 + d->methods.count);
+  if (d->kind == DECK_HARD_CASES) points = d->cases.count > 0 ? (double)d->cases.count : 12.0;
+  return points;
+}
+
+/* Values beside the grid's: strobe points of clouds, two numbers for each of two attractors, and
+   of a bifurcation diagram. */
+static double strobes_of(const deck *d)
+{
+  if (d->kind == DECK_BIFURCATION_DIAGRAM) return points_of(d) * (double)d->diagram.strobes * 2.0;
+  if (d->kind != DECK_BASINS || !deck_has_noise(d)) return 0.0;
+  return (double)d->axis[DECK_AXIS_TEMPERATURE].count * (double)d->basins.strobes * 4.0;
+}
+
+double estimate_output(const deck *d)
+{
+  const rule *r = &rules[d->kind];
+  const double point = strcmp(d->basins.by, "well") == 0 ? 2.0 * r->point : r->point;
+  return r->head + point * points_of(d) + 7.0 * strobes_of(d);
+}
+
+double estimate_memory(const deck *d, int threads)
+{
+  return program_memory + thread_memory * threads + rules[d->kind].memory * points_of(d) +
+         16.0 * strobes_of(d);
+}
+
+/* ---- words --------------------------------------------------------------------------------- */
+
+/* Two digits of a number of bytes. */
+static void print_bytes(double bytes, FILE *out)
+{
+  static const char *const units[] = { "bytes", "kB", "MB", "GB", "TB", "PB" };
+  int unit = 0;
+  for (; bytes >= 999.5 && unit < 5; unit++) bytes /= 1000.0;
+  fprintf(out, bytes < 9.95 ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
+}
+
+static void print_seconds(double seconds, FILE *out)
+{
+  if (seconds < 100.0) fprintf(out, "%.2g s", seconds);
+  else if (seconds < 6000.0) fprintf(out, seconds < 600.0 ? "%.1f min" : "%.0f min", seconds / 60.0);
+  else if (seconds < 172800.0) fprintf(out, "%.1f h", seconds / 3600.0);
+  else fprintf(out, "%.1f days", seconds / 86400.0);
+}
+
+static void print_time(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
+{
+  const rule *r = &rules[d->kind];
+  const int tried = t->what == NULL || t->tried > 0;
+  const double factor = t->what == NULL ? 1.0 : r->after;
+  const double seconds =
+    tried ? outside + factor * t->seconds : outside + r->seconds * points_of(d);
+  fputs("time      about ", out);
+  print_seconds(seconds, out);
+  fputs(" of processor time", out);
+  if (threads > 1) {
+    fputs(", ", out);
+    print_seconds(seconds / threads, out);
+    fprintf(out, " or more on %d threads", threads);
+  }
+  if (t->what == NULL) fputs(": all of it was computed to see\n", out);
+  else if (tried) fprintf(out, ": %zu of %zu %s were tried\n", t->tried, t->tasks, t->what);
+  else fprintf(out, ", by a rule for scenes of this kind: a task is too long to be tried\n");
+}
+
+void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
+{
+  print_time(d, t, outside, threads, out);
+  if (t->cost.settled_pendulums > 0.0)
+    fprintf(out, "work      about %.2g pendulums settle, after %.2g drive periods altogether\n",
+            t->cost.settled_pendulums, t->cost.pendulum_periods);
+  else if (t->cost.pendulum_periods > 0.0)
+    fprintf(out, "work      about %.2g drive periods of all pendulums\n", t->cost.pendulum_periods);
+  fputs("memory    about ", out);
+  print_bytes(estimate_memory(d, threads), out);
+  fputs("\noutput    about ", out);
+  print_bytes(estimate_output(d), out);
+  if (t->journal > 0.0) {
+    fputs(", and while the run lasts a journal of ", out);
+    print_bytes(t->journal * (t->what != NULL ? rules[d->kind].stages : 1.0), out);
+  }
+  fputs("\n", out);
+}
+
+/* ---- space on the disk --------------------------------------------------------------------- */
+
+/* Bytes that this user can write in the folder of `path`; NaN: unknown. */
+static double space_beside(const char *path)
+{
+  char folder[DECK_PATH + 16];
+  struct statvfs info;
+  const char *slash = strrchr(path, '/');
+  const int length = slash == NULL ? 0 : (int)(slash - path) + 1;
+  snprintf(folder, sizeof folder, "%.*s", length == 0 ? 1 : length, length == 0 ? "." : path);
+  if (statvfs(folder, &info) != 0) return NAN;
+  return (double)info.f_bavail * (double)info.f_frsize;
+}
+
+void estimate_print_space(const char *path, FILE *out)
+{
+  const double space = space_beside(path);
+  if (isnan(space)) return;
+  fputs("disk      ", out);
+  print_bytes(space, out);
+  fputs(" free where the output goes\n", out);
+}
+
+void estimate_check_space(const deck *d, const char *path, progress *p)
+{
+  const double space = space_beside(path), needed = estimate_output(d);
+  if (isnan(space) || space >= needed) return;
+  progress_note(p, "the output will take about %.2g MB, and where it goes only %.2g MB are free",
+                1e-6 * needed, 1e-6 * space);
+}

@@ -1,0 +1,31 @@
+/*
+ * estimate.h -- what a run will take, told before it is begun.
+ *
+ * Owns: the rules for memory and for the size of the output, a row a kind of scene, and what
+ * --dry-run says of time. Rules were measured on the decks of input/ and are meant to be right
+ * within a factor of two there; what depends on the answers, as how often a pendulum has to go
+ * round until it settles, is found by computing a little of the run (farm/trial.h).
+ */
+#ifndef ESTIMATE_H
+#define ESTIMATE_H
+
+#include <stdio.h>
+
+#include "deck/deck.h"
+#include "farm/trial.h"
+#include "terminal/progress.h"
+
+/* Bytes of the output, and of memory on so many threads. */
+double estimate_output(const deck *d);
+double estimate_memory(const deck *d, int threads);
+
+/* What a trial has shown of a deck, in lines. `threads` of the run to come. */
+void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out);
+
+/* A line on free space in the folder of `path`. */
+void estimate_print_space(const char *path, FILE *out);
+
+/* Tell where the disk will not hold the output; the run goes on, since an estimate is no measure. */
+void estimate_check_space(const deck *d, const char *path, progress *p);
+
+#endif

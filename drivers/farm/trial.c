@@ -1,0 +1,148 @@
+/* trial.c -- a few tasks of each stage; see trial.h. */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
+#include "farm/trial.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "farm/farm_internal.h"
+
+/* Of a task's record in the journal, beside its data. */
+enum { ENTRY = sizeof(journal_entry) };
+
+/* A record, where it was tried. */
+typedef struct trial_record {
+  void *data;
+  size_t size;
+} trial_record;
+
+/* All that is tried of a stage. */
+typedef struct stage_trial {
+  farm *farm;
+  const farm_stage *stage;
+  trial_record *record; /* of each task */
+  char *tried;
+  size_t count;
+  double seconds, bytes;
+  pendres_cost cost;
+} stage_trial;
+
+/* Of all threads: a trial has no other threads than its own. */
+static double processor_time(void)
+{
+  struct timespec t = { 0 };
+  (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void farm_set_trial(farm *f, farm_trial *t)
+{
+  f->trial = t;
+  t->start = processor_time();
+}
+
+double farm_trial_outside(const farm_trial *t)
+{
+  return processor_time() - t->start - t->spent;
+}
+
+int trial_over(const farm_trial *t)
+{
+  return processor_time() - t->start > t->most;
+}
+
+/* Number k of the tasks in an order of which every beginning is spread evenly: k's bits mirrored at
+   the point (van der Corput), which starts in the middle. */
+static size_t spread(size_t k, size_t tasks)
+{
+  double place = 0.0, part = 0.5;
+  for (k++; k > 0; k >>= 1, part *= 0.5)
+    if (k & 1) place += part;
+  return (size_t)(place * (double)tasks);
+}
+
+static size_t stored_bytes(const trial_record *r)
+{
+  const char *data = r->data;
+  size_t n = r->size;
+  while (n > 0 && data[n - 1] == 0) n--;
+  return n + ENTRY;
+}
+
+static pendres_status try_task(stage_trial *s, size_t task)
+{
+  farm_record record = { 0 };
+  pendres_context *ctx = farm_context(s->farm);
+  if (ctx == NULL || farm_record_resize(&record, s->stage->record_size) == NULL)
+    return PENDRES_OUT_OF_MEMORY;
+  pendres_cost before, after;
+  pendres_context_cost(ctx, &before);
+  const double start = processor_time();
+  const pendres_status status = s->stage->task(s->stage->arg, task, ctx, &record);
+  const double seconds = processor_time() - start;
+  pendres_context_cost(ctx, &after);
+  s->farm->trial->spent += seconds;
+  s->record[task] = (trial_record){ record.data, record.size };
+  if (status != PENDRES_OK) return status;
+  s->tried[task] = 1;
+  s->count++;
+  s->seconds += seconds;
+  s->bytes += (double)stored_bytes(&s->record[task]);
+  s->cost.pendulum_periods += after.pendulum_periods - before.pendulum_periods;
+  s->cost.settled_pendulums += after.settled_pendulums - before.settled_pendulums;
+  return PENDRES_OK;
+}
+
+/* What was tried stands for all of the stage. */
+static void conclude(const stage_trial *s)
+{
+  farm_trial *t = s->farm->trial;
+  const double all = (double)s->stage->tasks / (double)(s->count > 0 ? s->count : 1);
+  t->seconds += all * s->seconds;
+  t->journal += all * s->bytes;
+  t->cost.pendulum_periods += all * s->cost.pendulum_periods;
+  t->cost.settled_pendulums += all * s->cost.settled_pendulums;
+  t->what = s->count < s->stage->tasks ? s->stage->what : NULL;
+  t->tasks = s->stage->tasks;
+  t->tried = s->count;
+}
+
+static pendres_status try_stage(stage_trial *s)
+{
+  const size_t tasks = s->stage->tasks;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; s->count < tasks && status == PENDRES_OK; k++) {
+    const size_t task = spread(k, tasks);
+    if (s->tried[task]) continue;
+    if (s->seconds > s->farm->trial->few) break;
+    status = try_task(s, task);
+  }
+  conclude(s);
+  if (status != PENDRES_OK) return status;
+  if (s->count < tasks) return PENDRES_INTERRUPTED;
+  for (size_t i = 0; i < tasks && status == PENDRES_OK && s->stage->collect != NULL; i++) {
+    const farm_record record = { .data = s->record[i].data, .size = s->record[i].size };
+    status = s->stage->collect(s->stage->arg, i, &record);
+  }
+  return status;
+}
+
+pendres_status trial_run(farm *f, const farm_stage *stage)
+{
+  const size_t tasks = stage->tasks;
+  stage_trial s = { .farm = f, .stage = stage };
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  s.record = calloc(tasks, sizeof *s.record);
+  s.tried = calloc(tasks, 1);
+  f->trial->what = stage->what;
+  f->trial->tasks = tasks;
+  f->trial->tried = 0;
+  if (s.record != NULL && s.tried != NULL)
+    status = stage->timed ? PENDRES_INTERRUPTED : try_stage(&s);
+  for (size_t i = 0; i < tasks && s.record != NULL; i++) free(s.record[i].data);
+  free(s.record);
+  free(s.tried);
+  f->stages++;
+  return status;
+}
