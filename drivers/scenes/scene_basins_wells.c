@@ -1,67 +1,69 @@
 /* scene_basins_wells.c -- states by attractor and by well, shares by well; see scene_basins.h. */
 #include "scenes/scene_basins.h"
+#include "scenes/scene_columns.h"
 
 #include <stdlib.h>
 
-static pendres_status put(basins *b, const char *name, const char *dimension,
-                          const char *long_name, pendres_store_type type, const void *values,
-                          size_t n)
-{
-  const pendres_store_spec spec = {
-    .name = name, .dimensions = {dimension}, .long_name = long_name, .type = type};
-  return pendres_store_put(b->run->store, &spec, values, n);
-}
-
 /* Of each attractor: its states, and its wells. */
+typedef struct count {
+  size_t states, wells;
+} count;
+
+static const scene_column of_attractors[] = {
+  {.name = "basin_states", .long_name = "states of the grid that go there", .type = SCENE_COUNT,
+   .value = offsetof(count, states)},
+  {.name = "basin_wells", .long_name = "wells that these states settle in", .type = SCENE_COUNT,
+   .value = offsetof(count, wells)},
+};
+
 static pendres_status write_counts(basins *b, size_t attractors, size_t n,
                                    const pendres_basin_well *wells)
 {
   size_t *states = calloc(attractors + 1, sizeof *states);
-  int64_t *value = calloc(2 * attractors + 1, sizeof *value);
+  count *rows = calloc(attractors + 1, sizeof *rows);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (states == NULL || value == NULL) goto done;
+  if (states == NULL || rows == NULL) goto done;
   status = pendres_basin_sums_counts(b->sums, states);
-  for (size_t i = 0; i < attractors; i++) value[i] = (int64_t)states[i];
-  for (size_t i = 0; i < n; i++) value[attractors + (size_t)wells[i].attractor]++;
-  if (status == PENDRES_OK)
-    status = put(b, "basin_states", "attractor", "states of the grid that go there",
-                 PENDRES_STORE_INT64, value, attractors);
-  if (status == PENDRES_OK)
-    status = put(b, "basin_wells", "attractor", "wells that these states settle in",
-                 PENDRES_STORE_INT64, value + attractors, attractors);
+  for (size_t i = 0; i < attractors; i++) rows[i].states = states[i];
+  for (size_t i = 0; i < n; i++) rows[wells[i].attractor].wells++;
+  const scene_table table = {.dimensions = {"attractor"}, .n = attractors, .stride = sizeof *rows,
+                             .rows = rows};
+  if (status == PENDRES_OK) status = scene_columns_write(b->run, &table, 2, of_attractors);
 done:
   free(states);
-  free(value);
+  free(rows);
   return status;
 }
 
 /* Of each attractor and well: the states that settle there. */
+typedef struct well {
+  int attractor, number;
+  size_t states;
+} well;
+
+static const scene_column of_wells[] = {
+  {.name = "attractor", .long_name = "number of the attractor", .type = SCENE_NUMBER,
+   .value = offsetof(well, attractor)},
+  {.name = "number", .long_name = "number of the well; 0 for running and chaotic attractors",
+   .type = SCENE_NUMBER, .value = offsetof(well, number)},
+  {.name = "states", .long_name = "states of the grid that settle there", .type = SCENE_COUNT,
+   .value = offsetof(well, states)},
+};
+
 static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
-  int32_t *number = calloc(n + 1, sizeof *number);
-  int64_t *states = calloc(n + 1, sizeof *states);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (number == NULL || states == NULL) goto done;
-  status = pendres_store_dimension(b->run->store, "", "basin_well", n, NULL,
-                                   "well of an attractor, by attractor, then by well", "1");
-  for (size_t i = 0; i < n; i++) {
-    number[i] = (int32_t)wells[i].attractor;
-    states[i] = (int64_t)wells[i].states;
-  }
+  well *rows = malloc((n + 1) * sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++)
+    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states};
+  const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
+                             .stride = sizeof *rows, .rows = rows};
+  pendres_status status =
+    pendres_store_dimension(b->run->store, "", "basin_well", n, NULL,
+                            "well of an attractor, by attractor, then by well", "1");
   if (status == PENDRES_OK)
-    status = put(b, "basin_well_attractor", "basin_well", "number of the attractor",
-                 PENDRES_STORE_INT32, number, n);
-  for (size_t i = 0; i < n; i++) number[i] = (int32_t)wells[i].well;
-  if (status == PENDRES_OK)
-    status = put(b, "basin_well_number", "basin_well",
-                 "number of the well; 0 for running and chaotic attractors", PENDRES_STORE_INT32,
-                 number, n);
-  if (status == PENDRES_OK)
-    status = put(b, "basin_well_states", "basin_well", "states of the grid that settle there",
-                 PENDRES_STORE_INT64, states, n);
-done:
-  free(number);
-  free(states);
+    status = scene_columns_write(b->run, &table, sizeof of_wells / sizeof *of_wells, of_wells);
+  free(rows);
   return status;
 }
 

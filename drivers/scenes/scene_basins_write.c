@@ -1,5 +1,6 @@
 /* scene_basins_write.c -- the file and the table of scene `basins`; see scene_basins.h. */
 #include "scenes/scene_basins.h"
+#include "scenes/scene_columns.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,13 +8,12 @@
 
 enum { QUICK = 1 /* compression of what there is most of: higher levels gain little */ };
 
-static const char *const label_names[] = {"sa",      "la",      "periodic",
-                                          "running", "chaotic", "unresolved"};
-
 /* ---- states -------------------------------------------------------------------------------- */
 
-/* The variable number k of every state, in a group with the given dimensions. */
-static pendres_store_spec state_spec(int k, const char *group, const char *second)
+/* The variable number k of every state, in a group with the given dimensions; meanings: room for
+   the names of its values. */
+static pendres_store_spec state_spec(int k, const char *group, const char *second,
+                                     const char *meanings[SCENE_MOST_NAMES])
 {
   pendres_store_spec s = {.group = group, .dimensions = {"x", second}, .deflate = QUICK};
   switch (k) {
@@ -21,8 +21,8 @@ static pendres_store_spec state_spec(int k, const char *group, const char *secon
     s.name = "label";
     s.long_name = "what the pendulum settles on";
     s.type = PENDRES_STORE_INT8;
-    s.flag_count = PENDRES_LABEL_COUNT;
-    s.flag_meanings = label_names;
+    s.flag_count = scene_meanings(scene_label_names, meanings);
+    s.flag_meanings = meanings;
     break;
   case BASINS_ATTRACTOR:
     s.name = "attractor_index";
@@ -57,7 +57,8 @@ pendres_status basins_define(basins *b)
   if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
   if (status != PENDRES_OK) return status;
   for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = state_spec(k, "", "v");
+    const char *meanings[SCENE_MOST_NAMES];
+    const pendres_store_spec spec = state_spec(k, "", "v", meanings);
     status = pendres_store_variable(b->run->store, &spec, &b->variable[k]);
   }
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
@@ -108,7 +109,8 @@ static pendres_status write_cut(basins *b)
   int32_t *values = malloc(n * sizeof *values);
   if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
   for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = state_spec(k, "cut", NULL);
+    const char *meanings[SCENE_MOST_NAMES];
+    const pendres_store_spec spec = state_spec(k, "cut", NULL, meanings);
     status = pendres_store_put(b->run->store, &spec, pack(n, b->cut, k, values), n);
   }
   if (status == PENDRES_OK)
@@ -120,133 +122,64 @@ static pendres_status write_cut(basins *b)
 
 /* ---- attractors ---------------------------------------------------------------------------- */
 
-/* Results of an attractor: a value and its error by their offsets in pendres_attractor. */
-#define ORBIT(name, text, unit)                                                                 \
-  {"attractor_" #name, text, unit, offsetof(pendres_attractor, orbit.name),                     \
-   offsetof(pendres_attractor, orbit.name##_error)}
+/* An attractor and its share of the window. */
+typedef struct row {
+  pendres_attractor of;
+  double basin_fraction, basin_fraction_error;
+} row;
 
-static const struct {
-  const char *name, *long_name, *units;
-  size_t value, error;
-} fields[] = {
-  ORBIT(x, "position at drive phase 0, in well 0", "rad"),
-  ORBIT(v, "velocity at drive phase 0", "1"),
-  ORBIT(amplitude, "amplitude of the angle", "rad"),
-  ORBIT(phase_lag, "phase lag of the angle's first harmonic", "rad"),
-  ORBIT(loop_area, "loop area a drive cycle", "1"),
-  {"attractor_lyapunov", "largest Lyapunov exponent a unit time", "1",
-   offsetof(pendres_attractor, lyapunov), offsetof(pendres_attractor, lyapunov_error)},
-  {"attractor_drift", "mean whole turns a drive period, of chaos", "1",
-   offsetof(pendres_attractor, drift), offsetof(pendres_attractor, drift_error)},
+#define OF_ORBIT(field, words, unit)                                                  \
+  {.name = "attractor_" #field, .long_name = words, .units = unit,                    \
+   .value = offsetof(row, of.orbit.field), .error = offsetof(row, of.orbit.field##_error)}
+#define OF_ATTRACTOR(label, field, words)                                             \
+  {.name = "attractor_" #label, .long_name = words, .units = "1",                     \
+   .value = offsetof(row, of.field), .error = offsetof(row, of.field##_error)}
+#define PLAIN(label, what, field, words)                                              \
+  {.name = "attractor_" #label, .long_name = words, .type = what, .value = offsetof(row, of.field)}
+static const scene_column of_attractors[] = {
+  {.name = "attractor_label", .long_name = "kind of attractor", .type = SCENE_FLAG,
+   .value = offsetof(row, of.label), .names = scene_label_names},
+  PLAIN(period, SCENE_NUMBER, orbit.period, "drive periods until the orbit closes; 0: it does not"),
+  PLAIN(winding, SCENE_NUMBER, orbit.winding, "whole turns in that time"),
+  OF_ORBIT(x, "position at drive phase 0, in well 0", "rad"),
+  OF_ORBIT(v, "velocity at drive phase 0", "1"),
+  OF_ORBIT(amplitude, "amplitude of the angle", "rad"),
+  OF_ORBIT(phase_lag, "phase lag of the angle's first harmonic", "rad"),
+  OF_ORBIT(loop_area, "loop area a drive cycle", "1"),
+  OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent a unit time"),
+  OF_ATTRACTOR(drift, drift, "mean whole turns a drive period, of chaos"),
+  PLAIN(watched_periods, SCENE_PLAIN, watched_periods,
+        "drive periods that chaos was watched for without ending, all walkers together"),
+  PLAIN(escape_rate_bound, SCENE_PLAIN, escape_rate_bound,
+        "largest rate of ending of chaos, a drive period, that is not excluded at 95 %"),
+  {.name = "basin_fraction", .long_name = "share of the window's area", .units = "1",
+   .comment = "each state stands for what is nearest to it: ends of a range count half; plain "
+              "counts are basin_states",
+   .value = offsetof(row, basin_fraction), .error = offsetof(row, basin_fraction_error)},
 };
-
-/* What is said of a verdict itself, without an error. */
-static const struct {
-  const char *name, *long_name;
-  size_t value;
-} verdicts[] = {
-  {"attractor_watched_periods",
-   "drive periods that chaos was watched for without ending, all walkers together",
-   offsetof(pendres_attractor, watched_periods)},
-  {"attractor_escape_rate_bound",
-   "largest rate of ending of chaos, a drive period, that is not excluded at 95 %",
-   offsetof(pendres_attractor, escape_rate_bound)},
-};
-
-static double field(const pendres_attractor *a, size_t offset)
-{
-  double value;
-  memcpy(&value, (const char *)a + offset, sizeof value);
-  return value;
-}
-
-static pendres_status write_fields(const basins *b, size_t n, double *value, double *error)
-{
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof fields / sizeof fields[0] && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {.name = fields[k].name, .dimensions = {"attractor"},
-                                     .long_name = fields[k].long_name, .units = fields[k].units};
-    for (size_t i = 0; i < n; i++) {
-      const pendres_attractor *a = pendres_attractors_get(b->set, i);
-      value[i] = field(a, fields[k].value);
-      error[i] = field(a, fields[k].error);
-    }
-    status = pendres_store_put_result(b->run->store, &spec, value, error, n);
-  }
-  for (size_t k = 0; k < sizeof verdicts / sizeof verdicts[0] && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {.name = verdicts[k].name, .dimensions = {"attractor"},
-                                     .long_name = verdicts[k].long_name, .units = "1"};
-    for (size_t i = 0; i < n; i++)
-      value[i] = field(pendres_attractors_get(b->set, i), verdicts[k].value);
-    status = pendres_store_put(b->run->store, &spec, value, n);
-  }
-  return status;
-}
-
-static pendres_status write_integers(const basins *b, size_t n, int32_t *value)
-{
-  static const struct { const char *name, *long_name; } names[] = {
-    {"attractor_period", "drive periods until the orbit closes; 0: it does not"},
-    {"attractor_winding", "whole turns in that time"}};
-  int8_t *label = (int8_t *)value;
-  for (size_t i = 0; i < n; i++) label[i] = (int8_t)pendres_attractors_get(b->set, i)->label;
-  const pendres_store_spec labels = {.name = "attractor_label", .dimensions = {"attractor"},
-                                     .long_name = "kind of attractor", .type = PENDRES_STORE_INT8,
-                                     .flag_count = PENDRES_LABEL_COUNT,
-                                     .flag_meanings = label_names};
-  pendres_status status = pendres_store_put(b->run->store, &labels, label, n);
-  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = {.name = names[k].name, .dimensions = {"attractor"},
-                                     .long_name = names[k].long_name, .type = PENDRES_STORE_INT32};
-    for (size_t i = 0; i < n; i++) {
-      const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;
-      value[i] = k == 0 ? o->period : o->winding;
-    }
-    status = pendres_store_put(b->run->store, &spec, value, n);
-  }
-  return status;
-}
 
 static pendres_status write_attractors(basins *b, const double *fraction, const double *error)
 {
   const size_t n = pendres_attractors_count(b->set);
-  double *value = malloc((2 * n + 1) * sizeof *value);
+  row *rows = malloc((n + 1) * sizeof *rows);
+  const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
   pendres_status status = PENDRES_OK;
-  if (value == NULL)
+  if (rows == NULL)
     return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  for (size_t i = 0; i < n; i++)
+    rows[i] = (row){*pendres_attractors_get(b->set, i), fraction[i], error[i]};
   status = pendres_store_dimension(b->run->store, "", "attractor", n, NULL,
                                    "attractor, by amplitude, then by position", "1");
-  if (status == PENDRES_OK) status = write_integers(b, n, (int32_t *)value);
-  if (status == PENDRES_OK) status = write_fields(b, n, value, value + n);
-  const pendres_store_spec spec = {.name = "basin_fraction", .dimensions = {"attractor"},
-                                   .long_name = "share of the window's area", .units = "1",
-                                   .comment = "each state stands for what is nearest to it: ends "
-                                              "of a range count half; plain counts are "
-                                              "basin_states"};
   if (status == PENDRES_OK)
-    status = pendres_store_put_result(b->run->store, &spec, fraction, error, n);
+    status = scene_columns_write(b->run, &table, sizeof of_attractors / sizeof *of_attractors,
+                                 of_attractors);
   if (status == PENDRES_OK) status = basins_write_wells(b, n);
-  free(value);
+  free(rows);
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
 }
 
 /* ---- statistics ---------------------------------------------------------------------------- */
-
-static pendres_status put_scalar(pendres_store *store, const char *name, const char *long_name,
-                                 double value, double error)
-{
-  const pendres_store_spec spec = {.name = name, .long_name = long_name};
-  return pendres_store_put_result(store, &spec, &value, &error, 1);
-}
-
-static pendres_status put_count(pendres_store *store, const char *name, const char *long_name,
-                                size_t count)
-{
-  const int64_t value = (int64_t)count;
-  const pendres_store_spec spec = {.name = name, .long_name = long_name,
-                                   .type = PENDRES_STORE_INT64};
-  return pendres_store_put(store, &spec, &value, 1);
-}
 
 /* Random states, and distances, which depend on the tolerance alone. */
 enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5 };
@@ -302,64 +235,78 @@ static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
   return PENDRES_OK;
 }
 
+#define STATISTIC(label, field, words)                                          \
+  {.name = #label, .long_name = words,                                          \
+   .value = offsetof(pendres_basin_statistics, field),                          \
+   .error = offsetof(pendres_basin_statistics, field##_error)}
+static const scene_column of_statistics[] = {
+  STATISTIC(basin_entropy, entropy, "basin entropy over boxes of 5 x 5 states"),
+  STATISTIC(boundary_basin_entropy, boundary_entropy,
+            "basin entropy over boxes with a boundary; above log 2 it is fractal"),
+  STATISTIC(uncertainty_exponent, uncertainty_exponent,
+            "exponent of the share of uncertain states over distance"),
+};
+
+/* Shares are arrays of the statistics, not one of structs: a step is that of their doubles. */
+static const scene_column of_distances =
+  STATISTIC(uncertain_fraction, uncertain, "share of states with an unlike one so far off");
+
 static pendres_status write_statistics(basins *b, const pendres_basin_statistics *s)
 {
-  pendres_store *store = b->run->store;
-  pendres_status status =
-    put_scalar(store, "basin_entropy", "basin entropy over boxes of 5 x 5 states", s->entropy,
-               s->entropy_error);
-  if (status == PENDRES_OK)
-    status = put_scalar(store, "boundary_basin_entropy",
-                        "basin entropy over boxes with a boundary; above log 2 it is fractal",
-                        s->boundary_entropy, s->boundary_entropy_error);
-  if (status == PENDRES_OK)
-    status = put_scalar(store, "uncertainty_exponent",
-                        "exponent of the share of uncertain states over distance",
-                        s->uncertainty_exponent, s->uncertainty_exponent_error);
-  if (status == PENDRES_OK)
-    status = put_count(store, "uncertainty_random_states",
-                       "random states that the exponent is from; 0: the states of the grid",
-                       b->random_states);
-  if (status == PENDRES_OK && s->scales > 0) {
-    const pendres_store_spec spec = {.name = "uncertain_fraction", .dimensions = {"distance"},
-                                     .long_name = "share of states with an unlike one so far off"};
-    status = pendres_store_dimension(store, "", "distance", (uint64_t)s->scales, s->distance,
-                                     "distance in initial velocity", "1");
-    if (status == PENDRES_OK)
-      status = pendres_store_put_result(store, &spec, s->uncertain, s->uncertain_error,
-                                        (size_t)s->scales);
-  }
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+  static const scene_column random = {
+    .name = "uncertainty_random_states", .type = SCENE_COUNT,
+    .long_name = "random states that the exponent is from; 0: the states of the grid"};
+  const scene_table whole = {.n = 1, .stride = sizeof *s, .rows = s};
+  const scene_table states = {.n = 1, .stride = sizeof b->random_states, .rows = &b->random_states};
+  const scene_table distances = {.dimensions = {"distance"}, .n = (size_t)s->scales,
+                                 .stride = sizeof s->uncertain[0], .rows = s};
+  pendres_status status = scene_columns_write(
+    b->run, &whole, sizeof of_statistics / sizeof *of_statistics, of_statistics);
+  if (status == PENDRES_OK) status = scene_columns_write(b->run, &states, 1, &random);
+  if (status != PENDRES_OK || s->scales == 0) return status;
+  status = pendres_store_dimension(b->run->store, "", "distance", (uint64_t)s->scales, s->distance,
+                                   "distance in initial velocity", "1");
+  return status == PENDRES_OK ? scene_columns_write(b->run, &distances, 1, &of_distances)
+                              : scene_store_failed(b->run, status);
 }
+
+/* How many states became of what. */
+typedef struct counts {
+  size_t unresolved, uncertain, integrated, filled, verified, missed, suspected;
+} counts;
+
+#define STATES(label, field, words) \
+  {.name = #label, .long_name = words, .type = SCENE_COUNT, .value = offsetof(counts, field)}
+static const scene_column of_counts[] = {
+  STATES(unresolved_states, unresolved, "states without an attractor"),
+  STATES(uncertain_states, uncertain,
+         "integrated states that may go to another attractor, or well"),
+};
+static const scene_column of_refinement[] = {
+  STATES(integrated_states, integrated, "states that were integrated"),
+  STATES(filled_states, filled, "states that were filled in"),
+  STATES(verified_states, verified, "filled states that were integrated as a check"),
+  STATES(verification_misses, missed,
+         "verified states that had been filled in wrongly, and were put right with their "
+         "surroundings until a fresh sample was clean"),
+  STATES(suspected_states, suspected,
+         "filled states that may be wrong at most, with a confidence of 95 %"),
+};
 
 static pendres_status write_counts(basins *b)
 {
-  pendres_store *store = b->run->store;
-  const size_t states = b->grid.nx * b->grid.nv;
-  pendres_status status = put_count(store, "unresolved_states", "states without an attractor",
-                                    b->unresolved);
-  if (status == PENDRES_OK)
-    status = put_count(store, "uncertain_states",
-                       "integrated states that may go to another attractor, or well",
-                       b->uncertain);
-  if (status == PENDRES_OK && b->d->basins.refine) {
-    status = put_count(store, "integrated_states", "states that were integrated", b->integrated);
-    if (status == PENDRES_OK)
-      status = put_count(store, "filled_states", "states that were filled in",
-                         states - b->integrated);
-    if (status == PENDRES_OK)
-      status = put_count(store, "verified_states", "filled states that were integrated as a check",
-                         b->verified);
-    if (status == PENDRES_OK)
-      status = put_count(store, "verification_misses",
-                         "verified states that had been filled in wrongly, and were put right with "
-                         "their surroundings until a fresh sample was clean", b->missed);
-    if (status == PENDRES_OK)
-      status = put_count(store, "suspected_states",
-                         "filled states that may be wrong at most, with a confidence of 95 %",
-                         (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean)));
-  }
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+  const counts of = {
+    .unresolved = b->unresolved, .uncertain = b->uncertain, .integrated = b->integrated,
+    .filled = b->grid.nx * b->grid.nv - b->integrated, .verified = b->verified,
+    .missed = b->missed,
+    .suspected = (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
+  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const pendres_status status =
+    scene_columns_write(b->run, &table, sizeof of_counts / sizeof *of_counts, of_counts);
+  return status == PENDRES_OK && b->d->basins.refine
+           ? scene_columns_write(b->run, &table, sizeof of_refinement / sizeof *of_refinement,
+                                 of_refinement)
+           : status;
 }
 
 /* ---- what the paper says ------------------------------------------------------------------- */

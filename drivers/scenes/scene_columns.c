@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_NAMES = 16 };
-
 /* Room for a column, as it is stored. */
 typedef struct buffers {
   double *value, *error;
@@ -24,6 +22,13 @@ NAMES(scene_special_names, pendres_special_name((pendres_special)value))
 NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
 NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
 NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
+
+int scene_meanings(scene_names names, const char *meanings[SCENE_MOST_NAMES])
+{
+  int n = 0;
+  for (; n < SCENE_MOST_NAMES && names(n) != NULL; n++) meanings[n] = names(n);
+  return n;
+}
 
 static const char *field(const scene_table *t, size_t row, size_t offset)
 {
@@ -99,7 +104,7 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
                                              [SCENE_FLAG] = PENDRES_STORE_INT8,
                                              [SCENE_TEXT] = PENDRES_STORE_STRING};
   char name[64], words[200];
-  const char *meanings[MOST_NAMES];
+  const char *meanings[SCENE_MOST_NAMES];
   pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = words,
                              .units = c->units, .comment = c->comment, .flag_meanings = meanings,
                              .flag_values = c->codes, .flag_bits = c->codes != NULL};
@@ -113,8 +118,7 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
   int k = 0;
   for (; k < 3 && t->dimensions[k] != NULL; k++) spec.dimensions[k] = t->dimensions[k];
   if (c->pairs) spec.dimensions[k] = t->inner;
-  for (int i = 0; c->names != NULL && i < MOST_NAMES && c->names(i) != NULL; i++)
-    meanings[spec.flag_count++] = c->names(i);
+  if (c->names != NULL) spec.flag_count = scene_meanings(c->names, meanings);
   return put(run, t, c, b, &spec);
 }
 

@@ -3,18 +3,26 @@
  * Fig. 1 of the paper. The elliptic integral and two approximations (eqs. 1.1 to 1.5), and beside
  * them the frequency found by integrating the equation of motion: a check from end to end.
  */
+#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /* Amplitudes a task takes: a block of the library. */
-enum { CHUNK = 192, TABLE_ROWS = 12 };
+enum { CHUNK = 192, TABLE_ROWS = 13 };
+
+/* A row of results. */
+typedef struct row {
+  double amplitude, frequency_exact, frequency_exact_error;
+  double frequency_kittel, frequency_kittel_error, frequency_belendez, frequency_belendez_error;
+  double frequency_integrated, frequency_integrated_error;
+} row;
 
 typedef struct work {
   const double *amplitude;
   size_t count;
-  double *frequency, *error;
+  row *rows;
   scene_failures failed;
 } work;
 
@@ -52,18 +60,6 @@ static pendres_status integrate(const void *arg, size_t task, pendres_context *c
   return status;
 }
 
-static pendres_status collect(void *arg, size_t task, const farm_record *in)
-{
-  work *w = arg;
-  const record *r = in->data;
-  for (size_t i = 0; i < count_of(w, task); i++) {
-    w->frequency[task * CHUNK + i] = r->frequency[i];
-    w->error[task * CHUNK + i] = r->error[i];
-    scene_failures_take(&w->failed, task * CHUNK + i, &r->verdict[i]);
-  }
-  return PENDRES_OK;
-}
-
 /*
  * Rounding of the elliptic integral: some units in the last place, and the last bit of pi where
  * the amplitude comes near to it (its derivative there is 1 / ((pi - a) K) of the value).
@@ -75,52 +71,51 @@ static double exact_error(double amplitude, double frequency)
   return frequency * eps * (4.0 + 1.0 / ((PENDRES_PI - amplitude) * k));
 }
 
-static pendres_status put(scene_run *run, const char *name, const char *long_name,
-                          const double *value, const double *error, size_t n)
+/* The three formulas, each with its rounding, beside the integration. */
+static row row_of(double amplitude, double integrated, double error)
 {
-  const pendres_store_spec spec = { .name = name, .long_name = long_name,
-                                    .dimensions = { "amplitude" } };
-  const pendres_status status = pendres_store_put_result(run->store, &spec, value, error, n);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  static const double rounding = 4.5e-16;
+  const double exact = pendres_free_frequency(amplitude);
+  return (row){amplitude, exact, exact_error(amplitude, exact),
+               pendres_free_frequency_kittel(amplitude), rounding,
+               pendres_free_frequency_belendez(amplitude), rounding, integrated, error};
 }
 
-/* The three formulas, each with its rounding. */
-static pendres_status put_formulas(scene_run *run, const work *w, double *value, double *error)
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
-  static const struct {
-    const char *name, *words;
-    double (*formula)(double amplitude);
-  } formulas[] = {
-    { "frequency_exact", "frequency by the elliptic integral", pendres_free_frequency },
-    { "frequency_kittel", "frequency by Kittel's approximation", pendres_free_frequency_kittel },
-    { "frequency_belendez", "frequency by the approximation of Belendez et al.",
-      pendres_free_frequency_belendez },
-  };
-  pendres_status status = scene_dimension(run, NULL, DECK_AXIS_AMPLITUDE);
-  for (size_t k = 0; k < sizeof formulas / sizeof *formulas && status == PENDRES_OK; k++) {
-    for (size_t i = 0; i < w->count; i++) {
-      value[i] = formulas[k].formula(w->amplitude[i]);
-      error[i] = k == 0 ? exact_error(w->amplitude[i], value[i]) : 4.5e-16;
-    }
-    status = put(run, formulas[k].name, formulas[k].words, value, error, w->count);
+  work *w = arg;
+  const record *r = in->data;
+  for (size_t i = 0; i < count_of(w, task); i++) {
+    const size_t at = task * CHUNK + i;
+    w->rows[at] = row_of(w->amplitude[at], r->frequency[i], r->error[i]);
+    scene_failures_take(&w->failed, at, &r->verdict[i]);
   }
-  return status;
+  return PENDRES_OK;
 }
 
-static void tabulate(FILE *out, const work *w)
+static const scene_column columns[] = {
+  SCENE_COLUMN(row, frequency_exact, "frequency by the elliptic integral", NULL),
+  SCENE_COLUMN(row, frequency_kittel, "frequency by Kittel's approximation", NULL),
+  SCENE_COLUMN(row, frequency_belendez, "frequency by the approximation of Belendez et al.", NULL),
+  SCENE_COLUMN(row, frequency_integrated, "frequency by integration of the equation of motion",
+               NULL),
+};
+
+static const scene_cell cells[] = {
+  SCENE_CELL(row, amplitude, " amplitude", "%10.6f"),
+  SCENE_CELL(row, frequency_integrated, "         integrated", " %18.14f"),
+  SCENE_CELL(row, frequency_integrated_error, "      error", " %10.1e"),
+  SCENE_CELL(row, frequency_exact, "              exact", " %18.14f"),
+  SCENE_CELL(row, frequency_kittel, "     Kittel", " %10.6f"),
+  SCENE_CELL(row, frequency_belendez, "   Belendez", " %10.6f"),
+};
+
+static void tabulate(FILE *out, const scene_table *table, const row *rows)
 {
   double largest = 0.0;
-  if (out == NULL) return;
-  for (size_t i = 0; i < w->count; i++)
-    largest = fmax(largest, fabs(w->frequency[i] / pendres_free_frequency(w->amplitude[i]) - 1.0));
-  fprintf(out, "%10s %18s %10s %18s %10s %10s\n", "amplitude", "integrated", "error", "exact",
-          "Kittel", "Belendez");
-  const size_t step = w->count > TABLE_ROWS ? (w->count - 1) / (TABLE_ROWS - 1) : 1;
-  for (size_t i = 0; i < w->count; i += step)
-    fprintf(out, "%10.6f %18.14f %10.1e %18.14f %10.6f %10.6f\n", w->amplitude[i], w->frequency[i],
-            w->error[i], pendres_free_frequency(w->amplitude[i]),
-            pendres_free_frequency_kittel(w->amplitude[i]),
-            pendres_free_frequency_belendez(w->amplitude[i]));
+  for (size_t i = 0; i < table->n; i++)
+    largest = fmax(largest, fabs(rows[i].frequency_integrated / rows[i].frequency_exact - 1.0));
+  scene_columns_print(out, table, TABLE_ROWS, sizeof cells / sizeof *cells, cells, NULL);
   fprintf(out, "largest relative difference of integrated and exact: %.1e\n", largest);
 }
 
@@ -129,12 +124,9 @@ static pendres_status run(scene_run *r)
   const deck_axis *axis = &r->deck->axis[DECK_AXIS_AMPLITUDE];
   const size_t n = axis->count;
   pendres_status status = PENDRES_OK;
-  double *memory = malloc(4 * n * sizeof *memory);
-  if (memory == NULL)
-    return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
-  work w = { .amplitude = axis->value, .count = n, .frequency = memory, .error = memory + n };
-  if (scene_failures_create(n, &w.failed) != PENDRES_OK) {
-    free(memory);
+  work w = { .amplitude = axis->value, .count = n, .rows = malloc(n * sizeof *w.rows) };
+  if (w.rows == NULL || scene_failures_create(n, &w.failed) != PENDRES_OK) {
+    free(w.rows);
     return scene_fail(r, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
   }
 
@@ -142,16 +134,17 @@ static pendres_status run(scene_run *r)
                                            .tasks = (n + CHUNK - 1) / CHUNK, .task = integrate,
                                            .record_size = sizeof(record), .collect = collect,
                                            .arg = &w });
-  if (status == PENDRES_OK) status = put_formulas(r, &w, memory + 2 * n, memory + 3 * n);
+  const scene_table table = { .dimensions = { "amplitude" }, .n = n, .stride = sizeof *w.rows,
+                              .rows = w.rows };
+  if (status == PENDRES_OK) status = scene_dimension(r, NULL, DECK_AXIS_AMPLITUDE);
   if (status == PENDRES_OK)
-    status = put(r, "frequency_integrated", "frequency by integration of the equation of motion",
-                 w.frequency, w.error, n);
+    status = scene_columns_write(r, &table, sizeof columns / sizeof *columns, columns);
   static const deck_axis_id axes[] = { DECK_AXIS_AMPLITUDE };
   if (status == PENDRES_OK)
     status = scene_failures_write(r, &w.failed, "failed", "frequency", 1, axes);
-  if (status == PENDRES_OK) tabulate(r->table, &w);
+  if (status == PENDRES_OK && r->table != NULL) tabulate(r->table, &table, w.rows);
   scene_failures_free(&w.failed);
-  free(memory);
+  free(w.rows);
   return status;
 }
 

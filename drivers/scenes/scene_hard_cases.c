@@ -5,7 +5,7 @@
  * A case is a task of the farm; rows are written in the order of the list whatever the threads. A
  * case that gives up leaves a row that does not hold and says why; the others still run.
  */
-#include "scenes/scene.h"
+#include "scenes/scene_columns.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,11 +13,17 @@
 
 #include "validation/hard_cases.h"
 
+/* A row of a case, and whether its figure is within its bound. */
+typedef struct row {
+  hard_row of;
+  int holds;
+} row;
+
 typedef struct work {
   farm *farm;
   const hard_case **chosen;
   size_t count;  /* of these */
-  hard_row *row; /* of all of them, in order */
+  row *row;      /* of all of them, in order */
   size_t rows;
 } work;
 
@@ -49,13 +55,15 @@ static pendres_status run_case(const void *arg, size_t task, pendres_context *ct
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  const size_t n = in->size / sizeof *w->row;
+  const size_t n = in->size / sizeof(hard_row);
+  const hard_row *found = in->data;
   (void)task;
   if (n == 0) return PENDRES_OK;
-  hard_row *row = realloc(w->row, (w->rows + n) * sizeof *row);
-  if (row == NULL) return PENDRES_OUT_OF_MEMORY;
-  memcpy(row + w->rows, in->data, in->size);
-  w->row = row;
+  row *all = realloc(w->row, (w->rows + n) * sizeof *all);
+  if (all == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t k = 0; k < n; k++)
+    all[w->rows + k] = (row){found[k], hard_row_holds(&found[k])};
+  w->row = all;
   w->rows += n;
   return PENDRES_OK;
 }
@@ -76,88 +84,52 @@ static pendres_status choose(const deck *d, work *w)
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/* All rows, column by column. */
-typedef struct columns {
-  const char **name, **quantity;
-  double *bound, *figure, *naive;
-  int8_t *holds;
-} columns;
-
-static void columns_free(columns *c)
+static const char *holds_names(int value)
 {
-  free(c->name);
-  free(c->bound);
-  free(c->holds);
+  return value == 0 ? "broken" : value == 1 ? "holds" : NULL;
 }
 
-static pendres_status columns_make(const work *w, columns *c)
+static const char *yes_or_no(int value)
 {
-  const size_t n = w->rows;
-  c->name = malloc(2 * n * sizeof *c->name);
-  c->bound = malloc(3 * n * sizeof *c->bound);
-  c->holds = malloc(n);
-  if (c->name == NULL || c->bound == NULL || c->holds == NULL) return PENDRES_OUT_OF_MEMORY;
-  c->quantity = c->name + n;
-  c->figure = c->bound + n, c->naive = c->figure + n;
-  for (size_t k = 0; k < n; k++) {
-    const hard_row *row = &w->row[k];
-    c->name[k] = row->name;
-    c->quantity[k] = row->quantity;
-    c->bound[k] = row->bound;
-    c->figure[k] = row->figure;
-    c->naive[k] = row->naive;
-    c->holds[k] = (int8_t)hard_row_holds(row);
-  }
-  return PENDRES_OK;
+  return value != 0 ? "yes" : "NO";
 }
 
-static pendres_status write_rows(scene_run *run, const work *w, const columns *c)
-{
-  static const char *const meanings[] = { "broken", "holds" };
-  const pendres_store_spec spec[] = {
-    { .name = "case_name", .type = PENDRES_STORE_STRING, .long_name = "case" },
-    { .name = "quantity", .type = PENDRES_STORE_STRING, .long_name = "what was measured" },
-    { .name = "bound", .long_name = "what the figure must not exceed" },
-    { .name = "figure", .long_name = "what was measured" },
-    { .name = "holds", .type = PENDRES_STORE_INT8, .long_name = "is the figure within its bound",
-      .flag_count = 2, .flag_meanings = meanings },
-    { .name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE" },
-  };
-  const void *const data[] = { c->name, c->quantity, c->bound, c->figure, c->holds, c->naive };
-  pendres_status status =
-    pendres_store_dimension(run->store, NULL, "case", w->rows, NULL, "case, by number", "1");
-  for (size_t i = 0; i < sizeof spec / sizeof *spec && status == PENDRES_OK; i++) {
-    pendres_store_spec one = spec[i];
-    one.dimensions[0] = "case";
-    status = pendres_store_put(run->store, &one, data[i], w->rows);
-  }
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
-}
+static const scene_column columns[] = {
+  {.name = "case_name", .long_name = "case", .type = SCENE_TEXT, .value = offsetof(row, of.name)},
+  {.name = "quantity", .long_name = "what was measured", .type = SCENE_TEXT,
+   .value = offsetof(row, of.quantity)},
+  {.name = "bound", .long_name = "what the figure must not exceed", .type = SCENE_PLAIN,
+   .value = offsetof(row, of.bound)},
+  {.name = "figure", .long_name = "what was measured", .type = SCENE_PLAIN,
+   .value = offsetof(row, of.figure)},
+  {.name = "holds", .long_name = "is the figure within its bound", .type = SCENE_FLAG,
+   .value = offsetof(row, holds), .names = holds_names},
+  {.name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE",
+   .type = SCENE_PLAIN, .value = offsetof(row, of.naive)},
+};
 
-static void print_table(FILE *out, const work *w)
-{
-  fprintf(out, "%-26s %9s %9s %5s %9s  %s\n", "case", "bound", "figure", "holds", "naive",
-          "quantity");
-  for (size_t k = 0; k < w->rows; k++) {
-    const hard_row *row = &w->row[k];
-    fprintf(out, "%-26s %9.2e %9.2e %5s %9.2e  %s\n", row->name, row->bound, row->figure,
-            hard_row_holds(row) ? "yes" : "NO", row->naive, row->quantity);
-  }
-}
+static const scene_cell cells[] = {
+  {"case                       ", "%-26s ", SCENE_TEXT, offsetof(row, of.name), NULL},
+  SCENE_CELL(row, of.bound, "    bound ", "%9.2e "),
+  SCENE_CELL(row, of.figure, "   figure ", "%9.2e "),
+  {"holds ", "%5s ", SCENE_FLAG, offsetof(row, holds), yes_or_no},
+  SCENE_CELL(row, of.naive, "    naive  ", "%9.2e  "),
+  {"quantity", "%s", SCENE_TEXT, offsetof(row, of.quantity), NULL},
+};
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
 static pendres_status report(scene_run *run, work *w)
 {
-  columns c = { 0 };
-  for (size_t k = 0; k < w->rows; k++) run->failed_points += !hard_row_holds(&w->row[k]);
-  pendres_status status = columns_make(w, &c);
-  if (status != PENDRES_OK)
-    (void)scene_fail(run, status, "out of memory for %zu rows", w->rows);
-  else
-    status = write_rows(run, w, &c);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w);
-  columns_free(&c);
+  const scene_table table = {.dimensions = {"case"}, .n = w->rows, .stride = sizeof *w->row,
+                             .rows = w->row};
+  pendres_status status = pendres_store_dimension(run->store, NULL, "case", w->rows, NULL,
+                                                  "case, by number", "1");
+  for (size_t k = 0; k < w->rows; k++) run->failed_points += !w->row[k].holds;
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  status = scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK && run->table != NULL)
+    scene_columns_print(run->table, &table, w->rows, sizeof cells / sizeof *cells, cells, NULL);
   return status;
 }
 
