@@ -15,6 +15,7 @@
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
 #   make figures    run every deck and draw every picture, into build/figures; some minutes
+#   make gallery    the small pictures of docs/gallery.md anew, from those runs
 #   make style      where lines or files are too long
 #   make clean
 #
@@ -85,7 +86,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-mpi deps-plots deps-python clean uninstall doc style help,$(GOALS))
+BUILDING := $(filter-out deps deps-mpi deps-plots deps-python clean uninstall doc style gallery help,$(GOALS))
 
 ifneq ($(BUILDING),)
 have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
@@ -186,7 +187,7 @@ ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
 .PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-mpi \
-        deps-plots deps-python doc decks-reference style figures clean \
+        deps-plots deps-python doc decks-reference style figures gallery clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -379,7 +380,14 @@ figures: $(PROGRAM)
 	@mkdir -p $(BUILD)/figures; cd $(BUILD)/figures && failed=0 && \
 	for deck in $(filter-out $(CURDIR)/input/workprec_%,$(wildcard $(CURDIR)/input/*.nml)); do \
 	  echo "$${deck##*/}"; $(abspath $(PROGRAM)) --quiet $$deck >/dev/null || [ $$? -eq 3 ] || failed=1; \
-	done; $${PYTHON:-/usr/bin/python3} $(CURDIR)/plots/plot.py *.h5 && exit $$failed
+	done; plot="$${PYTHON:-/usr/bin/python3} $(CURDIR)/plots/plot.py"; \
+	$$plot *.h5 && $$plot --surface f10.h5 && exit $$failed
+
+# The few pictures that docs/gallery.md shows, small, from what `make figures` left.
+GALLERY := f07 f08 f09 hysteresis cascade
+gallery:
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 70 -o docs/gallery \
+	  $(GALLERY:%=$(BUILD)/figures/%.h5)
 
 style:
 	@tests/style.sh

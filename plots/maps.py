@@ -81,7 +81,11 @@ def draw_clouds(ax, h):
 def wells_apart(h, index, thin):
     """Numbers of ends for numbers of attractors; a name and a colour for each well of each."""
     names, _ = attractor_styles(h)
-    attractor, well = h["basin_well_attractor"], h["basin_well_number"]
+    if "basin_well_fraction" in h:
+        attractor, well = h["basin_well_attractor"], h["basin_well_number"]
+    else:
+        well = np.unique(h["well"][h["attractor_index"] >= 0])
+        attractor = np.zeros_like(well)
     span = int(np.max(np.abs(well), initial=0)) + 1
     keys = attractor.astype(np.int64) * 2 * span + well  # ascending, as the wells are
     here = index.astype(np.int64) * 2 * span + h["well"][:: thin[0], :: thin[1]]
@@ -98,7 +102,8 @@ def draw_basins(h, path):
     index = h["attractor_index"][:: thin[0], :: thin[1]]
     names, colours = attractor_styles(h)
     extent = (x[0] / np.pi, x[-1] / np.pi, v[0], v[-1])
-    if "basin_well_fraction" in h:
+    # Where all starts end on one attractor, the well is what they differ in.
+    if "basin_well_fraction" in h or (len(names) == 1 and np.ptp(h["well"]) > 0):
         ends, well_names, well_colours = wells_apart(h, index, thin)
         label_plane(fig, ax, ends, extent, well_names, well_colours)
     else:
@@ -153,8 +158,7 @@ def add_bifurcations(ax, h):
 def draw_phase_diagram(h, path):
     if len(h["damping"]) < 2 or len(h[h.axis_of("regime", 1)]) < 2:
         return draw_one_damping(h)
-    # The paper's Fig. 10 is a surface; any other run is one where the command line asks for it.
-    if h.text("deck").startswith("f10") or h.options.surface:
+    if h.options.surface:
         return draw_surface(h)
     name = h.axis_of("regime", 1)
     drive, label = parameter_axis(h, h[name], name)

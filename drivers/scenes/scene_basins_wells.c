@@ -103,7 +103,8 @@ void basins_print_wells(const basins *b, FILE *out)
     several += i > 0 && wells[i].attractor == wells[i - 1].attractor;
   }
   if (several == 0) return;
-  fprintf(out, "%zu attractor%s in %zu wells, %ld to %ld; boundaries here are between %s\n",
+  fprintf(out, "%zu attractor%s in %zu wells, %ld to %ld; boundaries here are between %s%s\n",
           n - several, n - several > 1 ? "s" : "", n, wells[least].well, wells[most].well,
-          b->grid.by == PENDRES_BASIN_BY_WELL ? "wells" : "attractors");
+          b->grid.by == PENDRES_BASIN_BY_WELL ? "wells" : "attractors",
+          b->grid.by == PENDRES_BASIN_BY_WELL ? "" : " (with basins.by = 'well' between wells)");
 }
