@@ -172,46 +172,40 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-static pendres_status put(scene_run *run, const char *name, const char *dimension,
-                          const char *long_name, const char *units, const double *value,
-                          const double *error, size_t n)
-{
-  const pendres_store_spec spec = { .name = name, .dimensions = { dimension },
-                                    .long_name = long_name, .units = units };
-  const pendres_status status = pendres_store_put_result(run->store, &spec, value, error, n);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
-}
+/* A sample with the drive. */
+typedef struct row {
+  double drive_phase, drive_phase_error, x, x_error, v, v_error, drive, drive_error;
+} row;
+
+static const scene_column of_samples[] = {
+  SCENE_COLUMN(row, drive_phase, "phase of the drive, omega t", "rad"),
+  SCENE_COLUMN(row, x, "position", "rad"),
+  SCENE_COLUMN(row, v, "velocity", "1"),
+  SCENE_COLUMN(row, drive, "drive, F0 cos(omega t)", "1"),
+};
 
 static pendres_status put_samples(scene_run *run, const work *w)
 {
   const size_t n = w->points;
   const double samples = (double)w->d->orbit.samples, f0 = w->pendulum.drive_amplitude;
-  double *value = malloc(2 * n * sizeof *value);
-  if (value == NULL)
+  row *rows = malloc(n * sizeof *rows);
+  if (rows == NULL)
     return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  double *error = value + n;
-
+  for (size_t k = 0; k < n; k++) {
+    const size_t within = k % (size_t)w->d->orbit.samples; /* no need for large arguments */
+    const double phase = 2.0 * PENDRES_PI * (double)k / samples;
+    const double drive = f0 * cos(2.0 * PENDRES_PI * (double)within / samples);
+    rows[k] = (row){phase,   eps * phase,   w->x[k], w->x_error[k],
+                    w->v[k], w->v_error[k], drive,   8.0 * eps * fabs(f0)};
+  }
+  const scene_table table = {.dimensions = {"sample"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
   pendres_status status =
     pendres_store_dimension(run->store, NULL, "sample", n, NULL, "number of the sample", "1");
   if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-  for (size_t k = 0; k < n; k++) {
-    value[k] = 2.0 * PENDRES_PI * (double)k / samples;
-    error[k] = eps * value[k];
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "drive_phase", "sample", "phase of the drive, omega t", "rad", value, error,
-                 n);
-  if (status == PENDRES_OK)
-    status = put(run, "x", "sample", "position", "rad", w->x, w->x_error, n);
-  if (status == PENDRES_OK) status = put(run, "v", "sample", "velocity", "1", w->v, w->v_error, n);
-  for (size_t k = 0; k < n; k++) {
-    const size_t within = k % (size_t)w->d->orbit.samples; /* no need for large arguments */
-    value[k] = f0 * cos(2.0 * PENDRES_PI * (double)within / samples);
-    error[k] = 8.0 * eps * fabs(f0);
-  }
-  if (status == PENDRES_OK)
-    status = put(run, "drive", "sample", "drive, F0 cos(omega t)", "1", value, error, n);
-  free(value);
+  else
+    status = scene_columns_write(run, &table, sizeof of_samples / sizeof *of_samples, of_samples);
+  free(rows);
   return status;
 }
 
@@ -259,47 +253,63 @@ static pendres_status put_scalars(scene_run *run, const work *w)
                       (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
     const double value = there ? scalars[i].value : NAN;
     const double error = isnan(value) ? NAN : scalars[i].error;
-    status = put(run, scalars[i].name, NULL, scalars[i].long_name, scalars[i].units, &value,
-                 &error, 1);
+    const double pair[2] = {value, error};
+    const scene_column column = {.name = scalars[i].name, .long_name = scalars[i].long_name,
+                                 .units = scalars[i].units, .error = sizeof value};
+    const scene_table table = {.n = 1, .stride = sizeof pair, .rows = pair};
+    status = scene_columns_write(run, &table, 1, &column);
   }
   return status;
 }
 
+/* What it is. */
+typedef struct verdict {
+  int label, failed;
+} verdict;
+
+static const scene_column of_verdicts[] = {
+  {.name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
+   .value = offsetof(verdict, label), .names = scene_label_names},
+  {.name = "failed", .long_name = "why there is no orbit", .type = SCENE_FLAG,
+   .value = offsetof(verdict, failed), .names = scene_failure_names},
+};
+
 static pendres_status put_label(scene_run *run, const work *w)
 {
-  const found *f = &w->found;
-  const char *meanings[PENDRES_LABEL_COUNT];
-  const int8_t label = (int8_t)f->label;
-  for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
-    meanings[i] = pendres_label_name((pendres_label)i);
-  const pendres_store_spec spec = { .name = "label", .type = PENDRES_STORE_INT8,
-                                    .long_name = "kind of attractor",
-                                    .flag_count = PENDRES_LABEL_COUNT, .flag_meanings = meanings };
-  const int lost = f->label == PENDRES_LABEL_UNRESOLVED && !w->transient;
-  const int8_t failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
-  pendres_store_spec mark = { .name = "failed", .long_name = "why there is no orbit" };
-  scene_failure_flags(&mark);
-  pendres_status status = pendres_store_put(run->store, &spec, &label, 1);
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &mark, &failed, 1);
+  const int lost = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const verdict of = {(int)w->found.label, lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE};
+  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
   if (lost) scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "orbit");
   run->failed_points = (size_t)lost;
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_columns_write(run, &table, sizeof of_verdicts / sizeof *of_verdicts, of_verdicts);
 }
+
+typedef struct multiplier {
+  double re, im, error;
+} multiplier;
+
+static const scene_column of_multipliers[] = {
+  {.name = "multiplier_re", .long_name = "Floquet multiplier, real part", .units = "1",
+   .value = offsetof(multiplier, re), .error = offsetof(multiplier, error)},
+  {.name = "multiplier_im", .long_name = "Floquet multiplier, imaginary part", .units = "1",
+   .value = offsetof(multiplier, im), .error = offsetof(multiplier, error)},
+};
 
 static pendres_status put_multipliers(scene_run *run, const work *w)
 {
   const found *f = &w->found;
-  const double nan[MULTIPLIERS] = { NAN, NAN };
-  const double error[MULTIPLIERS] = { f->orbit.multiplier_error, f->orbit.multiplier_error };
-  pendres_status status = pendres_store_dimension(run->store, NULL, "multiplier", MULTIPLIERS, NULL,
-                                                  "number of the Floquet multiplier", "1");
+  multiplier rows[MULTIPLIERS];
+  const scene_table table = {.dimensions = {"multiplier"}, .n = MULTIPLIERS,
+                             .stride = sizeof *rows, .rows = rows};
+  for (int i = 0; i < MULTIPLIERS; i++)
+    rows[i] = f->closed ? (multiplier){f->orbit.multiplier_re[i], f->orbit.multiplier_im[i],
+                                       f->orbit.multiplier_error}
+                        : (multiplier){NAN, NAN, NAN};
+  const pendres_status status = pendres_store_dimension(
+    run->store, NULL, "multiplier", MULTIPLIERS, NULL, "number of the Floquet multiplier", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = put(run, "multiplier_re", "multiplier", "Floquet multiplier, real part", "1",
-               f->closed ? f->orbit.multiplier_re : nan, f->closed ? error : nan, MULTIPLIERS);
-  if (status == PENDRES_OK)
-    status = put(run, "multiplier_im", "multiplier", "Floquet multiplier, imaginary part", "1",
-                 f->closed ? f->orbit.multiplier_im : nan, f->closed ? error : nan, MULTIPLIERS);
-  return status;
+  return scene_columns_write(run, &table, sizeof of_multipliers / sizeof *of_multipliers,
+                             of_multipliers);
 }
 
 static void tabulate(FILE *out, const work *w)
