@@ -228,8 +228,41 @@ def draw_switching(h, path):
     return fig
 
 
+def draw_ramp(h, name):
+    """Strobe points while the parameter moves, the ends of states and when they are left, and how
+    noise scatters that."""
+    noisy = "jump_noisy_parameter" in h
+    fig, axes = figure(h, 5.2, 4.8 if noisy else 3.4, 2 if noisy else 1, 1, sharex=True,
+                       **({"height_ratios": (2, 1)} if noisy else {}))
+    top = axes[0] if noisy else axes
+    for way in range(2):
+        x, label = parameter_axis(h, h["ramp_parameter"][way], name)
+        angle = np.remainder(h["ramp_x"][way] + np.pi / 2, 2 * np.pi) - np.pi / 2
+        top.plot(x, angle, lw=0.9, color=f"C{way}", label=f"{('up', 'down')[way]}, strobe")
+    for k, way in enumerate(h["jump_direction"]):
+        lines = [("jump_parameter", "-", "quasi-static"), ("jump_ramp_parameter", "--", "real time")]
+        for what, style, text in lines:
+            at = parameter_axis(h, h[what][k], name)[0]
+            for ax in np.atleast_1d(axes):
+                if np.isfinite(at):
+                    ax.axvline(at, color=f"C{way}", lw=0.8, ls=style,
+                               label=text if ax is top and k == 0 else None)
+        values = h["jump_noisy_parameter"][k] if noisy else np.array([])
+        values = values[np.isfinite(values)]
+        if len(values) > 1:
+            axes[1].hist(parameter_axis(h, values, name)[0], bins="auto", color=f"C{way}", alpha=0.5)
+    top.set_ylabel("x at drive phase 0 (rad)")
+    legend(top)
+    if noisy:
+        axes[1].set_ylabel(f"jumps at $T = {h['temperature']:g}$")
+    np.atleast_1d(axes)[-1].set_xlabel(label)
+    return fig
+
+
 def draw_hysteresis(h, path):
     name = h.axis_of("amplitude", 1)
+    if "ramp_parameter" in h:
+        return draw_ramp(h, name)
     x, label = parameter_axis(h, h[name], name)
     fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
     for way, marker in enumerate("^v"):

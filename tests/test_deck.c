@@ -83,6 +83,11 @@ static void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->basins.seed, b->basins.seed);
   assert_int_equal(a->basins.trajectories, b->basins.trajectories);
   assert_string_equal(a->basins.by, b->basins.by);
+  assert_true(a->ramp.rate == b->ramp.rate || (isnan(a->ramp.rate) && isnan(b->ramp.rate)));
+  assert_int_equal(a->ramp.points, b->ramp.points);
+  assert_int_equal(a->ramp.protocol.count, b->ramp.protocol.count);
+  for (size_t i = 0; i < a->ramp.protocol.count; i++)
+    assert_true(a->ramp.protocol.number[i] == b->ramp.protocol.number[i]);
   assert_names_equal(&a->methods, &b->methods);
   assert_string_equal(a->unit, b->unit);
   assert_names_equal(&a->cases, &b->cases);
@@ -127,6 +132,9 @@ static const char *const good[] = {
   "&sweep drive_frequency_range=0.6,0.9,31 /\n&hysteresis start='sa' /\n",
   "&scene kind='hysteresis' /\n&pendulum drive_period=8 damping=0.12 /\n"
   "&sweep drive_amplitude=0.1,0.3 /\n&hysteresis x=1 v=0.5 /\n",
+  "&scene kind='hysteresis' /\n&pendulum drive_period=8 damping=0.12 temperature=0.01 /\n"
+  "&sweep drive_amplitude=0.1,0.3 /\n"
+  "&hysteresis x=1 protocol=0,0.1,50,0.1,2000,0.3 points=7 /\n&noise seed=3 /\n",
   "&scene kind='bifurcation_diagram' /\n&pendulum drive_frequency=0.66 damping=0.5 /\n"
   "&sweep drive_amplitude_range=1.0,1.1,9 /\n&bifurcation_diagram x=1 v=0.1 strobes=50 /\n",
   "&scene kind='lyapunov_map' /\n&pendulum drive_frequency=0.66 /\n"
@@ -468,7 +476,7 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
                                                             "4:1 &orbit is not used by scene 'resonance_curve' (only by: orbit)" } },
   { ORBIT "&orbit start='sa' /\n&ensemble members=3 /", { "4:1 &ensemble is not used" } },
   { "&scene kind='orbit' /\n&pendulum drive_amplitude=0.2 damping=0.12 drive_period=8 temperature=1 /\n&orbit start='sa' /",
-    { "2:59 'temperature' in &pendulum is not used by scene 'orbit' (only by: response, basins, switching)" } },
+    { "2:59 'temperature' in &pendulum is not used by scene 'orbit' (only by: response, basins, switching, hysteresis)" } },
   { "&scene kind='orbit' /", { "1:13 needs a group &pendulum with 'drive_amplitude', 'damping'",
                                "1:13 'drive_frequency' or 'drive_period'", "1:13 'start'" } },
   { "&scene kind='orbit' /\n&pendulum damping=1 /\n&orbit v=1 /",

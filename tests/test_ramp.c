@@ -1,6 +1,6 @@
 /*
- * test_ramp.c -- parameters that move in real time: trajectories, delays past a fold, and jumps that
- * scatter with noise.
+ * test_ramp.c -- parameters that move in real time: trajectories, delays past a fold, and jumps
+ * that scatter with noise.
  *
  * Trajectories are compared with the classical Runge-Kutta method; delays with the normal form of a
  * fold, whose one constant comes from multipliers of the orbits before it; scattered jumps with
@@ -74,7 +74,8 @@ static void lay(pendres_context *ctx, course *c, pendres_pendulum p, pendres_par
     value[i] = value[MOST_POINTS - 1 - i] = from + (to - from) * (double)i / (POINTS - 1);
   pendres_parameter_set(parameter, from, &p);
   const pendres_attractor a = start_of(ctx, &p);
-  *c = (course){.period = {0, periods, 2 * periods}, .value = {value[0], value[POINTS - 1], value[0]}};
+  *c = (course){.period = {0, periods, 2 * periods},
+                .value = {value[0], value[POINTS - 1], value[0]}};
   check_ok(pendres_hysteresis_follow(ctx, &p, parameter, a.orbit.x, a.orbit.v, n, value, &c->path));
   c->ramp = (pendres_ramp){.pendulum = p, .parameter = parameter, .corners = back ? 3 : 2,
                            .period = c->period, .value = c->value, .points = n,
@@ -186,8 +187,8 @@ static void delays(void **state)
   }
   /* Over three decades, next terms left out: they go as rate^(1/3) log rate and make 0.009. */
   check_near(log(delay[0] / delay[3]) / (log_rate[0] - log_rate[3]), 2.0 / 3.0, 0.012);
-  /* With these terms: scaled = a + rate^(1/3) (b log rate + c), from the slowest three. What is left
-     out goes as rate^(2/3). */
+  /* With these terms: scaled = a + rate^(1/3) (b log rate + c), from the slowest three. What is
+     left out goes as rate^(2/3). */
   double z[3], q[3];
   for (size_t i = 0; i < 3; i++) {
     z[i] = cbrt(rate[i + 1]);

@@ -99,6 +99,12 @@ typedef struct deck_names {
   size_t count;
 } deck_names;
 
+/** A list of numbers. */
+typedef struct deck_numbers {
+  double *number;
+  size_t count;
+} deck_numbers;
+
 /**
  * A deck. A quantity that is an axis of the scene is in axis[] alone, also where the deck gives
  * one value of it in &pendulum; its field in `pendulum` is then NaN. Fields that the scene does
@@ -156,6 +162,12 @@ typedef struct deck {
     int64_t samples;        /* per period */
     int transient;          /* nonzero: record from the start instead of after settling */
   } orbit;
+
+  struct {                  /* of the scene hysteresis, in real time */
+    double rate;            /* of the parameter a drive period; NaN: none was given */
+    deck_numbers protocol;  /* time, value, time, value, ... */
+    int64_t points;         /* recorded each way, at most */
+  } ramp;
 
   struct {
     int64_t strobes;        /* of the scene bifurcation_diagram, at each value */
@@ -232,6 +244,9 @@ pendres_status deck_resolved(const deck *d, char **text);
 
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);
+
+/** Does a parameter move in real time? */
+int deck_has_ramp(const deck *d);
 
 /** The seed of its random numbers. */
 uint64_t deck_seed(const deck *d);

@@ -159,6 +159,7 @@ static void check_idle_keys(deck_builder *b)
 {
   static const char *const why[] = {
     [DECK_WITH_NOISE] = "it concerns noise, and there is no 'temperature' above 0",
+    [DECK_WITH_RAMP] = "it concerns ramps, and there is no 'rate' or 'protocol'",
     [DECK_WITHOUT_START] = "'start' names an attractor",
     [DECK_OFF_LINE] = "the starts are on a line, see 'shape'",
     [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
@@ -236,6 +237,46 @@ static void check_moving(deck_builder *b)
   if ((b->scene & (1u << DECK_HYSTERESIS | 1u << DECK_BIFURCATION_DIAGRAM)) != 0 && b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
     complain(b, given(b, "sweep", "drive_period"), "drive_period",
              "what is swept is the drive's frequency: give 'drive_frequency'");
+}
+
+/* A table of times and values goes along the axis. */
+static const char *refuse_protocol(const deck_numbers *p, const deck_axis *axis)
+{
+  if (p->count < 4 || p->count % 2 != 0) return "takes pairs of a time and a value, two or more";
+  if (p->number[0] != 0.0) return "starts at time 0";
+  if (p->number[1] != axis->value[0] || p->number[p->count - 1] != axis->value[axis->count - 1])
+    return "goes from the first value of the sweep to its last";
+  for (size_t i = 0; i < p->count; i += 2) {
+    if (p->number[i] != rint(p->number[i])) return "has times of whole drive periods";
+    if (i > 0 && !(p->number[i] > p->number[i - 2])) return "has times that ascend";
+    if (i > 0 && p->number[i + 1] < p->number[i - 1])
+      return "has values that ascend: the way down is the same backwards";
+  }
+  return NULL;
+}
+
+static void check_ramp(deck_builder *b)
+{
+  const deck *d = b->d;
+  deck_axis_id axis = DECK_AXIS_COUNT;
+  if (b->scene != 1u << DECK_HYSTERESIS || deck_moving(d, 1, &axis) != 1) return;
+  const deck_given *rate = given(b, "hysteresis", "rate");
+  const deck_given *protocol = given(b, "hysteresis", "protocol");
+  const deck_given *temperature = given(b, "pendulum", "temperature");
+  if (!temperature->given) temperature = given(b, "sweep", "temperature");
+  const deck_axis *a = &d->axis[axis], *t = &d->axis[DECK_AXIS_TEMPERATURE];
+  const char *why = protocol->given ? refuse_protocol(&d->ramp.protocol, a) : NULL;
+  if (rate->given && protocol->given)
+    complain(b, protocol, "protocol", "give either 'rate' or 'protocol', not both");
+  else if (why != NULL)
+    namelist_error_at(protocol->nl, protocol->line, protocol->column, 8, b->errors,
+                      "'protocol' %s", why);
+  if (rate->given && (a->value[a->count - 1] - a->value[0]) / d->ramp.rate > 1e9)
+    complain(b, rate, "rate", "at so small a 'rate' the sweep takes more than 1e9 drive periods");
+  if (t->count > 1) complain(b, temperature, "temperature", "a ramp has one 'temperature'");
+  else if (t->count == 1 && t->value[0] > 0.0 && !deck_has_ramp(d))
+    complain(b, temperature, "temperature",
+             "noise concerns ramps: 'temperature' goes with 'rate' or 'protocol' in &hysteresis");
 }
 
 /* ---- sizes and the rest -------------------------------------------------------------------- */
@@ -337,6 +378,7 @@ void deck_check(deck_builder *b)
   expand_axes(b);
   check_idle_keys(b);
   if (b->errors->count == 0) check_moving(b);
+  if (b->errors->count == 0) check_ramp(b);
   check_size(b);
   check_plane(b);
   check_output(b);

@@ -92,7 +92,9 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
     dump_axis(key, &d->axis[key->axis], stream);
     return;
   }
+  const deck_numbers *numbers = f;
   if (key->type == DECK_CHOICES && names->count == 0) return;
+  if (key->type == DECK_LIST && numbers->count == 0) return;
   w = begin(stream, key->name, "");
   switch (key->type) {
   case DECK_REAL:
@@ -104,6 +106,9 @@ static void dump_key(const deck_key *key, const deck *d, FILE *stream)
     break;
   case DECK_NUMBERS:
     for (size_t i = 0; i < key->size / sizeof(double); i++) put_real(&w, ((const double *)f)[i]);
+    break;
+  case DECK_LIST:
+    for (size_t i = 0; i < numbers->count; i++) put_real(&w, numbers->number[i]);
     break;
   case DECK_INTEGER:
     put_integer(&w, *(const int64_t *)f);

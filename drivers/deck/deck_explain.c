@@ -28,7 +28,8 @@ static void add_number(char *text, double x)
 static int is_number(const deck_key *key)
 {
   return key->type == DECK_REAL || key->type == DECK_INTEGER || key->type == DECK_BOUNDS ||
-         key->type == DECK_NUMBERS || key->type == DECK_SWEEP || key->type == DECK_SWEEP_VALUE;
+         key->type == DECK_NUMBERS || key->type == DECK_LIST || key->type == DECK_SWEEP ||
+         key->type == DECK_SWEEP_VALUE;
 }
 
 /* "'sa', 'la'": the empty choice, which means that none was made, is not told. */
@@ -52,7 +53,7 @@ static void add_form(char *text, const deck_key *key)
     [DECK_REAL] = "a number", [DECK_INTEGER] = "a whole number",
     [DECK_LOGICAL] = ".true. or .false.", [DECK_STRING] = "a string", [DECK_CHOICE] = "one of ",
     [DECK_CHOICES] = "some of ", [DECK_BOUNDS] = "two ascending numbers",
-    [DECK_NUMBERS] = "some numbers, each", [DECK_SWEEP] = "numbers",
+    [DECK_NUMBERS] = "some numbers, each", [DECK_LIST] = "numbers, each", [DECK_SWEEP] = "numbers",
     [DECK_SWEEP_VALUE] = "a number",
   };
   add(text, form[key->type]);
@@ -131,6 +132,7 @@ static const char *condition(const deck_key *key)
 {
   switch (key->when) {
   case DECK_WITH_NOISE: return "only with a temperature above 0";
+  case DECK_WITH_RAMP: return "only with 'rate' or 'protocol'";
   case DECK_WITHOUT_START: return "only where 'start' is not given";
   case DECK_OFF_LINE: return "only with shape = 'rectangle' or 'random'";
   case DECK_IN_RECTANGLE: return "only with shape = 'rectangle'";

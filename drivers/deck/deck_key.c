@@ -200,6 +200,23 @@ static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_ar
   return good;
 }
 
+static int apply_list(deck_builder *b, const deck_key *key, const namelist_array *array)
+{
+  deck_numbers *list = field(b->d, key);
+  int good = 1;
+  double *number = malloc(array->count * sizeof *number);
+  if (number == NULL) {
+    b->out_of_memory = 1;
+    return 0;
+  }
+  for (size_t i = 0; i < array->count; i++)
+    if (!read_real(b, key, array->item[i], key->name, &number[i])) good = 0;
+  free(list->number);
+  list->number = number;
+  list->count = good ? array->count : 0;
+  return good;
+}
+
 static int apply_range(deck_builder *b, const deck_key *key, const namelist_array *array,
                        const char *name)
 {
@@ -255,7 +272,7 @@ static int apply_listed(deck_builder *b, const deck_key *key, const namelist_arr
 
 static int is_list(const deck_key *key)
 {
-  return key->type == DECK_CHOICES || key->type == DECK_SWEEP;
+  return key->type == DECK_CHOICES || key->type == DECK_LIST || key->type == DECK_SWEEP;
 }
 
 /* Is it the name of a key of that group, so that its equals sign has probably been forgotten? */
@@ -328,6 +345,7 @@ void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, in
     good = apply_listed(b, key, array);
   else if (good && key->type == DECK_BOUNDS) good = apply_bounds(b, key, array);
   else if (good && key->type == DECK_NUMBERS) good = apply_numbers(b, key, array);
+  else if (good && key->type == DECK_LIST) good = apply_list(b, key, array);
   else if (good && is_list(key)) good = apply_names(b, key, array);
   else if (good) good = apply_scalar(b, key, array->item[0]);
   if (good) given->given = 1;
@@ -369,6 +387,11 @@ int deck_has_noise(const deck *d)
   return t->count > 0 && t->value[t->count - 1] > 0.0;
 }
 
+int deck_has_ramp(const deck *d)
+{
+  return d->kind == DECK_HYSTERESIS && (d->ramp.rate > 0.0 || d->ramp.protocol.count > 0);
+}
+
 uint64_t deck_seed(const deck *d)
 {
   return (uint64_t)(d->kind == DECK_BASINS ? d->basins.seed : d->noise.seed);
@@ -379,6 +402,8 @@ int deck_key_applies(const deck_key *key, const deck *d)
   switch (key->when) {
   case DECK_WITH_NOISE:
     return deck_has_noise(d);
+  case DECK_WITH_RAMP:
+    return deck_has_ramp(d);
   case DECK_WITHOUT_START:
     return d->orbit.start[0] == '\0';
   case DECK_OFF_LINE:

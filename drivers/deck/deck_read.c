@@ -219,5 +219,6 @@ void deck_free(deck *d)
   }
   free(d->methods.name);
   free(d->cases.name);
+  free(d->ramp.protocol.number);
   *d = (deck){ 0 };
 }

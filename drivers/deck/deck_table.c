@@ -54,6 +54,7 @@
 #define CHOICES(g, n, f) .group = g, .name = n, .type = DECK_CHOICES, FIELD(f)
 #define BOUNDS(g, n, f) .group = g, .name = n, .type = DECK_BOUNDS, FIELD(f)
 #define NUMBERS(g, n, f) .group = g, .name = n, .type = DECK_NUMBERS, FIELD(f)
+#define LIST(g, n, f) .group = g, .name = n, .type = DECK_LIST, FIELD(f)
 #define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
 #define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
 #define IN(s) .scenes = (s)
@@ -148,7 +149,7 @@ const deck_key deck_table[] = {
   { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients), IN(MODELS),
     RANGE(-BIG, BIG),
     SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5") },
-  { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE,
+  { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE,
     SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
 
@@ -184,7 +185,7 @@ const deck_key deck_table[] = {
     SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
   { SWEEP("v", V), NEEDED_IN(BASINS), RANGE(-BIG, BIG), EXAMPLE("-2.5, 2.5, 64"),
     SAYS("omega0", "initial velocity") },
-  { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS), NOT_NEGATIVE },
+  { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE },
   { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE,
     EXAMPLE("0.0125, 0.02, 3") },
   { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2),
@@ -243,6 +244,17 @@ const deck_key deck_table[] = {
   { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
     .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
 
+  { REAL("hysteresis", "rate", ramp.rate), IN(HYSTERESIS), POSITIVE, .number = NAN,
+    SAYS("1", "what the swept parameter moves by in a drive period: beside the sweep without end it "
+         "is also moved in real time, up and then down") },
+  { LIST("hysteresis", "protocol", ramp.protocol), IN(HYSTERESIS), RANGE(-BIG, 0x1p31),
+    SAYS(NULL, "instead of 'rate': time, value, time, value, ... of the way up, with straight lines "
+         "between; times are whole drive periods from 0 on, values go from the first of the sweep "
+         "to its last. The way down is the same backwards") },
+  { INTEGER("hysteresis", "points", ramp.points), IN(HYSTERESIS), RANGE(1, DECK_MAX_COUNT),
+    .number = 1000, .when = DECK_WITH_RAMP,
+    SAYS(NULL, "points recorded each way, at most") },
+
   { CHOICE("bifurcation_diagram", "start", orbit.start), IN(DIAGRAM), .choices = starts,
     EXAMPLE("'1'") },
   { REAL("bifurcation_diagram", "x", orbit.x), IN(DIAGRAM), RANGE(-BIG, BIG), .number = NAN,
@@ -288,11 +300,13 @@ const deck_key deck_table[] = {
     RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
     SAYS(NULL, "number of the other state; with 'from'") },
 
-  { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING), RANGE(0, 0x1p63),
+  { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING | HYSTERESIS), RANGE(0, 0x1p63),
     .number = 1, .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
   { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING),
     RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE,
     SAYS(NULL, "independent noisy trajectories at each temperature") },
+  { INTEGER("noise", "trajectories", noise.trajectories), IN(HYSTERESIS),
+    RANGE(1, DECK_MAX_COUNT), .number = 384, .when = DECK_WITH_NOISE },
   { INTEGER("noise", "periods", noise.periods), IN(RESPONSE | SWITCHING), RANGE(1, 1e9),
     .number = 1000, .when = DECK_WITH_NOISE,
     SAYS(NULL, "drive periods over which each trajectory is followed") },

@@ -16,6 +16,7 @@ typedef enum deck_type {
   DECK_CHOICES,    /* several of them */
   DECK_BOUNDS,     /* two ascending numbers */
   DECK_NUMBERS,    /* as many numbers as the field holds, zero where none is given */
+  DECK_LIST,       /* any number of numbers */
   DECK_SWEEP,      /* an axis: NAME = values, NAME_range = first, last, count */
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
 } deck_type;
@@ -24,6 +25,7 @@ typedef enum deck_type {
 typedef enum deck_when {
   DECK_ALWAYS = 0,
   DECK_WITH_NOISE,     /* only with a temperature above 0 */
+  DECK_WITH_RAMP,      /* only where a parameter moves in real time */
   DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
   DECK_OFF_LINE,       /* only where ensemble.shape is no line */
   DECK_IN_RECTANGLE,   /* only where it is a rectangle */

@@ -162,8 +162,9 @@ pendres_status scene_write_identity(scene_run *run)
   const deck *d = run->deck;
   static const deck_axis_id parameters[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
                                              DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
-                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
-  char coordinates[(6 + PENDRES_FORCE_COEFFICIENTS) * DECK_NAME] = "";
+                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE,
+                                             DECK_AXIS_TEMPERATURE };
+  char coordinates[(7 + PENDRES_FORCE_COEFFICIENTS) * DECK_NAME] = "";
   const char *slash = strrchr(d->name, '/');
   pendres_status status =
     pendres_store_attribute_text(run->store, "", NULL, "scene", deck_kind_name(d->kind));
@@ -174,6 +175,8 @@ pendres_status scene_write_identity(scene_run *run)
     const deck_axis_id axis = parameters[i];
     const double value = scene_fixed(d, axis);
     if (isnan(value)) continue;
+    /* Elsewhere it is a dimension, also where it has one value. */
+    if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) continue;
     const pendres_store_spec spec = { .name = deck_axis_name(axis),
                                       .long_name = about[axis].words,
                                       .units = about[axis].units };

@@ -6,6 +6,7 @@
 
 #include "scenes/scene_along.h"
 #include "scenes/scene_failed.h"
+#include "scenes/scene_ramp.h"
 
 enum { DIRECTIONS = 2, TABLE_JUMPS = 40 };
 
@@ -164,6 +165,7 @@ static pendres_status run_scene(scene_run *run)
   pendres_status status = scene_compute(run, &stage);
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);
+  if (status == PENDRES_OK) status = scene_ramp_run(run, w.axis, &w.path);
   scene_along_path_free(&w.path);
   return status;
 }
@@ -177,6 +179,7 @@ static void plan(const deck *d, FILE *out)
           deck_axis_name(axis), a->value[0], a->value[a->count - 1], a->count);
   if (d->orbit.start[0] != '\0') fprintf(out, "it starts on attractor '%s'\n", d->orbit.start);
   else fprintf(out, "it starts at x = %g, v = %g\n", d->orbit.x, d->orbit.v);
+  scene_ramp_plan(d, axis, out);
 }
 
 const scene_kind scene_hysteresis = {

@@ -15,8 +15,8 @@
  * harmonic of the old state, at the same value of the parameter or, beyond its end, at the last
  * value that it has, than half the distance between the old state and the new one, and does not
  * come back within the time 2/damping in which a motion dies away. Where old and new state differ
- * by their mean velocity, by half a radian a period or more, that takes the harmonic's place. Within
- * a period the time is interpolated. What is called a delay is, for slow ramps past a fold, 2.338
+ * by their mean velocity, by half a radian a period or more, that takes the harmonic's place.
+ * Within a period the time is interpolated. What is called a delay is, for slow ramps past a fold, 2.338
  * times a time that grows as rate^(-1/3), plus terms that grow as less: it depends on this
  * definition by some drive periods.
  *
@@ -24,7 +24,8 @@
  * zero as well. Parameters stand still within a step, at their value in its middle.
  *
  * Source: Haberman, SIAM Journal on Applied Mathematics 37 (1979) 69, for delays past a fold;
- * Fulton and Dunkleberger, Physical Review B 9 (1974) 4760, for distributions of switching currents.
+ * Fulton and Dunkleberger, Physical Review B 9 (1974) 4760, for distributions of switching
+ * currents.
  *
  * Thread safety: that of the context (context.h); functions without one are pure.
  */
@@ -49,7 +50,8 @@ typedef struct pendres_ramp {
   const pendres_hysteresis_point *point; /**< [points] the path, as pendres_hysteresis_get(h, 0)
                                     points to it: through the same values in the same order. The
                                     ramp starts at its first value, in the state of its first point;
-                                    more points between two values make the old state better known */
+                                    more points between two values make the old state better
+                                    known */
   size_t jumps;                /**< on the path */
   const pendres_jump *jump;    /**< [jumps] as pendres_hysteresis_jump(h, 0) points to them */
 } pendres_ramp;

@@ -4,13 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
 #include "noise/langevin_moving.h"
 #include "questions/hysteresis_jump.h"
 #include "questions/ramp_watch.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 enum { FEWEST_STEPS = 16, MOST_STEPS = 65536, PROBES = 8 };
 
@@ -194,9 +193,9 @@ static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t 
 }
 
 /*
- * Half as many steps are off by four times as much where the parameter's motion counts, at order two,
- * and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth to a
- * third of the distance. Both together may cancel in part, and so all of it is claimed.
+ * Half as many steps are off by four times as much where the parameter's motion counts, at order
+ * two, and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth to
+ * a third of the distance. Both together may cancel in part, and so all of it is claimed.
  */
 static double error_of(double distance)
 {

@@ -4,10 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
 #include "questions/hysteresis_jump.h"
-
-static const double two_pi = 6.28318530717958647693;
 
 /* Of mean velocities, in radians a period: states that differ by more are told apart by them. */
 static const double advance_apart = 0.5;
