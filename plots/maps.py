@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from curves import bifurcation_curves
-from style import (COEXISTENCE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around, colours_of,
+from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around, colours_of,
                    figure, frequency, parameter_axis, plt)
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
@@ -30,10 +30,14 @@ def attractor_styles(h):
 
 
 def label_plane(fig, ax, index, extent, names, colours):
-    """Numbers of attractors as coloured areas, with a bar of their names; -1 is unresolved."""
+    """Numbers of attractors as coloured areas, with a bar of their names; -1 is unresolved, -2
+    escapes."""
     first = 0
-    if np.any(index < 0):
+    if np.any(index == -1):
         names, colours, first = ["unresolved"] + names, [UNRESOLVED] + colours, -1
+    if np.any(index == -2):
+        names, colours, first = ["escape"] + names, [ESCAPE] + colours, first - 1
+        index = np.where(index == -2, first, index)
     n = max(len(names), 1)
     mesh = ax.imshow(index.T, origin="lower", aspect="auto", interpolation="nearest",
                      extent=extent, cmap=ListedColormap(colours or [UNRESOLVED]),
@@ -89,7 +93,7 @@ def wells_apart(h, index, thin):
     span = int(np.max(np.abs(well), initial=0)) + 1
     keys = attractor.astype(np.int64) * 2 * span + well  # ascending, as the wells are
     here = index.astype(np.int64) * 2 * span + h["well"][:: thin[0], :: thin[1]]
-    ends = np.where(index >= 0, np.searchsorted(keys, here), -1)
+    ends = np.where(index >= 0, np.searchsorted(keys, here), index)
     several = len(names) > 1
     return (ends, [f"{names[a]}, {w}" if several else f"well {w}" for a, w in zip(attractor, well)],
             [plt.get_cmap("tab20")(i * 7 % 20) for i in range(len(well))])

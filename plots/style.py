@@ -12,8 +12,9 @@ import numpy as np
 SA, LA = "#0072B2", "#D55E00"
 COEXISTENCE, OTHER, SINGLE, UNRESOLVED = "#F0E442", "#009E73", "#D9D9D9", "#999999"
 MORE = ["#009E73", "#F0E442", "#CC79A7", "#56B4E9", "#E69F00", "#332288", "#117733"]
+ESCAPE = "#FFFFFF"
 FREE, EXACT = "0.45", "black"
-NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved"]
+NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape"]
 
 plt.rcParams.update({
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,

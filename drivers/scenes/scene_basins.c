@@ -92,7 +92,7 @@ static pendres_status compute_rows(const void *arg, size_t task, pendres_context
   if (status == PENDRES_OK && deferred > 0)
     status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, state);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (state[i].attractor >= 0) continue;
+    if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
     if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = first * b->grid.nv + i;
     p->lost++;
   }
@@ -267,7 +267,7 @@ static pendres_status refine_band(basins *b, size_t first, size_t rows, size_t *
   if (status == PENDRES_OK) status = basins_write_rows(b, first, rows, state);
   if (status == PENDRES_OK) status = pendres_basin_sums_add(b->sums, rows, state);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (state[i].attractor >= 0) continue;
+    if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
     b->unresolved++;
     if (*lost < LOST_A_TASK) index[(*lost)++] = first * b->grid.nv + i;
   }

@@ -12,22 +12,23 @@ enum { QUICK = 1 /* compression of what there is most of: higher levels gain lit
 
 /* The variable number k of every state, in a group with the given dimensions; meanings: room for
    the names of its values. */
-static pendres_store_spec state_spec(int k, const char *group, const char *second,
+static pendres_store_spec state_spec(const deck *d, int k, const char *group, const char *second,
                                      const char *meanings[SCENE_MOST_NAMES])
 {
+  const int open = strcmp(d->pendulum.force, "polynomial") == 0;
   pendres_store_spec s = {.group = group, .dimensions = {"x", second}, .deflate = QUICK};
   switch (k) {
   case BASINS_LABEL:
     s.name = "label";
     s.long_name = "what the pendulum settles on";
     s.type = PENDRES_STORE_INT8;
-    s.flag_count = scene_meanings(scene_label_names, meanings);
+    s.flag_count = scene_meanings(open ? scene_fate_names : scene_label_names, meanings);
     s.flag_meanings = meanings;
     break;
   case BASINS_ATTRACTOR:
     s.name = "attractor_index";
     s.long_name = "number of the attractor that the pendulum settles on";
-    s.comment = "-1: unresolved";
+    s.comment = open ? "-1: unresolved; -2: escapes to infinity" : "-1: unresolved";
     s.type = PENDRES_STORE_INT32;
     break;
   case BASINS_WELL:
@@ -58,7 +59,7 @@ pendres_status basins_define(basins *b)
   if (status != PENDRES_OK) return status;
   for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
     const char *meanings[SCENE_MOST_NAMES];
-    const pendres_store_spec spec = state_spec(k, "", "v", meanings);
+    const pendres_store_spec spec = state_spec(b->d, k, "", "v", meanings);
     status = pendres_store_variable(b->run->store, &spec, &b->variable[k]);
   }
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
@@ -76,7 +77,8 @@ static const void *pack(size_t n, const pendres_basin_state *state, int k, int32
   for (size_t i = 0; i < n; i++) {
     if (k == BASINS_LABEL) labels[i] = state[i].label;
     else if (k == BASINS_FAILED)
-      labels[i] = state[i].attractor < 0 ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE;
+      labels[i] = state[i].attractor == PENDRES_ATTRACTOR_UNKNOWN ? SCENE_FAILURE_UNRESOLVED
+                                                                  : SCENE_FAILURE_NONE;
     else values[i] = state_value(&state[i], k);
   }
   return values;
@@ -110,7 +112,7 @@ static pendres_status write_cut(basins *b)
   if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
   for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
     const char *meanings[SCENE_MOST_NAMES];
-    const pendres_store_spec spec = state_spec(k, "cut", NULL, meanings);
+    const pendres_store_spec spec = state_spec(b->d, k, "cut", NULL, meanings);
     status = pendres_store_put(b->run->store, &spec, pack(n, b->cut, k, values), n);
   }
   if (status == PENDRES_OK)
@@ -293,6 +295,22 @@ static const scene_column of_refinement[] = {
          "filled states that may be wrong at most, with a confidence of 95 %"),
 };
 
+/* What goes to infinity, where a force may drive there. */
+static const scene_column of_escapes[] = {
+  {.name = "escaped_states", .long_name = "states that escape to infinity", .type = SCENE_COUNT,
+   .value = offsetof(pendres_basin_statistics, escaped)},
+  {.name = "escape_fraction", .long_name = "share of the window's area that escapes", .units = "1",
+   .value = offsetof(pendres_basin_statistics, escape_fraction),
+   .error = offsetof(pendres_basin_statistics, escape_fraction_error)},
+};
+
+static pendres_status write_escapes(basins *b, const pendres_basin_statistics *s)
+{
+  const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
+  if (strcmp(b->d->pendulum.force, "polynomial") != 0) return PENDRES_OK;
+  return scene_columns_write(b->run, &table, sizeof of_escapes / sizeof *of_escapes, of_escapes);
+}
+
 static pendres_status write_counts(basins *b)
 {
   const counts of = {
@@ -382,6 +400,9 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
       fprintf(out, "   watched for %.3g drive periods: chaos that ends at a rate above %.1e would "
                    "have been seen to\n", a->watched_periods, a->escape_rate_bound);
   }
+  if (s->escaped > 0)
+    fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
+            s->escape_fraction_error);
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
           s->uncertain_states);
   if (b->d->basins.refine)
@@ -411,6 +432,7 @@ pendres_status basins_write_results(basins *b)
   if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
   if (status == PENDRES_OK) status = write_cut(b);
   if (status == PENDRES_OK) status = write_counts(b);
+  if (status == PENDRES_OK) status = write_escapes(b, &s);
   if (status == PENDRES_OK && b->d->basins.statistics) status = write_statistics(b, &s);
   if (status == PENDRES_OK && b->d->basins.boundary) status = basins_write_boundary(b);
   if (status == PENDRES_OK) status = write_paper(b);

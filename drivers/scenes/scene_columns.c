@@ -16,12 +16,18 @@ typedef struct buffers {
 
 #define NAMES(function, call) \
   const char *function(int value) { return call; }
-NAMES(scene_label_names, pendres_label_name((pendres_label)value))
+NAMES(scene_fate_names, pendres_label_name((pendres_label)value))
 NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
 NAMES(scene_special_names, pendres_special_name((pendres_special)value))
 NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
 NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
 NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
+
+/* What escapes is on no attractor. */
+const char *scene_label_names(int value)
+{
+  return value < PENDRES_LABEL_ESCAPE ? scene_fate_names(value) : NULL;
+}
 
 int scene_meanings(scene_names names, const char *meanings[SCENE_MOST_NAMES])
 {

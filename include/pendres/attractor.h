@@ -57,10 +57,12 @@ typedef enum pendres_label {
   PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
+  PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a polynomial force that drives
+                                     outwards does not let it return: no attractor */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
-/** "sa", "la", "periodic", "running", "chaotic", "unresolved"; NULL if out of range. */
+/** "sa", "la", "periodic", "running", "chaotic", "unresolved", "escape"; NULL if out of range. */
 const char *pendres_label_name(pendres_label label);
 
 /** An attractor of one parameter set. */
@@ -95,12 +97,26 @@ size_t pendres_attractors_count(const pendres_attractors *set);
 /** Attractor number i; owned by the set. NULL out of range. */
 const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, size_t i);
 
-/** What became of a pendulum. */
+/** Instead of the number of an attractor. */
+enum {
+  PENDRES_ATTRACTOR_UNKNOWN = -1, /**< unresolved */
+  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on none, on the way to infinity */
+};
+
+/**
+ * What became of a pendulum. It has escaped where the force drives it outwards for ever, whatever the
+ * drive does: at |b| < 1, to the right, with phi(x) = -f(x), from X on where for all x >= X
+ * phi(x) > 0 and phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v cannot
+ * fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X is
+ * Fujiwara's bound of the zeros of both.
+ */
 typedef struct pendres_outcome {
-  pendres_label label;   /**< that of its attractor */
-  int attractor;         /**< index in the set; -1: unresolved */
+  pendres_label label;   /**< that of its attractor; ESCAPE or UNRESOLVED if there is none */
+  int attractor;         /**< index in the set, or PENDRES_ATTRACTOR_UNKNOWN, or
+                              PENDRES_ATTRACTOR_ESCAPED */
   long well;             /**< well that it settled in; 0 for running and chaotic ones */
-  long settling_periods; /**< drive periods until it was inside the trap; -1: unresolved */
+  long settling_periods; /**< drive periods until it was inside the trap, or had escaped; -1:
+                              unresolved */
   int certain;           /**< 1: the error that it carried into the trap was small against the trap,
                               so that it could not have ended elsewhere; 0 also if unresolved */
 } pendres_outcome;

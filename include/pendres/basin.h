@@ -67,7 +67,8 @@ const char *pendres_basin_how_name(pendres_basin_how how);
 typedef struct pendres_basin_state {
   int32_t well;             /**< as in pendres_outcome */
   int32_t settling_periods; /**< -1: unresolved; -2: filled */
-  int16_t attractor;        /**< index in the set; -1: unresolved or deferred */
+  int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too) or
+                                 PENDRES_ATTRACTOR_ESCAPED */
   int8_t label;             /**< a pendres_label */
   int8_t how;               /**< a pendres_basin_how */
 } pendres_basin_state;
@@ -182,7 +183,7 @@ enum {
     same attractor and well. */
 typedef struct pendres_basin_statistics {
   size_t states;                   /**< how many were looked at */
-  size_t unresolved;               /**< those of them without an attractor */
+  size_t unresolved;               /**< those of them of which nothing is known */
   double entropy;                  /**< basin entropy: mean over boxes of 5 x 5 states of
                                         -sum p log p, p the shares of ends in the box */
   double entropy_error;            /**< its error */
@@ -201,6 +202,9 @@ typedef struct pendres_basin_statistics {
                                                away */
   double uncertain_error[PENDRES_BASIN_SCALES]; /**< [scales] errors of these */
   size_t uncertain_states;         /**< integrated ones that may belong to another basin */
+  size_t escaped;                  /**< those on their way to infinity: an end of their own */
+  double escape_fraction;          /**< their share of the window's area */
+  double escape_fraction_error;    /**< its error */
 } pendres_basin_statistics;
 
 /** A well that states of a basin settle in. */

@@ -99,6 +99,38 @@ double pendres_model_scale(const pendres_pendulum *p)
   return scale > 0.0 ? scale : 1.0;
 }
 
+/*
+ * A length beyond which, on one side, the force drives outwards for ever; infinite if there is none.
+ * With z the distance, c_k the coefficients of phi(z) (1 - |b|) + side I - |F0| and n its degree, all
+ * zeros are within 2 max |c_k / c_n|^(1/(n - k)) (M. Fujiwara, Tohoku Mathematical Journal 10 (1916)
+ * 167). Those of phi, which lacks c_0, are so too.
+ */
+static double far_out(const pendres_pendulum *p, double side)
+{
+  int n = PENDRES_FORCE_COEFFICIENTS;
+  const double *a = p->force_coefficients, rest = 1.0 - fabs(p->parametric_amplitude);
+  while (n > 0 && a[n - 1] == 0.0) n--;
+  if (n == 0 || !(rest > 0.0)) return INFINITY;
+  /* -side f(side z): odd powers change their sign once, even ones with the side. */
+  const double lead = n % 2 == 1 ? -a[n - 1] : -side * a[n - 1];
+  if (!(lead > 0.0)) return INFINITY;
+  const double push = side * p->torque - fabs(p->drive_amplitude);
+  double most = pow(fabs(push) / (rest * lead), 1.0 / n);
+  for (int k = 1; k < n; k++) most = fmax(most, pow(fabs(a[k - 1]) / lead, 1.0 / (n - k)));
+  return 2.0 * most * (1.0 + 1e-9);
+}
+
+int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
+{
+  const double side = y < 0.0 ? -1.0 : 1.0;
+  double force, slope;
+  if (p->force != PENDRES_FORCE_POLYNOMIAL || !(side * w >= 0.0)) return 0;
+  pendres_model_force(p, y, &force, &slope);
+  /* Most states are told by this alone. */
+  if (!(-side * force > 0.0)) return 0;
+  return side * y > far_out(p, side);
+}
+
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
 {
   int same = a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&

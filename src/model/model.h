@@ -37,6 +37,9 @@ double pendres_model_origin(const pendres_pendulum *p);
    length at which two of its terms are alike, 1 if it has one alone. */
 double pendres_model_scale(const pendres_pendulum *p);
 
+/* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says when. */
+int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
+
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 

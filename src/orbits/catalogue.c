@@ -14,7 +14,8 @@
 const char *pendres_label_name(pendres_label label)
 {
   static const char *const names[PENDRES_LABEL_COUNT] = {"sa",      "la",      "periodic",
-                                                         "running", "chaotic", "unresolved"};
+                                                         "running", "chaotic", "unresolved",
+                                                         "escape"};
   return (unsigned)label < PENDRES_LABEL_COUNT ? names[label] : NULL;
 }
 

@@ -32,7 +32,8 @@ static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   me->w = lane->w;
   me->period = 1;
   /* One on its way to infinity finds nothing: what it leaves behind is no guess. */
-  if (!isfinite(advance)) return 1;
+  if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
+  if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
   return moved < at_rest || lane->period >= s->periods[me->set];
 }

@@ -121,7 +121,10 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
   a->u[1] = v / length;
   a->sum[PENDRES_WALK_GROWTH] += log(length);
   a->periods++;
-  if (a->trapped == 0 && in_trap(c, a)) a->trapped = a->periods;
+  /* What escapes is in no chaos any longer either. */
+  if (a->trapped == 0 &&
+      (in_trap(c, a) || !isfinite(a->y) || pendres_model_escapes(&c->pendulum, a->y, a->w)))
+    a->trapped = a->periods;
 }
 
 static pendres_status walk_block(pendres_block *block, watched_block *b,

@@ -47,7 +47,7 @@ static pendres_status allocate_doubtful(pendres_context *ctx, doubtful *d, size_
 
 static int in_doubt(const pendres_outcome *o)
 {
-  return o->attractor >= 0 && !o->certain;
+  return pendres_settle_ended(o) && !o->certain;
 }
 
 static const pendres_catalogue *catalogue_of(const pendres_settle_labelled *l, size_t i)
@@ -161,7 +161,7 @@ static void take_over(const pendres_settle_labelled *l, doubtful *d)
   size_t left = 0;
   for (size_t k = 0; k < d->count; k++) {
     const size_t i = d->index[k];
-    if (d->outcome[k].attractor < 0) continue;
+    if (!pendres_settle_ended(&d->outcome[k])) continue;
     l->job->outcome[i] = d->outcome[k];
     l->job->doubt[i] = d->doubt[k];
     if (d->outcome[k].certain || d->accuracy[k] <= most_exact) continue;
@@ -193,7 +193,7 @@ static pendres_status compare(pendres_context *ctx, const pendres_settle_labelle
   }
   for (size_t i = 0; i < l->n && status == PENDRES_OK; i++) {
     pendres_outcome *o = &l->job->outcome[i];
-    o->certain = o->attractor >= 0 && mine[i].certain && mine[i].attractor == o->attractor &&
+    o->certain = pendres_settle_ended(o) && mine[i].certain && mine[i].attractor == o->attractor &&
                  mine[i].well == o->well;
   }
   free(mine);

@@ -81,7 +81,7 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
   size_t n = 0, in_set = 0;
   for (size_t i = 0; i < l->count; i++) {
     if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
-    if (l->outcome[i].attractor >= 0 || l->histories[i].filled == 0) continue;
+    if (pendres_settle_ended(&l->outcome[i]) || l->histories[i].filled == 0) continue;
     l->guesses[n].set = l->set[i];
     const double turn = pendres_model_turn(&catalogues[l->set[i]].pendulum);
     if (in_set < MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
@@ -115,7 +115,7 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_cat
     while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)
-        if (l->outcome[i].attractor < 0 && nowhere(c, &l->lanes[i]))
+        if (!pendres_settle_ended(&l->outcome[i]) && nowhere(c, &l->lanes[i]))
           l->suspects[n++] = &l->lanes[i];
       status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
     }
@@ -164,12 +164,12 @@ pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_qu
 {
   lost_lanes l = {0};
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < q->n; i++) l.count += q->outcome[i].attractor < 0;
+  for (size_t i = 0; i < q->n; i++) l.count += !pendres_settle_ended(&q->outcome[i]);
   if (l.count == 0) return status;
   status = allocate_lost(ctx, &l, q->sets);
   if (status != PENDRES_OK) goto done;
   for (size_t i = 0, k = 0; i < q->n; i++) {
-    if (q->outcome[i].attractor >= 0) continue;
+    if (pendres_settle_ended(&q->outcome[i])) continue;
     l.index[k] = i;
     l.set[k] = q->set[i];
     l.outcome[k] = pendres_settle_unresolved;
@@ -183,7 +183,7 @@ pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_qu
     size_t left = 0;
     const int longer = raise_budgets(ctx, q, round);
     status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
-    for (size_t i = 0; i < l.count; i++) left += l.outcome[i].attractor < 0;
+    for (size_t i = 0; i < l.count; i++) left += !pendres_settle_ended(&l.outcome[i]);
     if (status != PENDRES_OK || left == 0 || !longer) break;
     status = add_recurrences(ctx, &l, q->catalogues);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->catalogues);

@@ -6,7 +6,9 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/passage.h"
 #include "engine/steps.h"
+#include "model/model.h"
 #include "orbits/strobe_noise.h"
 
 /* Strobes in a row in a chaotic attractor's cells that make chaos. */
@@ -155,6 +157,77 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_ca
   return 1;
 }
 
+/* ---- escapes ---- */
+
+/* A state, and the largest variance of its error so far. */
+typedef struct pendres_settle_place {
+  double y, w, worst;
+} pendres_settle_place;
+
+static void note_escape(const pendres_settle_labelling *l, size_t i,
+                        const pendres_strobe_lane *lane, double worst)
+{
+  l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE, .attractor = PENDRES_ATTRACTOR_ESCAPED,
+                                    .settling_periods = lane->period};
+  judge(l, i, lane->added > 0.0 ? doubt_on_way(worst) : NAN);
+}
+
+/*
+ * A force that grows faster than the distance leads to infinity within a period: what stands at its
+ * end is then no number, or one beyond all lengths of the force, of either sign, which steps of the
+ * integration have made of it.
+ */
+static const double lost_beyond = 1e8;
+
+static int lost(const pendres_strobe_lane *lane)
+{
+  return !(fabs(lane->y) < lost_beyond && fabs(lane->w) < lost_beyond);
+}
+
+/* Whether a lane escapes, or is lost: then its last period is looked at once more. */
+static int escapes(const pendres_settle_labelling *l, size_t index, size_t i,
+                   const pendres_strobe_lane *lane)
+{
+  if (lost(lane)) return 1;
+  l->before[index] = (pendres_settle_place){lane->y, lane->w, lane->worst};
+  if (!pendres_model_escapes(lane->pendulum, lane->y, lane->w)) return 0;
+  note_escape(l, i, lane, lane->worst);
+  return 1;
+}
+
+typedef struct last_period {
+  const pendres_pendulum *pendulum;
+  int escapes, lost;
+} last_period;
+
+static void watch_escape(void *arg, int step, const pendres_rows *rows)
+{
+  last_period *p = arg;
+  const double y = pendres_rows_get(rows, PENDRES_ROW_Y, 0);
+  const double w = pendres_rows_get(rows, PENDRES_ROW_W, 0);
+  (void)step;
+  p->lost |= !(fabs(y) < lost_beyond && fabs(w) < lost_beyond);
+  if (!p->lost) p->escapes |= pendres_model_escapes(p->pendulum, y, w);
+}
+
+/* Whether a lane was on its way to infinity for certain at a step of its last period. */
+static pendres_status look_back(pendres_context *ctx, const pendres_settle_labelling *l,
+                                size_t index, const pendres_strobe_lane *lane)
+{
+  const pendres_settle_place *from = &l->before[index];
+  last_period p = {.pendulum = lane->pendulum};
+  pendres_block block;
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, lane->steps, &block);
+  if (status != PENDRES_OK) return status;
+  pendres_block_resize(&block, 1);
+  pendres_block_load(&block, 0, lane->pendulum, from->y, from->w);
+  status = pendres_block_period_sampled(&block, watch_escape, &p);
+  if (status == PENDRES_OK && p.escapes) note_escape(l, l->origin[index], lane, from->worst);
+  return status;
+}
+
+/* ---- lanes ---- */
+
 static size_t set_of(const pendres_settle_labelling *l, size_t i)
 {
   return l->set != NULL ? l->set[i] : 0;
@@ -166,6 +239,7 @@ static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   const size_t i = l->origin[index], set = set_of(l, i);
   const pendres_catalogue *c = &l->catalogues[set];
   if (trapped(l, i, c, lane)) return 1;
+  if (l->before != NULL && escapes(l, index, i, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
   return lane->period >= l->budget[set];
@@ -175,7 +249,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
                                 pendres_settle_labelling *l)
 {
   size_t left = 0;
-  int covers = 0;
+  int covers = 0, open = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_strobe_lane *rest = malloc((n + 1) * sizeof *rest);
   size_t *origin = malloc((n + 1) * sizeof *origin);
@@ -183,9 +257,10 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
   for (size_t i = 0; i < n; i++) {
     const size_t set = set_of(l, i);
     const pendres_catalogue *c = &l->catalogues[set];
-    if (l->outcome[i].attractor >= 0) continue;
+    if (pendres_settle_ended(&l->outcome[i])) continue;
     if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
     covers |= c->covers > 0;
+    open |= c->pendulum.force == PENDRES_FORCE_POLYNOMIAL;
     origin[left] = i;
     rest[left++] = lanes[i];
   }
@@ -194,12 +269,21 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     l->entry = calloc(n, sizeof *l->entry);
     if (l->streak == NULL || l->entry == NULL) goto no_memory;
   }
+  if (open) {
+    l->before = malloc((left + 1) * sizeof *l->before);
+    if (l->before == NULL) goto no_memory;
+    for (size_t k = 0; k < left; k++)
+      l->before[k] = (pendres_settle_place){rest[k].y, rest[k].w, rest[k].worst};
+  }
   l->origin = origin;
   status = pendres_strobe_run(ctx, left, rest, settle_look, l);
   for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
     pendres_outcome *o = &l->outcome[origin[i]];
     lanes[origin[i]] = rest[i];
-    if (o->attractor < 0) *o = pendres_settle_unresolved;
+    if (pendres_settle_ended(o)) continue;
+    *o = pendres_settle_unresolved;
+    if (open && lost(&rest[i]))
+      status = look_back(ctx, l, i, &rest[i]);
   }
   goto done;
 no_memory:
@@ -207,8 +291,10 @@ no_memory:
 done:
   free(l->streak);
   free(l->entry);
+  free(l->before);
   l->streak = NULL;
   l->entry = NULL;
+  l->before = NULL;
   free(rest);
   free(origin);
   return status;

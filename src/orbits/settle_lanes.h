@@ -33,10 +33,17 @@ typedef struct pendres_settle_labelling {
   const size_t *origin;     /* caller's numbers of the lanes under way */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
   double *entry;            /* largest variance of its error before that */
+  struct pendres_settle_place *before; /* a period ago, of lanes that may escape; NULL: none may */
 } pendres_settle_labelling;
 
 static const pendres_outcome pendres_settle_unresolved = {
-  .label = PENDRES_LABEL_UNRESOLVED, .attractor = -1, .settling_periods = -1};
+  .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN, .settling_periods = -1};
+
+/* Whether a lane needs to go on no longer: it is on an attractor, or has escaped. */
+static inline int pendres_settle_ended(const pendres_outcome *o)
+{
+  return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
+}
 
 /* Periods after which a pendulum that is in no trap is looked at closely. */
 long pendres_settle_first_budget(const pendres_pendulum *p);

@@ -55,7 +55,7 @@ static void compact(const pendres_outcome *from, pendres_basin_state *to)
                               .settling_periods = (int32_t)from->settling_periods,
                               .attractor = (int16_t)from->attractor,
                               .label = (int8_t)from->label,
-                              .how = from->attractor >= 0 && !from->certain
+                              .how = from->attractor != PENDRES_ATTRACTOR_UNKNOWN && !from->certain
                                        ? PENDRES_BASIN_UNCERTAIN
                                        : PENDRES_BASIN_INTEGRATED};
 }
@@ -162,11 +162,11 @@ static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
 {
   size_t left = 0;
   pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < n; k++) left += state[k].attractor < 0;
+  for (size_t k = 0; k < n; k++) left += state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN;
   if (deferred != NULL) *deferred = left;
   if (left < WORTH_WAITING) {
     for (size_t k = 0; k < n; k++)
-      if (state[k].attractor < 0) state[k].how = PENDRES_BASIN_DEFERRED;
+      if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) state[k].how = PENDRES_BASIN_DEFERRED;
     return status;
   }
   size_t *index = malloc(left * sizeof *index);
@@ -177,7 +177,7 @@ static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
   }
   left = 0;
   for (size_t k = 0; k < n; k++)
-    if (state[k].attractor < 0) index[left++] = offset + k;
+    if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) index[left++] = offset + k;
   status = settle_states(ctx, set, grid, left, index, PENDRES_SETTLE_FULL, rest);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) state[index[k] - offset] = rest[k];
   if (deferred != NULL) *deferred = 0;
@@ -251,7 +251,7 @@ static size_t list_states(size_t n, const pendres_basin_state *state, int deferr
 {
   size_t count = 0;
   for (size_t k = 0; k < n; k++)
-    if (deferred ? state[k].how == PENDRES_BASIN_DEFERRED : state[k].attractor < 0)
+    if (deferred ? state[k].how == PENDRES_BASIN_DEFERRED : state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN)
       index[count++] = k;
   return count;
 }

@@ -23,7 +23,7 @@ struct pendres_basin_sums {
   double step;        /* of v */
   size_t rows;        /* added so far */
   double *x_share, *v_share; /* of the window that belongs to each row and column of states */
-  member *members;    /* the last one: what is unresolved */
+  member *members;    /* the last two: what is unresolved, and what escapes */
   pendres_basin_end by;
   int64_t *box_rows;  /* ends of the rows of unfinished boxes */
   uint8_t *box_doubt; /* states of them that are uncertain, by column */
@@ -81,7 +81,7 @@ pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t 
     s->scales++;
   s->x_share = shares_of(grid->nx, grid->x);
   s->v_share = shares_of(grid->nv, grid->v);
-  s->members = calloc(attractors + 1, sizeof *s->members);
+  s->members = calloc(attractors + 2, sizeof *s->members);
   s->box_rows = calloc(BOX * grid->nv, sizeof *s->box_rows);
   s->box_doubt = calloc(grid->nv, sizeof *s->box_doubt);
   if (s->x_share == NULL || s->v_share == NULL || s->members == NULL ||
@@ -174,7 +174,7 @@ static void add_share(const pendres_basin_sums *s, size_t row, member *m)
 
 static void add_shares(pendres_basin_sums *s, size_t row)
 {
-  for (size_t a = 0; a <= s->attractors; a++) add_share(s, row, &s->members[a]);
+  for (size_t a = 0; a <= s->attractors + 1; a++) add_share(s, row, &s->members[a]);
   for (size_t i = 0; i < s->tally.places; i++)
     if (s->tally.place[i].well.states > 0) add_share(s, row, &s->tally.place[i].sums);
 }
@@ -192,10 +192,11 @@ static void count_unlike(pendres_basin_sums *s, const int64_t *a)
   }
 }
 
-/* The attractor of a state; their number if it has none. */
+/* The attractor of a state; their number if it is unresolved, and one more if it escapes. */
 static size_t attractor_of(const pendres_basin_sums *s, const pendres_basin_state *state)
 {
   const int known = state->attractor >= 0 && (size_t)state->attractor < s->attractors;
+  if (state->attractor == PENDRES_ATTRACTOR_ESCAPED) return s->attractors + 1;
   return known ? (size_t)state->attractor : s->attractors;
 }
 
@@ -216,7 +217,7 @@ static pendres_status count_states(pendres_basin_sums *s, const pendres_basin_st
     while (end < s->nv && attractor_of(s, &state[end]) == a && state[end].well == state[j].well)
       end++;
     s->members[a].states += end - j;
-    if (a == s->attractors) continue;
+    if (a >= s->attractors) continue;
     member *m = pendres_basin_tally_add(&s->tally, (int)a, state[j].well, end - j);
     if (m == NULL) return PENDRES_OUT_OF_MEMORY;
     for (size_t k = j; k < end; k++) {
@@ -291,7 +292,8 @@ static double cancelled(double n)
 
 static double misplaced(const pendres_basin_sums *s, pendres_basin_end by)
 {
-  const int ends = s->attractors > 1 || by == PENDRES_BASIN_BY_WELL;
+  const size_t escaped = s->members[s->attractors + 1].states;
+  const int ends = s->attractors > 1 || escaped > 0 || by == PENDRES_BASIN_BY_WELL;
   return ends ? cancelled((double)s->uncertain) : 0.0;
 }
 
@@ -374,6 +376,7 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_ba
 {
   if (s == NULL || out == NULL || s->rows < s->nx) return PENDRES_INVALID_ARGUMENT;
   const double lost = misplaced(s, PENDRES_BASIN_BY_ATTRACTOR);
+  const member *escaped = &s->members[s->attractors + 1];
   for (size_t a = 0; a < s->attractors; a++) {
     if (fraction != NULL) fraction[a] = s->members[a].share;
     if (error != NULL) error[a] = fraction_error(s, &s->members[a], lost);
@@ -381,7 +384,10 @@ pendres_status pendres_basin_sums_result(const pendres_basin_sums *s, pendres_ba
   *out = (pendres_basin_statistics){.states = s->rows * s->nv,
                                     .unresolved = s->members[s->attractors].states,
                                     .scales = s->scales,
-                                    .uncertain_states = s->uncertain};
+                                    .uncertain_states = s->uncertain,
+                                    .escaped = escaped->states,
+                                    .escape_fraction = escaped->share,
+                                    .escape_fraction_error = fraction_error(s, escaped, lost)};
   conclude_entropy(s, out);
   conclude_exponent(s, out);
   return PENDRES_OK;

@@ -106,7 +106,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
                          10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, a->outcome);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
-    out->unresolved += a->outcome[i * each].attractor < 0;
+    out->unresolved += a->outcome[i * each].attractor == PENDRES_ATTRACTOR_UNKNOWN;
     count_sample(counts, out->scales, a->window->by, &a->outcome[i * each]);
   }
   out->states += count;

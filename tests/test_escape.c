@@ -1,0 +1,160 @@
+/*
+ * test_escape.c -- pendulums that go to infinity under a softening force: against an equation that is
+ * solved in closed form, and against an integration that shares nothing with the library.
+ */
+#include "check.h"
+
+#include <stdlib.h>
+
+#include <pendres/pendres.h>
+
+#include "model/model.h"
+
+enum { SIDE = 16 };
+
+static pendres_context *context(void)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  return ctx;
+}
+
+/* Helmholtz, driven: with steps of 1/100, 20 periods long, whether x goes beyond 50. */
+static int runs_away(const pendres_pendulum *p, double x, double v)
+{
+  const double h = 1e-2, end = 20.0 * 2.0 * PENDRES_PI / p->drive_frequency;
+  for (double t = 0.0; t < end && x < 50.0; t += h) {
+    double a[4], u[4];
+    for (int i = 0; i < 4; i++) {
+      const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5;
+      const double at = i == 0 ? x : x + c * h * u[i - 1];
+      u[i] = i == 0 ? v : v + c * h * a[i - 1];
+      a[i] = p->drive_amplitude * cos(p->drive_frequency * (t + c * h)) - p->damping * u[i] - at +
+             at * at;
+    }
+    x += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
+    v += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+  }
+  return x >= 50.0;
+}
+
+static double weight(int i)
+{
+  return (i == 0 || i == SIDE - 1 ? 0.5 : 1.0) / (SIDE - 1);
+}
+
+/* Every state escapes if and only if the integration runs away, but for those that are uncertain. */
+static void helmholtz(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.07, .drive_frequency = 0.85,
+                              .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}};
+  double x[SIDE], v[SIDE], share = 0.0;
+  pendres_basin_state *s = calloc(SIDE * SIDE, sizeof *s);
+  pendres_attractors *set = NULL;
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics t;
+  (void)state;
+  for (int i = 0; i < SIDE; i++) {
+    x[i] = -0.8 + 0.135 * i;
+    v[i] = -0.9 + 0.115 * i;
+  }
+  const pendres_basin_grid grid = {.nx = SIDE, .nv = SIDE, .x = x, .v = v};
+  pendres_context *ctx = context();
+  assert_non_null(s);
+  check_ok(pendres_basin_attractors(ctx, &p, &grid, &set));
+  assert_int_equal(pendres_attractors_count(set), 1);
+  check_ok(pendres_basin_compute(ctx, set, &grid, s));
+  for (int i = 0; i < SIDE * SIDE; i++) {
+    const int away = runs_away(&p, x[i / SIDE], v[i % SIDE]);
+    if (s[i].how == PENDRES_BASIN_UNCERTAIN) continue;
+    assert_int_equal(s[i].label, away ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_PERIODIC);
+    assert_int_equal(s[i].attractor, away ? PENDRES_ATTRACTOR_ESCAPED : 0);
+    /* States at the window's edges count half. */
+    share += away * weight(i / SIDE) * weight(i % SIDE);
+  }
+  assert_true(share > 0.3 && share < 0.7);
+  check_ok(pendres_basin_sums_create(&grid, 1, &sums));
+  check_ok(pendres_basin_sums_add(sums, SIDE, s));
+  double fraction, error;
+  check_ok(pendres_basin_sums_result(sums, &t, &fraction, &error));
+  assert_true(t.unresolved == 0 && t.escaped > 0);
+  /* Two states are uncertain at most. */
+  check_near(t.escape_fraction, share, 2.0 / (SIDE * SIDE));
+  check_near(fraction + t.escape_fraction, 1.0, 1e-12);
+  assert_true(t.escape_fraction_error > 0.0 && t.escape_fraction_error < 0.2);
+  pendres_basin_sums_free(sums);
+  pendres_attractors_free(set);
+  pendres_context_free(ctx);
+  free(s);
+}
+
+/* x'' + gamma x' - x = I + F0 cos(omega t): everything escapes, but for a line. */
+static void inverted(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.3, .drive_amplitude = 0.5, .drive_frequency = 1.1,
+                              .torque = 0.2, .force = PENDRES_FORCE_POLYNOMIAL,
+                              .force_coefficients = {-1.0}};
+  (void)state;
+  pendres_pendulum many[SIDE];
+  double x[SIDE], v[SIDE];
+  pendres_outcome o[SIDE];
+  pendres_context *ctx = context();
+  for (int i = 0; i < SIDE; i++) {
+    many[i] = p;
+    x[i] = cos(i);
+    v[i] = 0.5 * sin(3.0 * i);
+  }
+  check_ok(pendres_settle(ctx, SIDE, many, x, v, o, NULL));
+  for (int i = 0; i < SIDE; i++) {
+    assert_int_equal(o[i].label, PENDRES_LABEL_ESCAPE);
+    assert_true(o[i].settling_periods > 0 && o[i].settling_periods < 10);
+  }
+  pendres_context_free(ctx);
+}
+
+/* The bound: beyond it the acceleration at rest is outwards at every phase, and no less far out. */
+static void bound(void **state)
+{
+  static const pendres_pendulum some[] = {
+    {.damping = 0.1, .drive_amplitude = 0.3, .drive_frequency = 1.0, .torque = -0.4,
+     .parametric_amplitude = 0.6, .force = PENDRES_FORCE_POLYNOMIAL,
+     .force_coefficients = {1.0, -1.0}},
+    {.damping = 0.1, .drive_amplitude = 2.0, .drive_frequency = 1.0, .torque = 3.0,
+     .parametric_amplitude = -0.9, .force = PENDRES_FORCE_POLYNOMIAL,
+     .force_coefficients = {2.0, 0.5, -0.1}},
+    {.damping = 0.1, .drive_amplitude = 1.0, .drive_frequency = 1.0,
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 3.0, -0.2, -0.05}}};
+  (void)state;
+  for (size_t i = 0; i < sizeof some / sizeof *some; i++)
+    for (int side = -1; side <= 1; side += 2) {
+      int met = 0;
+      for (double z = 0.01; z < 1e4; z *= 1.01) {
+        const double x = side * z;
+        if (!pendres_model_escapes(&some[i], x, side * 0.0)) {
+          assert_false(met);
+          continue;
+        }
+        met = 1;
+        for (int k = 0; k < 64; k++)
+          assert_true(side * pendres_pendulum_acceleration(&some[i], x, 0.0, PENDRES_PI * k / 32.0) >
+                      0.0);
+        assert_false(pendres_model_escapes(&some[i], x, -1e-3 * side));
+      }
+      /* The quadratic force drives to the right alone. */
+      assert_int_equal(met, i != 0 || side > 0);
+    }
+  /* None where the sign of the parametric drive's factor changes, and none for a pendulum. */
+  pendres_pendulum strong = some[0];
+  strong.parametric_amplitude = 1.0;
+  assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
+  strong.force = PENDRES_FORCE_PENDULUM;
+  assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(helmholtz), cmocka_unit_test(inverted), cmocka_unit_test(bound),
+  };
+  return cmocka_run_group_tests_name("escape", tests, NULL, NULL);
+}
