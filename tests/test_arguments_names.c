@@ -58,7 +58,7 @@ static const struct {
    {"line", "rectangle", "random"}},
   {"jump_kind", jump_kind, PENDRES_JUMP_COUNT, {"fold", "flip", "symmetry", "other"}},
   {"label", label, PENDRES_LABEL_COUNT,
-   {"sa", "la", "periodic", "running", "chaotic", "unresolved"}},
+   {"sa", "la", "periodic", "running", "chaotic", "unresolved", "escape"}},
   {"langevin_answer", langevin_answer, PENDRES_LANGEVIN_ANSWER_COUNT, {"go_on", "enough", "stop"}},
   {"langevin_statistic", langevin_statistic, PENDRES_LANGEVIN_STATISTICS,
    {"mean_x", "mean_v", "cov_xx", "cov_xv", "cov_vv", "cosine", "sine", "loop_area"}},

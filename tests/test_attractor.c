@@ -565,7 +565,8 @@ static void mistakes(void **state)
 static void names(void **state)
 {
   static const char *const expected[] = {"sa",      "la",      "periodic",
-                                         "running", "chaotic", "unresolved"};
+                                         "running", "chaotic", "unresolved",
+                                         "escape"};
   (void)state;
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
     assert_string_equal(pendres_label_name((pendres_label)i), expected[i]);
