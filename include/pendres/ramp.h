@@ -16,9 +16,8 @@
  * value that it has, than half the distance between the old state and the new one, and does not
  * come back within the time 2/damping in which a motion dies away. Where old and new state differ
  * by their mean velocity, by half a radian a period or more, that takes the harmonic's place.
- * Within a period the time is interpolated. What is called a delay is, for slow ramps past a fold, 2.338
- * times a time that grows as rate^(-1/3), plus terms that grow as less: it depends on this
- * definition by some drive periods.
+ * Within a period the time is interpolated. Another definition would shift a delay by some drive
+ * periods, while the delay of a slow ramp past a fold takes a time that grows as rate^(-1/3).
  *
  * Integrator, random numbers and their streams: those of langevin.h, of order four at temperature
  * zero as well. Parameters stand still within a step, at their value in its middle.
@@ -83,7 +82,8 @@ typedef struct pendres_ramp_record {
 /** Drive periods from the ramp's start to its end; 0 if it has none. */
 long pendres_ramp_periods(const pendres_ramp *ramp);
 
-/** The parameter at a time in drive periods; NaN before the start, behind the end, without a ramp. */
+/** The parameter at a time in drive periods; NaN before the start, behind the end, and without a
+    ramp. */
 double pendres_ramp_value(const pendres_ramp *ramp, double time);
 
 /**
@@ -100,8 +100,8 @@ pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ram
                                    const pendres_ramp_record *record, pendres_ramp_jump *jump);
 
 /**
- * Follow n noisy trajectories through a ramp at the pendulum's temperature. All start from the state
- * of the path's first point: let the ramp begin some 1/damping before what is of interest.
+ * Follow n noisy trajectories through a ramp at the pendulum's temperature. All start from the
+ * state of the path's first point: let the ramp begin some 1/damping before what is of interest.
  *
  * time[jumps][n] receives when trajectory first_id + i leaves the state that jump k ends, in drive
  * periods; NaN where it does not (see pendres_ramp_jump). value[jumps][n] receives the parameter
@@ -126,8 +126,8 @@ typedef struct pendres_ramp_summary {
 } pendres_ramp_summary;
 
 /**
- * Mean and standard deviation of n jumps. Errors: PENDRES_INVALID_ARGUMENT if value (where n > 0) or
- * out is NULL.
+ * Mean and standard deviation of n jumps. Errors: PENDRES_INVALID_ARGUMENT if value (where n > 0)
+ * or out is NULL.
  */
 pendres_status pendres_ramp_summarize(size_t n, const double *value, pendres_ramp_summary *out);
 

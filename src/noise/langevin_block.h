@@ -67,15 +67,15 @@ pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t
 /* What a pendulum is like at a time, in drive periods since the start. */
 typedef pendres_pendulum pendres_langevin_motion(void *arg, double time);
 
-/* The same for a pendulum that changes, in all lanes alike: its damping, drive, torque, and
- * parametric drive. The period goes from time `period` to period + 1. */
+/* The same for a pendulum that changes, in all lanes alike; its force stays a pendulum's
+ * or a polynomial. The period goes from time `period` to period + 1. */
 pendres_status pendres_langevin_block_moving(pendres_langevin_block *b, uint32_t period,
                                              pendres_langevin_motion *motion, void *arg);
 
 /*
- * pendres_langevin_block_period for a pair with the same lanes and the same noise: `fine` has twice the steps of
- * `coarse`, and the noise of a coarse kick is the sum of that of two fine ones. It is fine's stop()
- * that is asked.
+ * pendres_langevin_block_period for a pair with the same lanes and the same noise: `fine` has twice
+ * the steps of `coarse`, and the noise of a coarse kick is the sum of that of two fine ones. It is
+ * fine's stop() that is asked.
  */
 pendres_status pendres_langevin_block_pair(pendres_langevin_block *fine,
                                            pendres_langevin_block *coarse, uint32_t period);

@@ -8,7 +8,6 @@
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
 #include "noise/langevin_moving.h"
-#include "questions/hysteresis_jump.h"
 #include "questions/ramp_watch.h"
 
 enum { FEWEST_STEPS = 16, MOST_STEPS = 65536, PROBES = 8 };
@@ -93,11 +92,9 @@ static pendres_status check(pendres_context *ctx, const pendres_ramp *r)
 
 static pendres_pendulum standing_still(void *arg, double time)
 {
-  const pendres_hysteresis_point *point = arg;
-  pendres_pendulum p = point->attractor.orbit.pendulum;
+  const pendres_pendulum *p = arg;
   (void)time;
-  p.temperature = 0.0;
-  return p;
+  return *p;
 }
 
 static pendres_langevin_answer take_end(void *arg, const pendres_langevin_strobe *s)
@@ -110,17 +107,19 @@ static pendres_langevin_answer take_end(void *arg, const pendres_langevin_strobe
 
 /* How far off a period of a state is by so many steps, seen by twice as many; errors of later
    periods add to it until it has died away. */
-static pendres_status probe(pendres_context *ctx, const pendres_hysteresis_point *point, int steps,
-                            double *off)
+static pendres_status probe(pendres_context *ctx, const pendres_ramp *r,
+                            const pendres_hysteresis_point *point, int steps, double *off)
 {
-  const pendres_pendulum p = point->attractor.orbit.pendulum;
+  pendres_pendulum p = r->pendulum;
+  p.temperature = 0.0;
+  pendres_parameter_set(r->parameter, point->value, &p);
   const double lost = -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
   double end[2][2];
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     const pendres_langevin_observer observer = {.see = take_end, .arg = end[k]};
     const pendres_langevin_moving run = {
-      .motion = standing_still, .arg = (void *)(uintptr_t)point, .n = 1, .periods = 1,
+      .motion = standing_still, .arg = &p, .n = 1, .periods = 1,
       .steps = steps << k, .x = point->x, .v = point->v, .observer = &observer};
     status = pendres_langevin_move(ctx, &run);
   }
@@ -138,10 +137,10 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, 
   *steps = FEWEST_STEPS;
   const size_t apart = (r->points + PROBES - 1) / PROBES;
   for (size_t i = 0; i < r->points; i += apart) {
-    if (!pendres_settled_closed(&r->point[i].attractor)) continue;
+    if (!(isfinite(r->point[i].x) && isfinite(r->point[i].v))) continue;
     for (;;) {
       double off = 0.0;
-      const pendres_status status = probe(ctx, &r->point[i], *steps, &off);
+      const pendres_status status = probe(ctx, r, &r->point[i], *steps, &off);
       if (status != PENDRES_OK) return status;
       if (off <= tolerance || *steps >= MOST_STEPS) break;
       *steps *= 2;
@@ -194,30 +193,41 @@ static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t 
 
 /*
  * Half as many steps are off by four times as much where the parameter's motion counts, at order
- * two, and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth to
- * a third of the distance. Both together may cancel in part, and so all of it is claimed.
+ * two, and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth
+ * to a third of the distance. Both together may cancel in part, and so all of it is claimed.
  */
 static double error_of(double distance)
 {
   return pendres_strobe_doubt(distance) < INFINITY ? distance : INFINITY;
 }
 
+/* The share of an error that is left after some periods, at the latest. */
+static double left_after(const pendres_ramp *r, double time, double periods)
+{
+  motion m = {.ramp = r};
+  const pendres_pendulum p = pendulum_at(&m, time);
+  return exp(-0.5 * p.damping * two_pi / p.drive_frequency * periods);
+}
+
 /* What steps round off, until it has died away. */
 static double rounding_of(const pendres_ramp *r, int steps)
 {
-  motion m = {.ramp = r};
-  const pendres_pendulum p = pendulum_at(&m, 0.0);
-  return 4.4e-16 * sqrt(steps) / -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
+  return 4.4e-16 * sqrt(steps) / (1.0 - left_after(r, 0.0, 1.0));
 }
 
-/* x_error and v_error hold the coarser run before. */
-static void compare(const pendres_ramp_record *record, size_t n, double rounding)
+/*
+ * x_error and v_error hold the coarser run before. Errors swing while they die away, and the two
+ * orders may cancel at a point: no error is claimed to be less than what is left of the one before.
+ */
+static void compare(const pendres_ramp *r, const pendres_ramp_record *record, size_t n,
+                    double rounding)
 {
-  double lost = 0.0;
+  const double apart = (double)record->every;
+  double lost = 0.0, off = 0.0;
   for (size_t k = 0; k < n; k++) {
     const double dx = fabs(record->x[k] - record->x_error[k]);
     const double dv = fabs(record->v[k] - record->v_error[k]);
-    const double off = error_of(fmax(dx, dv));
+    off = fmax(error_of(fmax(dx, dv)), off * left_after(r, apart * (double)k, apart));
     if (!(off < INFINITY)) lost = INFINITY;
     record->x_error[k] = lost + off + rounding + 2.2e-16 * fabs(record->x[k]);
     record->v_error[k] = lost + off + rounding;
@@ -273,7 +283,7 @@ static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp
   const double rounding = rounding_of(ramp, 2 * half);
   if (status == PENDRES_OK && jump != NULL) judge(ramp, time, fine, rounding, jump);
   if (status == PENDRES_OK && record != NULL)
-    compare(record, (size_t)(pendres_ramp_periods(ramp) / record->every) + 1, rounding);
+    compare(ramp, record, (size_t)(pendres_ramp_periods(ramp) / to->every) + 1, rounding);
   free(time);
   return status;
 }
