@@ -149,7 +149,7 @@ X86_64 := $(filter x86_64-%,$(shell $(CC) -dumpmachine))
 endif
 
 SETS := base $(if $(X86_64),avx2 avx512)
-LIBS = $(SUNDIALS_LIBS) $(MPI_LIBS) $(GSL_LIBS) $(HDF5_LIBS) -lm
+LIBS = $(SUNDIALS_LIBS) $(MPI_LIBS) $(GSL_LIBS) $(HDF5_LIBS) $(THREADS) -lm
 # The program alone keeps journals, with checksums of zlib, which HDF5 asks for anyway.
 DRIVER_LIBS = $(LIBS) $(if $(filter-out 0,$(MPI)),$(RANKS_LIBS)) -lz
 ALL_CPPFLAGS = $(CPPFLAGS) -Iinclude $(SUNDIALS_CFLAGS) $(MPI_CFLAGS) $(GSL_CFLAGS) $(HDF5_CFLAGS)
@@ -325,7 +325,7 @@ $(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
 	  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
 	  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
 	  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
-	      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) -lm)|' pendres.pc.in >$@.new
+	      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm)|' pendres.pc.in >$@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 # What share/pendres holds, beside what a compiler reads.
@@ -386,7 +386,7 @@ figures: $(PROGRAM)
 # The few pictures that docs/gallery.md shows, small, from what `make figures` left.
 GALLERY := f07 f08 f09 hysteresis cascade
 gallery:
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 70 -o docs/gallery \
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 62 -o docs/gallery \
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)
 
 style:

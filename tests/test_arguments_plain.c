@@ -106,12 +106,28 @@ static void nothing(void **state)
 }
 
 /* Handles that are NULL. */
+static pendres_status no_work(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  (void)ctx;
+  (void)first;
+  (void)count;
+  (void)arg;
+  return PENDRES_OK;
+}
+
 static void no_handles(void **state)
 {
+  const pendres_parts parts = { .n = 1 };
   pendres_cost cost;
   int wrong = 0;
   (void)state;
   INVALID(pendres_context_create(NULL, NULL));
+  INVALID(pendres_parts_run(NULL, no_work, NULL, NULL, 0));
+  INVALID(pendres_parts_run(&parts, NULL, NULL, NULL, 0));
+  INVALID(pendres_parts_run(&parts, no_work, NULL, NULL, 1));
+  INVALID(pendres_parts_run(&(pendres_parts){ .n = 1, .threads = -1 }, no_work, NULL, NULL, 0));
+  INVALID(pendres_parts_run(&(pendres_parts){ .n = 1, .options = { .tolerance = NAN } }, no_work,
+                            NULL, NULL, 0));
   pendres_branches *branches = NULL;
   INVALID(pendres_branches_unpack(64, NULL, &branches));
   INVALID(pendres_branches_unpack(0, &wrong, &branches));

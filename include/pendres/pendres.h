@@ -21,6 +21,7 @@
 #include <pendres/pendulum.h>
 #include <pendres/sweep.h>
 #include <pendres/context.h>
+#include <pendres/parts.h>
 #include <pendres/strobe.h>
 #include <pendres/orbit.h>
 #include <pendres/attractor.h>

@@ -1,0 +1,112 @@
+/*
+ * test_parts.c -- work in parts on threads: the same bytes as in one call, whatever the threads and
+ * the parts; every thing once; the first failure in the order of things is the one that is told.
+ */
+#include "check.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/parts.h>
+#include <pendres/strobe.h>
+
+enum { N = 1500 };
+
+typedef struct ensemble {
+  pendres_pendulum pendulums[N];
+  double x[N], v[N];
+  int done[N];
+  size_t fails_from; /* parts that begin there or behind fail */
+  atomic_int later;  /* one of those behind is about to */
+} ensemble;
+
+static ensemble *filled(void)
+{
+  ensemble *e = calloc(1, sizeof *e);
+  assert_non_null(e);
+  e->fails_from = N;
+  for (size_t i = 0; i < N; i++) {
+    const double share = (double)i / N;
+    e->pendulums[i] = (pendres_pendulum){.damping = 0.1 + 0.3 * share, .drive_amplitude = 0.2,
+                                         .drive_frequency = 0.7 + 0.3 * share};
+    e->x[i] = -1.5 + 6.0 * share;
+  }
+  return e;
+}
+
+static pendres_status advance(pendres_context *ctx, size_t first, size_t count, void *arg)
+{
+  ensemble *e = arg;
+  for (size_t i = first; i < first + count; i++) e->done[i]++;
+  if (first >= e->fails_from) e->pendulums[first].damping = -1.0;
+  if (first > e->fails_from) atomic_store(&e->later, 1);
+  /* The first of them comes last, if another thread is there to be quicker. */
+  for (long i = 0; first == e->fails_from && !atomic_load(&e->later) && i < 20000000; i++) continue;
+  for (size_t i = 0; first == e->fails_from && i < 50; i++) {
+    double x = 1.0, v = 0.0;
+    check_ok(pendres_strobe_advance(ctx, 1, e->pendulums, &x, &v, 100, NULL));
+  }
+  return pendres_strobe_advance(ctx, count, e->pendulums + first, e->x + first, e->v + first, 2,
+                                NULL);
+}
+
+static void bytes_do_not_depend_on_threads(void **state)
+{
+  static const pendres_parts ways[] = {
+    {.n = N, .threads = 1}, {.n = N, .each = 100, .threads = 2}, {.n = N, .each = 1, .threads = 3},
+    {.n = N, .each = N - 1, .threads = 8}, {.n = N, .each = 64}};
+  ensemble *one = filled();
+  pendres_context *ctx = NULL;
+  char why[200] = "unchanged";
+  (void)state;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_strobe_advance(ctx, N, one->pendulums, one->x, one->v, 2, NULL));
+  pendres_context_free(ctx);
+  for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+    ensemble *e = filled();
+    check_ok(pendres_parts_run(&ways[k], advance, e, why, sizeof why));
+    assert_string_equal(why, "");
+    assert_memory_equal(e->x, one->x, sizeof e->x);
+    assert_memory_equal(e->v, one->v, sizeof e->v);
+    for (size_t i = 0; i < N; i++) assert_int_equal(e->done[i], 1);
+    free(e);
+  }
+  free(one);
+}
+
+static void first_failure_is_told(void **state)
+{
+  (void)state;
+  for (int threads = 1; threads < 6; threads++) {
+    const pendres_parts how = {.n = N, .each = 50, .threads = threads};
+    char why[200] = "", few[4] = "";
+    ensemble *e = filled();
+    e->fails_from = 700;
+    assert_int_equal(pendres_parts_run(&how, advance, e, why, sizeof why),
+                     PENDRES_INVALID_ARGUMENT);
+    assert_ptr_equal(strstr(why, "part from 700 on: pendulum 0: the damping"), why);
+    for (size_t i = 0; i < 700; i++) assert_int_equal(e->done[i], 1); /* all before are done */
+    assert_int_equal(pendres_parts_run(&how, advance, e, few, sizeof few),
+                     PENDRES_INVALID_ARGUMENT);
+    assert_int_equal(strlen(few), 3);
+    free(e);
+  }
+}
+
+static void nothing_to_do(void **state)
+{
+  const pendres_parts none = {.threads = 4};
+  (void)state;
+  check_ok(pendres_parts_run(&none, advance, NULL, NULL, 0));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(bytes_do_not_depend_on_threads),
+    cmocka_unit_test(first_failure_is_told),
+    cmocka_unit_test(nothing_to_do),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
