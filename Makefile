@@ -71,8 +71,6 @@ SANITIZER := $(if $(SANITIZE),-fsanitize=$(SANITIZE) -fno-sanitize-recover=all \
                -fno-omit-frame-pointer)
 ALL_CFLAGS = $(CFLAGS) $(NEEDED) $(SANITIZER) $(if $(filter-out 0,$(WERROR)),-Werror)
 THREADS := -pthread
-# For tests that compute much by themselves.
-OPENMP := -fopenmp
 # Theirs are tables of structs whose last fields are zero and go without saying.
 TERSE := -Wno-missing-field-initializers
 
@@ -89,6 +87,10 @@ GOALS := $(or $(MAKECMDGOALS),all)
 BUILDING := $(filter-out deps deps-mpi deps-plots deps-python clean uninstall doc style gallery help,$(GOALS))
 
 ifneq ($(BUILDING),)
+# For tests that compute much by themselves. Clang has the library for it in a package of its own;
+# where that is missing they run on one thread.
+OPENMP := $(shell echo 'int main(void) { return 0; }' | \
+            $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp)
 have = $(shell $(PKG_CONFIG) --exists $(1) 2>/dev/null && echo yes)
 cflags_of = $(shell $(PKG_CONFIG) --cflags $(1))
 libs_of = $(shell $(PKG_CONFIG) --libs $(1))
@@ -218,10 +220,10 @@ $(OBJ)/drivers/%.o: drivers/%.c $(BUILD)/flags
 	$(call COMPILE,-Idrivers $(THREADS) $(RANKS_CFLAGS))
 
 $(OBJ)/tests/%.o: tests/%.c $(BUILD)/flags
-	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP) $(TERSE))
+	$(call COMPILE,-Isrc -Idrivers -Itests $(OPENMP),$(TERSE))
 
 $(OBJ)/bench/%.o: bench/%.c $(BUILD)/flags
-	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP) $(TERSE))
+	$(call COMPILE,-Isrc -Idrivers -Ibench $(OPENMP),$(TERSE))
 
 # Sanitizers watch the kernels of the plainest instruction set, which is the same source and which
 # the tests of kernels run beside the others. The others stay as they are released: watched, they
