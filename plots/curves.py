@@ -117,22 +117,40 @@ def orbit_title(h):
     return "no closed orbit"
 
 
-def draw_section(h):
-    """Chaos with one sample a period: its Poincaré section, x within one turn."""
-    fig, ax = figure(h, 5.0, 4.2)
-    x = np.mod(h["x"] + np.pi / 2, 2 * np.pi) - np.pi / 2
-    ax.plot(x / np.pi, h["v"], ".", ms=max(0.6, 4 - 0.7 * np.log10(len(x) + 1)), mew=0,
+def draw_spectrum(h, ax):
+    """Power spectrum of the velocity; what is at the drive's harmonics are lines, the rest chaos."""
+    omega, power = h["frequency"], h["power_spectrum"]
+    ax.plot(omega[1:] / h["drive_frequency"], power[1:], lw=0.6, color=EXACT)
+    ax.set(xlabel="frequency (drive frequencies)", ylabel="power of $v$", yscale="log",
+           xlim=(0, omega[-1] / h["drive_frequency"]))
+
+
+def draw_section(h, samples):
+    """Chaos once a drive period: its Poincaré section, x within one turn; its spectrum if there."""
+    spectrum = "power_spectrum" in h
+    fig, axes = figure(h, 5.0, 6.0 if spectrum else 4.2, 1 + spectrum, 1,
+                       **({"height_ratios": (2, 1)} if spectrum else {}))
+    ax = np.atleast_1d(axes)[0]
+    x, v = np.mod(h["x"][::samples] + np.pi / 2, 2 * np.pi) - np.pi / 2, h["v"][::samples]
+    ax.plot(x / np.pi, v, ".", ms=max(0.6, 4 - 0.7 * np.log10(len(x) + 1)), mew=0,
             color=EXACT, rasterized=True)
     ax.set(xlabel=r"$x/\pi$", ylabel="$v$")
-    ax.set_title("Poincaré points; " + orbit_title(h))
+    title = "Poincaré points; " + orbit_title(h)
+    if "correlation_dimension" in h and np.isfinite(h["correlation_dimension"]):
+        title += f"\ndimensions: correlation {h['correlation_dimension']:.3f}" \
+            f"$\\pm${h['correlation_dimension_error']:.3f}, Lyapunov {h['lyapunov_dimension']:.3f}"
+    ax.set_title(title)
+    if spectrum:
+        draw_spectrum(h, axes[1])
     return fig
 
 
 def draw_orbit(h, path):
     periods, x, drive = h["drive_phase"] / (2 * np.pi), h["x"], h["drive"]
     closed = np.isfinite(h["period"])
-    if not closed and len(periods) > 1 and periods[1] - periods[0] > 0.99:  # one sample a period
-        return draw_section(h)
+    samples = round(1 / (periods[1] - periods[0])) if len(periods) > 1 else 1  # a period
+    if not closed and len(periods) > (1 if samples == 1 else 200 * samples):
+        return draw_section(h, samples)
     colour = {0: SA, 1: LA}.get(int(h["label"]), "#009E73")
     fig, (top, bottom) = figure(h, 4.8, 5.6, 2, 1)
     scale = 0.5 * np.ptp(x) / np.ptp(drive) if np.ptp(drive) > 0 and np.ptp(x) > 0 else 1.0

@@ -116,6 +116,18 @@ static void strobes(void **state)
   REFUSED(pendres_strobe_record(f->ctx, &good, x, v, LONG_MAX, 2, many, many, NULL, NULL));
   REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, 0, many, many, NULL, NULL));
   REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, INT_MAX, many, many, NULL, NULL));
+  pendres_recording r = { .samples = 0 };
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, many, NULL, NULL));
+  REFUSED(pendres_recording_begin(f->ctx, NULL, x, v, 1, 2, &r));
+  REFUSED(pendres_recording_begin(f->ctx, &good, x, v, 1, 2, NULL));
+  REFUSED(pendres_recording_begin(f->ctx, &good, x, NAN, 1, 2, &r));
+  REFUSED(pendres_recording_begin(f->ctx, &good, x, v, 1, 0, &r));
+  check_ok(pendres_recording_begin(f->ctx, &good, x, v, 1, 2, &r));
+  REFUSED(pendres_recording_go_on(f->ctx, NULL, 1, many, many, NULL, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, -1, many, many, NULL, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, NULL, many, NULL, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, NULL, NULL, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, many, many, NULL));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_strobe_advance(f->ctx, 1, &bad_pendulums[i], &x, &v, 1, NULL));
     REFUSED(pendres_strobe_record(f->ctx, &bad_pendulums[i], x, v, 1, 2, many, many, NULL, NULL));

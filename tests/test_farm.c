@@ -157,6 +157,35 @@ static void test_all(void **state)
   }
 }
 
+/* Each task reads what was collected of the one before, whatever the threads. */
+static pendres_status next_task(const void *arg, size_t i, pendres_context *ctx, farm_record *out)
+{
+  const scene *s = arg;
+  (void)ctx;
+  *(double *)out->data = i == 0 ? 1.0 : 0.5 * s->result[i - 1] + (double)i;
+  return PENDRES_OK;
+}
+
+static void test_chained(void **state)
+{
+  (void)state;
+  for (int threads = 1; threads <= 4; threads += 3) {
+    scene *s = new_scene();
+    farm *f = new_farm(threads, s);
+    double want = 1.0;
+    check_ok(farm_run(f, &(farm_stage){ .what = "tasks", .tasks = TASKS, .task = next_task,
+                                        .record_size = sizeof want, .chained = 1,
+                                        .collect = collect, .arg = s }));
+    check_collected(s, TASKS);
+    for (size_t i = 0; i < TASKS; i++) {
+      want = i == 0 ? 1.0 : 0.5 * want + (double)i;
+      assert_true(s->result[i] == want);
+    }
+    farm_free(f);
+    free(s);
+  }
+}
+
 #ifndef __SANITIZE_ADDRESS__
 /* The stacks of so many threads do not fit: fewer do as well, and nothing ends the program. */
 static void test_few_threads(void **state)
@@ -373,6 +402,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_all),
+    cmocka_unit_test(test_chained),
     cmocka_unit_test(test_failure),
     cmocka_unit_test(test_failure_ends_others),
     cmocka_unit_test(test_collector_refuses),

@@ -24,6 +24,10 @@ static const struct {
   { "orbit", "&scene kind = 'orbit' /\n"
              "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
              "&orbit start = 'la' /\n" },
+  { "record", "&scene kind = 'orbit' /\n"
+              "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+              "&orbit x = -1, v = 0.4, transient = .true., periods = 260, samples = 1024,\n"
+              "  spectrum = .true. /\n" },
   { "basins", "&scene kind = 'basins' /\n"
               "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
               "&sweep x_range = -1.5, 4.7, 3, v_range = -2, 2, 40000 /\n" },

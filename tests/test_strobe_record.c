@@ -164,10 +164,43 @@ static void test_refusals(void **state)
   pendres_context_free(ctx);
 }
 
+/* In pieces of any length, gone on with from copies and in other contexts: the same bytes, also where
+   a chaotic trajectory is lost on the way. */
+static void test_pieces(void **state)
+{
+  enum { PERIODS = 60, SAMPLES = 5, N = PERIODS * SAMPLES + 1 };
+  static double want[4][N], got[4][N];
+  const pendres_pendulum p = { .damping = 0.5, .drive_amplitude = 1.15,
+                               .drive_frequency = 2.0 / 3.0 };
+  pendres_context *ctx = context(1e-8);
+  pendres_recording r;
+  (void)state;
+  check_ok(pendres_strobe_record(ctx, &p, 1.8, 0.1, PERIODS, SAMPLES, want[0], want[1], want[2],
+                                 want[3]));
+  assert_true(isfinite(want[2][20]) && isinf(want[2][N - 1]));
+  check_ok(pendres_recording_begin(ctx, &p, 1.8, 0.1, PERIODS, SAMPLES, &r));
+  for (long done = 0, some = 1; done < PERIODS; done += some, some = (2 * some) % 13 + 1) {
+    const pendres_recording before = r;
+    const size_t at = (size_t)done * SAMPLES;
+    pendres_context_free(ctx);
+    ctx = context(1e-8);
+    if (some > PERIODS - done) some = PERIODS - done;
+    r = before;
+    check_ok(pendres_recording_go_on(ctx, &r, some, got[0] + at, got[1] + at, got[2] + at,
+                                     got[3] + at));
+    assert_true(r.periods == done + some && r.x == got[0][at + (size_t)some * SAMPLES]);
+  }
+  assert_true(r.lost == 1);
+  assert_memory_equal(got, want, sizeof want);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_reference), cmocka_unit_test(test_lost_for_good),
+    cmocka_unit_test(test_reference),
+    cmocka_unit_test(test_lost_for_good),
+    cmocka_unit_test(test_pieces),
     cmocka_unit_test(test_phases),
     cmocka_unit_test(test_densities),
     cmocka_unit_test(test_refusals),

@@ -161,6 +161,8 @@ typedef struct deck {
     int64_t periods;        /* drive periods recorded */
     int64_t samples;        /* per period */
     int transient;          /* nonzero: record from the start instead of after settling */
+    int dimension, spectrum; /* nonzero: measure them */
+    int64_t segment;        /* drive periods of the spectrum's segments; 0: chosen */
   } orbit;
 
   struct {                  /* of the scene hysteresis, in real time */

@@ -234,6 +234,13 @@ const deck_key deck_table[] = {
     SAYS(NULL, "samples a drive period") },
   { LOGICAL("orbit", "transient", orbit.transient), IN(ORBIT), .number = 0,
     SAYS(NULL, "record from the start on instead of after settling") },
+  { LOGICAL("orbit", "dimension", orbit.dimension), IN(ORBIT), .number = 0,
+    SAYS(NULL, "measure the correlation and Lyapunov dimension of the record's strobe points") },
+  { LOGICAL("orbit", "spectrum", orbit.spectrum), IN(ORBIT), .number = 0,
+    SAYS(NULL, "measure the power spectrum of the record's velocity") },
+  { INTEGER("orbit", "segment", orbit.segment), IN(ORBIT), RANGE(0, DECK_MAX_COUNT), .number = 0,
+    SAYS(NULL, "drive periods of a segment of the spectrum, which make its resolution; 0: a power of "
+         "two, at most a sixteenth of the record") },
 
   { CHOICE("hysteresis", "start", orbit.start), IN(HYSTERESIS), .choices = starts,
     EXAMPLE("'sa'"),

@@ -259,7 +259,8 @@ static void work_together(crew *c, int threads, hand *hands)
 static void look_up(crew *c)
 {
   const farm_share *s = &c->farm->share;
-  const int shared = s->shards > 1 && !c->stage->cheap && !c->stage->timed;
+  const int apart = !c->stage->cheap && !c->stage->timed && !c->stage->chained;
+  const int shared = s->shards > 1 && apart;
   for (size_t i = 0; i < c->stage->tasks; i++) {
     if (journal_has(c->journal, c->number, i)) c->done[i] = JOURNALED;
     else if (shared && i % s->shards != s->shard) c->done[i] = OTHERS;
@@ -330,7 +331,7 @@ static void crew_free(crew *c)
 static int threads_for(const farm *f, const farm_stage *stage)
 {
   const int most = f->short_of > 0 ? f->short_of : f->threads;
-  if (stage->timed) return 1;
+  if (stage->timed || stage->chained) return 1;
   return stage->tasks < (size_t)most ? (int)stage->tasks : most;
 }
 

@@ -180,12 +180,12 @@ static void *listen(void *arg)
 }
 
 /* Rank 0 answers every question until it ends the stage, and waits for what it has dealt: an answer
-   is waited for even where no more is wanted. Tasks that look at the clock are rank 0's own. */
+   is waited for even where no more is wanted. Tasks that go one at a time are rank 0's own. */
 static int ask(crew *c, int thread, size_t *task)
 {
   note n = note_of(c, ASK);
   n.thread = thread;
-  if (c->stage->timed || farm_stop(c->farm)) return 0;
+  if (c->stage->timed || c->stage->chained || farm_stop(c->farm)) return 0;
   if (!ranks_send(0, TO_ROOT, &n, sizeof n)) return 0;
   while (!atomic_load(&c->ended)) {
     ranks_parcel p;

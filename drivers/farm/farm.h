@@ -56,6 +56,8 @@ typedef struct farm_stage {
   int last;              /* nothing that the run computes after it reads its records */
   int cheap;             /* so little to do that every shard does all of it */
   int timed;             /* tasks look at the clock: one at a time, so that each is alone */
+  int chained;           /* each task reads what was collected of the one before: one at a time, and
+                            by every shard */
   farm_task *task;
   farm_collect *collect; /* may be NULL */
   void *arg;             /* of both */

@@ -113,7 +113,9 @@ static pendres_status try_stage(stage_trial *s)
   const size_t tasks = s->stage->tasks;
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; s->count < tasks && status == PENDRES_OK; k++) {
-    const size_t task = spread(k, tasks);
+    /* Of a chain only the first can be tried: the others go on from what was collected. */
+    const size_t task = s->stage->chained ? 0 : spread(k, tasks);
+    if (s->stage->chained && s->count > 0) break;
     if (s->tried[task]) continue;
     if (s->seconds > s->farm->trial->few) break;
     status = try_task(s, task);

@@ -39,6 +39,15 @@ static const struct { const char *name, *definition; } definitions[] = {
   { "lyapunov_exponent", "rate at which neighbours part, in omega0" },
   { "lyapunov", "rate at which neighbours part, in omega0; of closed orbits that of the larger "
                 "multiplier" },
+  { "lyapunov_dimension", "1 + L / (L + damping) of the strobe points, L being the largest Lyapunov "
+                          "exponent; the motion in time has one more. Its error is a standard "
+                          "error" },
+  { "correlation_dimension", "slope of log correlation_sum against log distance, of the strobe "
+                             "points; the motion in time has one more. Its error: two standard "
+                             "errors, and what the slope differs by within the range" },
+  { "power_spectrum", "mean square of v that each unit of angular frequency holds, one-sided: the "
+                      "integral over frequency is the mean square of v; by Welch's method, with "
+                      "Hann windows. Its error is a standard error" },
   { "rotation", "mean whole turns of the angle a drive period" },
   { "mean_velocity", "mean of dx/dt in the long run, in omega0; of an orbit that closes after q "
                      "drive periods but for p turns, p omega / q" },

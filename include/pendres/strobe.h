@@ -70,6 +70,53 @@ pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulu
                                      double x0, double v0, long periods, int samples, double *x,
                                      double *v, double *x_error, double *v_error);
 
+/** Where one of the two runs of a recording stands. The library's own. */
+typedef struct pendres_recording_place {
+  double y;   /**< angle, within half a turn of zero */
+  double w;   /**< its slope by drive phase */
+  long turns; /**< whole turns beside y */
+} pendres_recording_place;
+
+/**
+ * A record that is made piece by piece, so that it may be longer than memory: where it stands.
+ * Plain data; who goes on from a copy gets the same bytes. To be read, not to be changed.
+ */
+typedef struct pendres_recording {
+  pendres_pendulum pendulum;     /**< of which it is */
+  long periods;                  /**< drive periods recorded so far */
+  int samples;                   /**< points a drive period */
+  int stretch;                   /**< steps between two points */
+  double x;                      /**< the latest point, ... */
+  double v;                      /**< ... its velocity, ... */
+  double x_error;                /**< ... and their errors; infinite if lost */
+  double v_error;                /**< likewise */
+  pendres_recording_place place; /**< of the run that is recorded */
+  pendres_recording_place finer; /**< of the run that it is compared with */
+  double noise[3];               /**< covariance of the rounding of the latter */
+  int lost;                      /**< 1: the runs have lost each other, and errors are infinite from
+                                      here on; the second run ends with that */
+} pendres_recording;
+
+/**
+ * Begin a record of a pendulum from position x0 and velocity v0 at drive phase 0, which is to have
+ * so many periods in all: its steps are fine enough for errors of all of them to add up. *out is
+ * written on PENDRES_OK. Statuses as of pendres_strobe_record(). Thread safety: as for the context.
+ */
+pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                       double x0, double v0, long periods, int samples,
+                                       pendres_recording *out);
+
+/**
+ * Go on by some periods. Arrays are as of pendres_strobe_record(), of periods * samples + 1 values:
+ * the first is the last of the piece before. All pieces together are the same bytes as the record
+ * in one piece. x_error and v_error may be NULL; errors of later pieces are then infinite.
+ *
+ * On a failure *recording is unchanged. Thread safety: as for the context.
+ */
+pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
+                                       long periods, double *x, double *v, double *x_error,
+                                       double *v_error);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

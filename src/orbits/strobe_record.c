@@ -9,6 +9,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/context_internal.h"
 #include "engine/passage.h"
@@ -46,66 +47,53 @@ static void keep(void *arg, int step, const pendres_rows *rows)
   }
 }
 
-/* What a run is of. */
-typedef struct record {
-  const pendres_pendulum *p;
-  double x0, v0;
+/* A piece of a run: its first point and those of so many periods. */
+typedef struct piece {
+  const pendres_recording *of;
+  pendres_recording_place *at; /* where the run stands: moved on */
   long periods;
-  int samples;
-} record;
+  int stretch;
+  double *x, *v;
+} piece;
 
-/* The whole trajectory with `stretch` steps from one point to the next. */
-static pendres_status run(pendres_context *ctx, const record *what, int stretch, double *x,
-                          double *v, double *x_noise, double *v_noise)
+static pendres_status run(pendres_context *ctx, const piece *what, double noise[3],
+                          double *x_noise, double *v_noise)
 {
   pendres_block b;
-  pendres_place s = pendres_passage_in(what->p, what->x0, what->v0);
-  recorder r = { .stretch = stretch, .p = what->p,
+  const pendres_pendulum *p = &what->of->pendulum;
+  const size_t samples = (size_t)what->of->samples;
+  const int steps = what->of->samples * what->stretch;
+  pendres_place s = { .y = what->at->y, .w = what->at->w, .turns = what->at->turns };
+  recorder r = { .stretch = what->stretch, .p = p,
                  .rounding = pendres_strobe_noise_of_step(ctx->options.table) };
   pendres_status status = pendres_block_open(
-    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, what->samples * stretch,
-    &b);
+    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, steps, &b);
   if (status != PENDRES_OK) return status;
   pendres_block_resize(&b, 1);
-  x[0] = what->x0;
-  v[0] = what->v0;
-  if (x_noise != NULL) x_noise[0] = v_noise[0] = 0.0;
+  for (int i = 0; i < 3 && x_noise != NULL; i++) r.noise[i] = noise[i];
   for (long k = 0; k < what->periods && status == PENDRES_OK; k++) {
-    const size_t first = (size_t)k * (size_t)what->samples;
-    r.x = x + first;
-    r.v = v + first;
+    const size_t first = (size_t)k * samples;
+    r.x = what->x + first;
+    r.v = what->v + first;
     r.x_noise = x_noise != NULL ? x_noise + first : NULL;
     r.v_noise = v_noise != NULL ? v_noise + first : NULL;
     r.turns = s.turns;
-    pendres_block_load(&b, 0, what->p, s.y, s.w);
+    pendres_block_load(&b, 0, p, s.y, s.w);
     status = pendres_block_period_sampled(&b, keep, &r);
     const pendres_rows rows = pendres_block_rows(&b);
-    double noise[3] = { 0.0 };
+    double carried[3] = { 0.0 };
     if (x_noise != NULL)
-      pendres_strobe_noise_carry(r.noise, r.rounding, what->samples * stretch, &rows, 0, noise);
-    for (int i = 0; i < 3; i++) r.noise[i] = noise[i];
+      pendres_strobe_noise_carry(r.noise, r.rounding, steps, &rows, 0, carried);
+    for (int i = 0; i < 3; i++) r.noise[i] = carried[i];
     s.y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
     s.w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
-    pendres_passage_arrive(what->p, &s.y, &s.w, &s.turns);
+    pendres_passage_arrive(p, &s.y, &s.w, &s.turns);
     if (status == PENDRES_OK && !(isfinite(s.y) && isfinite(s.w)))
-      return pendres_strobe_lost(ctx, what->p, k + 1);
+      return pendres_strobe_lost(ctx, p, what->of->periods + k + 1);
   }
+  *what->at = (pendres_recording_place){ .y = s.y, .w = s.w, .turns = s.turns };
+  for (int i = 0; i < 3 && x_noise != NULL; i++) noise[i] = r.noise[i];
   return status;
-}
-
-static pendres_status check(pendres_context *ctx, const record *what)
-{
-  const char *why = NULL;
-  if (pendres_pendulum_check(what->p, &why) == PENDRES_OK) {
-    if (what->periods < 0) why = "the number of periods must not be negative";
-    else if (what->samples < 1 || what->samples > MOST_SAMPLES)
-      why = "1 to 1000000 samples a period, please";
-    else if (what->periods >= LONG_MAX / 64 / what->samples)
-      why = "there are too many samples in all";
-    else why = pendres_passage_refuses(what->p, what->x0, what->v0);
-  }
-  if (why == NULL) return PENDRES_OK;
-  return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
 }
 
 /*
@@ -113,50 +101,130 @@ static pendres_status check(pendres_context *ctx, const record *what)
  * rounding. The errors of a point's x and v belong together: where one is lost, so is the other,
  * and once lost a trajectory may be any other's; that the two runs meet again says nothing then.
  */
-static pendres_status estimate(pendres_context *ctx, const record *what, int stretch,
-                               const double *x, const double *v, double *x_error, double *v_error)
+static pendres_status estimate(pendres_context *ctx, pendres_recording *next, const piece *first,
+                               double *x_error, double *v_error)
 {
-  const size_t n = (size_t)what->periods * (size_t)what->samples + 1;
+  const size_t n = (size_t)first->periods * (size_t)next->samples + 1;
   double *finer = malloc(2 * n * sizeof *finer);
   if (finer == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
-  const pendres_status status =
-    run(ctx, what, (14 * stretch + 9) / 10, finer, finer + n, x_error, v_error);
-  double lost = 0.0;
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    const double dx = fabs(x[k] - finer[k]), dv = fabs(v[k] - finer[n + k]);
+  const piece second = { .of = first->of, .at = &next->finer, .periods = first->periods,
+                         .stretch = (14 * next->stretch + 9) / 10, .x = finer, .v = finer + n };
+  const pendres_status status = run(ctx, &second, next->noise, x_error, v_error);
+  for (size_t k = 1; k < n && status == PENDRES_OK; k++) {
+    const double dx = fabs(first->x[k] - finer[k]), dv = fabs(first->v[k] - finer[n + k]);
     /* Not smaller where one of them happens to change its sign. */
     const double doubt = pendres_strobe_doubt(fmax(dx, dv));
-    if (!(doubt + x_error[k] + v_error[k] < INFINITY)) lost = INFINITY;
-    x_error[k] = lost + doubt + 2.0 * x_error[k] + 2.2e-16 * fabs(x[k]);
-    v_error[k] = lost + doubt + 2.0 * v_error[k] + 2.2e-16 * fabs(v[k]);
+    if (!(doubt + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
+    const double lost = next->lost ? INFINITY : 0.0;
+    x_error[k] = lost + doubt + 2.0 * x_error[k] + 2.2e-16 * fabs(first->x[k]);
+    v_error[k] = lost + doubt + 2.0 * v_error[k] + 2.2e-16 * fabs(first->v[k]);
   }
   free(finer);
   return status;
 }
 
-static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                           double x0, double v0, long periods, int samples,
-                                           double *x, double *v, double *x_error, double *v_error)
+/* ---- beginning and going on ---------------------------------------------------------------- */
+
+static pendres_status check(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
+                            long periods, int samples)
 {
-  const record what = { .p = pendulum, .x0 = x0, .v0 = v0, .periods = periods, .samples = samples };
+  const char *why = NULL;
+  if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
+    if (periods < 0) why = "the number of periods must not be negative";
+    else if (samples < 1 || samples > MOST_SAMPLES) why = "1 to 1000000 samples a period, please";
+    else if (periods >= LONG_MAX / 64 / samples) why = "there are too many samples in all";
+    else why = pendres_passage_refuses(p, x0, v0);
+  }
+  if (why == NULL) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
+}
+
+static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
+                            long periods, int samples, pendres_recording *out)
+{
   int steps = 0;
-  if (pendulum == NULL || x == NULL || v == NULL)
-    return PENDRES_CONTEXT_NULL(ctx, "pendulum, x and v");
+  if (p == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "pendulum and out");
+  pendres_status status = check(ctx, p, x0, v0, periods, samples);
+  if (status == PENDRES_OK)
+    /* Errors of all periods may add up. */
+    status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x0, v0),
+                                  ctx->options.tolerance / fmax(1.0, (double)periods), &steps);
+  if (status != PENDRES_OK) return status;
+  const pendres_place s = pendres_passage_in(p, x0, v0);
+  memset(out, 0, sizeof *out); /* what is between the fields, too */
+  out->pendulum = *p;
+  out->samples = samples;
+  out->stretch = (steps + samples - 1) / samples;
+  out->x = x0;
+  out->v = v0;
+  out->x_error = 2.2e-16 * fabs(x0);
+  out->v_error = 2.2e-16 * fabs(v0);
+  out->place.y = out->finer.y = s.y;
+  out->place.w = out->finer.w = s.w;
+  out->place.turns = out->finer.turns = s.turns;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                       double x0, double v0, long periods, int samples,
+                                       pendres_recording *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, begin(ctx, pendulum, x0, v0, periods, samples, out));
+}
+
+static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long periods, double *x,
+                            double *v, double *x_error, double *v_error)
+{
+  if (r == NULL || x == NULL || v == NULL) return PENDRES_CONTEXT_NULL(ctx, "recording, x and v");
   if ((x_error == NULL) != (v_error == NULL))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "errors are of both x and v, or of neither");
-  pendres_status status = check(ctx, &what);
-  if (status == PENDRES_OK)
-    /* Errors of all periods may add up. */
-    status = pendres_steps_choose(ctx, pendulum, pendres_steps_speed(pendulum, x0, v0),
-                                  ctx->options.tolerance / fmax(1.0, (double)periods), &steps);
+  if (r->samples < 1 || r->stretch < 1 || r->periods < 0 || periods < 0 ||
+      periods >= LONG_MAX / 64 / r->samples - r->periods)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "a recording that was begun, and how many periods it goes on");
+  pendres_recording next = *r;
+  const size_t last = (size_t)periods * (size_t)r->samples;
+  const piece first = { .of = r, .at = &next.place, .periods = periods, .stretch = r->stretch,
+                        .x = x, .v = v };
+  x[0] = r->x;
+  v[0] = r->v;
+  pendres_status status = run(ctx, &first, NULL, NULL, NULL);
+  if (x_error == NULL) next.lost = 1;
+  for (size_t k = 0; k <= last && x_error != NULL && r->lost; k++)
+    x_error[k] = v_error[k] = INFINITY;
+  if (x_error != NULL && !r->lost) {
+    x_error[0] = r->x_error;
+    v_error[0] = r->v_error;
+    if (status == PENDRES_OK) status = estimate(ctx, &next, &first, x_error, v_error);
+  }
   if (status != PENDRES_OK) return status;
-  const int stretch = (steps + samples - 1) / samples;
-  status = run(ctx, &what, stretch, x, v, NULL, NULL);
-  if (status == PENDRES_OK && x_error != NULL)
-    status = estimate(ctx, &what, stretch, x, v, x_error, v_error);
+  next.x = x[last];
+  next.v = v[last];
+  next.x_error = x_error != NULL ? x_error[last] : INFINITY;
+  next.v_error = v_error != NULL ? v_error[last] : INFINITY;
+  next.periods += periods;
+  *r = next;
   return status;
+}
+
+pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
+                                       long periods, double *x, double *v, double *x_error,
+                                       double *v_error)
+{
+  return PENDRES_CONTEXT_CALL(ctx, go_on(ctx, recording, periods, x, v, x_error, v_error));
+}
+
+static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,
+                                   double x0, double v0, long periods, int samples, double *x,
+                                   double *v, double *x_error, double *v_error)
+{
+  pendres_recording r;
+  if (pendulum == NULL || x == NULL || v == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, x and v");
+  const pendres_status status = begin(ctx, pendulum, x0, v0, periods, samples, &r);
+  return status == PENDRES_OK ? go_on(ctx, &r, periods, x, v, x_error, v_error) : status;
 }
 
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,

@@ -1,0 +1,234 @@
+/* scene_orbit_write.c -- what the scene `orbit` writes; see scene_orbit.h. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/scene_columns.h"
+#include "scenes/scene_failed.h"
+#include "scenes/scene_orbit.h"
+
+static const double eps = 2.220446049250313e-16;
+
+enum { MULTIPLIERS = 2 };
+
+static pendres_status put_scalars(scene_run *run, const orbit_work *w)
+{
+  const orbit_found *f = &w->found;
+  const pendres_orbit *o = &f->orbit;
+  const double waited = f->settling_periods >= 0 ? (double)f->settling_periods : NAN;
+  const struct {
+    const char *name, *long_name, *units;
+    double value, error;
+    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, or whatever there is */
+  } scalars[] = {
+    { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
+      o->loop_area_error, CHAOTIC },
+    { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
+      o->dissipation_error, CHAOTIC },
+    { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error,
+      CHAOTIC },
+    { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
+      o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, CLOSED },
+    { "phase_lag", "lag of the first harmonic behind the drive", "rad", o->phase_lag,
+      o->phase_lag_error, CLOSED },
+    { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error,
+      CHAOTIC },
+    { "period", "drive periods until the orbit closes", "1", o->period, 0.0, CLOSED },
+    { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, CLOSED },
+    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)f->well : NAN, 0.0,
+      CLOSED },
+    { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
+      ALWAYS },
+    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", f->lyapunov,
+      f->lyapunov_error, ALWAYS },
+    { "drift", "mean whole turns a drive period, of chaos", "1", f->drift, f->drift_error,
+      CHAOTIC },
+    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers",
+      "1",
+      f->watched_periods, 0.0, CHAOTIC },
+    { "escape_rate_bound", "largest rate of ending, a drive period, that is not excluded at 95 %",
+      "1", f->escape_rate_bound, 0.0, CHAOTIC },
+  };
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
+    const int there = f->closed || scalars[i].of == ALWAYS ||
+                      (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
+    const double value = there ? scalars[i].value : NAN;
+    const double error = isnan(value) ? NAN : scalars[i].error;
+    const double pair[2] = {value, error};
+    const scene_column column = {.name = scalars[i].name, .long_name = scalars[i].long_name,
+                                 .units = scalars[i].units, .error = sizeof value};
+    const scene_table table = {.n = 1, .stride = sizeof pair, .rows = pair};
+    status = scene_columns_write(run, &table, 1, &column);
+  }
+  return status;
+}
+
+/* What it is. */
+typedef struct verdict {
+  int label, failed;
+} verdict;
+
+static const scene_column of_verdicts[] = {
+  {.name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
+   .value = offsetof(verdict, label), .names = scene_label_names},
+  {.name = "failed", .long_name = "why there is no orbit", .type = SCENE_FLAG,
+   .value = offsetof(verdict, failed), .names = scene_failure_names},
+};
+
+static pendres_status put_label(scene_run *run, const orbit_work *w)
+{
+  const int lost = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const verdict of = {(int)w->found.label, lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE};
+  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  if (lost) scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "orbit");
+  run->failed_points = (size_t)lost;
+  return scene_columns_write(run, &table, sizeof of_verdicts / sizeof *of_verdicts, of_verdicts);
+}
+
+typedef struct multiplier {
+  double re, im, error;
+} multiplier;
+
+static const scene_column of_multipliers[] = {
+  {.name = "multiplier_re", .long_name = "Floquet multiplier, real part", .units = "1",
+   .value = offsetof(multiplier, re), .error = offsetof(multiplier, error)},
+  {.name = "multiplier_im", .long_name = "Floquet multiplier, imaginary part", .units = "1",
+   .value = offsetof(multiplier, im), .error = offsetof(multiplier, error)},
+};
+
+static pendres_status put_multipliers(scene_run *run, const orbit_work *w)
+{
+  const orbit_found *f = &w->found;
+  multiplier rows[MULTIPLIERS];
+  const scene_table table = {.dimensions = {"multiplier"}, .n = MULTIPLIERS,
+                             .stride = sizeof *rows, .rows = rows};
+  for (int i = 0; i < MULTIPLIERS; i++)
+    rows[i] = f->closed ? (multiplier){f->orbit.multiplier_re[i], f->orbit.multiplier_im[i],
+                                       f->orbit.multiplier_error}
+                        : (multiplier){NAN, NAN, NAN};
+  const pendres_status status = pendres_store_dimension(
+    run->store, NULL, "multiplier", MULTIPLIERS, NULL, "number of the Floquet multiplier", "1");
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  return scene_columns_write(run, &table, sizeof of_multipliers / sizeof *of_multipliers,
+                             of_multipliers);
+}
+
+/* ---- samples ------------------------------------------------------------------------------- */
+
+static pendres_status define(orbit_work *w, const char *name, const char *long_name,
+                             const char *units, orbit_variable *out)
+{
+  const pendres_store_spec spec = { .name = name, .dimensions = { "sample" },
+                                    .long_name = long_name, .units = units };
+  const pendres_status status =
+    pendres_store_result(w->run->store, &spec, &out->value, &out->error);
+  return status == PENDRES_OK ? status : scene_store_failed(w->run, status);
+}
+
+static pendres_status define_samples(orbit_work *w)
+{
+  const uint64_t n = (uint64_t)w->d->orbit.periods * (uint64_t)w->d->orbit.samples;
+  pendres_status status = pendres_store_dimension(w->run->store, NULL, "sample", n, NULL,
+                                                  "number of the sample", "1");
+  if (status != PENDRES_OK) return scene_store_failed(w->run, status);
+  status = define(w, "drive_phase", "phase of the drive, omega t", "rad", &w->phase);
+  if (status == PENDRES_OK) status = define(w, "x", "position", "rad", &w->x);
+  if (status == PENDRES_OK) status = define(w, "v", "velocity", "1", &w->v);
+  if (status == PENDRES_OK)
+    status = define(w, "drive", "drive, F0 cos(omega t)", "1", &w->drive);
+  return status;
+}
+
+static pendres_status put_rows(orbit_work *w, const orbit_variable *to, uint64_t first, size_t n,
+                               const double *value, const double *error)
+{
+  pendres_store *store = w->run->store;
+  pendres_status status = pendres_store_write_rows(store, to->value, first, n, value, n);
+  if (status == PENDRES_OK)
+    status = pendres_store_write_rows(store, to->error, first, n, error, n);
+  return status == PENDRES_OK ? status : scene_store_failed(w->run, status);
+}
+
+pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
+                                       const orbit_samples *s)
+{
+  const size_t count = (size_t)w->d->orbit.samples, n = (size_t)periods * count;
+  const uint64_t at = (uint64_t)first * count;
+  const double f0 = w->pendulum.drive_amplitude;
+  double *value = malloc(2 * n * sizeof *value);
+  if (value == NULL)
+    return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  double *error = value + n;
+  for (size_t k = 0; k < n; k++) {
+    value[k] = 2.0 * PENDRES_PI * (double)(at + k) / (double)count;
+    error[k] = eps * value[k];
+  }
+  pendres_status status = put_rows(w, &w->phase, at, n, value, error);
+  if (status == PENDRES_OK) status = put_rows(w, &w->x, at, n, s->x, s->x_error);
+  if (status == PENDRES_OK) status = put_rows(w, &w->v, at, n, s->v, s->v_error);
+  for (size_t k = 0; k < n; k++) {
+    const size_t within = k % count; /* no need for large arguments */
+    value[k] = f0 * cos(2.0 * PENDRES_PI * (double)within / (double)count);
+    error[k] = 8.0 * eps * fabs(f0);
+  }
+  if (status == PENDRES_OK) status = put_rows(w, &w->drive, at, n, value, error);
+  free(value);
+  return status;
+}
+
+pendres_status scene_orbit_put_found(orbit_work *w)
+{
+  pendres_status status = put_label(w->run, w);
+  if (status == PENDRES_OK) status = put_scalars(w->run, w);
+  if (status == PENDRES_OK) status = put_multipliers(w->run, w);
+  if (status == PENDRES_OK) status = define_samples(w);
+  return status;
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+static void tabulate_dimensions(FILE *out, const orbit_work *w)
+{
+  const pendres_correlation *c = &w->measures.correlation;
+  double error = NAN;
+  const double value = pendres_lyapunov_dimension(&w->pendulum, w->found.lyapunov,
+                                                  w->found.lyapunov_error, &error);
+  if (w->measures.points == 0) return;
+  fprintf(out, "%-26s %.4f +- %.0e\n%-26s %.4f +- %.0e\n", "Lyapunov dimension", value, error,
+          "correlation dimension", c->dimension, c->dimension_error);
+}
+
+void scene_orbit_tabulate(FILE *out, const orbit_work *w)
+{
+  const orbit_found *f = &w->found;
+  const pendres_orbit *o = &f->orbit;
+  if (out == NULL) return;
+  fprintf(out, "%-26s %s\n", "label", pendres_label_name(f->label));
+  if (f->settling_periods >= 0)
+    fprintf(out, "%-26s %ld\n", "settling periods", f->settling_periods);
+  if (isfinite(f->lyapunov))
+    fprintf(out, "%-26s %.*f +- %.0e\n", "Lyapunov exponent", f->closed ? 12 : 6, f->lyapunov,
+            f->lyapunov_error);
+  if (f->label == PENDRES_LABEL_CHAOTIC)
+    fprintf(out, "%-26s %.4g drive periods; ends at less than %.1g a period, if at all\n"
+                 "%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n%-26s %.6f +- %.0e\n",
+            "watched for", f->watched_periods, f->escape_rate_bound, "drift", f->drift,
+            f->drift_error, "mean loop area", o->loop_area, o->loop_area_error,
+            "mean amplitude", o->amplitude, o->amplitude_error);
+  tabulate_dimensions(out, w);
+  if (!f->closed) return;
+  fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
+  if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", f->well);
+  const struct { const char *name; double value, error; } rows[] = {
+    { "amplitude", o->amplitude, o->amplitude_error },
+    { "first harmonic amplitude", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error },
+    { "phase lag", o->phase_lag, o->phase_lag_error },
+    { "loop area", o->loop_area, o->loop_area_error },
+    { "dissipation", o->dissipation, o->dissipation_error },
+    { "mean power", o->mean_power, o->mean_power_error },
+  };
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+    fprintf(out, "%-26s %.12f +- %.0e\n", rows[i].name, rows[i].value, rows[i].error);
+  for (int i = 0; i < MULTIPLIERS; i++)
+    fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i],
+            o->multiplier_im[i]);
+}

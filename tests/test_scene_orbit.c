@@ -1,0 +1,91 @@
+/*
+ * test_scene_orbit.c -- the scene `orbit`, run in this process: records in parts, and what is
+ * measured of them.
+ */
+#include "scene_fixture.h"
+
+#include <pendres/pendres.h>
+
+#define PENDULUM "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
+
+/* A record of several tasks is what the library records in one go, bit by bit. */
+static void parts(void **state)
+{
+  enum { PERIODS = 5, SAMPLES = 30000, N = PERIODS * SAMPLES };
+  static const char text[] =
+    "&scene kind = 'orbit' /\n" PENDULUM
+    "&orbit x = -1.0, v = 0.4, transient = .true., periods = 5, samples = 30000 /\n";
+  static const char *const names[] = {"x", "v", "x_error", "v_error"};
+  pendres_context *ctx = NULL;
+  const pendres_pendulum p = {
+    .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 6.28318530717958647693 / 8.0};
+  double *want = malloc(4 * (N + 1) * sizeof *want);
+  (void)state;
+  assert_non_null(want);
+  scene_run_deck(text, 1, "one");
+  scene_run_deck(text, 2, "two");
+  scene_check_same_bytes("one", "two");
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, SAMPLES, want, want + (N + 1),
+                                 want + 2 * (N + 1), want + 3 * (N + 1)));
+  pendres_store *store = scene_open("one");
+  for (int i = 0; i < 4; i++) {
+    size_t n = 0;
+    double *got = scene_values(store, names[i], &n);
+    assert_int_equal(n, N);
+    assert_memory_equal(got, want + i * (N + 1), N * sizeof *got);
+    free(got);
+  }
+  size_t n = 0;
+  double *phase = scene_values(store, "drive_phase", &n);
+  check_relative(phase[N - 1], 2.0 * 3.14159265358979323846 * (N - 1.0) / SAMPLES, 1e-15);
+  free(phase);
+  pendres_store_free(store);
+  pendres_context_free(ctx);
+  free(want);
+}
+
+/* The spectrum of a closed orbit holds the mean square of its velocity, which friction knows: its
+   loss a drive cycle is damping times mean square times the drive's period. Lines are sharp. */
+static void spectrum(void **state)
+{
+  size_t n = 0;
+  (void)state;
+  scene_run_deck("&scene kind = 'orbit' /\n" PENDULUM
+                 "&orbit start = 'la', periods = 64, samples = 32, dimension = .true.,\n"
+                 "  spectrum = .true., segment = 8 /\n", 1, "lines");
+  pendres_store *store = scene_open("lines");
+  double *omega = scene_values(store, "frequency", &n);
+  assert_int_equal(n, 8 * 32 / 2 + 1);
+  double *power = scene_values(store, "power_spectrum", &n);
+  double *error = scene_values(store, "power_spectrum_error", &n);
+  const double drive = scene_scalar(store, "drive_frequency");
+  double sum = 0.0, wanted = scene_scalar(store, "dissipation") / (0.12 * 8.0);
+  check_relative(omega[8], drive, 1e-14);
+  for (size_t k = 0; k < n; k++) {
+    sum += power[k] * omega[1];
+    /* A line and its two neighbours at each multiple of the drive's frequency. */
+    if (k % 8 > 1 && k % 8 < 7) assert_true(power[k] <= error[k] + 1e-20);
+  }
+  check_relative(sum, wanted, 1e-8);
+  assert_true(power[8] > 0.5 * wanted / omega[1]);
+  assert_true(scene_scalar(store, "correlation_dimension") == 0.0);
+  assert_true(scene_scalar(store, "lyapunov_dimension") == 0.0);
+  assert_true(!pendres_store_has(store, "", "correlation_sum"));
+  free(omega);
+  free(power);
+  free(error);
+  pendres_store_free(store);
+  /* Nobody has asked for them. */
+  scene_run_deck("&scene kind = 'orbit' /\n" PENDULUM "&orbit start = 'la' /\n", 1, "plain");
+  store = scene_open("plain");
+  assert_true(!pendres_store_has(store, "", "power_spectrum") &&
+              !pendres_store_has(store, "", "lyapunov_dimension"));
+  pendres_store_free(store);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(parts), cmocka_unit_test(spectrum)};
+  return cmocka_run_group_tests(tests, scene_enter, scene_leave);
+}
