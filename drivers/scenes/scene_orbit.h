@@ -56,7 +56,7 @@ pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
                                        const orbit_samples *s);
 void scene_orbit_tabulate(FILE *out, const orbit_work *w);
 
-/* scene_orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free in any case. */
+/* scene_orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free always. */
 pendres_status scene_orbit_measure_begin(orbit_work *w);
 pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
                                        const orbit_samples *s);

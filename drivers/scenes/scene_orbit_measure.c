@@ -34,7 +34,8 @@ pendres_status scene_orbit_measure_begin(orbit_work *w)
   const deck *d = w->d;
   if (d->orbit.spectrum && (w->transient || w->found.label != PENDRES_LABEL_UNRESOLVED)) {
     const size_t length = (size_t)segment_of(d) * (size_t)d->orbit.samples;
-    const double interval = 2.0 * PENDRES_PI / (w->pendulum.drive_frequency * (double)d->orbit.samples);
+    const double interval =
+      2.0 * PENDRES_PI / (w->pendulum.drive_frequency * (double)d->orbit.samples);
     const pendres_status status = pendres_spectrum_create(length, interval, &m->spectrum);
     if (status != PENDRES_OK)
       return scene_fail(w->run, status, "no spectrum of segments of %zu samples: 4 or more, an "

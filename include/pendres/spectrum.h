@@ -64,9 +64,9 @@ size_t pendres_spectrum_count(const pendres_spectrum *s);
  * NULL, receive angular frequencies from 0 to that of Nyquist; the mean square of the samples that
  * each unit of angular frequency holds (one-sided: the sum of all densities times the distance of
  * frequencies is the mean square, weighted by the squares of the windows); and its standard error
- * from the scatter of segments. Segments that overlap share a little of what they say, and the error
- * is larger for that; lines that do not scatter are known to rounding. With one segment errors are infinite;
- * without any all is NaN. Errors: PENDRES_INVALID_ARGUMENT (s is NULL).
+ * from the scatter of segments. Segments that overlap share a little of what they say, and errors
+ * are larger for that; lines that do not scatter are known to rounding. With one segment errors are
+ * infinite; without any all is NaN. Errors: PENDRES_INVALID_ARGUMENT (s is NULL).
  */
 pendres_status pendres_spectrum_get(const pendres_spectrum *s, double *frequency, double *density,
                                     double *error);
