@@ -85,11 +85,33 @@ static void points_without_a_peak(void **state)
   pendres_store_free(store);
 }
 
+/* Resonances that may be narrower than a search can look: a peak, marked, and exit code 3. */
+static void a_search_that_is_not_complete(void **state)
+{
+  static const char text[] =
+    "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 1e-4 /\n"
+    "&sweep damping = 1.2e-3, drive_frequency_range = 0.7, 1.3 /\n"
+    "&precision tolerance = 1e-3 /\n&ensemble members = 1, x_first = 1.57, x_last = 1.58 /\n";
+  (void)state;
+  assert_int_equal(scene_run_marked(NULL, text, 1, "budget"), 1);
+  assert_non_null(strstr(scene_told, "too few frequencies"));
+  pendres_store *store = scene_open("budget");
+  size_t n;
+  double *failed = scene_values(store, "failed", &n), *peak = scene_values(store, "peak", &n);
+  assert_int_equal(n, 1);
+  assert_int_equal((int)failed[0], SCENE_FAILURE_BUDGET);
+  assert_int_equal((int)peak[0], PENDRES_PEAK_SMOOTH);
+  free(failed);
+  free(peak);
+  pendres_store_free(store);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_signal_at_the_turning_point),
     cmocka_unit_test(points_without_a_peak),
+    cmocka_unit_test(a_search_that_is_not_complete),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -283,7 +283,7 @@ static pendres_status choose(work *w, pendres_resonance *out, int *again)
   const double largest = left_open(w, out->loop_area + out->loop_area_error);
   if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
     make_ragged(w, fmax(largest, out->loop_area), out);
-  out->complete = out->peak != PENDRES_PEAK_RAGGED || !s->exhausted;
+  out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
   return PENDRES_OK;
 }
 

@@ -211,10 +211,8 @@ pendres_status pendres_search_scan(pendres_search *s, double lowest, double high
     all += widths[PARTS];
   }
   /* Below a damping of some thousandths not all widths can be looked at. */
-  if (all / share > MOST) {
-    share = all / MOST;
-    s->crowded = 1;
-  }
+  s->coarse = all / share > MOST;
+  if (s->coarse) share = all / MOST;
   for (int i = 0; i + 1 < COARSE_POINTS; i++)
     n += cut(&s->pendulum, omega[i], omega[i + 1], share, fine + n);
   while (stride < n) stride *= 2;
@@ -225,5 +223,6 @@ pendres_status pendres_search_scan(pendres_search *s, double lowest, double high
       if ((i + 1) / stride % 2 == 1) level[count++] = fine[i];
     status = pendres_search_add(s, count, level);
   }
+  if (pendres_search_over(s)) s->coarse = 1;
   return status;
 }

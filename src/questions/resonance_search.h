@@ -29,6 +29,7 @@ typedef struct pendres_search {
   double slopes, newton;      /* the context's cost when work was last added up */
   int exhausted;              /* the budget of work is spent */
   int crowded;                /* no room for further frequencies */
+  int coarse;                 /* the first scan is coarser than resonances may be narrow */
 } pendres_search;
 
 /* Free it in any case. */
