@@ -28,6 +28,9 @@ deck orbit orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v =
 deck one orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v = 0.0, samples = 1 /"
 deck basins basins "$p, damping = 0.12, drive_period = 8 /
   &sweep x_range = -1.5, 4.5, 24, v_range = -2, 2, 16 /"
+deck lone basins '&pendulum drive_amplitude = 1, damping = 0.1, drive_frequency = 1 /
+  &sweep x_range = -1.5, 4.5, 8, v_range = -2, 2, 6 /'
+grep -q "basins.by = 'well'" lone.txt || { echo "no word of wells"; exit 1; }
 deck line phase_diagram "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
 deck plane phase_diagram "$p / &sweep damping = 0.2, 0.3, drive_frequency = 0.7, 0.8, 0.9 / $e"
 deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"

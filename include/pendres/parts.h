@@ -4,8 +4,8 @@
  *
  * A context belongs to one thread at a time, two contexts share nothing, and what is chosen for a
  * pendulum never depends on its neighbours. So a program may share its pendulums among threads of
- * its own in any way; this function is for those that have none. Whatever the threads and the parts,
- * the results are the same bytes as those of one thread.
+ * its own in any way; this function is for those that have none. Whatever the threads and the
+ * parts, the results are the same bytes as those of one thread.
  *
  * @code
  *     static pendres_status advance(pendres_context *ctx, size_t first, size_t count, void *arg)
@@ -38,9 +38,9 @@ typedef struct pendres_parts {
   size_t each;             /**< things a part, the last one may have fewer; default 4096, which fills
                                 eight blocks of lanes. Small parts share evenly, large ones waste
                                 less at their ends */
-  int threads;             /**< at most so many; default one for each processor that the process may
-                                use. The calling thread is one of them, and works on alone where the
-                                system gives no more */
+  int threads;             /**< at most so many; default one for each processor that the process
+                                may use. The calling thread is one of them, and works on alone
+                                where the system gives no more */
   pendres_options options; /**< of the contexts, one a thread */
 } pendres_parts;
 
@@ -57,10 +57,11 @@ typedef struct pendres_parts {
  * @param how     read alone
  * @param work    what to do with a part; a status other than PENDRES_OK ends the run
  * @param arg     handed on to work; kept by the caller
- * @param message [size] receives why it failed, cut to fit, "" after success; may be NULL if size is 0
+ * @param message [size] receives why it failed, cut to fit, "" after success; may be NULL if size
+ *                is 0
  * @param size    bytes of message
- * @return PENDRES_OK; PENDRES_INVALID_ARGUMENT: how or work is NULL, threads negative or above 4096,
- *         or options that are none; PENDRES_OUT_OF_MEMORY; else what work returned
+ * @return PENDRES_OK; PENDRES_INVALID_ARGUMENT: how or work is NULL, threads negative or above
+ *         4096, or options that are none; PENDRES_OUT_OF_MEMORY; else what work returned
  *
  * Thread safety: any number of calls at once. Signals are blocked in the threads that it makes, so
  * that those of the caller get them. To end it early: let work return PENDRES_INTERRUPTED, or give
