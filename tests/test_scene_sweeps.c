@@ -121,6 +121,43 @@ static void other_forces(void **state)
   free(lag);
 }
 
+/* Up a torque and down: a weak drive moves the pendulum about asin I. The works of the drives and of
+   the torque together are what friction takes. */
+static void torque_sweep(void **state)
+{
+  (void)state;
+  static const char deck_text[] =
+    "&scene kind = 'hysteresis' /\n&pendulum drive_amplitude = 0.001, damping = 1.5,\n"
+    "drive_frequency = 0.8 /\n&sweep torque = 0, 0.3, 0.6 /\n&hysteresis x = 1.6 /\n";
+  size_t n = 0;
+  scene_run_deck(deck_text, 1, "sweep");
+  pendres_store *store = scene_open("sweep");
+  double *amplitude = scene_values(store, "amplitude", &n);
+  double *velocity = scene_values(store, "mean_velocity", &n);
+  assert_int_equal(n, 6);
+  for (int i = 0; i < 6; i++) {
+    const double torque = 0.3 * (i % 3), in = sqrt(1.0 - torque * torque) - 0.64, out = 1.2;
+    /* What is left out is quadratic in the amplitude. */
+    check_near(amplitude[i], 1e-3 / hypot(in, out), 1e-6);
+    assert_true(velocity[i] == 0.0);
+  }
+  pendres_store_free(store);
+  free(amplitude), free(velocity);
+  scene_run_deck("&scene kind = 'orbit' /\n&pendulum drive_amplitude = 0.5, damping = 0.5,\n"
+                 "drive_frequency = 1.0, torque = 0.8, parametric_amplitude = 0.3 /\n"
+                 "&orbit x = 1.6, v = 2.5, periods = 1 /\n", 1, "orbit");
+  store = scene_open("orbit");
+  double *area = scene_values(store, "loop_area", &n), *lost = scene_values(store, "dissipation", &n);
+  double *torque = scene_values(store, "torque_work", &n);
+  double *drive = scene_values(store, "parametric_work", &n);
+  double *winding = scene_values(store, "winding", &n), *period = scene_values(store, "period", &n);
+  check_near(area[0] + torque[0] + drive[0], lost[0], 1e-7);
+  check_near(torque[0], 0.8 * 2.0 * PENDRES_PI * winding[0] / period[0], 1e-12);
+  assert_true(fabs(drive[0]) > 1e-3 && winding[0] != 0.0);
+  pendres_store_free(store);
+  free(area), free(lost), free(torque), free(drive), free(winding), free(period);
+}
+
 /* Up to the fourth doubling: points come back after the period, and the ends are the cascade's. */
 static void bifurcation_diagram(void **state)
 {
@@ -193,6 +230,7 @@ int main(void)
     cmocka_unit_test(hysteresis),
     cmocka_unit_test(lyapunov_map),
     cmocka_unit_test(other_forces),
+    cmocka_unit_test(torque_sweep),
     cmocka_unit_test(bifurcation_diagram),
     cmocka_unit_test(wrong_decks),
   };

@@ -223,10 +223,11 @@ static void check_moving(deck_builder *b)
     const char *message;
   } wanted[] = {
     { DECK_HYSTERESIS, 1, "one parameter is swept: give two or more values of damping, "
-                          "drive_amplitude or drive_frequency, and one of each of the others" },
+                          "drive_amplitude, drive_frequency, torque or parametric_amplitude, and "
+                          "one of each of the others" },
     { DECK_BIFURCATION_DIAGRAM, 1, "one parameter moves: give two or more values of damping, "
-                                   "drive_amplitude or drive_frequency, and one of each of the "
-                                   "others" },
+                                   "drive_amplitude, drive_frequency, torque or "
+                                   "parametric_amplitude, and one of each of the others" },
     { DECK_LYAPUNOV_MAP, 2, "a map has two axes: give two or more values of two of damping, "
                             "drive_amplitude, drive_frequency, torque and parametric_amplitude, "
                             "and one of each of the others" },

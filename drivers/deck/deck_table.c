@@ -36,7 +36,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (ORBIT | BASINS | RESPONSE | MAP)   /* torque, parametric drive, other forces */
+#define MODELS (ORBIT | BASINS | RESPONSE | ALONG) /* torque, parametric drive, other forces */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
@@ -135,14 +135,14 @@ const deck_key deck_table[] = {
     SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
   { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
-  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS & ~MAP), RANGE(-BIG, BIG),
+  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS & ~ALONG), RANGE(-BIG, BIG),
     UNLESS(TORQUE),
     SAYS("m g l", "constant torque I on the side of the drive; a Josephson junction's bias current") },
-  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~MAP),
+  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
     RANGE(-BIG, BIG), UNLESS(PARAMETRIC_AMPLITUDE),
     SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
-  { VALUE("torque", TORQUE), IN(MAP), RANGE(-BIG, BIG) },
-  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(MAP), RANGE(-BIG, BIG) },
+  { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
+  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RANGE(-BIG, BIG) },
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, or a polynomial of force_coefficients") },
@@ -176,9 +176,9 @@ const deck_key deck_table[] = {
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(RESPONSE | GRID), POSITIVE },
-  { SWEEP("torque", TORQUE), IN(RESPONSE | MAP), RANGE(-BIG, BIG),
+  { SWEEP("torque", TORQUE), IN(RESPONSE | ALONG), RANGE(-BIG, BIG),
     SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
-  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | MAP), RANGE(-BIG, BIG),
+  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | ALONG), RANGE(-BIG, BIG),
     SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),

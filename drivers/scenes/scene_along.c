@@ -46,6 +46,8 @@ pendres_parameter scene_along_parameter(deck_axis_id axis)
   switch (axis) {
   case DECK_AXIS_DAMPING: return PENDRES_DAMPING;
   case DECK_AXIS_DRIVE_AMPLITUDE: return PENDRES_DRIVE_AMPLITUDE;
+  case DECK_AXIS_TORQUE: return PENDRES_TORQUE;
+  case DECK_AXIS_PARAMETRIC_AMPLITUDE: return PENDRES_PARAMETRIC_AMPLITUDE;
   default: return PENDRES_DRIVE_FREQUENCY;
   }
 }

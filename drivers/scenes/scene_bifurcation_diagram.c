@@ -92,9 +92,10 @@ static pendres_status find_strobes(const void *arg, size_t task, pendres_context
 }
 
 /* The well number 0. */
-static double within_a_turn(double x)
+static double within_a_turn(const deck *d, double x)
 {
   const double turn = 2.0 * PENDRES_PI;
+  if (!(pendres_model_of(scene_pendulum(d).force)->period > 0.0)) return x;
   return x - turn * ceil((x - 0.75 * turn) / turn);
 }
 
@@ -114,7 +115,7 @@ static pendres_status collect_strobes(void *arg, size_t task, const farm_record 
   const double x_error = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
   const double v_error = closed ? point->attractor.orbit.v_error + w->d->precision.tolerance : NAN;
   for (size_t k = 0; k < w->strobes; k++)
-    w->strobe[task * w->strobes + k] = (strobe){within_a_turn(x[k]), x_error, v[k], v_error};
+    w->strobe[task * w->strobes + k] = (strobe){within_a_turn(w->d, x[k]), x_error, v[k], v_error};
   return PENDRES_OK;
 }
 

@@ -18,12 +18,17 @@ static pendres_status put_scalars(scene_run *run, const orbit_work *w)
   const struct {
     const char *name, *long_name, *units;
     double value, error;
-    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, or whatever there is */
+    /* Closed orbits alone, chaos too, whatever there is; closed ones of other than plain pendulums. */
+    enum { CLOSED, CHAOTIC, ALWAYS, OTHERS } of;
   } scalars[] = {
     { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
       o->loop_area_error, CHAOTIC },
     { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
       o->dissipation_error, CHAOTIC },
+    { "torque_work", "energy that the torque gives a drive cycle", "1", o->torque_work, 0.0,
+      OTHERS },
+    { "parametric_work", "energy that the parametric drive gives a drive cycle", "1",
+      o->parametric_work, o->parametric_work_error, OTHERS },
     { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error,
       CHAOTIC },
     { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
@@ -50,6 +55,7 @@ static pendres_status put_scalars(scene_run *run, const orbit_work *w)
   };
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
+    if (scalars[i].of == OTHERS && deck_is_plain(w->d)) continue;
     const int there = f->closed || scalars[i].of == ALWAYS ||
                       (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
     const double value = there ? scalars[i].value : NAN;

@@ -399,7 +399,7 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
   for (size_t i = 0; i < w->n; i++) {
     const char *why = NULL;
     const pendres_pendulum p = pendulum_at(w, w->value[i]);
-    if (pendres_model_check_plain(&p, &why) == PENDRES_OK && p.damping == 0.0)
+    if (pendres_pendulum_check(&p, &why) == PENDRES_OK && p.damping == 0.0)
       why = "without damping nothing settles";
     if (why != NULL)
       return pendres_context_fail(w->ctx, PENDRES_INVALID_ARGUMENT, "value %zu of the path: %s", i,

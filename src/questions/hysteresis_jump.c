@@ -8,6 +8,7 @@
 
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/catalogue.h"
 
 enum {
@@ -74,7 +75,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
   /* Whole turns are of no consequence, and chaos that drifts would go far. */
-  s->x = fmod(s->x, 2.0 * PENDRES_PI);
+  s->x = fmod(s->x, pendres_model_turn(&s->pendulum));
   return status;
 }
 

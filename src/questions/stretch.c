@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 
 /* Where errors grow by more than this in a map, an orbit has long been unstable. */
 static const double wildest = 3000.0;
@@ -24,10 +24,11 @@ void pendres_stretch_free(pendres_stretch *s)
   *s = pendres_stretch_none;
 }
 
-static double angle_between(double a, double b)
+/* From the position of an orbit to that of another, whole turns of its pendulum left out. */
+static double angle_between(const pendres_orbit *to, const pendres_orbit *from)
 {
-  const double d = a - b;
-  return d - two_pi * rint(d / two_pi);
+  const double d = to->x - from->x, turn = pendres_model_turn(&from->pendulum);
+  return d - turn * rint(d / turn);
 }
 
 /* Distance of a point of the branch from an orbit with a value of the parameter. */
@@ -36,7 +37,7 @@ static double distance(const pendres_branch_point *p, pendres_parameter paramete
 {
   const double dp = (pendres_parameter_get(parameter, &p->orbit.pendulum) - value) /
                     pendres_parameter_scale(parameter);
-  return hypot(hypot(angle_between(p->orbit.x, o->x), p->orbit.v - o->v), dp);
+  return hypot(hypot(angle_between(&p->orbit, o), p->orbit.v - o->v), dp);
 }
 
 /* The point of a branch that is nearest to an orbit; of bifurcations alone, or of all. */
@@ -231,7 +232,7 @@ static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_
   part = fmin(fmax(part, -1.0), 1.0);
   if (q->kind == PENDRES_FOLD) part = 1.0 - sqrt(1.0 - part);
   pendres_orbit_guess g = {.pendulum = p->orbit.pendulum,
-                           .x = p->orbit.x + part * angle_between(q->orbit.x, p->orbit.x),
+                           .x = p->orbit.x + part * angle_between(&q->orbit, &p->orbit),
                            .v = p->orbit.v + part * (q->orbit.v - p->orbit.v),
                            .period = p->orbit.period,
                            .winding = p->orbit.winding};
