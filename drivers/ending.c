@@ -9,6 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include <gsl/gsl_errno.h>
+
 enum { FAILED = 1, RUNNING = -1 };
 
 #define LENGTH(array) (sizeof(array) / sizeof(array)[0])
@@ -62,6 +64,7 @@ int ending_watch(pendres_store *const *store)
   struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO };
   int bad = sigemptyset(&action.sa_mask);
   atomic_store(&watched, store);
+  (void)gsl_set_error_handler_off(); /* which ends the program where GSL gets no memory */
   for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
   bad |= atexit(at_exit);
   /* The last one is called first, and should be ours: HDF5 installs its own when first called. */

@@ -60,7 +60,9 @@ static double strobes_of(const deck *d)
 double estimate_output(const deck *d)
 {
   const rule *r = &rules[d->kind];
-  const double point = strcmp(d->basins.by, "well") == 0 ? 2.0 * r->point : r->point;
+  double point = r->point;
+  if (strcmp(d->basins.by, "well") == 0) point *= 2.0;
+  if (d->basins.refine) point *= 0.2; /* a finer grid has longer runs of equal labels */
   return r->head + point * points_of(d) + 7.0 * strobes_of(d);
 }
 

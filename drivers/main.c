@@ -224,11 +224,12 @@ static int open_output(job *j)
   if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
   snprintf(output, sizeof output, "%s%s", d->output, suffix);
   if (together_helping()) together_output(output, sizeof output);
+  if (!together_helping()) estimate_check_space(d, output, &j->progress);
   if (pendres_store_create(output, &options, &j->run.store) != PENDRES_OK) {
-    progress_error(&j->progress, "%s", pendres_store_message(j->run.store));
+    const char *why = pendres_store_message(j->run.store);
+    progress_error(&j->progress, "%s", *why != '\0' ? why : "out of memory for the output");
     return FAILED;
   }
-  if (!together_helping()) estimate_check_space(d, output, &j->progress);
   j->run.table = open_memstream(&j->table, &j->table_size);
   if (j->run.table != NULL) return DONE;
   progress_error(&j->progress, "out of memory for the table of results");

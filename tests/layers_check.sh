@@ -93,7 +93,7 @@ only 'nvector/|sunmatrix/|sunlinsol/|sunnonlinsol/' 'src/engine/method_*'
 only 'sundials/' src/engine/compat.h 'src/engine/flow*' 'src/engine/lanes*' 'src/engine/method_*' \
   src/base/version.c
 only '.*compat\.h' 'src/engine/flow*' 'src/engine/method_*' src/engine/context.c
-only 'gsl/' 'src/*' 'drivers/validation/peer_gsl*'
+only 'gsl/' 'src/*' 'drivers/validation/peer_gsl*' 'drivers/ending.c'
 only 'mpi\.h' 'drivers/farm/*_mpi.c'
 only 'omp\.h' 'drivers/*'
 set +f

@@ -6,10 +6,11 @@
  * other code is a failure, and the context (context.h) holds a sentence that
  * says which pendulum failed, where and why. Thread safe: no state.
  *
- * Out of memory is a status where the library itself asks for memory. Where GSL (2.7) or SUNDIALS
- * (6.4) ask, they may end the program: GSL's default error handler does, and is not touched here;
- * with gsl_set_error_handler_off() some of its functions, and some of SUNDIALS', still follow a
- * null pointer. HDF5 (1.10) calls exit(-1) where it gets no memory for one of its handles, and
+ * Out of memory is a status where the library itself asks for memory, and where SUNDIALS (6.4) asks
+ * for vectors of the default method. SUNDIALS still follows a null pointer where it gets no memory
+ * for its logger or for its list of stages, and in methods to compare with (one problem a pendulum,
+ * CVODE). GSL (2.7) ends the program by its default error handler,
+ * which is not touched here: after gsl_set_error_handler_off() it is a status too. HDF5 (1.10) calls exit(-1) where it gets no memory for one of its handles, and
  * follows null pointers in other places, when attaching a dimension scale or when closing itself at
  * exit after such a failure, and overflows the stack when it starts without memory; see
  * pendres_store_drop_part().

@@ -179,7 +179,7 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   else if (!bad)
     bad = ERKStepSStolerances(flow->arkode, flow->tolerance, flow->tolerance) != 0 ||
           pendres_flow_set_controller(flow->arkode) != 0;
-  if (bad) status = PENDRES_INTEGRATION_FAILED;
+  if (bad) status = PENDRES_OUT_OF_MEMORY; /* nothing else is wrong with what is set */
   ARKodeButcherTable_Free(butcher);
   return status;
 }
@@ -226,6 +226,7 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   flow->rows = pendres_lanes_allocate(flow->shape.rows * flow->shape.capacity);
   if (flow->state == NULL || flow->rows == NULL) goto fail;
   status = arkode_setup(flow, options->table, sun);
+  if (flow->shape.starved) status = PENDRES_OUT_OF_MEMORY;
   if (status != PENDRES_OK) goto fail;
   *out = flow;
   return PENDRES_OK;
@@ -455,6 +456,13 @@ static pendres_status replay(pendres_flow *flow, const pendres_lanes_replay *p, 
   return count_steps(flow, steps) == 0 ? PENDRES_OK : PENDRES_INTERRUPTED;
 }
 
+/* How a call of ARKODE has ended. */
+static pendres_status ended(const pendres_flow *flow)
+{
+  if (flow->shape.starved) return PENDRES_OUT_OF_MEMORY;
+  return flow->failure < 0 ? failed(flow) : PENDRES_OK;
+}
+
 static pendres_status advance_to(pendres_flow *flow, int span, double end)
 {
   sunrealtype reached = 0.0;
@@ -466,8 +474,7 @@ static pendres_status advance_to(pendres_flow *flow, int span, double end)
     flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
   if (status == PENDRES_OK) show(flow);
   learn(flow, span);
-  if (status != PENDRES_OK) return status;
-  return flow->failure < 0 ? failed(flow) : PENDRES_OK;
+  return status != PENDRES_OK ? status : ended(flow);
 }
 
 pendres_status pendres_flow_period(pendres_flow *flow)
@@ -491,10 +498,8 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
   pendres_status status = start_period(flow, flow->end);
   for (int step = 1; step <= flow->steps && status == PENDRES_OK; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
-    if (flow->failure < 0) {
-      status = failed(flow);
-      break;
-    }
+    status = ended(flow);
+    if (status != PENDRES_OK) break;
     show(flow);
     const pendres_rows rows = pendres_flow_rows(flow);
     sample(arg, step, &rows);

@@ -54,6 +54,9 @@ int pendres_lanes_open(shape *s, size_t rows, size_t lanes, const pendres_kernel
 
 void pendres_lanes_close(shape *s)
 {
+  N_Vector spare = s->spare;
+  s->spare = NULL;
+  N_VDestroy(spare);
   pendres_lanes_tape_free(s->tape);
   s->tape = NULL;
 }
@@ -66,7 +69,7 @@ void pendres_lanes_resize(shape *s, size_t lanes)
 
 static void destroy(N_Vector v)
 {
-  if (v == NULL) return;
+  if (v == NULL || (v->content != NULL && v == of(v)->shape->spare)) return;
   if (v->content != NULL) {
     pendres_lanes_tape_forget(of(v)->shape);
     free(of(v)->memory);
@@ -93,13 +96,23 @@ static int fill(N_Vector v, shape *s)
   return 0;
 }
 
-static N_Vector clone(N_Vector v)
+/* Another vector of the shape; NULL if out of memory. */
+static N_Vector another(N_Vector v)
 {
   N_Vector w = N_VNewEmpty(v->sunctx);
   if (w == NULL) return NULL;
   if (N_VCopyOps(v, w) == 0 && fill(w, of(v)->shape) == 0) return w;
   destroy(w);
   return NULL;
+}
+
+static N_Vector clone(N_Vector v)
+{
+  shape *s = of(v)->shape;
+  N_Vector w = another(v);
+  if (w != NULL) return w;
+  s->starved = 1;
+  return s->spare;
 }
 
 /* Where a row of a strip starts, for all of them: copy between rows and strips. */
@@ -313,7 +326,9 @@ N_Vector pendres_lanes_create(shape *s, SUNContext sun)
   v->ops->nvwrmsnorm = wrms_norm;
   v->ops->nvmin = smallest;
 
-  if (fill(v, s) == 0) return v;
+  int bad = fill(v, s);
+  if (bad == 0 && s->spare == NULL) bad = (s->spare = another(v)) == NULL;
+  if (!bad) return v;
   destroy(v);
   return NULL;
 }

@@ -28,7 +28,11 @@ void pendres_lanes_close(pendres_lanes_shape *shape);
 /* From now on this many lanes, at most the capacity. Vectors keep no values. */
 void pendres_lanes_resize(pendres_lanes_shape *shape, size_t lanes);
 
-/* A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. */
+/*
+ * A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. SUNDIALS (6.4) follows
+ * the null pointer where a clone of it cannot be had; so it never cannot: one vector of the shape is
+ * kept to be handed out then, and the shape is starved, which is to be asked after SUNDIALS returns.
+ */
 N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun);
 
 /* All rows in and out, row after row, each `stride` doubles long. */

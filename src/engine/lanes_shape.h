@@ -34,6 +34,8 @@ typedef struct pendres_lanes_shape {
   pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
   size_t vectors;                    /* made so far, for their place in the cache */
   struct pendres_lanes_tape *tape;   /* what was put off */
+  struct _generic_N_Vector *spare;   /* stands in for clones that there is no memory for, */
+  int starved;                       /* and then this is set: nothing computed since is of use */
 } pendres_lanes_shape;
 
 /* How many lanes the strip has that starts with this lane. */

@@ -1,0 +1,106 @@
+#!/bin/sh
+# faults_check.sh -- what the system refuses, call by call: memory, writing, syncing, renaming,
+# opening; a full disk, a folder that cannot be written, a clock that runs backwards, a deck of many
+# megabytes. Whatever fails, the program ends with 0 or 1 and a message, an output is whole or not
+# there, and the same command with --resume then ends well.
+# Run by make check, which sets BUILD, CC and RESONANCE.
+set -u
+[ -n "${RESONANCE:-}" ] || exit 77
+scratch=$(mktemp -d) || exit 1
+trap 'umount "$scratch/small" 2>/dev/null; rm -rf "$scratch"' EXIT
+preload=$scratch/faults.so
+# Names of glibc's own: elsewhere there is nothing to be preloaded.
+"${CC:-gcc}" -shared -fPIC -o "$preload" tests/faults_preload.c -ldl 2>/dev/null || exit 77
+cd "$scratch" || exit 1
+
+cat >d.nml <<'DECK'
+&scene kind = 'response' /
+&pendulum drive_amplitude = 0.2 /
+&sweep damping = 0.24, drive_period = 8 /
+&ensemble members = 4 /
+DECK
+
+fail()
+{
+  echo "faults_check: $*"
+  sed 's/^/  /' err
+  exit 1
+}
+
+# run CALL NUMBER [BY]: with that occurrence of the call failing; its exit code is in $code.
+run()
+{
+  rm -f d.h5*
+  FAULT_CALL=$1 FAULT_AT=$2 FAULT_BY=${3:-} LD_PRELOAD=$preload "$RESONANCE" -q -t 1 d.nml \
+    >out 2>err
+  code=$?
+  case $code in
+  0) [ -f d.h5 ] || fail "$*: no output" ;;
+  1) grep -q '[a-z]' err || fail "$*: no message" ;;
+  *) fail "$*: exit code $code" ;;
+  esac
+  [ ! -f d.h5.part ] || grep -q 'results are whole in' err || fail "$*: a part is left"
+}
+
+# How many of a call there are, in $count.
+count()
+{
+  FAULT_CALL=$1 FAULT_AT=0 FAULT_BY=${2:-} FAULT_COUNT=count LD_PRELOAD=$preload \
+    "$RESONANCE" -q -t 1 d.nml >out 2>err || fail "$*: a run without faults"
+  count=$(cat count)
+  [ "$count" -gt 0 ] || fail "$*: never called"
+}
+
+# Every so-manieth, so that some twelve of each are tried; all, where that is asked for.
+some=${FAULTS:-12}
+: >err
+for call in write fsync rename open; do
+  count $call
+  at=1
+  while [ "$at" -le "$count" ]; do
+    run $call "$at"
+    if [ "$at" -eq 1 ]; then
+      "$RESONANCE" -q -t 1 --resume d.nml >out 2>err || fail "$call $at: no resuming"
+      "$RESONANCE" --verify d.h5 >out 2>err || fail "$call $at: damaged"
+    fi
+    at=$((at + 1 + count / some))
+  done
+done
+for by in '' libgsl; do
+  count malloc "$by"
+  at=1
+  while [ "$at" -le "$count" ]; do
+    run malloc "$at" "$by"
+    at=$((at + 1 + count / some))
+  done
+done
+
+run clock 3
+[ "$code" -eq 0 ] || fail "a clock that runs backwards"
+
+# A deck of a hundred megabytes (a hole in the file) is refused, without being read.
+cp d.nml long.nml
+truncate -s 100M long.nml
+"$RESONANCE" --dump-namelist long.nml >out 2>err
+[ $? -eq 2 ] || fail "a long deck is not refused"
+grep -q 'the deck is larger than' err || fail "a long deck: in other words"
+
+# A disk of 100 kilobytes, for whoever may mount one.
+mkdir small
+if [ "$(id -u)" -eq 0 ] && mount -t tmpfs -o size=100k tmpfs small 2>/dev/null; then
+  "$RESONANCE" -q -o small/d.h5 d.nml >out 2>err || fail "a small disk"
+  cp small/d.h5 before.h5
+  head -c 90000 /dev/zero >small/filler 2>/dev/null
+  "$RESONANCE" -o small/d.h5 d.nml >out 2>err
+  [ $? -eq 1 ] || fail "a full disk: not told"
+  grep -q 'only .* are free' err || fail "a full disk is not told before the run"
+  cmp -s small/d.h5 before.h5 || fail "a full disk: the earlier output is lost"
+  "$RESONANCE" -q --journal=small d.nml -o d.h5 >out 2>err
+  [ $? -eq 1 ] || fail "a full disk for the journal: not told"
+  grep -q 'cannot write the journal' err || fail "a full disk for the journal: in other words"
+  mount -o remount,ro small
+  "$RESONANCE" -q -o small/e.h5 d.nml >out 2>err
+  [ $? -eq 1 ] || fail "a read-only disk: not told"
+  grep -qi 'read-only' err || fail "a read-only disk: in other words"
+fi
+exit 0
