@@ -110,6 +110,7 @@ static void conclude(const stage_trial *s)
 
 static pendres_status try_stage(stage_trial *s)
 {
+  const farm_trial *t = s->farm->trial;
   const size_t tasks = s->stage->tasks;
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; s->count < tasks && status == PENDRES_OK; k++) {
@@ -117,7 +118,7 @@ static pendres_status try_stage(stage_trial *s)
     const size_t task = s->stage->chained ? 0 : spread(k, tasks);
     if (s->stage->chained && s->count > 0) break;
     if (s->tried[task]) continue;
-    if (s->seconds > s->farm->trial->few) break;
+    if (s->count >= t->least && s->seconds > t->few) break;
     status = try_task(s, task);
   }
   conclude(s);

@@ -17,6 +17,7 @@
 typedef struct farm_trial {
   double few, most;    /* processor seconds: after `few` no task of a stage is begun, after `most`
                           all ends, a task under way too */
+  size_t least;        /* tasks of a stage, though they take longer than `few` */
   double start;        /* processor time at its beginning; farm_trial_start() sets it */
   /* Of the stages up to the one that ended the trial, all of their tasks: */
   double seconds;      /* of processor time */
@@ -28,7 +29,7 @@ typedef struct farm_trial {
   size_t tasks, tried;
 } farm_trial;
 
-/* From now on the stages of this farm are tried; *t, not owned, has `few` and `most` and is zero
+/* From now on the stages of this farm are tried; *t, not owned, has the first three and is zero
    otherwise. farm_run then returns PENDRES_INTERRUPTED where the trial has ended. */
 void farm_set_trial(farm *f, farm_trial *t);
 
