@@ -34,6 +34,9 @@ grep -q "basins.by = 'well'" lone.txt || { echo "no word of wells"; exit 1; }
 deck line phase_diagram "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
 deck plane phase_diagram "$p / &sweep damping = 0.2, 0.3, drive_frequency = 0.7, 0.8, 0.9 / $e"
 deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
+deck ramp hysteresis "$p, damping = 0.15, temperature = 1e-3 / &sweep
+  drive_frequency_range = 0.83, 0.87, 9 / &hysteresis start = 'sa', rate = 5e-4 /
+  &noise trajectories = 9 /"
 
 plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
 plot ./*.h5 -o pictures || { cat err; exit 1; }
