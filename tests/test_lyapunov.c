@@ -164,6 +164,39 @@ static void chaos(void **state)
   }
 }
 
+/* At random points of input/lyapunov.nml nothing is silently wrong: with ten times the transient and
+   ten times the average each is the same motion, an orbit's exponent is the same within its errors,
+   and that of chaos within four and a half combined standard errors, which one in 10^5 exceeds. */
+static void longer(void **state)
+{
+  enum { N = 64 };
+  pendres_pendulum p[N];
+  double x[N], v[N];
+  pendres_lyapunov once[N], more[N];
+  const pendres_lyapunov_options options = {.transient = 2000, .periods = 5120};
+  unsigned chaotic = 0;
+  for (int i = 0; i < N; i++) {
+    /* The two-dimensional golden ratio: evenly spread, and on no line of a grid. */
+    p[i] = (pendres_pendulum){.damping = 0.5,
+                              .drive_amplitude = 0.8 + 1.2 * fmod(0.5 + 0.7548776662 * i, 1.0),
+                              .drive_frequency = 0.4 + 0.6 * fmod(0.5 + 0.5698402910 * i, 1.0)};
+    x[i] = 1.6;
+    v[i] = 0.0;
+  }
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, once));
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, more));
+  for (int i = 0; i < N; i++) {
+    const double claim = once[i].label == PENDRES_LABEL_CHAOTIC
+                           ? 4.5 * hypot(once[i].exponent_error, more[i].exponent_error)
+                           : once[i].exponent_error + more[i].exponent_error;
+    assert_int_equal(once[i].label, more[i].label);
+    assert_true(once[i].period == more[i].period && once[i].winding == more[i].winding);
+    check_near(once[i].exponent, more[i].exponent, claim + 1e-15);
+    chaotic += once[i].label == PENDRES_LABEL_CHAOTIC;
+  }
+  assert_true(chaotic > N / 8 && chaotic < N / 2);
+}
+
 /* A result is its own pendulum's alone, whoever is beside it. */
 static void neighbours(void **state)
 {
@@ -196,6 +229,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(other_forces, create, destroy),
     cmocka_unit_test_setup_teardown(orbits, create, destroy),
     cmocka_unit_test_setup_teardown(chaos, create, destroy),
+    cmocka_unit_test_setup_teardown(longer, create, destroy),
     cmocka_unit_test_setup_teardown(neighbours, create, destroy),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
