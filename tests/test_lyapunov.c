@@ -67,6 +67,26 @@ static void other_forces(void **state)
   }
 }
 
+/* Chaos of the plain pendulum beside that of one with a torque: averages are those of each alone. */
+static void models_side_by_side(void **state)
+{
+  enum { N = 2 };
+  const pendres_pendulum plain = {.damping = 0.5, .drive_amplitude = 1.2,
+                                  .drive_frequency = 2.0 / 3.0};
+  pendres_pendulum p[N] = {plain, plain};
+  const double x[N] = {1.6, 1.6}, v[N] = {0.0};
+  const pendres_lyapunov_options options = {.transient = 40, .periods = 64};
+  pendres_lyapunov together[N], alone;
+  p[1].torque = 0.05;
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, &options, together));
+  for (int i = 0; i < N; i++) {
+    check_ok(pendres_lyapunov_find(*state, 1, &p[i], &x[i], &v[i], &options, &alone));
+    assert_true(together[i].exponent == alone.exponent);
+    assert_int_equal(together[i].label, alone.label);
+  }
+  assert_true(together[0].exponent != together[1].exponent);
+}
+
 /* Periodic, doubled and running orbits, as settling finds them. */
 static void orbits(void **state)
 {
@@ -227,6 +247,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(weak_drives, create, destroy),
     cmocka_unit_test_setup_teardown(other_forces, create, destroy),
+    cmocka_unit_test_setup_teardown(models_side_by_side, create, destroy),
     cmocka_unit_test_setup_teardown(orbits, create, destroy),
     cmocka_unit_test_setup_teardown(chaos, create, destroy),
     cmocka_unit_test_setup_teardown(longer, create, destroy),

@@ -229,15 +229,17 @@ static pendres_status average(pendres_context *ctx, job *j, long batch)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
   for (size_t i = 0; i < j->n; i++)
     if (j->runner[i].state == MOVING)
-      rank[count++] = (pendres_rank){.steps = j->runner[i].lane.steps, .index = i};
+      rank[count++] = (pendres_rank){.steps = j->runner[i].lane.steps,
+                                     .model = pendres_model_kind(j->runner[i].lane.pendulum),
+                                     .index = i};
   pendres_rank_order(count, rank);
   for (size_t first = 0, last; first < count && status == PENDRES_OK; first = last) {
     pendres_block block;
     status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[first].steps, &block);
     if (status != PENDRES_OK) break;
     const size_t most = first + pendres_block_capacity(&block) / 2;
-    for (last = first; last < count && last < most && rank[last].steps == rank[first].steps;)
-      last++;
+    last = first;
+    while (last < count && last < most && pendres_rank_equal(&rank[last], &rank[first])) last++;
     status = average_block(&block, last - first, rank + first, j->runner, batch);
   }
   free(rank);
