@@ -86,7 +86,8 @@ static void print_bytes(double bytes, FILE *out)
 static void print_seconds(double seconds, FILE *out)
 {
   if (seconds < 100.0) fprintf(out, "%.2g s", seconds);
-  else if (seconds < 6000.0) fprintf(out, seconds < 600.0 ? "%.1f min" : "%.0f min", seconds / 60.0);
+  else if (seconds < 600.0) fprintf(out, "%.1f min", seconds / 60.0);
+  else if (seconds < 6000.0) fprintf(out, "%.0f min", seconds / 60.0);
   else if (seconds < 172800.0) fprintf(out, "%.1f h", seconds / 3600.0);
   else fprintf(out, "%.1f days", seconds / 86400.0);
 }

@@ -29,9 +29,9 @@ void pendres_lanes_close(pendres_lanes_shape *shape);
 void pendres_lanes_resize(pendres_lanes_shape *shape, size_t lanes);
 
 /*
- * A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. SUNDIALS (6.4) follows
- * the null pointer where a clone of it cannot be had; so it never cannot: one vector of the shape is
- * kept to be handed out then, and the shape is starved, which is to be asked after SUNDIALS returns.
+ * A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. SUNDIALS (6.4)
+ * follows a null pointer where it gets no clone of a vector. So it always gets one: a vector of the
+ * shape is kept to be handed out then, and the shape is starved: ask for that when SUNDIALS returns.
  */
 N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun);
 
