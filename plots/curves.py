@@ -171,6 +171,11 @@ def draw_orbit(h, path):
     return fig
 
 
+def column_of(name):
+    """What an axis is called in the columns branch_..., fold_..., flip_..."""
+    return "frequency" if name in ("drive_frequency", "drive_period") else name
+
+
 def bifurcation_curves(h, what, x, y):
     """Curves of folds or flips, one after the other: is it an end of SA or LA, x, y."""
     if f"{what}_curve" not in h:
@@ -186,15 +191,16 @@ def draw_branches(h, path):
     """Frequency, or whatever the branches are followed along, against amplitude."""
     fig, ax = figure(h, 5.0, 4.6)
     name = h.axis_of("mean_loop_amplitude", -1)
-    along = name.replace("drive_", "")  # of the variables branch_..., fold_...
+    rows = h.axis_of("mean_loop_amplitude", 0)
     axis, label = parameter_axis(h, h[name], name)
-    number, damping, stable = h["branch_number"], h["branch_damping"], h["branch_stable"] == 1
-    value = h[f"branch_{along}"] if f"branch_{along}" in h else h["branch_frequency"]
-    for i, g in enumerate(h["damping"]):
+    number, stable = h["branch_number"], h["branch_stable"] == 1
+    value, row = h[f"branch_{column_of(name)}"], h[f"branch_{column_of(rows)}"]
+    symbol = parameter_axis(h, [], rows)[1].split()[-1]
+    for i, g in enumerate(h[rows]):
         colour = f"C{i % 6}"
         ax.plot(h["mean_loop_amplitude"][i], axis, ".", ms=3, color=colour,
-                label=rf"$\gamma = {g:g}$, ensemble")
-        for k in np.unique(number[abs(damping - g) < 1e-9]):
+                label=f"{symbol} $= {g:g}$, ensemble")
+        for k in np.unique(number[abs(row - g) < 1e-9]):
             here = number == k
             a, w = h["branch_amplitude"][here], parameter_axis(h, value[here], name)[0]
             for mask, style in ((stable[here], "-"), (~stable[here], ":")):
@@ -206,7 +212,7 @@ def draw_branches(h, path):
         for named, amplitude, omega in bifurcation_curves(h, "fold", "amplitude", "frequency"):
             if named:
                 ax.plot(amplitude, frequency(h, omega)[0], color="black", lw=2.2, alpha=0.35,
-                        label="folds of all dampings")
+                        label="folds of all lines")
         if "free_amplitude" in h:
             ax.plot(h["free_amplitude"], frequency(h, h["free_frequency"])[0], "--", color=FREE,
                     lw=0.8, label="free pendulum")

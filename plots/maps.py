@@ -2,11 +2,12 @@
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from curves import bifurcation_curves
-from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around, colours_of,
-                   figure, frequency, parameter_axis, plt)
+from curves import bifurcation_curves, column_of
+from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
+                   colours_of, figure, frequency, parameter_axis, plt)
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
 MOST_PIXELS = 1500  # a side; finer grids are thinned
@@ -159,7 +160,39 @@ def add_bifurcations(ax, h):
                 np.atleast_1d(h["cusp_damping"]), "*", color="black", ms=8)
 
 
+# What members do where the names SA and LA do not tell, and the bits of `other` that say so.
+ELSEWHERE = (["one state", "asymmetric", "longer periods", "running", "chaotic", "unresolved"],
+             [SINGLE, MORE[3], MORE[0], MORE[4], "black", UNRESOLVED])
+
+
+def draw_plane(h, rows):
+    """A phase diagram over other axes than the damping: what members do, and the curves."""
+    name = h.axis_of("regime", 1)
+    (across, below), (up, beside) = (parameter_axis(h, h[n], n) for n in (name, rows))
+    fig, ax = figure(h, 5.4, 4.4)
+    kind, regime, other = h["regime"], h["regime"], h["other"]
+    for bit in range(5):  # what comes last is the most telling
+        kind = np.where((regime == 4) & (other & (1 << bit) != 0), 4 + bit, kind)
+    names, colours = REGIMES[0][:3] + ELSEWHERE[0], REGIMES[1][:3] + ELSEWHERE[1]
+    ax.pcolormesh(across, up, kind, shading="nearest", rasterized=True,
+                  cmap=ListedColormap(colours), norm=BoundaryNorm(np.arange(-0.5, 9), 9))
+    handles = [Patch(color=colours[k], label=names[k]) for k in np.unique(kind)]
+    if h.options.boundary:
+        columns = column_of(name), column_of(rows)
+        for what, style, text in (("fold", "-", "folds"),
+                                  ("flip", ":", "doubling, symmetry breaking")):
+            for _, x, y in bifurcation_curves(h, what, *columns):
+                ax.plot(parameter_axis(h, x, name)[0], y, style, color="black", lw=0.9)
+            handles.append(Line2D([], [], ls=style, color="black", lw=0.9, label=text))
+    ax.set(xlabel=below, ylabel=beside, xlim=around(across, 0.0), ylim=around(up, 0.0))
+    ax.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=3)
+    return fig
+
+
 def draw_phase_diagram(h, path):
+    rows = h.axis_of("regime", 0)
+    if rows != "damping" and min(h["regime"].shape) > 1:
+        return draw_plane(h, rows)
     if len(h["damping"]) < 2 or len(h[h.axis_of("regime", 1)]) < 2:
         return draw_one_damping(h)
     if h.options.surface:

@@ -547,7 +547,7 @@ static void ensembles(void **state)
   line.spacing = 0.0;
   for (int k = -1; k <= PENDRES_PARAMETER_COUNT; k++) {
     line.parameter = (pendres_parameter)k;
-    if (k != PENDRES_DRIVE_FREQUENCY && k != PENDRES_DRIVE_AMPLITUDE)
+    if (k < 0 || k >= PENDRES_FORCE_COEFFICIENT_1)
       REFUSED(pendres_phase_line(f->ctx, 1, &good, &line, &point, &all));
   }
   line.parameter = PENDRES_DRIVE_FREQUENCY;

@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#include <gsl/gsl_sf_mathieu.h>
+
 #include <pendres/pendres.h>
 
 #include "oracle.h"
@@ -171,6 +173,119 @@ static void steps(void **state)
   pendres_context_free(ctx);
 }
 
+/* ---- parametric resonance ---- */
+
+/* Rest of a pendulum, or of a polynomial oscillator, at the bottom of its well. */
+static pendres_orbit rest(pendres_context *ctx, const pendres_pendulum *p)
+{
+  const pendres_orbit_guess g = {
+    .pendulum = *p, .x = p->force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0, .period = 1};
+  pendres_status outcome = PENDRES_INTERNAL;
+  pendres_orbit o;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(outcome);
+  return o;
+}
+
+/* The boundaries of tongues along a parameter: two with multipliers -1, two with +1. */
+static pendres_branch *tongues(pendres_context *ctx, const pendres_pendulum *p)
+{
+  const pendres_orbit o = rest(ctx, p);
+  pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 0.85, 3.0);
+  size_t count[PENDRES_SPECIAL_COUNT] = {0};
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++)
+    count[pendres_branch_bifurcation(b, i)->kind]++;
+  assert_int_equal(count[PENDRES_FOLD], 0);
+  assert_int_equal(count[PENDRES_PERIOD_DOUBLING], 2);
+  assert_int_equal(count[PENDRES_SYMMETRY_BREAKING], 2);
+  return b;
+}
+
+/*
+ * Without damping x'' + a1 (1 + b cos omega t) x = 0 is Mathieu's equation with a = 4 a1 / omega^2
+ * and q = 2 a1 b / omega^2, and the boundaries are its characteristic values of order 1, with
+ * multipliers -1, and of order 2. GSL's are good to 1e-13.
+ */
+static void mathieu(void **state)
+{
+  const pendres_pendulum p = {.drive_frequency = 1.5, .parametric_amplitude = 0.7,
+                              .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.3}};
+  pendres_context *ctx = context(1e-11);
+  pendres_branch *b = tongues(ctx, &p);
+  (void)state;
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    const double a1 = p.force_coefficients[0], square = f->value * f->value;
+    const double a = 4.0 * a1 / square, q = 2.0 * a1 * p.parametric_amplitude / square;
+    const int order = f->kind == PENDRES_PERIOD_DOUBLING ? 1 : 2;
+    const double even = gsl_sf_mathieu_a(order, q), odd = gsl_sf_mathieu_b(order, q);
+    const double near = fabs(a - even) < fabs(a - odd) ? even : odd;
+    assert_true(f->value_error < 1e-10);
+    check_near(a, near, 4.0 * a / f->value * f->value_error + 1e-12);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+/* With damping the same by the oracle's multipliers of a pendulum at rest. */
+static void damped_tongues(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.1, .drive_frequency = 1.5, .parametric_amplitude = 0.7};
+  const long double still[2] = {0.0L, 0.0L}, h = 1e-5L;
+  pendres_context *ctx = context(1e-10);
+  pendres_branch *b = tongues(ctx, &p);
+  (void)state;
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    const int sign = f->kind == PENDRES_PERIOD_DOUBLING ? -1 : 1;
+    oracle o = oracle_of(&f->orbit.pendulum);
+    o.omega += 1e-6L;
+    for (int round = 0; round < 3; round++) {
+      long double miss[3], high[3], low[3];
+      const long double omega = o.omega;
+      oracle_miss(&o, 1, 0, sign, still, miss);
+      o.omega = omega + h;
+      oracle_miss(&o, 1, 0, sign, still, high);
+      o.omega = omega - h;
+      oracle_miss(&o, 1, 0, sign, still, low);
+      o.omega = omega - 2.0L * h * miss[2] / (high[2] - low[2]);
+    }
+    assert_true(f->value_error < 1e-10);
+    check_near(f->value, (double)o.omega, f->value_error + 1e-14);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+/* The pairs and the orbits of two periods that rest gives birth to are followed back to it, where
+   they meet what they were born at, once. */
+static void born_of_rest(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.1, .drive_frequency = 1.5, .parametric_amplitude = 0.7};
+  pendres_context *ctx = context(1e-9);
+  pendres_branch *b = tongues(ctx, &p);
+  (void)state;
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    const int doubling = f->kind == PENDRES_PERIOD_DOUBLING;
+    pendres_orbit o;
+    check_ok(pendres_branch_switch(ctx, f, &o));
+    assert_int_equal(o.period, doubling ? 2 : 1);
+    assert_true(o.amplitude > 1e-3);
+    pendres_branch *born =
+      branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, f->value - 0.15, f->value + 0.15);
+    size_t met = 0;
+    for (size_t k = 0; k < pendres_branch_bifurcations(born); k++) {
+      const pendres_bifurcation *at = pendres_branch_bifurcation(born, k);
+      met += at->kind == f->kind && fabs(at->value - f->value) < 1e-8;
+    }
+    assert_int_equal(met, 1);
+    pendres_branch_free(born);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
 /* What cannot be followed, or not along this, is refused. */
 static void refusals(void **state)
 {
@@ -195,6 +310,8 @@ static void refusals(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(oscillators), cmocka_unit_test(steps),
-                                     cmocka_unit_test(refusals)};
+                                     cmocka_unit_test(mathieu),
+                                     cmocka_unit_test(damped_tongues),
+                                     cmocka_unit_test(born_of_rest), cmocka_unit_test(refusals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

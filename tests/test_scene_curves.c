@@ -321,11 +321,41 @@ static void edges_name_their_fold(void **state)
   pendres_store_free(store);
 }
 
+/*
+ * Branches along the torque: the folds at which the state that turns over once a period ends, a
+ * Shapiro step's, and not the free pendulum's frequency, which this is not. test_follow.c has the
+ * same bifurcations to 1e-10 by a computation of its own.
+ */
+static void branches_along_torque(void **state)
+{
+  (void)state;
+  static const char deck_text[] =
+    "&scene kind = 'branches' /\n&pendulum drive_amplitude = 1.0 /\n"
+    "&sweep damping = 0.2, drive_frequency = 1.6, torque = 0.1, 0.4, 0.5 /\n"
+    "&ensemble members = 6 /\n";
+  static const double step[] = {0.158309370269157, 0.523738359082981};
+  size_t n = 0;
+  scene_run_deck(deck_text, 1, "one");
+  pendres_store *store = scene_open("one");
+  double *value = scene_values(store, "bifurcation_torque", &n);
+  double *error = scene_values(store, "bifurcation_torque_error", &n);
+  for (size_t k = 0; k < 2; k++) {
+    int met = 0;
+    for (size_t i = 0; i < n; i++) met += fabs(value[i] - step[k]) <= error[i] + 1e-14;
+    assert_int_equal(met, 1);
+  }
+  assert_int_equal(pendres_store_has(store, "", "free_frequency"), 0);
+  pendres_store_free(store);
+  free(value), free(error);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
-    cmocka_unit_test(branches_hold_the_figures), cmocka_unit_test(diagram_holds_the_regimes), cmocka_unit_test(drives_are_axes),
+    cmocka_unit_test(branches_hold_the_figures),
+    cmocka_unit_test(branches_along_torque), cmocka_unit_test(diagram_holds_the_regimes),
+    cmocka_unit_test(drives_are_axes),
     cmocka_unit_test(responses_have_axes),
     cmocka_unit_test(curves_tell_what_members_miss), cmocka_unit_test(edges_name_their_fold),
   };

@@ -36,7 +36,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (ORBIT | BASINS | RESPONSE | ALONG) /* torque, parametric drive, other forces */
+#define MODELS (ORBIT | BASINS | RESPONSE | ALONG | GRID) /* torque, parametric drive, forces */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
@@ -176,9 +176,10 @@ const deck_key deck_table[] = {
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(RESPONSE | GRID), POSITIVE },
-  { SWEEP("torque", TORQUE), IN(RESPONSE | ALONG), RANGE(-BIG, BIG),
+  { SWEEP("torque", TORQUE), IN(RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
     SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
-  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | ALONG), RANGE(-BIG, BIG),
+  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | ALONG | GRID),
+    RANGE(-BIG, BIG),
     SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),

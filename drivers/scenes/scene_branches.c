@@ -44,6 +44,7 @@ static const scene_column columns[] = {
 typedef struct row {
   double damping, damping_error, frequency, frequency_error;
   double drive_amplitude, drive_amplitude_error, amplitude, amplitude_error;
+  double torque, torque_error, parametric_amplitude, parametric_amplitude_error;
   double phase_lag, phase_lag_error, loop_area, loop_area_error;
   double multiplier_re[2], multiplier_im[2], multiplier_error[2];
   int stable, kind, doubt, number, period;
@@ -88,7 +89,15 @@ static const scene_column of_points[] = {
    .value = offsetof(row, period)},
 };
 
-static const scene_column drive = SCENE_COLUMN(row, drive_amplitude, "drive amplitude", "1");
+/* Of parameters that stand beside the points where they are axes. */
+static const struct {
+  deck_axis_id axis;
+  scene_column column;
+} of_axes[] = {
+  {DECK_AXIS_DRIVE_AMPLITUDE, SCENE_COLUMN(row, drive_amplitude, "drive amplitude", "1")},
+  {DECK_AXIS_TORQUE, SCENE_COLUMN(row, torque, "torque", "1")},
+  {DECK_AXIS_PARAMETRIC_AMPLITUDE,
+   SCENE_COLUMN(row, parametric_amplitude, "amplitude of the parametric drive", "1")}};
 
 static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
 {
@@ -99,6 +108,11 @@ static row row_of(const scene_lines *l, const pendres_branch_point *p, int numbe
                .frequency_error = along == PENDRES_DRIVE_FREQUENCY ? p->parameter_error : 0.0,
                .drive_amplitude = o->pendulum.drive_amplitude,
                .drive_amplitude_error = along == PENDRES_DRIVE_AMPLITUDE ? p->parameter_error : 0.0,
+               .torque = o->pendulum.torque,
+               .torque_error = along == PENDRES_TORQUE ? p->parameter_error : 0.0,
+               .parametric_amplitude = o->pendulum.parametric_amplitude,
+               .parametric_amplitude_error =
+                 along == PENDRES_PARAMETRIC_AMPLITUDE ? p->parameter_error : 0.0,
                .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
                .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
                .loop_area = o->loop_area, .loop_area_error = o->loop_area_error,
@@ -143,9 +157,9 @@ static pendres_status write_branches(const scene_lines *l)
   if (status != PENDRES_OK) (void)scene_store_failed(l->run, status);
   if (status == PENDRES_OK)
     status = scene_columns_write(l->run, &table, sizeof of_points / sizeof *of_points, of_points);
-  if (status == PENDRES_OK && (l->axis[0] == DECK_AXIS_DRIVE_AMPLITUDE ||
-                               l->axis[1] == DECK_AXIS_DRIVE_AMPLITUDE))
-    status = scene_columns_write(l->run, &table, 1, &drive);
+  for (size_t i = 0; i < sizeof of_axes / sizeof *of_axes && status == PENDRES_OK; i++)
+    if (scene_lines_changes(l, of_axes[i].axis))
+      status = scene_columns_write(l->run, &table, 1, &of_axes[i].column);
   free(rows);
   return status;
 }
@@ -312,11 +326,13 @@ static pendres_status write_results(const scene_lines *l)
   if (status == PENDRES_OK) status = write_branches(l);
   if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
   if (status == PENDRES_OK) status = scene_curves_write(l);
-  /* The backbone is one over damping, at one drive amplitude. */
-  if (status == PENDRES_OK && l->axis[0] == DECK_AXIS_DAMPING &&
+  /* The backbone is one over damping, at one drive amplitude, of the plain pendulum as is the free
+     one. */
+  const int plain = deck_is_plain(l->run->deck);
+  if (status == PENDRES_OK && plain && l->axis[0] == DECK_AXIS_DAMPING &&
       l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
     status = write_backbone(l);
-  if (status == PENDRES_OK) status = write_free(l->run);
+  if (status == PENDRES_OK && plain) status = write_free(l->run);
   if (status == PENDRES_OK) status = scene_curves_write_paper(l);
   return status;
 }

@@ -16,6 +16,7 @@ static const char *endings(int value)
 typedef struct row {
   double damping, damping_error, frequency, frequency_error;
   double drive_amplitude, drive_amplitude_error, amplitude, amplitude_error;
+  double torque, torque_error, parametric_amplitude, parametric_amplitude_error;
   double multiplier, other_multiplier, multiplier_error, curvature, curvature_error;
   int curve, branch, kind, period;
 } row;
@@ -31,8 +32,15 @@ static const scene_column columns[] = {
    .value = offsetof(row, period)},
 };
 
-static const scene_column drive =
-  SCENE_COLUMN(row, drive_amplitude, "drive amplitude there", "1");
+/* Of parameters that stand beside the points where they are axes. */
+static const struct {
+  deck_axis_id axis;
+  scene_column column;
+} of_axes[] = {
+  {DECK_AXIS_DRIVE_AMPLITUDE, SCENE_COLUMN(row, drive_amplitude, "drive amplitude there", "1")},
+  {DECK_AXIS_TORQUE, SCENE_COLUMN(row, torque, "torque there", "1")},
+  {DECK_AXIS_PARAMETRIC_AMPLITUDE,
+   SCENE_COLUMN(row, parametric_amplitude, "amplitude of the parametric drive there", "1")}};
 
 static const scene_column of_folds[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
@@ -76,6 +84,10 @@ static row row_of(const scene_lines *l, const pendres_orbit *o, const double err
                .frequency_error = error_of(l, PENDRES_DRIVE_FREQUENCY, error),
                .drive_amplitude = o->pendulum.drive_amplitude,
                .drive_amplitude_error = error_of(l, PENDRES_DRIVE_AMPLITUDE, error),
+               .torque = o->pendulum.torque,
+               .torque_error = error_of(l, PENDRES_TORQUE, error),
+               .parametric_amplitude = o->pendulum.parametric_amplitude,
+               .parametric_amplitude_error = error_of(l, PENDRES_PARAMETRIC_AMPLITUDE, error),
                .amplitude = o->amplitude,
                .amplitude_error = o->amplitude_error,
                .multiplier = o->multiplier_re[0],
@@ -92,8 +104,6 @@ static pendres_status write_table(const scene_lines *l, const char *dimension, s
 {
   const scene_table table = {.dimensions = {dimension}, .prefix = dimension, .n = n,
                              .stride = sizeof *rows, .rows = rows};
-  const int has_drive = l->axis[0] == DECK_AXIS_DRIVE_AMPLITUDE ||
-                        l->axis[1] == DECK_AXIS_DRIVE_AMPLITUDE;
   const scene_column *rest = dimension[0] == 'b' ? of_bifurcations
                              : dimension[1] == 'o' ? of_folds
                                                    : of_flips;
@@ -101,7 +111,9 @@ static pendres_status write_table(const scene_lines *l, const char *dimension, s
     pendres_store_dimension(l->run->store, "", dimension, n, NULL, "number of the point", "1");
   if (status != PENDRES_OK) return scene_store_failed(l->run, status);
   status = scene_columns_write(l->run, &table, sizeof columns / sizeof *columns, columns);
-  if (status == PENDRES_OK && has_drive) status = scene_columns_write(l->run, &table, 1, &drive);
+  for (size_t i = 0; i < sizeof of_axes / sizeof *of_axes && status == PENDRES_OK; i++)
+    if (scene_lines_changes(l, of_axes[i].axis))
+      status = scene_columns_write(l->run, &table, 1, &of_axes[i].column);
   return status == PENDRES_OK
            ? scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest)
            : status;
@@ -180,6 +192,9 @@ static pendres_status write_cusp(const scene_lines *l)
     {DECK_AXIS_DRIVE_FREQUENCY, "cusp_frequency", "drive frequency there", PENDRES_DRIVE_FREQUENCY},
     {DECK_AXIS_DRIVE_AMPLITUDE, "cusp_drive_amplitude", "drive amplitude there",
      PENDRES_DRIVE_AMPLITUDE},
+    {DECK_AXIS_TORQUE, "cusp_torque", "torque there", PENDRES_TORQUE},
+    {DECK_AXIS_PARAMETRIC_AMPLITUDE, "cusp_parametric_amplitude", "parametric amplitude there",
+     PENDRES_PARAMETRIC_AMPLITUDE},
   };
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
   pendres_status status = PENDRES_OK;
@@ -234,7 +249,9 @@ pendres_status scene_curves_write_paper(const scene_lines *l)
 {
   scene_printed values[4];
   size_t n = 0;
-  if (l->axis[0] != DECK_AXIS_DAMPING || l->axis[1] != DECK_AXIS_DRIVE_FREQUENCY) return PENDRES_OK;
+  if (l->axis[0] != DECK_AXIS_DAMPING || l->axis[1] != DECK_AXIS_DRIVE_FREQUENCY ||
+      !deck_is_plain(l->run->deck))
+    return PENDRES_OK;
   const double f0 = l->grid.pendulum.drive_amplitude;
   const int main_case = fabs(f0 - 0.2) < 1e-9, inset = fabs(f0 - 0.1) < 1e-9;
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);

@@ -1,4 +1,5 @@
 /* scene_lines.c -- lines of points and their branches; see scene_lines.h. */
+#include "scenes/scene_along.h"
 #include "scenes/scene_lines.h"
 
 #include <math.h>
@@ -11,59 +12,63 @@ enum { RUNS_A_POINT = 5 };
 
 /* ---- axes ---------------------------------------------------------------------------------- */
 
-static pendres_parameter parameter_of(deck_axis_id axis)
-{
-  switch (axis) {
-  case DECK_AXIS_DAMPING: return PENDRES_DAMPING;
-  case DECK_AXIS_DRIVE_AMPLITUDE: return PENDRES_DRIVE_AMPLITUDE;
-  default: return PENDRES_DRIVE_FREQUENCY;
-  }
-}
-
 static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], double spacing)
 {
+  static const deck_axis_id held[] = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
+                                      DECK_AXIS_DRIVE_FREQUENCY};
   const deck_axis *across = &d->axis[axis[0]], *along = &d->axis[axis[1]];
-  return (pendres_phase_grid){
-    .pendulum = {.damping = scene_fixed(d, DECK_AXIS_DAMPING),
-                 .drive_amplitude = scene_fixed(d, DECK_AXIS_DRIVE_AMPLITUDE),
-                 .drive_frequency = scene_fixed(d, DECK_AXIS_DRIVE_FREQUENCY)},
-    .options = {.ensemble = scene_ensemble(d),
-                .parameter = parameter_of(axis[1]),
-                .spacing = spacing},
-    .values = along->count,
-    .value = along->value,
-    .across = parameter_of(axis[0]),
-    .lines = across->count,
-    .line_value = across->value};
+  pendres_pendulum p = scene_pendulum(d);
+  for (size_t i = 0; i < sizeof held / sizeof *held; i++)
+    scene_along_set(&p, held[i], scene_fixed(d, held[i]));
+  return (pendres_phase_grid){.pendulum = p,
+                              .options = {.ensemble = scene_ensemble(d),
+                                          .parameter = scene_along_parameter(axis[1]),
+                                          .spacing = spacing},
+                              .values = along->count,
+                              .value = along->value,
+                              .across = scene_along_parameter(axis[0]),
+                              .lines = across->count,
+                              .line_value = across->value};
 }
+
+static const struct {
+  deck_axis_id axis;
+  const char *one, *many;
+} words[] = {{DECK_AXIS_DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes"},
+             {DECK_AXIS_DAMPING, "damping", "dampings"},
+             {DECK_AXIS_DRIVE_FREQUENCY, "drive frequency", "drive frequencies"},
+             {DECK_AXIS_TORQUE, "torque", "torques"},
+             {DECK_AXIS_PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes"}};
+enum { WORDS = sizeof words / sizeof *words };
 
 const char *scene_lines_words(pendres_parameter parameter)
 {
-  return parameter == PENDRES_DAMPING           ? "damping"
-         : parameter == PENDRES_DRIVE_AMPLITUDE ? "drive amplitude"
-                                                : "drive frequency";
+  for (size_t i = 0; i < WORDS; i++)
+    if (scene_along_parameter(words[i].axis) == parameter) return words[i].one;
+  return pendres_parameter_name(parameter);
 }
 
 void scene_lines_plan(const deck *d, FILE *out)
 {
-  static const deck_axis_id parameters[] = {DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_DAMPING,
-                                            DECK_AXIS_DRIVE_FREQUENCY};
   deck_axis_id axis[2];
   scene_plane(d, axis);
   fprintf(out, "%lld members at ", (long long)d->ensemble.members);
   for (int i = 0; i < 2; i++) {
     const deck_axis *a = &d->axis[axis[i]];
-    const char *words = axis[i] == DECK_AXIS_DAMPING           ? "dampings"
-                        : axis[i] == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitudes"
-                                                               : "drive frequencies";
-    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, words, a->value[0],
-            a->value[a->count - 1], i == 0 ? "" : "\n");
+    size_t k = 0;
+    while (words[k].axis != axis[i]) k++;
+    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, words[k].many,
+            a->value[0], a->value[a->count - 1], i == 0 ? "" : "\n");
   }
-  for (int i = 0; i < 3; i++) {
-    const double value = scene_fixed(d, parameters[i]);
-    if (!isnan(value))
-      fprintf(out, "%s %g", scene_lines_words(parameter_of(parameters[i])), value);
+  for (size_t i = 0; i < WORDS; i++) {
+    const double value = scene_fixed(d, words[i].axis);
+    if (!isnan(value)) fprintf(out, "%s %g", words[i].one, value);
   }
+}
+
+int scene_lines_changes(const scene_lines *l, deck_axis_id axis)
+{
+  return l->axis[0] == axis || l->axis[1] == axis;
 }
 
 /* ---- tasks --------------------------------------------------------------------------------- */

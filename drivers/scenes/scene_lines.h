@@ -42,7 +42,10 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
 
-/* "damping", "drive amplitude", "drive frequency". */
+/* Whether an axis of decks is one of the diagram's two. */
+int scene_lines_changes(const scene_lines *l, deck_axis_id axis);
+
+/* "damping", "drive amplitude", "drive frequency", "torque", "parametric amplitude". */
 const char *scene_lines_words(pendres_parameter parameter);
 
 /* One line on what is computed, for --dry-run: axes and what is fixed. */

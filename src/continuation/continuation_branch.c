@@ -90,23 +90,27 @@ static int is_found(pendres_status status)
   return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
 }
 
-/* The half map about a place, and whether an orbit there closes by it, nearly. */
+/* The half map about a place by which an orbit there closes, nearly; the first if there is none. */
 static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
                               const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
                               int *twice)
 {
   int steps = 0;
-  double miss[1][2] = {{NAN, NAN}};
+  pendres_continuation_map one;
   *twice = 0;
-  if (!pendres_continuation_map_half(&t->kind.map, half)) return PENDRES_NOT_CONVERGED;
+  if (!pendres_continuation_map_half(&t->kind.map, 0, half)) return PENDRES_NOT_CONVERGED;
   pendres_status status =
     pendres_continuation_map_steps(ctx, t->kind.map.force, u, 10.0 * ctx->options.tolerance,
                                    &steps);
-  if (status == PENDRES_OK)
-    status = pendres_continuation_map_closes(ctx, half, steps, 1,
+  for (int k = 0; !*twice && status == PENDRES_OK; k++) {
+    double miss[1][2] = {{NAN, NAN}};
+    if (!pendres_continuation_map_half(&t->kind.map, k, &one)) break;
+    status = pendres_continuation_map_closes(ctx, &one, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, miss,
-                                             &half->winding);
-  *twice = hypot(miss[0][0], miss[0][1]) < 1e-3;
+                                             &one.winding);
+    *twice = hypot(miss[0][0], miss[0][1]) < 1e-3;
+    if (k == 0 || *twice) *half = one;
+  }
   return status;
 }
 
@@ -137,6 +141,9 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
 {
   pendres_continuation_map half;
   int twice = 0;
+  /* Rest has no folds: there the other map has a flip. */
+  if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && !t->kind.apart)
+    return locate_birth(ctx, t, u, reach, m);
   const pendres_status fold = pendres_continuation_locate(
     ctx, &t->kind.map, PENDRES_CONDITION_FOLD, t->kind.unknown, u, reach, &m->located);
   if (!is_found(fold))

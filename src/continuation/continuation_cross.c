@@ -97,8 +97,9 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;
-  const pendres_walk one =
+  pendres_walk one =
     pendres_walk_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+  if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&one.map);
   pendres_status status =
     pendres_continuation_map_steps(ctx, one.map.force, u, 10.0 * ctx->options.tolerance, &steps);
   if (status == PENDRES_OK)
@@ -114,7 +115,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
 
   pendres_trail twice = {.kind = one, .count = 1};
   pendres_continuation_map *map = &twice.kind.map;
-  map->mirror = 0;
+  map->mirror = PENDRES_MIRROR_NONE;
   map->period = one.map.mirror ? one.map.period : 2 * one.map.period;
   map->winding = one.map.mirror ? 0 : 2 * one.map.winding;
   /* Orbits of a doubling cascade reach less and less far: by Feigenbaum's 2.5 each time. */

@@ -76,9 +76,11 @@ static pendres_walk kind_of(const pendres_bifurcation *b, pendres_parameter seco
                             double u[PENDRES_U_COUNT])
 {
   const pendres_parameter parameter[2] = {b->parameter, second};
-  return pendres_walk_of(
+  pendres_walk w = pendres_walk_of(
     &b->orbit, b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP, parameter,
     spacing, u);
+  if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&w.map);
+  return w;
 }
 
 /* ---- cusps ---- */

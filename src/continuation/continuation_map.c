@@ -48,11 +48,38 @@ void pendres_continuation_map_point(const pendres_pendulum *p, double y, double 
   memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
 }
 
-/* Whether pendulums lose the mirror symmetry as an unknown changes. */
+/* Whether pendulums lose any mirror symmetry as an unknown changes. */
 static int breaks_symmetry(int place)
 {
-  return place == PENDRES_U_TORQUE || place == PENDRES_U_MODULATION ||
-         place == PENDRES_U_POWERS + 1 || place == PENDRES_U_POWERS + 3;
+  return place == PENDRES_U_TORQUE || place == PENDRES_U_POWERS + 1 ||
+         place == PENDRES_U_POWERS + 3;
+}
+
+static int is_among(int place, int unknowns, const int *unknown)
+{
+  for (int k = 0; k < unknowns; k++)
+    if (unknown[k] == place) return 1;
+  return 0;
+}
+
+/* Whether a pendulum has a parametric drive alone, or may have one on the way, and a mirror. */
+static int is_reflected(const pendres_pendulum *p, int unknowns, const int *unknown)
+{
+  pendres_pendulum still = *p;
+  still.parametric_amplitude = 0.0;
+  return p->drive_amplitude == 0.0 && pendres_pendulum_symmetric(&still) &&
+         !is_among(PENDRES_U_DRIVE, unknowns, unknown) &&
+         (p->parametric_amplitude != 0.0 || is_among(PENDRES_U_MODULATION, unknowns, unknown));
+}
+
+/* Whether an orbit of one or two periods is its own mirror image a period later: averaged over its
+   drive cycles nothing is left of it. */
+static int is_own_reflection(const pendres_orbit *o)
+{
+  const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;
+  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++)
+    if (!(hypot(o->cosine[m], o->sine[m]) <= nothing)) return 0;
+  return o->period <= 2 && o->winding == 0;
 }
 
 pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int unknowns,
@@ -65,14 +92,18 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
                                   .winding = o->winding};
   const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
   pendres_continuation_map_point(&o->pendulum, s.y, s.w, u);
+  map.reflects = is_reflected(&o->pendulum, unknowns, unknown);
+  if (is_among(PENDRES_U_MODULATION, unknowns, unknown)) map.symmetric = 0;
   for (int k = 0; k < unknowns; k++)
-    if (breaks_symmetry(unknown[k])) map.symmetric = 0;
-  if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0) {
-    /* About the bottom of the well, or about the top of a barrier. */
-    const int periodic = pendres_model_of(map.force)->period > 0.0;
-    map.mirror = 1;
-    map.winding = periodic ? (int)rint(o->mean_angle / pi) : 0;
-  }
+    if (breaks_symmetry(unknown[k])) map.symmetric = map.reflects = 0;
+  if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0)
+    map.mirror = PENDRES_MIRROR_HALF;
+  else if (map.reflects && is_own_reflection(o))
+    map.mirror = PENDRES_MIRROR_WHOLE;
+  /* About the bottom of the well, or about the top of a barrier. */
+  if (map.mirror != PENDRES_MIRROR_NONE)
+    map.winding =
+      pendres_model_of(map.force)->period > 0.0 ? (int)rint(o->mean_angle / pi) : 0;
   return map;
 }
 
@@ -109,13 +140,25 @@ double pendres_continuation_map_growth(const pendres_continuation_image *i)
 
 /* ---- images ---- */
 
+/* Whole periods of a map. */
+static int whole_periods(const pendres_continuation_map *map)
+{
+  switch (map->mirror) {
+  case PENDRES_MIRROR_HALF: return map->period / 2;
+  case PENDRES_MIRROR_WHOLE: return 1;
+  default: return map->period;
+  }
+}
+
 static void read_image(const pendres_rows *rows, size_t lane,
                        const pendres_continuation_map *map, const double u[PENDRES_U_COUNT],
                        int columns, pendres_continuation_image *out)
 {
   const double sign = map->mirror ? -1.0 : 1.0;
   const double turns = two_pi * (map->mirror ? map->winding : -map->winding);
-  const double time = (map->mirror ? pi : two_pi) * map->period / u[PENDRES_U_OMEGA];
+  const double time = map->mirror == PENDRES_MIRROR_HALF
+                        ? pi * map->period / u[PENDRES_U_OMEGA]
+                        : two_pi * whole_periods(map) / u[PENDRES_U_OMEGA];
 
   out->f[0] = sign * pendres_rows_get(rows, PENDRES_ROW_Y, lane) + turns - u[PENDRES_U_Y];
   out->f[1] = sign * pendres_rows_get(rows, PENDRES_ROW_W, lane) - u[PENDRES_U_W];
@@ -141,9 +184,10 @@ static pendres_status run_block(pendres_block *b, const pendres_continuation_map
     const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u[i]);
     pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
   }
-  const int whole = map->mirror ? map->period / 2 : map->period;
+  const int whole = whole_periods(map);
   for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_block_period(b);
-  if (map->mirror && status == PENDRES_OK) status = pendres_block_half_period(b);
+  if (map->mirror == PENDRES_MIRROR_HALF && status == PENDRES_OK)
+    status = pendres_block_half_period(b);
   if (status != PENDRES_OK) return status;
   b->ctx->cost.newton_steps += (double)n;
   const pendres_rows rows = pendres_block_rows(b);
@@ -206,16 +250,32 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
 
 /* ---- half maps ---- */
 
-int pendres_continuation_map_half(const pendres_continuation_map *map,
+void pendres_continuation_map_unfold(pendres_continuation_map *map)
+{
+  if (map->mirror != PENDRES_MIRROR_NONE) map->winding = 0;
+  map->mirror = PENDRES_MIRROR_NONE;
+}
+
+int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half)
 {
-  if (map->mirror) return 0;
+  *half = *map;
+  if (map->reflects && map->period <= 2 && map->winding == 0 && which == 0 &&
+      map->mirror == PENDRES_MIRROR_NONE) {
+    half->mirror = PENDRES_MIRROR_WHOLE;
+    return 1;
+  }
+  if (map->mirror == PENDRES_MIRROR_WHOLE) {
+    pendres_continuation_map_unfold(half);
+    half->period = 1;
+    return which == 0;
+  }
+  const int first = map->reflects && map->period == 2 && map->winding == 0 ? 1 : 0;
+  if (map->mirror != PENDRES_MIRROR_NONE || which != first) return 0;
   if (map->period % 2 != 0) {
-    *half = *map;
-    half->mirror = 1;
+    half->mirror = PENDRES_MIRROR_HALF;
     return map->symmetric && map->winding == 0;
   }
-  *half = *map;
   half->period /= 2;
   half->winding /= 2;
   return map->winding % 2 == 0;

@@ -11,6 +11,12 @@
  *   for an orbit that is its own mirror image, which has an odd q, q half periods followed by the
  *   reflection (y, w) -> (2 pi p - y, -w), whose second iterate is the former.
  *
+ * With a parametric drive alone the mirror image of a trajectory is one at the same phase. Orbits
+ * that are their own are rest (q = 1), and those of q = 2 with y(t + tau) = 2 pi p - y(t): both are
+ * fixed points of one strobe period followed by the reflection. Of rest that map's flip is where
+ * pairs of orbits of period 1 are born, and its fold where the strobe map itself has a flip, where
+ * orbits of period 2 are born: the boundaries of the tongues of parametric resonance.
+ *
  * N = DG has the known determinant exp(-gamma time) (Liouville). A fold has det(N - I) = 0, a flip
  * det(N + I) = 0: of the first map a flip is a period doubling, of the second the loss of mirror
  * symmetry. So a symmetric orbit's folds and symmetry breakings, both a Floquet multiplier +1, are
@@ -42,7 +48,12 @@ enum {
 typedef struct pendres_continuation_map {
   pendres_force force;
   int symmetric; /* all pendulums that it is asked for have the mirror symmetry */
-  int mirror;    /* q half periods and the reflection; q is odd */
+  int reflects;  /* or that with a parametric drive alone, at the same phase */
+  enum {
+    PENDRES_MIRROR_NONE,
+    PENDRES_MIRROR_HALF, /* q half periods and the reflection; q is odd */
+    PENDRES_MIRROR_WHOLE /* one period and the reflection; q is 1 or 2 */
+  } mirror;
   int period;    /* q */
   int winding;   /* p */
 } pendres_continuation_map;
@@ -108,11 +119,14 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
 
 /*
  * The map of which a fixed point of `map` may be one twice over, as where the one's orbits are born
- * from the other's: that with a reflection for an odd period, half the period of an even one. 0 if
- * there is none.
+ * from the other's: that with a reflection for an odd period, half the period of an even one. There
+ * may be two (which = 0, 1). 0 if there is none.
  */
-int pendres_continuation_map_half(const pendres_continuation_map *map,
+int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half);
+
+/* The map over all of an orbit's period: the one whose flip is a period doubling. */
+void pendres_continuation_map_unfold(pendres_continuation_map *map);
 
 /* By what vector (y, w) n points miss being fixed points of such a half map, whichever place it
    reflects about, the bottom of a well or the top of a barrier: *winding (may be NULL) is that of

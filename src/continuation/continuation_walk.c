@@ -364,7 +364,7 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
   status = pendres_walk_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
   if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
-  if (status == PENDRES_OK && pendres_continuation_map_half(&w->map, &w->half)) {
+  if (status == PENDRES_OK && pendres_continuation_map_half(&w->map, 0, &w->half)) {
     double miss[1][2];
     status = pendres_continuation_map_closes(ctx, &w->half, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])place, miss, NULL);

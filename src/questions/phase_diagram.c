@@ -61,9 +61,8 @@ static int ascends(size_t n, const double *value)
 static const char *refused(const pendres_phase_grid *g)
 {
   const pendres_parameter along = g->options.parameter;
-  if (along != PENDRES_DRIVE_FREQUENCY && along != PENDRES_DRIVE_AMPLITUDE)
-    return "lines go along the drive frequency or the drive amplitude";
-  if ((unsigned)g->across > PENDRES_DRIVE_AMPLITUDE || g->across == along)
+  if ((unsigned)along >= PENDRES_PARAMETER_COUNT) return "lines go along a parameter";
+  if ((unsigned)g->across >= PENDRES_PARAMETER_COUNT || g->across == along)
     return "lines differ in another parameter than changes along them";
   if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
     return "a diagram needs values of both its parameters";
@@ -319,10 +318,12 @@ static pendres_status follow_curves(pendres_context *ctx, pendres_phase_diagram 
   if (status != PENDRES_OK || d->bifurcations <= before || d->rounds == MOST_ROUNDS) return status;
   d->rounds++;
   pendres_curve_options options = {.second = g->across};
-  pendres_phase_reach(g->options.parameter, g->value[0], g->value[g->values - 1], &options.low[0],
-                      &options.high[0]);
-  pendres_phase_reach(g->across, g->line_value[0], g->line_value[g->lines - 1], &options.low[1],
-                      &options.high[1]);
+  const int plain = pendres_phase_plain(&g->pendulum, g->options.parameter) &&
+                    pendres_phase_plain(&g->pendulum, g->across);
+  pendres_phase_reach(g->options.parameter, plain, g->value[0], g->value[g->values - 1],
+                      &options.low[0], &options.high[0]);
+  pendres_phase_reach(g->across, plain, g->line_value[0], g->line_value[g->lines - 1],
+                      &options.low[1], &options.high[1]);
   status = d->curves == NULL
              ? pendres_curves_find(ctx, d->bifurcations, d->bifurcation, &options, &d->curves)
              : pendres_curves_extend(ctx, d->bifurcations, d->bifurcation, &options, d->curves);

@@ -16,7 +16,7 @@ enum { MOST_CROSSINGS = 16 };
 /* Orbits on the sheets that fold over each other, whatever their stability. */
 int pendres_phase_on_sheets(const pendres_orbit *o)
 {
-  return pendres_label_named(o) && o->symmetric;
+  return pendres_label_named(o) && (o->symmetric || !pendres_pendulum_symmetric(&o->pendulum));
 }
 
 /* Among the folds below whose parameter two orbits exist, the one of the smallest amplitude. */
@@ -27,7 +27,9 @@ static pendres_small_end find_small_end(const pendres_branches *branches)
     const pendres_branch *branch = pendres_branches_get(branches, i);
     for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
       const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
-      if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) || !(f->curvature < 0.0)) continue;
+      if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) ||
+          !(f->curvature < 0.0))
+        continue;
       if (end.known && f->orbit.amplitude >= end.amplitude) continue;
       end = (pendres_small_end){.known = 1,
                                 .parameter = f->parameter,
@@ -51,7 +53,7 @@ static int other_of(const pendres_attractor *a)
   if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
   if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
   if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
-  return a->orbit.symmetric ? 0 : PENDRES_OTHER_ASYMMETRIC;
+  return pendres_phase_on_sheets(&a->orbit) ? 0 : PENDRES_OTHER_ASYMMETRIC;
 }
 
 static void judge_ensemble(const pendres_small_end *end, const pendres_label_states *known,
@@ -185,11 +187,12 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   const pendres_ensemble *e = &o->ensemble;
   const char *why = NULL;
   if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
-  if (o->parameter != PENDRES_DRIVE_FREQUENCY && o->parameter != PENDRES_DRIVE_AMPLITUDE)
-    return "lines go along the drive frequency or the drive amplitude";
+  if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
   if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
   for (size_t i = 0; i < n; i++) {
-    if (pendres_model_check_plain(&p[i], &why) != PENDRES_OK) return why;
+    if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
+    if (o->parameter >= PENDRES_FORCE_COEFFICIENT_1 && p[i].force == PENDRES_FORCE_PENDULUM)
+      return "this force has no such coefficient";
     why = pendres_response_refuses(&p[i], e);
     if (why != NULL) return why;
     if (!on_one_line(o->parameter, &p[0], p[i]))
@@ -201,9 +204,30 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   return NULL;
 }
 
-void pendres_phase_reach(pendres_parameter parameter, double first, double last, double *low,
+int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
+{
+  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && parameter <= PENDRES_DRIVE_AMPLITUDE;
+}
+
+/* Beyond a diagram by a tenth of its width, of a single value by a tenth of it; frequencies stay
+   positive, dampings do not become negative. */
+static void reach_beyond(pendres_parameter parameter, double first, double last, double *low,
                          double *high)
 {
+  const double margin = 0.1 * (last > first ? last - first : fmax(fabs(first), 1.0));
+  *low = first - margin;
+  *high = last + margin;
+  if (parameter == PENDRES_DRIVE_FREQUENCY) *low = fmax(*low, 0.5 * first);
+  if (parameter == PENDRES_DAMPING) *low = fmax(*low, 0.5 * first);
+}
+
+void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,
+                         double *low, double *high)
+{
+  if (!plain) {
+    reach_beyond(parameter, first, last, low, high);
+    return;
+  }
   switch (parameter) {
   case PENDRES_DRIVE_AMPLITUDE:
     /* SA and LA part somewhere between the weakest drives and those that turn pendulums over. */
@@ -227,7 +251,9 @@ static pendres_branch_options options_of(const pendres_pendulum *first,
                                          const pendres_phase_options *o)
 {
   pendres_branch_options options = {.parameter = o->parameter, .spacing = o->spacing};
-  pendres_phase_reach(o->parameter, pendres_parameter_get(o->parameter, first),
+  const int plain =
+    pendres_phase_plain(first, o->parameter) && pendres_phase_plain(last, o->parameter);
+  pendres_phase_reach(o->parameter, plain, pendres_parameter_get(o->parameter, first),
                       pendres_parameter_get(o->parameter, last), &options.low, &options.high);
   return options;
 }
@@ -332,6 +358,7 @@ static int bounds_named(const pendres_curve *c)
 
 int pendres_phase_beyond(pendres_parameter across, double value, double cusp)
 {
+  if (across > PENDRES_DRIVE_AMPLITUDE) return 0;
   return across == PENDRES_DRIVE_AMPLITUDE ? !(value > cusp) : !(value < cusp);
 }
 
