@@ -33,6 +33,16 @@ deck lone basins '&pendulum drive_amplitude = 1, damping = 0.1, drive_frequency 
 grep -q "basins.by = 'well'" lone.txt || { echo "no word of wells"; exit 1; }
 deck line phase_diagram "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
 deck plane phase_diagram "$p / &sweep damping = 0.2, 0.3, drive_frequency = 0.7, 0.8, 0.9 / $e"
+deck section orbit '&pendulum drive_amplitude = 0.2, damping = 0.0, drive_frequency = 0.8 /
+  &orbit x = 1.0, transient = .true., periods = 300, samples = 4, spectrum = .true. /'
+deck sweep hysteresis "$p, damping = 0.15 / &sweep drive_frequency_range = 0.75, 0.85, 5 /
+  &hysteresis start = 'sa' /"
+deck doubling bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /
+  &sweep drive_amplitude_range = 1.04, 1.07, 4 / &bifurcation_diagram x = 1.6, strobes = 5 /'
+deck map lyapunov_map '&pendulum damping = 0.5 / &precision tolerance = 1e-4 /
+  &sweep drive_amplitude_range = 0.9, 1.5, 6, drive_frequency_range = 0.6, 0.7, 4 /'
+deck rates switching "$p, damping = 0.12, drive_period = 7.7 / &sweep temperature = 0.02, 0.03 /
+  &noise trajectories = 200, periods = 20 /"
 deck branches branches "$p / &sweep damping = 0.2, drive_frequency_range = 0.7, 0.9, 5 / $e"
 deck ramp hysteresis "$p, damping = 0.15, temperature = 1e-3 / &sweep
   drive_frequency_range = 0.83, 0.87, 9 / &hysteresis start = 'sa', rate = 5e-4 /
