@@ -68,8 +68,10 @@ double estimate_output(const deck *d)
 
 double estimate_memory(const deck *d, int threads)
 {
-  return program_memory + thread_memory * threads + rules[d->kind].memory * points_of(d) +
-         16.0 * strobes_of(d);
+  double grid = rules[d->kind].memory * points_of(d);
+  /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
+  if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
+  return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);
 }
 
 /* ---- words --------------------------------------------------------------------------------- */
