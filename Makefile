@@ -392,7 +392,7 @@ gallery:
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)
 
 style:
-	@tests/style.sh
+	@tests/style_check.sh
 
 # A build directory of another name is kept if it holds anything else.
 clean:

@@ -3,13 +3,14 @@
  *
  * Owns: what happens at exit() and at faults, and that GSL returns where it gets no memory. HDF5
  * (1.10) calls exit() where it gets no memory for one of its handles, follows null pointers
- * elsewhere, and may fault while it is closed after such a failure. GSL and SUNDIALS: see pendres/status.h. An exit() in the middle of a run becomes exit
- * code 1, with a line that says so. A fault in the middle stays one, since it may as well be an
- * error of this program, but leaves no part file and says so; a fault when the run is over changes
- * nothing of its exit code. A stack that overflows ends the program as before, without a word: so
- * does HDF5 where it gets no memory for one of its first few requests (it calls itself without end
- * to report that); no part file exists by then.
- * Like signals.h, state that is not passed around: such functions have no arguments.
+ * elsewhere, and may fault while it is closed after such a failure. GSL and SUNDIALS: see
+ * pendres/status.h. An exit() in the middle of a run becomes exit code 1, with a line that says so.
+ * A fault in the middle stays one, since it may as well be an error of this program, but leaves no
+ * part file and says so; a fault when the run is over changes nothing of its exit code. A stack
+ * that overflows ends the program as before, without a word: so does HDF5 where it gets no memory
+ * for one of its first few requests (it calls itself without end to report that); no part file
+ * exists by then. Like signals.h, state that is not passed around: such functions have no
+ * arguments.
  */
 #ifndef ENDING_H
 #define ENDING_H

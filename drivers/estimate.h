@@ -25,7 +25,8 @@ void estimate_print(const deck *d, const farm_trial *t, double outside, int thre
 /* A line on free space in the folder of `path`. */
 void estimate_print_space(const char *path, FILE *out);
 
-/* Tell where the disk will not hold the output; the run goes on, since an estimate is no measure. */
+/* Tell where the disk will not hold the output; the run goes on, since an estimate is no
+   measure. */
 void estimate_check_space(const deck *d, const char *path, progress *p);
 
 #endif

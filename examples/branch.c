@@ -1,5 +1,5 @@
-/* branch.c -- a branch of oscillations over the drive frequency, stable and unstable, with the folds
- * at which a slow sweep would jump. */
+/* branch.c -- a branch of oscillations over the drive frequency, stable and unstable, with the
+ * folds at which a slow sweep would jump. */
 #include <stdio.h>
 
 #include <pendres/pendres.h>
@@ -16,7 +16,8 @@ int main(void)
 
   failed = pendres_context_create(NULL, &ctx) ||
            pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found) ||
-           pendres_branch_follow(ctx, 1, &pendres_attractors_get(found, 0)->orbit, &options, &branch);
+           pendres_branch_follow(ctx, 1, &pendres_attractors_get(found, 0)->orbit, &options,
+                                 &branch);
   if (failed) fprintf(stderr, "%s\n", pendres_context_message(ctx));
   for (size_t i = 0; i < pendres_branch_count(branch); i++) {
     const pendres_branch_point *point = pendres_branch_get(branch, i);

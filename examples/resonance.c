@@ -1,4 +1,5 @@
-/* resonance.c -- the drive frequency at which a pendulum takes most energy a cycle, and its error. */
+/* resonance.c -- the drive frequency at which a pendulum takes most energy a cycle, and its
+ * error. */
 #include <stdio.h>
 
 #include <pendres/pendres.h>

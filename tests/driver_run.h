@@ -63,7 +63,8 @@ static inline int count_names(const char *part)
   return n;
 }
 
-/* Start the program; stdout goes to stdout_path, NULL: all streams closed. file_limit bytes may be written, if not 0. */
+/* Start the program; stdout goes to stdout_path, NULL: all streams closed. file_limit bytes may be
+   written, if not 0. */
 static inline pid_t start(const char *stdout_path, rlim_t file_limit, const char *const *arguments)
 {
   const char *argv[MOST_ARGUMENTS + 2] = { "resonance" };
@@ -75,7 +76,8 @@ static inline pid_t start(const char *stdout_path, rlim_t file_limit, const char
   const pid_t pid = fork();
   assert_true(pid >= 0);
   if (pid > 0) return pid;
-  const int o = open(stdout_path != NULL ? stdout_path : "stdout.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int o = open(stdout_path != NULL ? stdout_path : "stdout.txt", O_WRONLY | O_CREAT | O_TRUNC,
+                     0600);
   const int e = open("stderr.txt", O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (o < 0 || e < 0 || dup2(o, 1) < 0 || dup2(e, 2) < 0) _exit(120);
   if (file_limit > 0) {

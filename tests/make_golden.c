@@ -6,7 +6,8 @@
  * after `make`, on a machine whose long double has at least 64 bits (x86):
  *
  *     gcc -std=c11 -O2 -Iinclude tests/make_golden.c src/reference*.c \
- *         src/model/pendulum.c -lgsl -lgslcblas -lm -o make_golden && ./make_golden > tests/golden.h
+ *         src/model/pendulum.c -lgsl -lgslcblas -lm -o make_golden && ./make_golden >
+ *         tests/golden.h
  *
  * (some ten seconds). The output is the same on every run. Numbers are kept although
  * they could be computed anew in a test, so that a mistake made later in reference.c shows.

@@ -1,6 +1,6 @@
 /*
- * test_basin_fractal.c -- fractal boundaries of basins: published facts, and the uncertainty exponent
- * against computations that share nothing with the library; and one that is not fractal.
+ * test_basin_fractal.c -- fractal boundaries of basins: published facts, and the uncertainty
+ * exponent against computations that share nothing with the library; and one that is not fractal.
  */
 #include "basin_fixture.h"
 
@@ -10,8 +10,8 @@
 
 /*
  * The pendulum of Daza, Wagemakers, Sanjuán and Yorke, Scientific Reports 5 (2015) 16579: damping
- * 0.2, drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above log 2,
- * which two basins with a smooth boundary cannot reach.
+ * 0.2, drive 1.66 cos t, three basins with the Wada property. Its boundary basin entropy is above
+ * log 2, which two basins with a smooth boundary cannot reach.
  */
 static const pendres_pendulum wada = {
   .damping = 0.2, .drive_amplitude = 1.66, .drive_frequency = 1.0};

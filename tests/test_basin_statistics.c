@@ -149,16 +149,19 @@ static void samples_within_bounds(void **state)
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
 
   double before = pendres_context_slopes(fresh);
-  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1, &first));
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1,
+                                            &first));
   const double spent = pendres_context_slopes(fresh) - before;
   if (!(spent > 0.5 * most && spent < most * 31.0 / 30.0))
     print_error("%zu states took %.3g of %.3g\n", first.states, spent, most);
   assert_true(spent > 0.5 * most && spent < most * 31.0 / 30.0);
   assert_true(first.states > 256 && first.states < ASKED);
 
-  check_ok(pendres_basin_uncertainty_within(other, most, set, &turn, ASKED, 3, distance, 1, &again));
+  check_ok(pendres_basin_uncertainty_within(other, most, set, &turn, ASKED, 3, distance, 1,
+                                            &again));
   assert_int_equal(again.states, first.states);
-  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1, &again));
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1,
+                                            &again));
   assert_int_equal(again.states, first.states);
 
   check_ok(pendres_basin_uncertainty(*state, set, &turn, first.states, 3, distance, 1, &whole));

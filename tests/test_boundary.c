@@ -120,7 +120,8 @@ static void sides_go_to_different_attractors(void **state)
   size_t same = 0;
   for (size_t i = 0; i < m; i += 2) {
     assert_true(outcome[i].attractor >= 0 && outcome[i + 1].attractor >= 0);
-    same += outcome[i].attractor == outcome[i + 1].attractor && outcome[i].well == outcome[i + 1].well;
+    same += outcome[i].attractor == outcome[i + 1].attractor &&
+      outcome[i].well == outcome[i + 1].well;
   }
   /* Two strands of the boundary may be so close that both are stepped over: a few in a thousand. */
   assert_true(m > 400);

@@ -171,7 +171,9 @@ static void test_long_orbits(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order), cmocka_unit_test(test_long_orbits), cmocka_unit_test(chaos_last),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(one_order),
+                                     cmocka_unit_test(test_long_orbits),
+                                       cmocka_unit_test(chaos_last),
                                     cmocka_unit_test(images_compared)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -364,11 +364,14 @@ static void recurrences(void **state)
   assert_true(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
   assert_int_equal(r.period, 50);
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k % 50 + 2e-3 * k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
+                                       &r));
   for (int k = 0; k < PENDRES_RECURRENCE_POINTS; k++) w[k] = k;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
+                                       &r));
   w[PENDRES_RECURRENCE_POINTS - 1] = NAN;
-  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w, &r));
+  assert_false(pendres_recurrence_find(PENDRES_RECURRENCE_POINTS, 6.28318530717958647693, y, w,
+                                       &r));
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /*
- * test_escape.c -- pendulums that go to infinity under a softening force: against an equation that is
- * solved in closed form, and against an integration that shares nothing with the library.
+ * test_escape.c -- pendulums that go to infinity under a softening force: against an equation that
+ * is solved in closed form, and against an integration that shares nothing with the library.
  */
 #include "check.h"
 
@@ -43,7 +43,8 @@ static double weight(int i)
   return (i == 0 || i == SIDE - 1 ? 0.5 : 1.0) / (SIDE - 1);
 }
 
-/* Every state escapes if and only if the integration runs away, but for those that are uncertain. */
+/* Every state escapes if and only if the integration runs away, but for those that are
+   uncertain. */
 static void helmholtz(void **state)
 {
   const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.07, .drive_frequency = 0.85,
@@ -136,7 +137,8 @@ static void bound(void **state)
         }
         met = 1;
         for (int k = 0; k < 64; k++)
-          assert_true(side * pendres_pendulum_acceleration(&some[i], x, 0.0, PENDRES_PI * k / 32.0) >
+          assert_true(side * pendres_pendulum_acceleration(&some[i], x, 0.0,
+                                                           PENDRES_PI * k / 32.0) >
                       0.0);
         assert_false(pendres_model_escapes(&some[i], x, -1e-3 * side));
       }

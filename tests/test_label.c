@@ -90,7 +90,8 @@ static void all_questions_name_alike(void **state)
                                 .drive_frequency = frequency[i]};
     check_ok(pendres_response_compute(ctx, LINE, p, &e, r));
     check_ok(pendres_response_name(ctx, LINE, r));
-    check_ok(pendres_phase_line(ctx, LINE, p, &(pendres_phase_options){.ensemble = e}, points, NULL));
+    check_ok(pendres_phase_line(ctx, LINE, p, &(pendres_phase_options){.ensemble = e}, points,
+                                NULL));
     for (int i = 0; i < LINE; i++) {
       /* Both count members: equal to rounding, or both without a name. */
       assert_int_equal(isnan(r[i].sa_fraction), k == 1);

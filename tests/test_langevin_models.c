@@ -71,7 +71,8 @@ static void linear_forces_are_exact_at_any_temperature(void **state)
   pendres_context_free(ctx);
 }
 
-/* Forces that are stiff, or weak beside a strong friction, ask for other steps than the pendulum's. */
+/* Forces that are stiff, or weak beside a strong friction, ask for other steps than the
+   pendulum's. */
 static void linear_theory_resolves_stiff_forces(void **state)
 {
   (void)state;

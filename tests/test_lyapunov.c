@@ -47,7 +47,8 @@ static void weak_drives(void **state)
   }
 }
 
-/* At rest under a torque, and where a polynomial force has its minimum, the exponent is -gamma/2. */
+/* At rest under a torque, and where a polynomial force has its minimum, the exponent is
+   -gamma/2. */
 static void other_forces(void **state)
 {
   enum { N = 3 };
@@ -56,7 +57,8 @@ static void other_forces(void **state)
     {.damping = 0.3, .drive_frequency = 1.0, .torque = -0.6, .parametric_amplitude = 1e-4},
     {.damping = 0.2, .drive_frequency = 0.8, .drive_amplitude = 0.01,
      .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0, 0.0, 1.0}}};
-  /* The last one starts a whole turn of the pendulum away from its left well: no turn is taken off. */
+  /* The last one starts a whole turn of the pendulum away from its left well: no turn is taken
+     off. */
   const double x[N] = {1.6, 1.6, -1.0 + two_pi}, v[N] = {0.0};
   pendres_lyapunov l[N];
   check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
@@ -67,7 +69,8 @@ static void other_forces(void **state)
   }
 }
 
-/* Chaos of the plain pendulum beside that of one with a torque: averages are those of each alone. */
+/* Chaos of the plain pendulum beside that of one with a torque: averages are those of each alone.
+   */
 static void models_side_by_side(void **state)
 {
   enum { N = 2 };
@@ -184,9 +187,10 @@ static void chaos(void **state)
   }
 }
 
-/* At random points of input/lyapunov.nml nothing is silently wrong: with ten times the transient and
-   ten times the average each is the same motion, an orbit's exponent is the same within its errors,
-   and that of chaos within four and a half combined standard errors, which one in 10^5 exceeds. */
+/* At random points of input/lyapunov.nml nothing is silently wrong: with ten times the transient
+   and ten times the average each is the same motion, an orbit's exponent is the same within its
+   errors, and that of chaos within four and a half combined standard errors, which one in 10^5
+   exceeds. */
 static void longer(void **state)
 {
   enum { N = 64 };

@@ -204,14 +204,15 @@ static void tangents(void **state)
 
 /* ---- exact motions ---- */
 
-/* x'' + a1 x + a3 x^3 = 0 from rest at X: X cn(w t | m) with w^2 = a1 + a3 X^2, m = a3 X^2 / (2 w^2);
-   with a1 < 0 within a well X dn(w t | m), w^2 = a3 X^2 / 2, m = 2 + 2 a1 / (a3 X^2). The
+/* x'' + a1 x + a3 x^3 = 0 from rest at X: X cn(w t | m) with w^2 = a1 + a3 X^2, m = a3 X^2 / (2
+   w^2); with a1 < 0 within a well X dn(w t | m), w^2 = a3 X^2 / 2, m = 2 + 2 a1 / (a3 X^2). The
    estimate holds, and 1e-9 is reached at a tolerance of 1e-10 over three periods. */
 static void free_duffing(void **state)
 {
   static const struct {
     double a1, a3, x;
-  } cases[] = {{1.0, 1.0, 1.5}, {0.2, 2.0, 0.7}, {-1.0, 1.0, 1.2}, {1.0, 0.0, 2.0}, {0.0, 1.0, 1.0}};
+  } cases[] = {{1.0, 1.0, 1.5}, {0.2, 2.0, 0.7}, {-1.0, 1.0, 1.2}, {1.0, 0.0, 2.0},
+               {0.0, 1.0, 1.0}};
   pendres_context *ctx = context(1e-10);
   (void)state;
   for (size_t i = 0; i < COUNT(cases); i++) {

@@ -163,8 +163,8 @@ static void no_budget_at_all(void **state)
 /*
  * Resonances 1e-3 wide in a range of 0.6, at small drives: 750 frequencies are not enough to see
  * every one that there might be, and that is said although the peak is smooth and known to all its
- * digits. Its amplitude is R = F0 / gamma, and softness lowers the frequency by R^2 / 16; what comes
- * next is R^4 / 1000 and gamma^2.
+ * digits. Its amplitude is R = F0 / gamma, and softness lowers the frequency by R^2 / 16; what
+ * comes next is R^4 / 1000 and gamma^2.
  */
 static void a_scan_that_is_too_coarse(void **state)
 {

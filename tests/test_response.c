@@ -337,7 +337,8 @@ static void more_than_are_listed(void **state)
   check_near(r.mean_loop_area_error, (3.0 + 10.0) / ALL * most, 1e-13);
 }
 
-/* Under a torque a weak drive meets an oscillator of stiffness cos(asin I), y'' + gamma y' + k y. */
+/* Under a torque a weak drive meets an oscillator of stiffness cos(asin I), y'' + gamma y' + k
+   y. */
 static void torque(void **state)
 {
   enum { N = 3 };

@@ -80,7 +80,8 @@ static int turns_at_one(double damping)
   const double away = 0.01;
   double y = -1.5 * pi + away, v = away * away / (2.0 * damping);
   /* Above the damping looked for it comes to the equilibrium slowly, from y below pi/2. */
-  for (int i = 0; v > 0.0 && y < 0.5 * pi + 1e-3 && i < 4000000; i++) step(damping, 1.0, 2e-3, &y, &v);
+  for (int i = 0; v > 0.0 && y < 0.5 * pi + 1e-3 && i < 4000000; i++) step(damping, 1.0, 2e-3, &y,
+                                                                           &v);
   return y >= 0.5 * pi;
 }
 
@@ -119,7 +120,8 @@ static double turn(double damping, double torque, double *v)
   return time;
 }
 
-/* The turn closes, takes the period, and what is added to the velocity shrinks by the multiplier. */
+/* The turn closes, takes the period, and what is added to the velocity shrinks by the
+   multiplier. */
 static void rotations(void **state)
 {
   static const double sets[][2] = {{0.1, 0.13}, {0.1, 1.0}, {0.5, 0.6}, {1.0, 0.97}, {0.3, 1.01},

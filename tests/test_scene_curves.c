@@ -83,7 +83,8 @@ static void branches_hold_the_figures(void **state)
   free(uncertain);
   /* SA at 0.7 and 0.8 for both, LA from 0.8 for damping 0.13, from 0.845 for 0.15. */
   static const int sa_lives[8] = {1, 1, 0, 0, 1, 1, 1, 0}, la_lives[8] = {0, 1, 1, 1, 0, 0, 1, 1};
-  double *sa = scene_values(store, "sa_amplitude", &n), *la = scene_values(store, "la_amplitude", &m);
+  double *sa = scene_values(store, "sa_amplitude", &n),
+    *la = scene_values(store, "la_amplitude", &m);
   assert_int_equal(n, 8);
   assert_int_equal(m, 8);
   for (int i = 0; i < 8; i++) {
@@ -93,7 +94,8 @@ static void branches_hold_the_figures(void **state)
   /* The unstable middle part lies between the folds of each damping. */
   double *damping = scene_values(store, "branch_damping", &n);
   double *frequency = scene_values(store, "branch_frequency", &m);
-  double *stable = scene_values(store, "branch_stable", &m), *kind = scene_values(store, "branch_kind", &m);
+  double *stable = scene_values(store, "branch_stable", &m),
+    *kind = scene_values(store, "branch_kind", &m);
   size_t unstable = 0, folds = 0;
   for (size_t i = 0; i < n; i++) {
     folds += kind[i] == PENDRES_FOLD;
@@ -105,7 +107,8 @@ static void branches_hold_the_figures(void **state)
   assert_int_equal(folds, 4);
   assert_true(unstable > 10);
   /* Fold points have the cusp's damping at most, and SA's and LA's sides both. */
-  double *fold = scene_values(store, "fold_damping", &n), *which = scene_values(store, "fold_branch", &m);
+  double *fold = scene_values(store, "fold_damping", &n),
+    *which = scene_values(store, "fold_branch", &m);
   int sides[3] = {0, 0, 0};
   for (size_t i = 0; i < n; i++) {
     assert_true(fold[i] <= 0.1636569021);
@@ -123,8 +126,8 @@ static void branches_hold_the_figures(void **state)
   pendres_store_free(store);
 }
 
-/* Lines along the drive amplitude, and lines of frequencies at several of them: the fold and the cusp
-   that lines of frequencies have at 0.2 (the reference's) lie at 0.2. */
+/* Lines along the drive amplitude, and lines of frequencies at several of them: the fold and the
+   cusp that lines of frequencies have at 0.2 (the reference's) lie at 0.2. */
 static void drives_are_axes(void **state)
 {
   (void)state;
@@ -172,8 +175,8 @@ static void drives_are_axes(void **state)
   pendres_store_free(store);
 }
 
-/* A response over frequencies tells its resonance as a frequency; over drive amplitudes it has that of
-   the same pendulum, bit by bit. */
+/* A response over frequencies tells its resonance as a frequency; over drive amplitudes it has that
+   of the same pendulum, bit by bit. */
 static void responses_have_axes(void **state)
 {
   (void)state;
@@ -191,7 +194,8 @@ static void responses_have_axes(void **state)
   double *period = scene_values(one, "resonance_period", &m);
   assert_true(n == 1 && m == 1);
   check_near(frequency[0] * period[0], 6.283185307179586, 1e-14);
-  double *a = scene_values(one, "mean_loop_area", &n), *b = scene_values(other, "mean_loop_area", &m);
+  double *a = scene_values(one, "mean_loop_area", &n),
+    *b = scene_values(other, "mean_loop_area", &m);
   assert_true(n == 2 && m == 2);
   assert_memory_equal(&a[0], &b[0], sizeof a[0]);
   assert_true(b[1] > b[0]);
@@ -210,26 +214,31 @@ static void diagram_holds_the_regimes(void **state)
   pendres_store *store = scene_open("diagram");
   double *regime = scene_values(store, "regime", &n);
   assert_int_equal(n, 12);
-  double *exact = scene_values(store, "regime_exact", &n), *other = scene_values(store, "other", &n);
+  double *exact = scene_values(store, "regime_exact", &n),
+    *other = scene_values(store, "other", &n);
   /* At damping 0.08 and frequency 0.536 LA has lost its symmetry (at 0.537944): a pair of mirror
      images, one state by its name. */
   static const int want[12] = {
     PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_COEXISTENCE,
     PENDRES_REGIME_LA,
-    PENDRES_REGIME_SA,     PENDRES_REGIME_SA,          PENDRES_REGIME_COEXISTENCE, PENDRES_REGIME_LA,
-    PENDRES_REGIME_SINGLE, PENDRES_REGIME_SINGLE,      PENDRES_REGIME_SINGLE, PENDRES_REGIME_SINGLE};
+    PENDRES_REGIME_SA,     PENDRES_REGIME_SA,          PENDRES_REGIME_COEXISTENCE,
+      PENDRES_REGIME_LA,
+    PENDRES_REGIME_SINGLE, PENDRES_REGIME_SINGLE,      PENDRES_REGIME_SINGLE,
+      PENDRES_REGIME_SINGLE};
   for (int i = 0; i < 12; i++) {
     assert_int_equal((int)regime[i], want[i]);
     assert_int_equal((int)other[i], i == 0 ? PENDRES_OTHER_ASYMMETRIC : 0);
     assert_int_equal((int)exact[i], want[i]);
   }
-  double *fraction = scene_values(store, "sa_fraction", &n), *area = scene_values(store, "mean_loop_area", &n);
+  double *fraction = scene_values(store, "sa_fraction", &n),
+    *area = scene_values(store, "mean_loop_area", &n);
   for (int i = 0; i < 12; i++) {
     assert_int_equal(isnan(fraction[i]), want[i] == PENDRES_REGIME_SINGLE);
     assert_true(area[i] > 0.0);
   }
   /* The curve on which LA loses its symmetry passes this damping at that frequency. */
-  double *kind = scene_values(store, "flip_kind", &n), *damping = scene_values(store, "flip_damping", &n);
+  double *kind = scene_values(store, "flip_kind", &n),
+    *damping = scene_values(store, "flip_damping", &n);
   double *frequency = scene_values(store, "flip_frequency", &n);
   double nearest = INFINITY;
   for (size_t i = 0; i < n; i++)

@@ -1,6 +1,6 @@
 /*
- * test_scene_states.c -- the scenes orbit and basins, run in this process: published facts outside of
- * the paper's range, the same bytes whatever the threads, refined grids against whole ones.
+ * test_scene_states.c -- the scenes orbit and basins, run in this process: published facts outside
+ * of the paper's range, the same bytes whatever the threads, refined grids against whole ones.
  */
 #include "scene_fixture.h"
 

@@ -121,8 +121,8 @@ static void other_forces(void **state)
   free(lag);
 }
 
-/* Up a torque and down: a weak drive moves the pendulum about asin I. The works of the drives and of
-   the torque together are what friction takes. */
+/* Up a torque and down: a weak drive moves the pendulum about asin I. The works of the drives and
+   of the torque together are what friction takes. */
 static void torque_sweep(void **state)
 {
   (void)state;
@@ -147,7 +147,8 @@ static void torque_sweep(void **state)
                  "drive_frequency = 1.0, torque = 0.8, parametric_amplitude = 0.3 /\n"
                  "&orbit x = 1.6, v = 2.5, periods = 1 /\n", 1, "orbit");
   store = scene_open("orbit");
-  double *area = scene_values(store, "loop_area", &n), *lost = scene_values(store, "dissipation", &n);
+  double *area = scene_values(store, "loop_area", &n),
+    *lost = scene_values(store, "dissipation", &n);
   double *torque = scene_values(store, "torque_work", &n);
   double *drive = scene_values(store, "parametric_work", &n);
   double *winding = scene_values(store, "winding", &n), *period = scene_values(store, "period", &n);

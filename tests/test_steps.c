@@ -67,7 +67,8 @@ static double error_with(int steps, const pendres_pendulum *p, double speed, uin
     if (growth > 10.0) continue;
     check_ok(pendres_strobe_advance(ctx, 1, p, &x, &v, 1, NULL));
     const long double there =
-      image.y + 1.57079632679489661923132169163975L + 6.28318530717958647692528676655901L * image.turns;
+      image.y + 1.57079632679489661923132169163975L + 6.28318530717958647692528676655901L
+        * image.turns;
     largest = fmax(largest, (double)fmaxl(fabsl(x - there), fabsl(v - image.v)));
   }
   pendres_context_free(ctx);

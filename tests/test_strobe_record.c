@@ -164,8 +164,8 @@ static void test_refusals(void **state)
   pendres_context_free(ctx);
 }
 
-/* In pieces of any length, gone on with from copies and in other contexts: the same bytes, also where
-   a chaotic trajectory is lost on the way. */
+/* In pieces of any length, gone on with from copies and in other contexts: the same bytes, also
+   where a chaotic trajectory is lost on the way. */
 static void test_pieces(void **state)
 {
   enum { PERIODS = 60, SAMPLES = 5, N = PERIODS * SAMPLES + 1 };

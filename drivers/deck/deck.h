@@ -254,11 +254,13 @@ int deck_has_ramp(const deck *d);
 uint64_t deck_seed(const deck *d);
 
 /** The axes along which parameters of the pendulum move: those with more than one value, among
- *  damping, drive amplitude, frequency, period, torque and parametric amplitude. Up to `room` are written; how many there are. */
+ *  damping, drive amplitude, frequency, period, torque and parametric amplitude. Up to `room` are
+ *  written; how many there are. */
 int deck_moving(const deck *d, int room, deck_axis_id *axis);
 
-/** Where results have two axes: the parameter given in &sweep that takes the place of the damping or
- *  the drive as one of them, drive amplitude, torque or parametric amplitude. 0 if there is none. */
+/** Where results have two axes: the parameter given in &sweep that takes the place of the damping
+    or the drive as one of them, drive amplitude, torque or parametric amplitude. 0 if there is
+    none. */
 int deck_extra_axis(const deck *d, deck_axis_id *axis);
 
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */

@@ -49,7 +49,8 @@ static int in_scene(const deck_builder *b, const char *group, const char *name)
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
-/* Given, or tried in vain, itself or, of an axis in &sweep and its value in &pendulum, the other. */
+/* Given, or tried in vain, itself or, of an axis in &sweep and its value in &pendulum, the
+   other. */
 static int was_tried(const deck_builder *b, size_t row)
 {
   const deck_key *key = &deck_table[row];
@@ -235,7 +236,8 @@ static void check_moving(deck_builder *b)
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
     if (b->scene == 1u << wanted[i].kind && deck_moving(b->d, 0, NULL) != wanted[i].axes)
       complain_of_group(b, NULL, wanted[i].message);
-  if ((b->scene & (1u << DECK_HYSTERESIS | 1u << DECK_BIFURCATION_DIAGRAM)) != 0 && b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
+  if ((b->scene & (1u << DECK_HYSTERESIS | 1u << DECK_BIFURCATION_DIAGRAM)) != 0 &&
+      b->d->axis[DECK_AXIS_DRIVE_PERIOD].count > 1)
     complain(b, given(b, "sweep", "drive_period"), "drive_period",
              "what is swept is the drive's frequency: give 'drive_frequency'");
 }
@@ -346,13 +348,15 @@ static void check_plane(deck_builder *b)
   for (size_t i = 0; i < sizeof extras / sizeof *extras; i++)
     if (extras[i] != extra && d->axis[extras[i]].count > 0) {
       const char *other = deck_axis_name(extras[i]);
-      snprintf(message, sizeof message, "results have two axes: give '%s' or '%s' in &sweep, and the "
+      snprintf(message, sizeof message,
+               "results have two axes: give '%s' or '%s' in &sweep, and the "
                "other in &pendulum", name, other);
       complain(b, given(b, "sweep", other), other, message);
       return;
     }
   if (d->axis[DECK_AXIS_DAMPING].count < 2 || (frequency->count < 2 && period->count < 2)) return;
-  snprintf(message, sizeof message, "results have two axes: beside '%s' give either 'damping' or the "
+  snprintf(message, sizeof message,
+           "results have two axes: beside '%s' give either 'damping' or the "
            "drive one value", name);
   complain(b, given(b, "sweep", name), name, message);
 }

@@ -137,7 +137,8 @@ const deck_key deck_table[] = {
   { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
   { REAL("pendulum", "torque", pendulum.torque), IN(MODELS & ~ALONG), RANGE(-BIG, BIG),
     UNLESS(TORQUE),
-    SAYS("m g l", "constant torque I on the side of the drive; a Josephson junction's bias current") },
+    SAYS("m g l",
+         "constant torque I on the side of the drive; a Josephson junction's bias current") },
   { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
     RANGE(-BIG, BIG), UNLESS(PARAMETRIC_AMPLITUDE),
     SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
@@ -240,7 +241,8 @@ const deck_key deck_table[] = {
   { LOGICAL("orbit", "spectrum", orbit.spectrum), IN(ORBIT), .number = 0,
     SAYS(NULL, "measure the power spectrum of the record's velocity") },
   { INTEGER("orbit", "segment", orbit.segment), IN(ORBIT), RANGE(0, DECK_MAX_COUNT), .number = 0,
-    SAYS(NULL, "drive periods of a segment of the spectrum, which make its resolution; 0: a power of "
+    SAYS(NULL,
+         "drive periods of a segment of the spectrum, which make its resolution; 0: a power of "
          "two, at most a sixteenth of the record") },
 
   { CHOICE("hysteresis", "start", orbit.start), IN(HYSTERESIS), .choices = starts,
@@ -253,10 +255,12 @@ const deck_key deck_table[] = {
     .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
 
   { REAL("hysteresis", "rate", ramp.rate), IN(HYSTERESIS), POSITIVE, .number = NAN,
-    SAYS("1", "what the swept parameter moves by in a drive period: beside the sweep without end it "
+    SAYS("1",
+         "what the swept parameter moves by in a drive period: beside the sweep without end it "
          "is also moved in real time, up and then down") },
   { LIST("hysteresis", "protocol", ramp.protocol), IN(HYSTERESIS), RANGE(-BIG, 0x1p31),
-    SAYS(NULL, "instead of 'rate': time, value, time, value, ... of the way up, with straight lines "
+    SAYS(NULL,
+         "instead of 'rate': time, value, time, value, ... of the way up, with straight lines "
          "between; times are whole drive periods from 0 on, values go from the first of the sweep "
          "to its last. The way down is the same backwards") },
   { INTEGER("hysteresis", "points", ramp.points), IN(HYSTERESIS), RANGE(1, DECK_MAX_COUNT),
@@ -321,7 +325,8 @@ const deck_key deck_table[] = {
 
   { REAL("units", "natural_frequency", units.natural_frequency), IN(FREE | DRIVEN | ALONG),
     RANGE(0, 1e15), .open = 1, .number = NAN,
-    SAYS("Hz", "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
+    SAYS("Hz",
+         "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
          "and periods of the drive in s, beside ours") },
 
   { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2),

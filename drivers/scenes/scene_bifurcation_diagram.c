@@ -142,7 +142,8 @@ static const scene_column of_bifurcations[] = {
                "drive periods of the orbit that the pendulum is on then", "1"),
 };
 
-/* The doublings are two arrays of the cascade, not one of structs: a step is that of its doubles. */
+/* The doublings are two arrays of the cascade, not one of structs: a step is that of its
+   doubles. */
 static const scene_column of_doublings = {
   .name = "parameter", .long_name = "value at which the period doubles",
   .value = offsetof(pendres_cascade, value), .error = offsetof(pendres_cascade, value_error)};

@@ -29,7 +29,8 @@ typedef struct scene_column {
   scene_column_type type;
   size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
   scene_names names;           /* of a SCENE_FLAG, */
-  const int8_t *codes;         /* its bits, if it is a sum of such; names are those of 0, 1, 2 ... */
+  const int8_t *codes;         /* its bits, if it is a sum of such; names are those of 0, 1, 2
+                                  ... */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
   const char *comment;
 } scene_column;

@@ -27,7 +27,8 @@ static const scene_column columns[] = {
   SCENE_COLUMN(row, amplitude, "amplitude of the orbit there", "rad"),
   SCENE_COLUMN(row, multiplier, "Floquet multiplier of the larger modulus", "1"),
   {.name = "other_multiplier", .long_name = "Floquet multiplier of the smaller modulus",
-   .units = "1", .value = offsetof(row, other_multiplier), .error = offsetof(row, multiplier_error)},
+   .units = "1", .value = offsetof(row, other_multiplier),
+   .error = offsetof(row, multiplier_error)},
   {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
    .value = offsetof(row, period)},
 };

@@ -39,7 +39,8 @@ static const struct { const char *name, *definition; } definitions[] = {
   { "lyapunov_exponent", "rate at which neighbours part, in omega0" },
   { "lyapunov", "rate at which neighbours part, in omega0; of closed orbits that of the larger "
                 "multiplier" },
-  { "lyapunov_dimension", "1 + L / (L + damping) of the strobe points, L being the largest Lyapunov "
+  { "lyapunov_dimension",
+    "1 + L / (L + damping) of the strobe points, L being the largest Lyapunov "
                           "exponent; the motion in time has one more. Its error is a standard "
                           "error" },
   { "correlation_dimension", "slope of log correlation_sum against log distance, of the strobe "

@@ -18,7 +18,8 @@ static pendres_status put_scalars(scene_run *run, const orbit_work *w)
   const struct {
     const char *name, *long_name, *units;
     double value, error;
-    /* Closed orbits alone, chaos too, whatever there is; closed ones of other than plain pendulums. */
+    /* Closed orbits alone, chaos too, whatever there is; closed ones of other than plain pendulums.
+       */
     enum { CLOSED, CHAOTIC, ALWAYS, OTHERS } of;
   } scalars[] = {
     { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,

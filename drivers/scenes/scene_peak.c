@@ -66,5 +66,6 @@ const char *scene_peak_names(int kind)
 
 const char *scene_peak_instead(const void *row)
 {
-  return ((const scene_peak *)row)->outcome == PENDRES_NOT_FOUND ? "no peak in the range" : "failed";
+  return ((const scene_peak *)row)->outcome == PENDRES_NOT_FOUND ? "no peak in the range"
+    : "failed";
 }

@@ -227,7 +227,8 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu dampings", n);
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = "dampings", .last = 1, .tasks = n, .task = compute,
+  status = scene_compute(run, &(farm_stage){ .what = "dampings", .last = 1, .tasks = n,
+                                             .task = compute,
                                              .record_size = sizeof(record), .collect = collect,
                                              .arg = &c });
   if (status == PENDRES_OK) status = write_results(run, &c);

@@ -220,7 +220,8 @@ static pendres_status compute(scene_run *run, work *w)
 
 /* Of a rate, against temperature, and of a fit; * is the way, whose words follow. */
 #define RATE(label, words, what, field) \
-  {.name = label, .long_name = words, .type = what, .value = offsetof(pendres_switching_rate, field)}
+  {.name = label, .long_name = words, .type = what, \
+   .value = offsetof(pendres_switching_rate, field)}
 static const scene_column of_rates[] = {
   {.name = "rate_*", .long_name = "transitions a unit time",
    .value = offsetof(pendres_switching_rate, value),

@@ -356,7 +356,8 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "%s", farm_message(run->farm));
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1, .task = measure,
+  status = scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1,
+                                             .task = measure,
                                              .timed = 1, .collect = collect, .arg = &w });
   if (status != PENDRES_OK) goto done;
   for (size_t i = 0; i < n; i++) run->failed_points += w.contest[i].failure[0] != '\0';

@@ -72,9 +72,9 @@ pendres_status hard_sheet_add_at(hard_sheet *sheet, const char *name, double num
 int hard_row_holds(const hard_row *row);
 /* The larger of two figures, NaN if either is: fmax would lose a NaN, and the row would hold. */
 double hard_larger(double a, double b);
-/* An error over the claimed one. A claim must be of use: a number from 0 to `most`; one that is NaN,
-   infinite or larger gives NaN, and the row does not hold. most INFINITY: any number will do, as
-   for the naive way. */
+/* An error over the claimed one. A claim must be of use: a number from 0 to `most`; one that is
+   NaN, infinite or larger gives NaN, and the row does not hold. most INFINITY: any number will do,
+   as for the naive way. */
 double hard_over_claim(double error, double claim, double most);
 /* Four standard errors over a value that must be positive: infinite if it is not. */
 double hard_above_zero(double value, double error);

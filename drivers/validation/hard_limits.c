@@ -306,7 +306,8 @@ static pendres_status put_strong_and_tight(hard_sheet *sheet)
   const double error =
     hard_larger((double)fabsl((long double)x - y), (double)fabsl((long double)v - w));
   return hard_sheet_add(sheet, "drive_1e3_tight", "such a drive at tolerance 1e-13: error after a "
-                        "period over its estimate", hard_over_claim(error, estimate, most_claimed * 1e3),
+                        "period over its estimate", hard_over_claim(error, estimate,
+                                                                    most_claimed * 1e3),
                         10.0, NAN);
 }
 

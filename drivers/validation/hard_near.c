@@ -266,8 +266,8 @@ static void place_starts(const truth *t, double x[STARTS], double v[STARTS])
   }
 }
 
-/* Nearer folds a pendulum takes longer than anybody waits here, some 10 / sqrt(off) periods; that it
-   is found to belong nowhere is right then. */
+/* Nearer folds a pendulum takes longer than anybody waits here, some 10 / sqrt(off) periods; that
+   it is found to belong nowhere is right then. */
 static const double least_settling = 0.9e-6;
 
 static long budget_at(double off)
@@ -324,8 +324,8 @@ static pendres_status label_naively(hard_sheet *sheet, const place *l, const tru
 /*
  * Labels right at the tightest tolerance, and at the standard one while the fold is further than
  * the ten tolerances that each period is allowed; unresolved is not wrong for starts close to the
- * saddle, and close to the fold; but the attractor itself must be found everywhere. A trap is part of the
- * basin and the saddle on the basin's edge: the trap ends before the saddle.
+ * saddle, and close to the fold; but the attractor itself must be found everywhere. A trap is part
+ * of the basin and the saddle on the basin's edge: the trap ends before the saddle.
  */
 static pendres_status add_before(hard_sheet *sheet, const place folds[2], double off)
 {
@@ -409,7 +409,8 @@ pendres_status hard_cusp(hard_sheet *sheet)
                                  "both sides of the cusp: errors over the claimed", worst, 10.0,
                                  naive);
     if (status == PENDRES_OK)
-      status = hard_sheet_add_at(sheet, "cusp_label", off, "attractors beside the only one, or none", wrong,
+      status = hard_sheet_add_at(sheet, "cusp_label", off,
+                                 "attractors beside the only one, or none", wrong,
                                  0.0, NAN);
   }
   return status;

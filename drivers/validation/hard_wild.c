@@ -126,7 +126,8 @@ static pendres_status add_chaos(hard_sheet *sheet, double drive)
                                fabs(naive - exact.value) / error);
   if (status == PENDRES_OK)
     status = hard_sheet_add_at(sheet, "chaos_positive", drive,
-                               "four standard errors over the exponent", hard_above_zero(ours.value, error), 1.0, NAN);
+                               "four standard errors over the exponent",
+                                 hard_above_zero(ours.value, error), 1.0, NAN);
 done:
   pendres_attractors_free(found);
   pendres_context_free(ctx);

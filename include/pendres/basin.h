@@ -266,8 +266,8 @@ pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
                                         const pendres_basin_well **wells);
 /**
  * fraction[n] and error[n] (either may be NULL): shares of the area by well, in the order and
- * number of pendres_basin_sums_wells(), with errors like those of attractors' shares; only uncertain
- * states of a well itself count in its error. After all rows.
+ * number of pendres_basin_sums_wells(), with errors like those of attractors' shares; only
+ * uncertain states of a well itself count in its error. After all rows.
  * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: nothing is written.
  */
 pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *sums, double *fraction,

@@ -45,9 +45,9 @@ extern "C" {
  * A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum.
  * PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma; PENDRES_DRIVE_AMPLITUDE: F0;
  * PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; of a polynomial force
- * PENDRES_FORCE_COEFFICIENT_1: a1, PENDRES_FORCE_COEFFICIENT_2: a2, PENDRES_FORCE_COEFFICIENT_3: a3,
- * PENDRES_FORCE_COEFFICIENT_4: a4, PENDRES_FORCE_COEFFICIENT_5: a5 (a pendulum has none of these);
- * PENDRES_PARAMETER_COUNT: how many there are.
+ * PENDRES_FORCE_COEFFICIENT_1: a1, PENDRES_FORCE_COEFFICIENT_2: a2, PENDRES_FORCE_COEFFICIENT_3:
+ * a3, PENDRES_FORCE_COEFFICIENT_4: a4, PENDRES_FORCE_COEFFICIENT_5: a5 (a pendulum has none of
+ * these); PENDRES_PARAMETER_COUNT: how many there are.
  */
 typedef enum pendres_parameter {
 #define PENDRES_PARAMETER_CODE(code, name, field) PENDRES_##code,

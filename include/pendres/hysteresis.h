@@ -44,8 +44,8 @@ typedef struct pendres_hysteresis_point {
   pendres_attractor attractor; /**< its label is UNRESOLVED, and its numbers NaN, where it could not
                                     be found; its trap is not determined (NaN) on stretches that
                                     were followed */
-  double x;                    /**< position at drive phase 0: a state that the pendulum is in there,
-                                    on its attractor as far as that is reached, ... */
+  double x;                    /**< position at drive phase 0: a state that the pendulum is in
+                                    there, on its attractor as far as that is reached, ... */
   double v;                    /**< ... and the velocity */
   double mean_velocity;        /**< of x, in rad a unit time */
   double mean_velocity_error;  /**< its error: 0 of closed orbits, whose mean is exact; else it

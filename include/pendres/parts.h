@@ -35,9 +35,9 @@ extern "C" {
 /** How work is cut and shared. Zero in any field but n means the default. */
 typedef struct pendres_parts {
   size_t n;                /**< things to be done, pendulums say */
-  size_t each;             /**< things a part, the last one may have fewer; default 4096, which fills
-                                eight blocks of lanes. Small parts share evenly, large ones waste
-                                less at their ends */
+  size_t each;             /**< things a part, the last one may have fewer; default 4096, which
+                                fills eight blocks of lanes. Small parts share evenly, large ones
+                                waste less at their ends */
   int threads;             /**< at most so many; default one for each processor that the process
                                 may use. The calling thread is one of them, and works on alone
                                 where the system gives no more */

@@ -51,9 +51,9 @@ typedef struct pendres_resonance {
   double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
                                           at an edge made by basins alone */
   double fold_frequency_error;       /**< its error; NaN where there is none */
-  int complete;                      /**< 0: the search ended at its budget of work, or resonances may
-                                          be narrower than it could look at frequencies: what it has
-                                          not looked into may hold more */
+  int complete;                      /**< 0: the search ended at its budget of work, or resonances
+                                          may be narrower than it could look at frequencies: what it
+                                          has not looked into may hold more */
 } pendres_resonance;
 
 /**

@@ -4,22 +4,23 @@
  *
  * Without a drive, y'' + gamma y' + sin y = I (y = x - pi/2) is autonomous: its states are
  * equilibria and rotations with a period of their own, which the stroboscopic map of a drive does
- * not close. Here the angle takes the place of the time: along a rotation the velocity is a function
- * of the angle, v dv/dy = I - sin y - gamma v, and it closes where v has come back after a turn. So
- * the phase of the rotation is fixed by where the turn begins.
+ * not close. Here the angle takes the place of the time: along a rotation the velocity is a
+ * function of the angle, v dv/dy = I - sin y - gamma v, and it closes where v has come back after a
+ * turn. So the phase of the rotation is fixed by where the turn begins.
  *
  * One Floquet multiplier of a rotation is 1, the other exp(-gamma T) (Liouville): rotations are
- * stable and there is at most one each way. As the torque falls a rotation ends, in one of two ways:
- * at a torque below 1 in a homoclinic connection, on which the unstable manifold of the upper
- * equilibrium comes back to it after a turn; or, beyond a damping of 1.19, at a torque of exactly 1,
- * where the equilibria are born on it.
+ * stable and there is at most one each way. As the torque falls a rotation ends, in one of two
+ * ways: at a torque below 1 in a homoclinic connection, on which the unstable manifold of the upper
+ * equilibrium comes back to it after a turn; or, beyond a damping of 1.19, at a torque of exactly
+ * 1, where the equilibria are born on it.
  *
  * Method: Taylor series of v in the angle, from the equilibrium on along its manifolds. Errors are
- * twice the difference of two computations of different order and step length, and what rounding may
- * add.
+ * twice the difference of two computations of different order and step length, and what rounding
+ * may add.
  *
- * Source: F. Tricomi, Annali della Scuola Normale Superiore di Pisa 2 (1933) 1; M. Urabe, Journal of
- * Science of the Hiroshima University A 18 (1955) 379; for small damping Melnikov's 4 gamma / pi.
+ * Source: F. Tricomi, Annali della Scuola Normale Superiore di Pisa 2 (1933) 1; M. Urabe, Journal
+ * of Science of the Hiroshima University A 18 (1955) 379; for small damping Melnikov's 4 gamma /
+ * pi.
  */
 #ifndef PENDRES_ROTATION_H
 #define PENDRES_ROTATION_H
@@ -64,8 +65,8 @@ typedef struct pendres_rotation {
 pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out);
 
 /**
- * The damping above which nothing rotates at a torque of 1, and from which on the least torque is 1;
- * and its error. PENDRES_INVALID_ARGUMENT without either. Thread safe.
+ * The damping above which nothing rotates at a torque of 1, and from which on the least torque is
+ * 1; and its error. PENDRES_INVALID_ARGUMENT without either. Thread safe.
  */
 pendres_status pendres_rotation_most_damping(double *damping, double *error);
 
@@ -76,7 +77,8 @@ pendres_status pendres_rotation_most_damping(double *damping, double *error);
  * @param p   read
  * @param out written on PENDRES_OK
  * @param why may be NULL; on failure a static sentence, else left as it is
- * @return PENDRES_NOT_FOUND if the torque is too small for one, PENDRES_INVALID_ARGUMENT. Thread safe.
+ * @return PENDRES_NOT_FOUND if the torque is too small for one, PENDRES_INVALID_ARGUMENT. Thread
+ * safe.
  */
 pendres_status pendres_rotation_find(const pendres_pendulum *p, pendres_rotation *out,
                                      const char **why);

@@ -10,10 +10,10 @@
  * for vectors of the default method. SUNDIALS still follows a null pointer where it gets no memory
  * for its logger or for its list of stages, and in methods to compare with (one problem a pendulum,
  * CVODE). GSL (2.7) ends the program by its default error handler,
- * which is not touched here: after gsl_set_error_handler_off() it is a status too. HDF5 (1.10) calls exit(-1) where it gets no memory for one of its handles, and
- * follows null pointers in other places, when attaching a dimension scale or when closing itself at
- * exit after such a failure, and overflows the stack when it starts without memory; see
- * pendres_store_drop_part().
+ * which is not touched here: after gsl_set_error_handler_off() it is a status too. HDF5 (1.10)
+ * calls exit(-1) where it gets no memory for one of its handles, and follows null pointers in other
+ * places, when attaching a dimension scale or when closing itself at exit after such a failure, and
+ * overflows the stack when it starts without memory; see pendres_store_drop_part().
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H

@@ -1,4 +1,5 @@
-/* continuation_check.c -- where a branch attracts, and whether its points and bifurcations agree. */
+/* continuation_check.c -- where a branch attracts, and whether its points and bifurcations
+   agree. */
 #include "continuation/continuation_branch.h"
 
 #include <math.h>

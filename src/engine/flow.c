@@ -10,6 +10,7 @@
 
 #include "base/angles.h"
 #include "engine/compat.h"
+#include "engine/flow_drive.h"
 #include "engine/flow_table.h"
 #include "engine/lanes.h"
 #include "engine/lanes_replay.h"
@@ -18,12 +19,6 @@
 
 /* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
 static const double steps_between = 300000.0;
-
-/* cos(theta) at the right-hand sides of one period, in their order: the same every period. */
-typedef struct drive_memo {
-  double *theta, *cosine;
-  size_t size, next;
-} drive_memo;
 
 /* Arrays of coefficients, an entry a lane. */
 enum {
@@ -42,14 +37,12 @@ enum { CARRIED = 6 /* rows */ };
 struct pendres_flow {
   pendres_lanes_shape shape;
   double tolerance;
-  int steps, stages;
-  double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
   double end, half;         /* ARKODE's clock after a period and half of one */
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
   double *coefficient[COEFFICIENTS];
   double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
-  drive_memo memo;
+  pendres_flow_drive drive;
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
@@ -61,38 +54,10 @@ struct pendres_flow {
   int failure;
 };
 
-/*
- * ARKODE adds its clock up step by step, always rounding the same way: after 3e5 steps it is off by
- * 1e-10. What is meant is the end of a whole number of steps and a stage's node.
- */
-static double phase_meant(const pendres_flow *flow, double theta)
-{
-  if (flow->steps == 0) return theta; /* adaptive */
-  const double steps = theta * flow->steps / two_pi;
-  double meant = rint(steps);
-  for (int i = 0; i < flow->stages; i++) {
-    const double here = rint(steps - flow->node[i]) + flow->node[i];
-    if (fabs(here - steps) < fabs(meant - steps)) meant = here;
-  }
-  return fabs(meant - steps) < 1e-3 ? two_pi * meant / flow->steps : theta;
-}
-
-static double drive_cosine(pendres_flow *flow, double theta)
-{
-  drive_memo *m = &flow->memo;
-  if (m->next >= m->size) return cos(theta); /* adaptive steps, or an unforeseen call */
-  const size_t i = m->next++;
-  if (m->theta[i] != theta) {
-    m->theta[i] = theta;
-    m->cosine[i] = cos(phase_meant(flow, theta));
-  }
-  return m->cosine[i];
-}
-
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
   pendres_flow *flow = arg;
-  pendres_lanes_slope(y, slope, drive_cosine(flow, theta));
+  pendres_lanes_slope(y, slope, pendres_flow_drive_cosine(&flow->drive, theta));
   flow->evaluations += (double)flow->lanes;
   return 0;
 }
@@ -117,7 +82,8 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
   pendres_flow *flow = arg;
   if (flow->shape.off.yy != NULL) {
     const int driven = flow->shape.model != PENDRES_MODEL_PLAIN;
-    pendres_lanes_carry(y, two_pi / flow->steps, driven ? cos(phase_meant(flow, theta)) : 1.0);
+    const double phase = pendres_flow_drive_phase(&flow->drive, theta);
+    pendres_lanes_carry(y, two_pi / flow->drive.steps, driven ? cos(phase) : 1.0);
   }
   return count_steps(flow, 1);
 }
@@ -131,26 +97,6 @@ static int unit_weights(N_Vector y, N_Vector weights, void *arg)
   return 0;
 }
 
-static int memo_resize(drive_memo *m, int stages, int steps)
-{
-  const size_t wanted = (size_t)(stages + 1) * (size_t)(steps + 2);
-  m->next = 0;
-  if (wanted > m->size) {
-    double *theta = realloc(m->theta, wanted * sizeof *theta);
-    if (theta == NULL) return -1;
-    m->theta = theta;
-    double *cosine = realloc(m->cosine, wanted * sizeof *cosine);
-    if (cosine == NULL) return -1;
-    m->cosine = cosine;
-    for (size_t i = m->size; i < wanted; i++) {
-      m->theta[i] = 0.0;
-      m->cosine[i] = 1.0;
-    }
-    m->size = wanted;
-  }
-  return 0;
-}
-
 static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNContext sun)
 {
   ARKodeButcherTable butcher = NULL;
@@ -159,13 +105,13 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   flow->arkode = ERKStepCreate(right_hand_side, 0.0, flow->state, sun);
   if (flow->arkode == NULL) return PENDRES_OUT_OF_MEMORY;
   if (pendres_compat_silence(sun, flow->arkode, NULL) != 0) return PENDRES_INTEGRATION_FAILED;
-  butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->stages);
+  butcher = pendres_flow_table(table, flow->tolerance == 0.0, &flow->drive.stages);
   if (butcher == NULL) return PENDRES_OUT_OF_MEMORY;
-  if (flow->stages > PENDRES_TABLES_MOST_STAGES) {
+  if (flow->drive.stages > PENDRES_TABLES_MOST_STAGES) {
     ARKodeButcherTable_Free(butcher);
     return PENDRES_INTERNAL;
   }
-  for (int i = 0; i < flow->stages; i++) flow->node[i] = butcher->c[i];
+  for (int i = 0; i < flow->drive.stages; i++) flow->drive.node[i] = butcher->c[i];
 
   int bad = ERKStepSetTable(flow->arkode, butcher) != 0 ||
             ERKStepSetUserData(flow->arkode, flow) != 0 ||
@@ -245,20 +191,19 @@ void pendres_flow_free(pendres_flow *flow)
   free(flow->rows);
   for (int i = 0; i < COEFFICIENTS; i++) free(flow->coefficient[i]);
   for (int i = 0; i < CARRIED; i++) free(flow->off[i]);
-  free(flow->memo.theta);
-  free(flow->memo.cosine);
+  pendres_flow_drive_free(&flow->drive);
   free(flow);
 }
 
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
 {
   if (steps < 1 || flow->tolerance != 0.0) return PENDRES_INVALID_ARGUMENT;
-  if (steps == flow->steps) return PENDRES_OK;
-  if (memo_resize(&flow->memo, flow->stages, steps) != 0) return PENDRES_OUT_OF_MEMORY;
+  if (steps == flow->drive.steps) return PENDRES_OK;
+  if (pendres_flow_drive_resize(&flow->drive, steps) != 0) return PENDRES_OUT_OF_MEMORY;
   const double h = two_pi / steps;
   flow->failure = ERKStepSetFixedStep(flow->arkode, h);
   if (flow->failure != 0) return PENDRES_INTEGRATION_FAILED;
-  flow->steps = steps;
+  flow->drive.steps = steps;
   /* A stop at 2 pi itself would cut the last step, or add one, by what the clock is off. */
   flow->end = 0.0;
   for (int i = 0; i < steps; i++) {
@@ -363,7 +308,8 @@ void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_
   flow->off[2][lane] = error->ww;
   flow->off[3][lane] = added;
   /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
-  const double step = two_pi / flow->steps, drag = 0.5 * step * flow->coefficient[FRICTION][lane];
+  const double step = two_pi / flow->drive.steps;
+  const double drag = 0.5 * step * flow->coefficient[FRICTION][lane];
   flow->off[4][lane] = (1.0 - drag) / (1.0 + drag);
   flow->off[5][lane] = step * flow->coefficient[STIFFNESS][lane] / (1.0 + drag);
 }
@@ -387,7 +333,7 @@ void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w)
 /* Put the clock back to phase 0, with the block's present state. */
 static pendres_status start_period(pendres_flow *flow, double end)
 {
-  flow->memo.next = 0;
+  pendres_flow_drive_rewind(&flow->drive);
   flow->stopped = 0;
   pendres_lanes_write(flow->state, flow->rows);
   flow->failure = ERKStepReset(flow->arkode, 0.0, flow->state);
@@ -406,7 +352,7 @@ enum { SPAN_PERIOD, SPAN_HALF, SPAN_SAMPLED };
 static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
 {
   return (pendres_lanes_replay_kind){
-    .steps = flow->steps, .span = span, .carried = flow->shape.off.yy != NULL,
+    .steps = flow->drive.steps, .span = span, .carried = flow->shape.off.yy != NULL,
     .driven = flow->shape.off.yy != NULL && flow->shape.model != PENDRES_MODEL_PLAIN};
 }
 
@@ -414,7 +360,8 @@ static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
    whether to stop. */
 static const pendres_lanes_replay *known(pendres_flow *flow, int span)
 {
-  if (flow->steps == 0 || (double)flow->lanes * flow->steps > steps_between) return NULL;
+  const int steps = flow->drive.steps;
+  if (steps == 0 || (double)flow->lanes * steps > steps_between) return NULL;
   const pendres_lanes_replay_kind kind = kind_of(flow, span);
   const pendres_lanes_replay *p = pendres_lanes_replays_find(flow->replays, &kind);
   if (p != NULL) return p;
@@ -468,7 +415,7 @@ static pendres_status advance_to(pendres_flow *flow, int span, double end)
   sunrealtype reached = 0.0;
   const pendres_lanes_replay *p = known(flow, span);
   if (p != NULL)
-    return replay(flow, p, span == SPAN_HALF ? flow->steps / 2 : flow->steps, NULL, NULL);
+    return replay(flow, p, flow->drive.steps / (span == SPAN_HALF ? 2 : 1), NULL, NULL);
   const pendres_status status = start_period(flow, end);
   if (status == PENDRES_OK)
     flow->failure = ERKStepEvolve(flow->arkode, end, flow->state, &reached, ARK_NORMAL);
@@ -479,12 +426,12 @@ static pendres_status advance_to(pendres_flow *flow, int span, double end)
 
 pendres_status pendres_flow_period(pendres_flow *flow)
 {
-  return advance_to(flow, SPAN_PERIOD, flow->steps > 0 ? flow->end : two_pi);
+  return advance_to(flow, SPAN_PERIOD, flow->drive.steps > 0 ? flow->end : two_pi);
 }
 
 pendres_status pendres_flow_half_period(pendres_flow *flow)
 {
-  if (flow->steps < 1 || flow->steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
+  if (flow->drive.steps < 1 || flow->drive.steps % 2 != 0) return PENDRES_INVALID_ARGUMENT;
   return advance_to(flow, SPAN_HALF, flow->half);
 }
 
@@ -492,11 +439,11 @@ pendres_status pendres_flow_period_sampled(pendres_flow *flow, pendres_flow_samp
                                            void *arg)
 {
   sunrealtype reached = 0.0;
-  if (flow->steps < 1) return PENDRES_INVALID_ARGUMENT;
+  if (flow->drive.steps < 1) return PENDRES_INVALID_ARGUMENT;
   const pendres_lanes_replay *p = known(flow, SPAN_SAMPLED);
-  if (p != NULL) return replay(flow, p, flow->steps, sample, arg);
+  if (p != NULL) return replay(flow, p, flow->drive.steps, sample, arg);
   pendres_status status = start_period(flow, flow->end);
-  for (int step = 1; step <= flow->steps && status == PENDRES_OK; step++) {
+  for (int step = 1; step <= flow->drive.steps && status == PENDRES_OK; step++) {
     flow->failure = ERKStepEvolve(flow->arkode, flow->end, flow->state, &reached, ARK_ONE_STEP);
     status = ended(flow);
     if (status != PENDRES_OK) break;

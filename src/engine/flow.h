@@ -51,7 +51,8 @@ size_t pendres_flow_capacity(const pendres_flow *flow);
 /* No lanes from now on, and none before them that those to come are to be computed like. */
 void pendres_flow_clear(pendres_flow *flow);
 
-/* Put a pendulum into a lane, those of a polynomial force and others not in one block; variational rows start as the identity, sensitivities as 0. */
+/* Put a pendulum into a lane, those of a polynomial force and others not in one block; variational
+   rows start as the identity, sensitivities as 0. */
 void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
                            double w);
 

@@ -15,7 +15,8 @@
  * with stiffness = 1/omega^2, drive = F0/omega^2, friction = gamma/omega; with a torque, a
  * parametric drive, and any force f,
  *
- *     dw/dtheta = -stiffness f(y) (1 + modulation cos theta) + drive cos theta + torque - friction w
+ *     dw/dtheta = -stiffness f(y) (1 + modulation cos theta) + drive cos theta + torque - friction
+ *     w
  *
  * Each model (model.h) has kernels of its own, so that none pays for terms that it has not. Those
  * for a pendulum with torque or parametric drive do for a plain one what its own do, bit by bit.

@@ -31,7 +31,8 @@ void pendres_lanes_resize(pendres_lanes_shape *shape, size_t lanes);
 /*
  * A vector of the shape, all zero; NULL if out of memory. N_VDestroy frees it. SUNDIALS (6.4)
  * follows a null pointer where it gets no clone of a vector. So it always gets one: a vector of the
- * shape is kept to be handed out then, and the shape is starved: ask for that when SUNDIALS returns.
+ * shape is kept to be handed out then, and the shape is starved: ask for that when SUNDIALS
+ * returns.
  */
 N_Vector pendres_lanes_create(pendres_lanes_shape *shape, SUNContext sun);
 

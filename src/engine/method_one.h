@@ -38,7 +38,8 @@ pendres_status pendres_one_run(pendres_context *ctx, size_t n, pendres_strobe_la
                                pendres_strobe_visit *visit, void *arg,
                                const pendres_one_solver *solver);
 
-/* For solvers over drive phase: the right-hand side, which asks now and then whether to go on ... */
+/* For solvers over drive phase: the right-hand side, which asks now and then whether to go on
+   ... */
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one);
 /* ... error weights by the context's tolerance ... */
 int pendres_one_weights(N_Vector state, N_Vector out, void *one);

@@ -74,7 +74,8 @@ void pendres_passage_arrive(const pendres_pendulum *p, double *y, double *w, lon
 {
   static const double nothing = 1e-290;
   pendres_passage_wrap(p, y, turns);
-  if (p->drive_amplitude == 0.0 && p->torque == 0.0 && p->damping > 0.0 && fabs(*y) < nothing && fabs(*w) < nothing)
+  if (p->drive_amplitude == 0.0 && p->torque == 0.0 && p->damping > 0.0 && fabs(*y) < nothing &&
+      fabs(*w) < nothing)
     *y = *w = 0.0;
 }
 

@@ -76,7 +76,8 @@ static pendres_steps_cell cell_of(const pendres_pendulum *p, double speed, doubl
 }
 
 /* The corner of the cell that needs the most steps: a long period, strong drive, high speed. */
-static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *speed, double *tolerance)
+static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *speed,
+                     double *tolerance)
 {
   *p = (pendres_pendulum){
     .damping = lattice_upper(c->damping, damping_least, damping_ratio),
@@ -86,7 +87,8 @@ static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *s
     .torque = lattice_or_none_upper(c->torque),
     .parametric_amplitude = lattice_or_none_upper(c->parametric),
     .force = c->force};
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) p->force_coefficients[i] = c->coefficients[i];
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    p->force_coefficients[i] = c->coefficients[i];
   /* Up to the least damping the cell has none. */
   if (c->damping == 0) p->damping = 0.0;
   *speed = lattice_upper(c->speed, speed_least, speed_ratio);
@@ -302,7 +304,8 @@ static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, i
 }
 
 /* Why a pendulum needs too many steps: the friction's stability, a fast start, or the drive. */
-static pendres_status too_many(pendres_context *ctx, const pendres_steps_cell *c, const pendres_pendulum *p,
+static pendres_status too_many(pendres_context *ctx, const pendres_steps_cell *c,
+                               const pendres_pendulum *p,
                                double speed)
 {
   pendres_pendulum worst;

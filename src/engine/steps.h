@@ -23,8 +23,9 @@ int pendres_steps_rung(int n);
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v);
 
 /*
- * Steps a period so that one period's error of a pendulum with such a speed up to `speed` stays below
- * `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy helps.
+ * Steps a period so that one period's error of a pendulum with such a speed up to `speed` stays
+ * below `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy
+ * helps.
  */
 pendres_status pendres_steps_choose(pendres_context *ctx, const pendres_pendulum *p, double speed,
                                     double tolerance, int *steps);

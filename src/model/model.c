@@ -100,10 +100,10 @@ double pendres_model_scale(const pendres_pendulum *p)
 }
 
 /*
- * A length beyond which, on one side, the force drives outwards for ever; infinite if there is none.
- * With z the distance, c_k the coefficients of phi(z) (1 - |b|) + side I - |F0| and n its degree, all
- * zeros are within 2 max |c_k / c_n|^(1/(n - k)) (M. Fujiwara, Tohoku Mathematical Journal 10 (1916)
- * 167). Those of phi, which lacks c_0, are so too.
+ * A length beyond which, on one side, the force drives outwards for ever; infinite if there is
+ * none. With z the distance, c_k the coefficients of phi(z) (1 - |b|) + side I - |F0| and n its
+ * degree, all zeros are within 2 max |c_k / c_n|^(1/(n - k)) (M. Fujiwara, Tohoku Mathematical
+ * Journal 10 (1916) 167). Those of phi, which lacks c_0, are so too.
  */
 static double far_out(const pendres_pendulum *p, double side)
 {

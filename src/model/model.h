@@ -37,14 +37,15 @@ double pendres_model_origin(const pendres_pendulum *p);
    length at which two of its terms are alike, 1 if it has one alone. */
 double pendres_model_scale(const pendres_pendulum *p);
 
-/* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says when. */
+/* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says
+   when. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 
-/* As pendres_pendulum_check where only the plain pendulum is served, NULL instead of the sentence if
-   all is well. */
+/* As pendres_pendulum_check where only the plain pendulum is served, NULL instead of the sentence
+   if all is well. */
 const char *pendres_model_refuses_others(const pendres_pendulum *p);
 /* The same with a status, as its model. */
 pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why);

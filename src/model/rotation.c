@@ -1,8 +1,8 @@
 /*
  * rotation.c -- rotations without a drive; see rotation.h.
  *
- * The torque is sin a. s is the angle from an upper equilibrium, y = -pi - a + s, where the force is
- * sin a - sin(a - s): the same function of s from each of them, as they are whole turns apart. A
+ * The torque is sin a. s is the angle from an upper equilibrium, y = -pi - a + s, where the force
+ * is sin a - sin(a - s): the same function of s from each of them, as they are whole turns apart. A
  * torque above 1 has no equilibrium; s is then y.
  */
 #include <pendres/rotation.h>
@@ -86,7 +86,8 @@ static double time_over(const motion *m, const double v[ORDER + 1], double h)
   return sum;
 }
 
-/* The velocity at the angle `to` of the motion that has v > 0 at `from`; *time takes what passes. */
+/* The velocity at the angle `to` of the motion that has v > 0 at `from`; *time takes what
+   passes. */
 static double velocity_at(const motion *m, double from, double v, double to, double *time)
 {
   const double way = to > from ? 1.0 : -1.0;
@@ -105,7 +106,8 @@ static double velocity_at(const motion *m, double from, double v, double to, dou
 
 /* ---- along the manifolds of the upper equilibrium ---- */
 
-/* The sum of a series without c[0] at s, up to where two terms in a row are small; NaN if none are. */
+/* The sum of a series without c[0] at s, up to where two terms in a row are small; NaN if none
+   are. */
 static double sum_at(const motion *m, const double c[ORDER + 1], double s)
 {
   const double most = m->how.rest * fmax(fabs(c[1] * s), fabs(c[2] * s * s));
@@ -235,7 +237,8 @@ pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_on
   const double angle = least_angle(damping, fine, &rounding);
   const double check = least_angle(damping, coarser, &other);
   out->torque = sin(angle);
-  out->torque_error = cos(angle) * (2.0 * fabs(angle - check) + rounding) + DBL_EPSILON * out->torque;
+  out->torque_error = cos(angle) * (2.0 * fabs(angle - check) + rounding) +
+                      DBL_EPSILON * out->torque;
   out->end = PENDRES_ROTATION_HOMOCLINIC;
   return PENDRES_OK;
 }
@@ -296,8 +299,8 @@ static const char *refuses(const pendres_pendulum *p)
   if (p->force != PENDRES_FORCE_PENDULUM)
     return "only the pendulum's force has rotations: other coordinates have no period";
   if (p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0)
-    return "under a drive a rotation has no period of its own: it is locked to the drive, an orbit, "
-           "or quasi-periodic";
+    return "under a drive a rotation has no period of its own: it is locked to the drive, an "
+           "orbit, or quasi-periodic";
   if (!sound_damping(p->damping)) return "the damping of a rotation must lie between 1e-9 and 100";
   return NULL;
 }

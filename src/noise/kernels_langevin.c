@@ -157,7 +157,8 @@ static void drift(size_t stride, const double *restrict reach, const double *res
   }
 }
 
-/* f(y) (1 + b cos theta) - I, and its derivative, for lane i. A plain pendulum has f = sin y alone. */
+/* f(y) (1 + b cos theta) - I, and its derivative, for lane i. A plain pendulum has f = sin y
+   alone. */
 static inline __attribute__((always_inline)) void
 force(pendres_model_terms terms, const pendres_langevin_rows *rows, size_t i, double y,
       double cosine, double *pull, double *stiffness)

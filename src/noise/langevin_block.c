@@ -20,7 +20,8 @@
  *
  * Where parameters move, they stand still during each step, at their values in its middle, and the
  * frame is changed between two steps: an error of order two in the step, but times what they move
- * by within one. Steps are parts of a turn of the drive, so that its phase goes on through all this.
+ * by within one. Steps are parts of a turn of the drive, so that its phase goes on through all
+ * this.
  *
  * First harmonics are sums over the ends of steps: between its kicks a step is accurate to
  * order two only. A period's equally spaced samples are accurate to any order, but for the
@@ -289,7 +290,8 @@ pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t
 static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
 {
   enum { FIXED = 7 /* rows from pivot_cos on that hold no coefficient of a force */ };
-  double *row[2 + 2 * PENDRES_LANGEVIN_DURATIONS + FIXED + COEFFICIENTS] = {b->drive, b->pivot_speed};
+  double *row[2 + 2 * PENDRES_LANGEVIN_DURATIONS + FIXED + COEFFICIENTS] = {b->drive,
+                                                                            b->pivot_speed};
   size_t rows = 2;
   for (int d = 0; d < PENDRES_LANGEVIN_DURATIONS; d++) {
     row[rows++] = b->reach[d];

@@ -46,8 +46,8 @@ const char *pendres_noise_refuses(const pendres_pendulum *p)
   if (highest % 2 == 1 && p->force_coefficients[highest - 1] > 0.0 &&
       (highest == 1 || fabs(p->parametric_amplitude) < 1.0))
     return NULL;
-  return "noise carries a pendulum of this force to infinity: its highest power must be odd, with a "
-         "positive coefficient that the parametric drive does not turn over";
+  return "noise carries a pendulum of this force to infinity: its highest power must be odd, with "
+         "a positive coefficient that the parametric drive does not turn over";
 }
 
 long pendres_noise_settle(const pendres_orbit *orbit)

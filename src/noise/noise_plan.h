@@ -14,8 +14,8 @@
  * set. Ids follow from parameters, so that results do not depend on what else is asked for. */
 uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor);
 
-/* Why noise has no steady state around the attractors of a pendulum: its force lets go of it, so that
- * noise carries it to infinity in the end. NULL if nothing is wrong. */
+/* Why noise has no steady state around the attractors of a pendulum: its force lets go of it, so
+   that noise carries it to infinity in the end. NULL if nothing is wrong. */
 const char *pendres_noise_refuses(const pendres_pendulum *p);
 
 /* Drive periods until a cloud around the orbit has forgotten where it started, up to 1e-5. */
@@ -23,9 +23,10 @@ long pendres_noise_settle(const pendres_orbit *orbit);
 
 /*
  * The request's steps a period or, if these are 0, such that the bias of the statistics (a set of
- * bits) is below tolerance times their scale; they are chosen at the request's temperature or, where
- * that is hot, at a lower one. *bias is the one at the request's own temperature; its numbers are
- * NaN if nothing stays on the attractor there. Steps that do not reach the tolerance are taken all the same: the bias tells.
+ * bits) is below tolerance times their scale; they are chosen at the request's temperature or,
+ * where that is hot, at a lower one. *bias is the one at the request's own temperature; its numbers
+ * are NaN if nothing stays on the attractor there. Steps that do not reach the tolerance are taken
+ * all the same: the bias tells.
  */
 pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           const pendres_langevin_request *request,

@@ -41,7 +41,8 @@ static int make_core(const pendres_attractor *a, int number, double shrink, core
   /* A chaotic attractor has no ellipse, and an orbit that is about to vanish one of size zero. */
   if (!(r > 0.0)) return 0;
   *out = (core_set){.attractor = number, .running = a->orbit.winding != 0, .x = a->orbit.x,
-                    .v = a->orbit.v, .turn = pendres_model_turn(&a->orbit.pendulum), .xx = a->trap_metric[0] / (r * r),
+                    .v = a->orbit.v, .turn = pendres_model_turn(&a->orbit.pendulum),
+                    .xx = a->trap_metric[0] / (r * r),
                     .xv = a->trap_metric[1] / (r * r * w),
                     .vv = a->trap_metric[2] / (r * r * w * w)};
   return 1;

@@ -120,7 +120,8 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
     &o.amplitude_error, &o.first_harmonic_amplitude, &o.first_harmonic_amplitude_error,
     &o.phase_lag, &o.phase_lag_error, &o.mean_angle, &o.loop_area_slope, &o.loop_area_slope_error,
     &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0], &o.multiplier_im[1],
-    &o.torque_work, &o.parametric_work, &o.parametric_work_error, &o.frequency_derivative[0], &o.frequency_derivative[1], &o.monodromy[0][0],
+    &o.torque_work, &o.parametric_work, &o.parametric_work_error, &o.frequency_derivative[0],
+    &o.frequency_derivative[1], &o.monodromy[0][0],
     &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) *numbers[i] = NAN;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) o.cosine[m] = o.sine[m] = NAN;

@@ -32,7 +32,8 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
 typedef struct pendres_orbit_spectrum {
   double coarse[2][2], fine[2][2];
   double by_point[2][2][2]; /* how its entries change with y and w */
-  double left;              /* relative error of its entries by rounding, and by having moved them */
+  double left;              /* relative error of its entries by rounding, and by having moved
+                               them */
 } pendres_orbit_spectrum;
 
 /* Monodromy matrix, multipliers and their error; o->pendulum and period are read. */

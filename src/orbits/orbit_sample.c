@@ -98,8 +98,8 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
   const double omega = o->pendulum.drive_frequency;
   const double tail = pendres_orbit_series_tail(&fine->series);
   const double modes = (double)fine->series.modes / o->period;
-  /* The finer curve is off by a fourteenth of that where the order holds. Half of it leaves room for
-     two curves that agree by chance, as happens to one orbit in a thousand. */
+  /* The finer curve is off by a fourteenth of that where the order holds. Half of it leaves room
+     for two curves that agree by chance, as happens to one orbit in a thousand. */
   error[0] = 0.5 * apart[0] + tail + 3.0 * fine->rounding +
              0.5 * DBL_EPSILON * (fabs(o->x) + two_pi * fabs((double)o->winding));
   error[1] = 0.5 * apart[1] + omega * tail * modes + 3.0 * fmax(1.0, omega) * fine->rounding;

@@ -59,7 +59,8 @@ pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum 
                                    double v, double accuracy, pendres_strobe_lane *lane)
 {
   *lane = pendres_strobe_lane_at(p, x, v);
-  const pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x, v), accuracy, &lane->steps);
+  const pendres_status status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x, v), accuracy,
+                                                     &lane->steps);
   if (status == PENDRES_OK) lane->added = pendres_settle_added(ctx, accuracy, lane->steps);
   return status;
 }
@@ -167,7 +168,8 @@ typedef struct pendres_settle_place {
 static void note_escape(const pendres_settle_labelling *l, size_t i,
                         const pendres_strobe_lane *lane, double worst)
 {
-  l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE, .attractor = PENDRES_ATTRACTOR_ESCAPED,
+  l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE,
+                                    .attractor = PENDRES_ATTRACTOR_ESCAPED,
                                     .settling_periods = lane->period};
   judge(l, i, lane->added > 0.0 ? doubt_on_way(worst) : NAN);
 }

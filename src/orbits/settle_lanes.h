@@ -37,7 +37,8 @@ typedef struct pendres_settle_labelling {
 } pendres_settle_labelling;
 
 static const pendres_outcome pendres_settle_unresolved = {
-  .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN, .settling_periods = -1};
+  .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN,
+  .settling_periods = -1};
 
 /* Whether a lane needs to go on no longer: it is on an attractor, or has escaped. */
 static inline int pendres_settle_ended(const pendres_outcome *o)

@@ -321,7 +321,8 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
       const pendres_trap *t = r->trap;
       const double speed = r->pendulum->force == PENDRES_FORCE_PENDULUM
                              ? 0.0
-                             : pendres_steps_speed(r->pendulum, t->y, t->w * r->pendulum->drive_frequency);
+                             : pendres_steps_speed(r->pendulum, t->y,
+                                                   t->w * r->pendulum->drive_frequency);
       status = pendres_steps_choose(ctx, r->pendulum, speed, ring_tolerance(r->margin), &r->steps);
     }
   if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, lanes);

@@ -251,7 +251,8 @@ static size_t list_states(size_t n, const pendres_basin_state *state, int deferr
 {
   size_t count = 0;
   for (size_t k = 0; k < n; k++)
-    if (deferred ? state[k].how == PENDRES_BASIN_DEFERRED : state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN)
+    if (deferred ? state[k].how == PENDRES_BASIN_DEFERRED
+        : state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN)
       index[count++] = k;
   return count;
 }

@@ -75,7 +75,8 @@ static const char *refused(const pendres_phase_grid *g)
 void pendres_phase_diagram_free(pendres_phase_diagram *d)
 {
   if (d == NULL) return;
-  for (size_t i = 0; d->line != NULL && i < d->grid.lines; i++) pendres_phase_done_free(&d->line[i]);
+  for (size_t i = 0; d->line != NULL &&
+       i < d->grid.lines; i++) pendres_phase_done_free(&d->line[i]);
   pendres_phase_mark_free(&d->curves_mark);
   free(d->line);
   free(d->bifurcation);

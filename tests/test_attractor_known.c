@@ -1,0 +1,160 @@
+/*
+ * test_attractor_known.c -- published facts about forced pendulums, and chaos.
+ */
+#include "attractor_fixture.h"
+
+/* ---- published facts about the forced pendulum ---- */
+
+typedef struct fact {
+  double damping, frequency, drive;
+  size_t attractors;
+  pendres_label label; /* of all of them */
+  int period, winding; /* |winding| */
+} fact;
+
+static void check_fact(pendres_context *ctx, const fact *f)
+{
+  const pendres_pendulum p = {
+    .damping = f->damping, .drive_amplitude = f->drive, .drive_frequency = f->frequency};
+  pendres_attractors *set = NULL;
+  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+  assert_int_equal(pendres_attractors_count(set), f->attractors);
+  for (size_t i = 0; i < f->attractors; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, i);
+    assert_int_equal(a->label, f->label);
+    if (f->label == PENDRES_LABEL_CHAOTIC) {
+      assert_true(a->lyapunov > 5.0 * a->lyapunov_error && a->lyapunov_error > 0.0);
+      assert_true(isnan(a->orbit.x) && isnan(a->orbit.phase_lag) && isnan(a->trap_radius));
+    } else {
+      assert_int_equal(a->orbit.period, f->period);
+      assert_int_equal(abs(a->orbit.winding), f->winding);
+    }
+  }
+  pendres_attractors_free(set);
+}
+
+/*
+ * Baker and Gollub, Chaotic Dynamics (1996), chapters 3 and 4: q = 2 (damping 1/2), drive frequency
+ * 2/3. Orbits that are not their own mirror image come in pairs.
+ */
+static void baker_and_gollub(void **state)
+{
+  static const fact facts[] = {
+    {0.5, 2.0 / 3.0, 0.90, 1, PENDRES_LABEL_PERIODIC, 1, 0},
+    {0.5, 2.0 / 3.0, 1.07, 2, PENDRES_LABEL_PERIODIC, 2, 0},
+    {0.5, 2.0 / 3.0, 1.15, 1, PENDRES_LABEL_CHAOTIC, 0, 0},
+    {0.5, 2.0 / 3.0, 1.35, 2, PENDRES_LABEL_RUNNING, 1, 1},
+    {0.5, 2.0 / 3.0, 1.45, 2, PENDRES_LABEL_RUNNING, 2, 2},
+    {0.5, 2.0 / 3.0, 1.47, 2, PENDRES_LABEL_RUNNING, 4, 4},
+    {0.5, 2.0 / 3.0, 1.50, 1, PENDRES_LABEL_CHAOTIC, 0, 0},
+  };
+  for (size_t i = 0; i < sizeof facts / sizeof facts[0]; i++) check_fact(*state, &facts[i]);
+}
+
+/*
+ * Basins of Wada. Hubbard, American Mathematical Monthly 106 (1999) 741: one attracting cycle, in
+ * every well, at damping 0.1, drive cos t. Wagemakers, Daza and Sanjuán, Discrete and Continuous
+ * Dynamical Systems B (2020), "How to detect Wada basins": at damping 0.2 three basins with the
+ * drive 1.66 cos t, four with 1.71 cos t.
+ */
+static void wada_pendulums(void **state)
+{
+  static const struct { double damping, drive; size_t attractors, running; } facts[] = {
+    {0.1, 1.0, 1, 0}, {0.2, 1.66, 3, 2}, {0.2, 1.71, 4, 2}};
+  for (size_t k = 0; k < 3; k++) {
+    const pendres_pendulum p = {
+      .damping = facts[k].damping, .drive_amplitude = facts[k].drive, .drive_frequency = 1.0};
+    pendres_attractors *set = NULL;
+    size_t running = 0;
+    check_ok(pendres_attractors_find(*state, &p, 0, NULL, NULL, &set));
+    assert_int_equal(pendres_attractors_count(set), facts[k].attractors);
+    for (size_t i = 0; i < facts[k].attractors; i++)
+      running += pendres_attractors_get(set, i)->label == PENDRES_LABEL_RUNNING;
+    assert_int_equal(running, facts[k].running);
+    pendres_attractors_free(set);
+  }
+}
+
+/* ---- chaos ---- */
+
+/* The largest exponent by the reference: one long trajectory, a tangent vector of length one. */
+static double reference_exponent(const pendres_pendulum *p, long periods, double *error)
+{
+  enum { PARTS = 20 };
+  long double y = 0.3L, v = 0.1L;
+  double u[2] = {1.0, 0.0}, part[PARTS], mean = 0.0, squares = 0.0;
+  check_ok(pendres_reference_advance(p, &y, &v, NULL, 50));
+  for (int i = 0; i < PARTS; i++) {
+    part[i] = 0.0;
+    for (long k = 0; k < periods / PARTS; k++) {
+      pendres_reference_image m;
+      check_ok(pendres_reference_map(p, y, v, 1, &m));
+      const double a = (double)m.monodromy[0][0] * u[0] + (double)m.monodromy[0][1] * u[1];
+      const double b = (double)m.monodromy[1][0] * u[0] + (double)m.monodromy[1][1] * u[1];
+      const double length = hypot(a, b);
+      part[i] += log(length) * PARTS / (double)periods;
+      u[0] = a / length;
+      u[1] = b / length;
+      y = m.y;
+      v = m.v;
+    }
+    mean += part[i] / PARTS;
+  }
+  for (int i = 0; i < PARTS; i++) squares += (part[i] - mean) * (part[i] - mean);
+  const double tau = 2.0 * pi / p->drive_frequency;
+  *error = sqrt(squares / (PARTS * (PARTS - 1.0))) / tau;
+  return mean / tau;
+}
+
+static void lyapunov_exponent(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.5, .drive_amplitude = 1.15, .drive_frequency = 2.0 / 3.0};
+  pendres_attractors *set = NULL;
+  double error = 0.0;
+  check_ok(pendres_attractors_find(*state, &p, 0, NULL, NULL, &set));
+  const pendres_attractor *a = pendres_attractors_get(set, 0);
+  const double exact = reference_exponent(&p, 4000, &error);
+  /* Two estimates with their standard errors: three of them together. */
+  check_near(a->lyapunov, exact, 3.0 * hypot(error, a->lyapunov_error));
+  /* That many periods and walkers are to give three percent. */
+  assert_true(hypot(error, a->lyapunov_error) < 0.03 * exact);
+  pendres_attractors_free(set);
+}
+
+/*
+ * Where a pair of mirror images has gone through its period doublings, there are two chaotic
+ * attractors, mirror images too: each has its own entry, and the same exponent.
+ */
+static void two_chaotic_attractors(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.5, .drive_amplitude = 1.0875, .drive_frequency = 2.0 / 3.0};
+  ensemble e;
+  int chaotic[2] = {0}, n = 0;
+  settle_row(*state, &p, -0.5 * pi, 1.5 * pi, &e);
+  assert_int_equal(count_label(&e, PENDRES_LABEL_UNRESOLVED), 0);
+  for (size_t i = 0; i < pendres_attractors_count(e.set); i++)
+    if (pendres_attractors_get(e.set, i)->label == PENDRES_LABEL_CHAOTIC && n < 2)
+      chaotic[n++] = (int)i;
+  assert_int_equal(n, 2);
+  const pendres_attractor *a = pendres_attractors_get(e.set, (size_t)chaotic[0]);
+  const pendres_attractor *b = pendres_attractors_get(e.set, (size_t)chaotic[1]);
+  check_near(a->lyapunov, b->lyapunov, 4.0 * hypot(a->lyapunov_error, b->lyapunov_error));
+  int members[2] = {0};
+  for (int i = 0; i < MEMBERS; i++)
+    for (int k = 0; k < 2; k++) members[k] += e.outcome[i].attractor == chaotic[k];
+  assert_true(members[0] > 20 && members[1] > 20);
+  pendres_attractors_free(e.set);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(baker_and_gollub, setup, teardown),
+    cmocka_unit_test_setup_teardown(wada_pendulums, setup, teardown),
+    cmocka_unit_test_setup_teardown(lyapunov_exponent, setup, teardown),
+    cmocka_unit_test_setup_teardown(two_chaotic_attractors, setup, teardown),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
