@@ -21,7 +21,7 @@ typedef enum deck_type {
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
 } deck_type;
 
-/* When a key counts although its scene knows it. */
+/* On what it depends, beside the kind of scene, whether a key has any effect. */
 typedef enum deck_when {
   DECK_ALWAYS = 0,
   DECK_WITH_NOISE,     /* only with a temperature above 0 */

@@ -130,9 +130,10 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
  * Along one expanding direction two errors of either sign may be equal by chance. Where
  * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
  * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
- * steps of stiff pendulums), so that a tenth of it may change next to nothing: there all are
- * asked, with a hundredth, or 1e-6 where that is less: up to 1e-4 they may all end in the same
- * wrong basin. noise[] as in run_finer; lanes[n] is the first run, room[n] is scratch.
+ * steps of stiff pendulums), so that a tenth of it may change next to nothing. With such methods
+ * all pendulums are therefore run a third time, with a hundredth of the tolerance, but never more
+ * than 1e-6, since runs with tolerances up to 1e-4 may all end in the same wrong basin. noise[] as
+ * in run_finer; lanes[n] is the first run, room[n] is scratch.
  */
 static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                   const double *x, const double *v, long periods,

@@ -10,7 +10,8 @@
 
 #include "engine/strobe_run.h"
 
-/* What one step of a table rounds away, at random: the standard error of the angle. */
+/* The standard error that rounding in one step with a Butcher table leaves in the angle: roundings
+   are random and independent of each other. */
 double pendres_strobe_noise_of_step(pendres_table table);
 
 /*

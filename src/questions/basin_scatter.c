@@ -14,7 +14,8 @@ enum {
   LEAST_GROUPS = 4
 };
 
-/* Shares above this feel that boundaries are less far apart than the distance. */
+/* Where the share of uncertain states is above this, the distance is no longer small beside that
+   between neighbouring boundaries, and the share grows as less than a power. */
 static const double most_uncertain = 0.5;
 
 void pendres_scatter_add(pendres_scatter *s, const double *group)
