@@ -6,36 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One line here and one in the list for each scene_NAME.c. */
-extern const scene_kind scene_free_oscillation;
-extern const scene_kind scene_resonance_curve;
-extern const scene_kind scene_response;
-extern const scene_kind scene_orbit;
-extern const scene_kind scene_basins;
-extern const scene_kind scene_work_precision;
-extern const scene_kind scene_phase_diagram;
-extern const scene_kind scene_branches;
-extern const scene_kind scene_switching;
-extern const scene_kind scene_hard_cases;
-extern const scene_kind scene_hysteresis;
-extern const scene_kind scene_bifurcation_diagram;
-extern const scene_kind scene_lyapunov_map;
+/* A line for each scene_NAME.c. */
+#define SCENES(X)          \
+  X(free_oscillation)      \
+  X(resonance_curve)       \
+  X(response)              \
+  X(orbit)                 \
+  X(basins)                \
+  X(work_precision)        \
+  X(phase_diagram)         \
+  X(branches)              \
+  X(switching)             \
+  X(hard_cases)            \
+  X(hysteresis)            \
+  X(bifurcation_diagram)   \
+  X(lyapunov_map)
 
-static const scene_kind *const scenes[] = {
-  &scene_free_oscillation,
-  &scene_resonance_curve,
-  &scene_response,
-  &scene_orbit,
-  &scene_basins,
-  &scene_work_precision,
-  &scene_phase_diagram,
-  &scene_branches,
-  &scene_switching,
-  &scene_hard_cases,
-  &scene_hysteresis,
-  &scene_bifurcation_diagram,
-  &scene_lyapunov_map,
-};
+#define DECLARE(name) extern const scene_kind scene_##name;
+SCENES(DECLARE)
+
+#define ADDRESS(name) &scene_##name,
+static const scene_kind *const scenes[] = { SCENES(ADDRESS) };
 
 const scene_kind *scene_find(deck_kind kind)
 {
