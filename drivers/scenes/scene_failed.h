@@ -22,8 +22,8 @@
   X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
   X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
   X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
-  X(BUDGET, "budget", "the search could look at too few frequencies: there may be more; a narrower " \
-                      "sweep.drive_frequency_range leaves more for each frequency")
+  X(BUDGET, "budget", "the search could look at too few frequencies: there may be more; a "     \
+                      "narrower sweep.drive_frequency_range leaves more for each frequency")
 
 typedef enum scene_failure {
 #define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,
