@@ -34,8 +34,9 @@ static const double significance = 5.0;
 static const double least_growth = 0.01;
 /* A suspect's tangent vector must have grown by e to this: without chaos it grows by a few. */
 static const double suspicious = 2.0;
-/* Walkers start this close to the suspect. */
-static const double scatter = 1e-3;
+/* Walkers start this close to the suspect, and closer by the same factor once more at each further
+   attempt: the basin of a chaos in narrow bands may end nearby. */
+static const double scatter = 1e-3, closer = 0.03;
 /* Walkers agree when their means vary by so much more than their batches let expect: for walkers
    that are alike this ratio exceeds 2 in one case of 10^6 (F distribution). */
 static const double agreement = 2.0;
@@ -138,12 +139,13 @@ static pendres_status send_out(pendres_context *ctx, pendres_catalogue *c,
                                const pendres_walker *suspect, vigil *v, int *together)
 {
   pendres_walker from = *suspect;
+  double radius = scatter;
   *together = 0;
-  for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++) {
+  for (int attempt = 0; attempt < ATTEMPTS && !*together; attempt++, radius *= closer) {
     for (size_t i = 0; i < WALKERS; i++) {
       /* Spread by an irrational angle: no two walkers start at the same place. */
       const double angle = 2.39996322972865332 * (double)i;
-      v->a[i] = pendres_walker_at(from.y + scatter * cos(angle), from.w + scatter * sin(angle));
+      v->a[i] = pendres_walker_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
     }
     const pendres_status status = pendres_walk(ctx, c, WALKERS, v->a, WARM_UP, NULL);
     if (status != PENDRES_OK) return status;

@@ -42,7 +42,9 @@ typedef struct lost_lanes {
   pendres_settle_history *histories;
   pendres_scout *guesses;
   const pendres_strobe_lane **suspects;
-  size_t *known; /* attractors of each set when the hunt began */
+  size_t *known;   /* attractors of each set when the hunt began */
+  size_t *watched; /* covers of each set when the latest round began */
+  int found;       /* chaos was, after the latest round */
 } lost_lanes;
 
 static void free_lost(lost_lanes *l)
@@ -55,6 +57,7 @@ static void free_lost(lost_lanes *l)
   free(l->guesses);
   free(l->suspects);
   free(l->known);
+  free(l->watched);
 }
 
 static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
@@ -68,8 +71,10 @@ static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t 
   l->guesses = malloc(n * sizeof *l->guesses);
   l->suspects = malloc(n * sizeof *l->suspects);
   l->known = malloc(sets * sizeof *l->known);
+  l->watched = malloc(sets * sizeof *l->watched);
   if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
-      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL)
+      l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL ||
+      l->watched == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
   return PENDRES_OK;
 }
@@ -92,11 +97,15 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
   return pendres_catalogue_add(ctx, catalogues, n, l->guesses);
 }
 
-/* Whether a lane is where none of the attractors known is. */
-static int nowhere(const pendres_catalogue *c, const pendres_strobe_lane *lane)
+/*
+ * Whether a lost lane is on none of the attractors known. From the cells of a chaos that the latest
+ * round knew it has come out again and again, or it would not be lost: it only passes through them,
+ * as a mirror image's bands do that lie beside its own.
+ */
+static int nowhere(const pendres_catalogue *c, size_t watched, const pendres_strobe_lane *lane)
 {
   long well;
-  for (size_t k = 0; k < c->covers; k++)
+  for (size_t k = watched; k < c->covers; k++)
     if (pendres_cover_holds(c->cover[k], lane->y, lane->w)) return 0;
   return pendres_catalogue_locate(c, lane, &well) < 0;
 }
@@ -115,9 +124,11 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_cat
     while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)
-        if (!pendres_settle_ended(&l->outcome[i]) && nowhere(c, &l->lanes[i]))
+        if (!pendres_settle_ended(&l->outcome[i]) &&
+            nowhere(c, l->watched[l->set[i]], &l->lanes[i]))
           l->suspects[n++] = &l->lanes[i];
       status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
+      l->found |= verdict == PENDRES_CHAOS_NEW || verdict == PENDRES_CHAOS_KNOWN;
     }
   }
   return status;
@@ -160,6 +171,13 @@ static int raise_budgets(const pendres_context *ctx, const pendres_settle_quarry
   return longer;
 }
 
+/* Chaos found when all budgets had been spent is looked for once, too. */
+static void grant_time(const pendres_settle_quarry *q)
+{
+  for (size_t s = 0; s < q->sets; s++)
+    q->budget[s] += pendres_settle_first_budget(&q->catalogues[s].pendulum) + FIRST_HISTORY;
+}
+
 pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_quarry *q)
 {
   lost_lanes l = {0};
@@ -182,6 +200,9 @@ pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_qu
   for (int round = 0; status == PENDRES_OK; round++) {
     size_t left = 0;
     const int longer = raise_budgets(ctx, q, round);
+    if (!longer && l.found) grant_time(q);
+    l.found = 0;
+    for (size_t s = 0; s < q->sets; s++) l.watched[s] = q->catalogues[s].covers;
     status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
     for (size_t i = 0; i < l.count; i++) left += !pendres_settle_ended(&l.outcome[i]);
     if (status != PENDRES_OK || left == 0 || !longer) break;
