@@ -71,21 +71,23 @@ def draw_resonance_curve(h, path):
 
 def draw_response(h, path):
     """Amplitude above, phase lag below; with temperatures a curve each, without the resonance."""
-    name = h.axis_of("mean_loop_amplitude", -1)
-    drive, label = drive_axis(h, h[name], name)
+    name, lines = h.axis_of("mean_loop_amplitude", -1), h.axis_of("mean_loop_amplitude", -2)
+    drive, label = parameter_axis(h, h[name], name)
+    symbol = parameter_axis(h, [], lines)[1].split()[-1].strip("$")
     fig, (top, below) = figure(h, 5.0, 5.2, 2, 1, sharex=True)
-    amplitude, lag, damping = h["mean_loop_amplitude"], h["phase_lag"], h["damping"]
+    amplitude, lag = h["mean_loop_amplitude"], h["phase_lag"]
     noisy = amplitude.ndim == 3
     if not noisy:
         amplitude, lag = amplitude[None], lag[None]
     styles = ["-", "--", ":", "-."]
     marks = dict(marker=".", ms=4) if len(drive) < 30 else {}
     for t in range(len(amplitude)):
-        for i, g in enumerate(damping):
-            text = rf"$\gamma = {g:g}$" + (f", $T = {h['temperature'][t]:g}$" if noisy else "")
+        for i, g in enumerate(h[lines]):
+            text = f"${symbol} = {g:g}$" + (f", $T = {h['temperature'][t]:g}$" if noisy else "")
             top.plot(drive, amplitude[t, i], styles[t % 4], color=f"C{i % 6}", label=text, **marks)
             below.plot(drive, lag[t, i] / np.pi, styles[t % 4], color=f"C{i % 6}", **marks)
-    for i, tau in enumerate(h["resonance_period"] if not noisy else []):
+    resonances = h["resonance_period"] if not noisy and "resonance_period" in h else []
+    for i, tau in enumerate(resonances):
         if not np.isfinite(tau):
             continue
         at = drive_axis(h, 2 * np.pi / tau if name == "drive_frequency" else tau, name)[0]

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <pendres/lyapunov.h>
+#include <pendres/orbit.h>
 
 #include "check.h"
 
@@ -221,6 +222,32 @@ static void longer(void **state)
   assert_true(chaotic > N / 8 && chaotic < N / 2);
 }
 
+/*
+ * A pendulum that starts on an unstable orbit inside of chaos comes back after one period, and
+ * Newton's method finds the orbit: it is not what the pendulum settles on. The orbit of period 1 is
+ * where the one of a weaker drive is continued to.
+ */
+static void unstable_orbit(void **state)
+{
+  const pendres_lyapunov_options options = {.transient = 100, .periods = 256};
+  pendres_orbit_guess guess = {.pendulum = {.damping = 0.5, .drive_frequency = 2.0 / 3.0},
+                               .x = 1.6, .period = 1};
+  pendres_orbit orbit;
+  pendres_status outcome;
+  pendres_lyapunov l;
+  for (int i = 1; i <= 23; i++) {
+    guess.pendulum.drive_amplitude = 0.05 * i;
+    check_ok(pendres_orbit_refine(*state, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome));
+    check_ok(outcome);
+    guess.x = orbit.x;
+    guess.v = orbit.v;
+  }
+  assert_true(!orbit.stable && fabs(orbit.multiplier_re[0]) > 1.5);
+  check_ok(pendres_lyapunov_find(*state, 1, &orbit.pendulum, &orbit.x, &orbit.v, &options, &l));
+  assert_int_equal(l.label, PENDRES_LABEL_CHAOTIC);
+  assert_true(l.period == 0 && l.exponent > 5.0 * l.exponent_error);
+}
+
 /* A result is its own pendulum's alone, whoever is beside it. */
 static void neighbours(void **state)
 {
@@ -255,6 +282,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(orbits, create, destroy),
     cmocka_unit_test_setup_teardown(chaos, create, destroy),
     cmocka_unit_test_setup_teardown(longer, create, destroy),
+    cmocka_unit_test_setup_teardown(unstable_orbit, create, destroy),
     cmocka_unit_test_setup_teardown(neighbours, create, destroy),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -61,6 +61,33 @@ static void list_labels(const pendres_attractors *set, char *text, size_t size)
              pendres_label_name(pendres_attractors_get(set, i)->label));
 }
 
+/*
+ * A chaotic attractor has no point of its own: the one that a start which leads to it is at when it
+ * has settled. PENDRES_NOT_FOUND if none of the starts does.
+ */
+static pendres_status find_point(pendres_context *ctx, const pendres_pendulum *p,
+                                 const pendres_attractors *set, int number, pendres_orbit *out)
+{
+  enum { STARTS = 256 };
+  double x[STARTS], v[STARTS], error;
+  pendres_outcome outcome[STARTS];
+  for (int i = 0; i < STARTS; i++) {
+    /* The two-dimensional golden ratio: evenly spread over one turn and speeds up to 2. */
+    x[i] = PENDRES_PI * (2.0 * fmod(0.5 + 0.7548776662466927 * i, 1.0) - 0.5);
+    v[i] = 4.0 * fmod(0.5 + 0.5698402909980532 * i, 1.0) - 2.0;
+  }
+  pendres_status status = pendres_attractors_settle(ctx, set, STARTS, x, v, outcome);
+  if (status != PENDRES_OK) return status;
+  for (int i = 0; i < STARTS; i++) {
+    if (outcome[i].attractor != number) continue;
+    status = pendres_strobe_advance(ctx, 1, p, &x[i], &v[i], outcome[i].settling_periods, &error);
+    out->x = x[i];
+    out->v = v[i];
+    return status;
+  }
+  return PENDRES_NOT_FOUND;
+}
+
 pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
                                  pendres_attractor *out, char *why, size_t size)
 {
@@ -69,14 +96,21 @@ pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p
   if (status != PENDRES_OK) return status;
   status = PENDRES_NOT_FOUND;
   const long number = strtol(start, NULL, 10); /* 0: a name */
+  int chosen = -1;
   for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
     if (number > 0 ? (long)i + 1 != number : strcmp(pendres_label_name(a->label), start) != 0)
       continue;
     *out = *a;
+    chosen = (int)i;
     status = PENDRES_OK;
   }
-  if (status != PENDRES_OK) {
+  if (status == PENDRES_OK && out->label == PENDRES_LABEL_CHAOTIC) {
+    status = find_point(ctx, p, set, chosen, &out->orbit);
+    if (status == PENDRES_NOT_FOUND)
+      snprintf(why, size, "no start is found that leads to the chaotic attractor '%s': give one by "
+               "'x' and 'v'", start);
+  } else if (status != PENDRES_OK) {
     char list[100];
     list_labels(set, list, sizeof list);
     snprintf(why, size, "there is no attractor '%s' at these parameters; found: %s", start,

@@ -23,7 +23,8 @@ pendres_parameter scene_along_parameter(deck_axis_id axis);
 
 /*
  * The attractor that a deck's `start` names at some parameters: "sa", "la", or its number from 1
- * on. PENDRES_NOT_FOUND if there is none; why[size] then says what there is.
+ * on; of a chaotic one orbit.x and orbit.v are a point on it. PENDRES_NOT_FOUND if there is none;
+ * why[size] then says what there is.
  */
 pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
                                  pendres_attractor *out, char *why, size_t size);

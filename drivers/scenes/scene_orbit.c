@@ -68,7 +68,10 @@ static pendres_status find_named(orbit_work *w, pendres_context *ctx, farm_recor
   pendres_attractor a;
   const pendres_status status = scene_along_named(ctx, &w->pendulum, w->d->orbit.start, &a,
                                                   out->message, sizeof out->message);
-  if (status == PENDRES_OK) keep_orbit(w, &a);
+  if (status != PENDRES_OK) return status;
+  keep_orbit(w, &a);
+  w->start_x = a.orbit.x;
+  w->start_v = a.orbit.v;
   return status;
 }
 
@@ -124,7 +127,7 @@ static pendres_status sample_orbit(const orbit_work *w, pendres_context *ctx, lo
 
 static pendres_status begin_trajectory(orbit_work *w, pendres_context *ctx)
 {
-  double x = w->d->orbit.x, v = w->d->orbit.v, error = 0.0;
+  double x = w->start_x, v = w->start_v, error = 0.0;
   pendres_status status = PENDRES_OK;
   if (!w->transient) /* on the chaotic attractor */
     status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, WANDERING, &error);
@@ -199,6 +202,7 @@ static pendres_status run_scene(scene_run *run)
                               .escape_rate_bound = NAN },
                    /* On a named attractor there is no transient. */
                    .transient = d->orbit.transient && d->orbit.start[0] == '\0',
+                   .start_x = d->orbit.x, .start_v = d->orbit.v,
                    .pendulum = scene_pendulum(d) };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;
   const size_t tasks = (size_t)((all + w.chunk - 1) / w.chunk);

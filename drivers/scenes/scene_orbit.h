@@ -42,6 +42,7 @@ typedef struct orbit_work {
   scene_run *run;
   pendres_pendulum pendulum;
   int transient;
+  double start_x, start_v;     /* the deck's, or a point of the chaotic attractor that it names */
   long chunk;                  /* drive periods of a task, the last one's may be fewer */
   orbit_found found;
   pendres_recording recording; /* of the chunks so far; unused on closed orbits */
