@@ -6,6 +6,8 @@
 #                   for errors of memory alone, for an hour or two
 #   make accuracy   error estimates at random parameters against the reference, for an hour or so;
 #                   ACCURACY="--seed=3 --orbits=2000 --section=orbits" for less
+#   make fuzz       bytes that a fuzzer makes up (clang's libFuzzer), for the readers of decks, journals
+#                   and files of results, FUZZ_SECONDS=60 each; what breaks them is left in build/fuzz
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
@@ -186,9 +188,12 @@ SCRIPT_NAMES := $(if $(SANITIZE)$(VALGRIND),,$(patsubst tests/%.sh,%,$(wildcard 
 CHECKS ?= $(filter-out $(SKIP),$(TEST_NAMES) $(SCRIPT_NAMES))
 ACCURACY_OBJECTS := $(patsubst %.c,$(OBJ)/%.o,$(wildcard tests/accuracy/*.c))
 ACCURACY_PROGRAM := $(BUILD)/tests/accuracy/accuracy
+FUZZ_NAMES := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 
-.PHONY: all accuracy check check-run bench bench-baseline install uninstall deps deps-mpi \
+FUZZ_SECONDS ?= 60
+
+.PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
         deps-plots deps-python doc decks-reference style figures gallery clean \
         help FORCE
 .SUFFIXES:
@@ -304,6 +309,36 @@ $(TEST_NAMES:%=run/%): run/%: $(BUILD)/tests/% $(PROGRAM)
 run/accuracy_check: $(ACCURACY_PROGRAM)
 $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
+
+# Of the library and the program what reads, and no more: the rest would take minutes to compile.
+FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/store/% src/questions/sweep.o \
+  drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o \
+  drivers/apart.o drivers/ending.o drivers/options.o drivers/shard.o drivers/verify.o), \
+  $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
+
+.SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)
+$(BUILD)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(FUZZED_OBJECTS)
+	@echo "  LD  $@"
+	@$(LINK) -fsanitize=fuzzer -o $@ $^ $(DRIVER_LIBS)
+
+# HDF5 may crash in the process that reads for --verify, and the fuzzer is not to take it for ours;
+# nor does it see what a file is good for, and keeps all that are there.
+FUZZ_verify := -handle_segv=0 -handle_bus=0 -handle_abrt=0 -handle_ill=0 -handle_fpe=0 \
+               -keep_seed=1 -reduce_inputs=0
+
+.PHONY: $(FUZZ_NAMES:%=fuzz/%)
+$(FUZZ_NAMES:%=fuzz/%): fuzz/%: $(BUILD)/fuzz_%
+	@mkdir -p $(BUILD)/corpus/$*
+	ASAN_OPTIONS=allocator_may_return_null=1 $< -max_total_time=$(FUZZ_SECONDS) -timeout=100 \
+	  -print_final_stats=1 -artifact_prefix=$(BUILD)/$*- $(FUZZ_$*) $(BUILD)/corpus/$* \
+	  tests/fuzz/corpus/$*
+
+# What is found of new ways through the code is kept in build/fuzz/corpus, and gone on from.
+fuzz:
+	@clang --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer (Debian:' \
+	  'apt-get install clang libclang-rt-dev)' >&2; exit 1; }
+	+@$(MAKE) --no-print-directory -k CC=clang BUILD=build/fuzz \
+	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
 
 FIGURES := $(BUILD)/bench/figures.txt
 
@@ -425,4 +460,5 @@ deps-python:
 	@.ci/packages $(PYTHON_PACKAGES)
 
 -include $(LIBRARY_OBJECTS:.o=.d) $(DRIVER_OBJECTS:.o=.d) $(OBJ)/drivers/main.d \
-         $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(ACCURACY_OBJECTS:.o=.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)
+         $(TEST_NAMES:%=$(OBJ)/tests/%.d) $(ACCURACY_OBJECTS:.o=.d) \
+         $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.d) $(BENCH_PROGRAMS:$(BUILD)/%=$(OBJ)/%.d)
