@@ -85,8 +85,8 @@ static void spectrum(void **state)
 }
 
 /*
- * Chaos named by its number is what is recorded, though a pendulum at rest would end on the orbit of
- * period 3 beside it. Both exponents add up to -damping, so Kaplan and Yorke's dimension is
+ * Chaos named by its number is what is recorded, though a pendulum at rest would end on the orbit
+ * of period 3 beside it. Both exponents add up to -damping, so Kaplan and Yorke's dimension is
  * 1 + L / (L + damping). The correlation dimension is no larger than that, and is within its error
  * of that of a record 75 times as long, 1.053.
  */
@@ -96,7 +96,8 @@ static void chaos_by_number(void **state)
   double farthest = 0.0;
   (void)state;
   scene_run_deck("&scene kind = 'orbit' /\n"
-                 "&pendulum damping = 0.4185, drive_amplitude = 0.9934, drive_frequency = 0.6827 /\n"
+                 "&pendulum damping = 0.4185, drive_amplitude = 0.9934,\n"
+                 "  drive_frequency = 0.6827 /\n"
                  "&orbit start = '2', periods = 400, samples = 1, dimension = .true. /\n"
                  "&precision tolerance = 1e-4 /\n", 1, "chaos");
   pendres_store *store = scene_open("chaos");
