@@ -24,8 +24,12 @@ def draw_free_oscillation(h, path):
 
 
 def resonance_axes(ax, h, labels):
-    """Resonance frequency against amplitude; `labels` dampings are written beside their points."""
-    amplitude, peak, damping = h["mean_loop_amplitude"], h["peak"], h["damping"]
+    """Resonance frequency against amplitude; values of the axis are written beside their points:
+    `labels` of dampings, some of the others."""
+    name = h.axis_of("mean_loop_amplitude", 0)
+    amplitude, peak, values = h["mean_loop_amplitude"], h["peak"], h[name]
+    if name != "damping":
+        labels = values[::-(-len(values) // 8)]
     omega, label = frequency(h, h["resonance_frequency"])
     x = np.linspace(0, max(0.5, np.nanmax(amplitude, initial=0.5) * 1.12), 400)
     x = x[x < np.pi]
@@ -37,12 +41,12 @@ def resonance_axes(ax, h, labels):
             ax.plot(amplitude[peak == kind], omega[peak == kind], style, ms=3, color=colour,
                     label=name)
     # Numbers stand outside of the arch: to the left of its rising part, above its falling one.
-    top = damping[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
+    top = amplitude[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
     for value in labels:
-        i = np.argmin(abs(damping - value))
-        if abs(damping[i] - value) > 1e-9 or not np.isfinite(amplitude[i]):
+        i = np.argmin(abs(values - value))
+        if abs(values[i] - value) > 1e-9 or not np.isfinite(amplitude[i]):
             continue
-        beyond = damping[i] > top
+        beyond = amplitude[i] < top
         ax.annotate(f"{value:g}", (amplitude[i], omega[i]), textcoords="offset points",
                     xytext=(-6, 1) if beyond else (5, 1), ha="right" if beyond else "left",
                     va="bottom", fontsize=7)
@@ -64,7 +68,7 @@ def draw_resonance_curve(h, path):
             resonance_axes(small, Run(other, h.options), [0.099, 0.28])
         small.set_title("$F_0 = 0.1$", fontsize=7.5, pad=2)
         small.tick_params(labelsize=7)
-    legend(ax, loc="lower right" if inset else "lower left", title="numbers: damping",
+    legend(ax, loc="lower right" if inset else "lower left", title="numbers: " + h.axis_of("mean_loop_amplitude", 0).replace("_", " "),
            title_fontsize=7.5)
     return fig
 

@@ -23,6 +23,7 @@ cp curve.h5 curve_inset.h5
 deck strong resonance_curve '&pendulum drive_amplitude = 0.5 /
   &sweep damping = 0.8, 1.2, drive_frequency_range = 0.5, 1.1 / &ensemble members = 8 /'
 deck response response "$p / &sweep damping = 0.3, 0.5, drive_period_range = 5, 9, 5 / $e"
+deck drives resonance_curve "&pendulum damping = 0.3 / &sweep drive_amplitude = 0.1, 0.2, 0.3 / $e"
 deck lines response "&pendulum damping = 0.3 /
   &sweep drive_amplitude = 0.1, 0.2, drive_period_range = 5, 9, 3 / $e"
 deck along response "&pendulum damping = 0.3 / &sweep drive_amplitude = 0.1, 0.2, drive_period = 7 / $e"

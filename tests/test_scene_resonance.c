@@ -85,6 +85,45 @@ static void points_without_a_peak(void **state)
   pendres_store_free(store);
 }
 
+/*
+ * A curve over drive amplitudes is that over dampings at each of its values, and so are resonances
+ * of a response where both look in the same range; beside it there is none.
+ */
+static void drive_amplitudes(void **state)
+{
+  static const char members[] = "&ensemble members = 8 /\n";
+  char text[4][400];
+  size_t n = 0;
+  double *frequency[2], *period[3];
+  (void)state;
+  snprintf(text[0], sizeof text[0], "&scene kind = 'resonance_curve' /\n&pendulum damping = 0.5 /\n"
+           "&sweep drive_amplitude = 0.1, 0.2, drive_frequency_range = 0.8, 1.0 /\n%s", members);
+  snprintf(text[1], sizeof text[1], "&scene kind = 'resonance_curve' /\n"
+           "&pendulum drive_amplitude = 0.2 /\n"
+           "&sweep damping = 0.5, drive_frequency_range = 0.8, 1.0 /\n%s", members);
+  for (int i = 2; i < 4; i++)
+    snprintf(text[i], sizeof text[i], "&scene kind = 'response' /\n&pendulum damping = 0.5 /\n"
+             "&sweep drive_amplitude = 0.1, 0.2, drive_frequency_range = 0.7, 0.8, 2,\n"
+             "  resonance_range = %s /\n%s", i == 2 ? "0.8, 1.0" : "1.0, 1.1", members);
+  for (int i = 0; i < 4; i++) {
+    char name[] = "amplitudes0";
+    name[10] = (char)('0' + i);
+    /* Both amplitudes are marked where the range holds no peak. */
+    assert_int_equal(scene_run_marked(NULL, text[i], 1, name), i == 3 ? 2 : 0);
+    pendres_store *store = scene_open(name);
+    if (i < 2) frequency[i] = scene_values(store, "resonance_frequency", &n);
+    if (i != 1) period[i == 0 ? 0 : i - 1] = scene_values(store, "resonance_period", &n);
+    pendres_store_free(store);
+  }
+  assert_true(frequency[0][1] == frequency[1][0] && frequency[0][0] > frequency[0][1]);
+  for (int i = 0; i < 2; i++) {
+    assert_true(period[0][i] == period[1][i]);
+    assert_true(isnan(period[2][i]));
+    free(frequency[i]);
+  }
+  for (int i = 0; i < 3; i++) free(period[i]);
+}
+
 /* Resonances that may be narrower than a search can look: a peak, marked, and exit code 3. */
 static void a_search_that_is_not_complete(void **state)
 {
@@ -112,6 +151,7 @@ int main(void)
     cmocka_unit_test(a_signal_at_the_turning_point),
     cmocka_unit_test(points_without_a_peak),
     cmocka_unit_test(a_search_that_is_not_complete),
+    cmocka_unit_test(drive_amplitudes),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -263,6 +263,10 @@ int deck_moving(const deck *d, int room, deck_axis_id *axis);
     none. */
 int deck_extra_axis(const deck *d, deck_axis_id *axis);
 
+/** Does a scene of that deck search for resonances: a resonance curve, or a response over the
+    drive's frequency or period? The search serves the plain pendulum alone. */
+int deck_searches(const deck *d);
+
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
 

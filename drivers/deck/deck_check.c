@@ -165,6 +165,8 @@ static void check_idle_keys(deck_builder *b)
     [DECK_OFF_LINE] = "the starts are on a line, see 'shape'",
     [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
     [DECK_AT_RANDOM] = "'shape' is not 'random'",
+    [DECK_WITH_SEARCH] = "no resonance is looked for: that takes the plain pendulum along the "
+                         "drive's frequency or period",
   };
   const char *group = b->scene == 1u << DECK_HYSTERESIS            ? "hysteresis"
                       : b->scene == 1u << DECK_BIFURCATION_DIAGRAM ? "bifurcation_diagram"
@@ -331,6 +333,16 @@ static void check_ensemble(deck_builder *b)
              "'members' must make whole 'rows' of a rectangle");
 }
 
+/* A resonance curve has one axis. */
+static void check_curve(deck_builder *b)
+{
+  if (b->d->kind != DECK_RESONANCE_CURVE || b->d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count == 0 ||
+      b->d->axis[DECK_AXIS_DAMPING].count < 2)
+    return;
+  complain(b, given(b, "sweep", "drive_amplitude"), "drive_amplitude",
+           "results have one axis: beside 'drive_amplitude' give 'damping' one value");
+}
+
 /* Results have two axes: where drive amplitude, torque or parametric amplitude is one, another has
    one value. */
 static void check_plane(deck_builder *b)
@@ -386,6 +398,7 @@ void deck_check(deck_builder *b)
   if (b->errors->count == 0) check_ramp(b);
   check_size(b);
   check_plane(b);
+  check_curve(b);
   check_output(b);
   check_ensemble(b);
   if (d->precision.block_lanes % 8 != 0)

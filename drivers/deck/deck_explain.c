@@ -137,6 +137,7 @@ static const char *condition(const deck_key *key)
   case DECK_OFF_LINE: return "only with shape = 'rectangle' or 'random'";
   case DECK_IN_RECTANGLE: return "only with shape = 'rectangle'";
   case DECK_AT_RANDOM: return "only with shape = 'random'";
+  case DECK_WITH_SEARCH: return "only where a resonance is looked for";
   default: return NULL;
   }
 }

@@ -111,9 +111,10 @@ const deck_key deck_table[] = {
     SAYS(NULL, "file of results; without it the deck's name with .h5, in the working directory") },
 
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
-    NEEDED_IN(DRIVEN & ~(RESPONSE | GRID)), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
+    NEEDED_IN(DRIVEN & ~(CURVE | RESPONSE | GRID)), NOT_NEGATIVE, .number = NAN,
+    EXAMPLE("0.2"),
     SAYS("m g l", "amplitude F0 of the torque that drives the pendulum") },
-  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(RESPONSE | PHASE),
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(CURVE | RESPONSE | PHASE),
     NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"), UNLESS(DRIVE_AMPLITUDE) },
   { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude), NEEDED_IN(BRANCHES),
     POSITIVE, .number = NAN, EXAMPLE("0.2"), UNLESS(DRIVE_AMPLITUDE) },
@@ -163,6 +164,10 @@ const deck_key deck_table[] = {
   { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5,
     .number2 = 1.2, SAYS("omega0", "lowest and highest drive frequency where the resonance is "
                          "looked for") },
+  { BOUNDS("sweep", "resonance_range", search), IN(RESPONSE), FREQUENCY, .number = 0.5,
+    .number2 = 1.2, .when = DECK_WITH_SEARCH,
+    SAYS("omega0", "lowest and highest drive frequency where the resonance of each line is looked "
+         "for; scene 'resonance_curve' has 'drive_frequency_range' for that") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE), FREQUENCY,
     SAYS("omega0", "angular frequency of the drive; instead of 'drive_period' where both are "
          "possible") },
@@ -176,7 +181,7 @@ const deck_key deck_table[] = {
     SAYS("m g l", "amplitude F0 of the drive; where results have two axes it is one of them "
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
-  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(RESPONSE | GRID), POSITIVE },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
   { SWEEP("torque", TORQUE), IN(RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
     SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
   { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | ALONG | GRID),
@@ -416,6 +421,18 @@ int deck_extra_axis(const deck *d, deck_axis_id *axis)
     return 1;
   }
   return 0;
+}
+
+int deck_searches(const deck *d)
+{
+  const deck_axis *along = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0
+                             ? &d->axis[DECK_AXIS_DRIVE_PERIOD]
+                             : &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
+  deck_axis_id extra;
+  if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
+  /* Where another parameter is an axis, lines are along the drive if damping has one value. */
+  return deck_is_plain(d) && (!deck_extra_axis(d, &extra) ||
+                              (d->axis[DECK_AXIS_DAMPING].count == 1 && along->count > 1));
 }
 
 int deck_is_plain(const deck *d)

@@ -30,6 +30,7 @@ typedef enum deck_when {
   DECK_OFF_LINE,       /* only where ensemble.shape is no line */
   DECK_IN_RECTANGLE,   /* only where it is a rectangle */
   DECK_AT_RANDOM,      /* only where it is random */
+  DECK_WITH_SEARCH,    /* only where resonances are searched for */
   DECK_UNLESS_AXIS,    /* unless the key's axis has values in &sweep */
   DECK_BY_FREQUENCY,   /* unless the drive is given by its period */
   DECK_BY_PERIOD       /* the reverse */

@@ -117,7 +117,9 @@ double scene_fixed(const deck *d, deck_axis_id axis)
     /* A scene of which some parameters move has the others as axes of one value. */
     const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
                       d->kind == DECK_LYAPUNOV_MAP;
-    const int left_out = deck_extra_axis(d, &extra) && axis != plane[0] && axis != plane[1];
+    const int curve = d->kind == DECK_RESONANCE_CURVE; /* has one axis */
+    const int left_out = deck_extra_axis(d, &extra) && axis != (curve ? extra : plane[0]) &&
+                         axis != (curve ? extra : plane[1]);
     return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;
   }
   switch (axis) {

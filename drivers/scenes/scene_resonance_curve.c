@@ -1,7 +1,8 @@
 /*
  * scene_resonance_curve.c -- resonance frequency against amplitude, a point a damping.
  *
- * The paper's Fig. 2 and its inset. One task a damping: pendres_resonance_find.
+ * The paper's Fig. 2 and its inset. One task a damping: pendres_resonance_find. With drive
+ * amplitudes in &sweep there is a point each of these instead, at one damping.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -13,22 +14,32 @@ typedef struct curve {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  scene_peak *points;        /* one a damping */
+  deck_axis_id axis;         /* damping or drive amplitude */
+  scene_peak *points;        /* one a value of the axis */
   int8_t *no_peak;           /* not 0: the point has none */
   scene_failures failed;
 } curve;
 
-static void plan(const deck *d, FILE *out)
+static deck_axis_id axis_of(const deck *d)
 {
-  fprintf(out,
-          "resonances at %zu dampings %g to %g, drive amplitude %g: the largest mean loop area of\n"
-          "%lld members over drive frequencies %g to %g\n",
-          d->axis[DECK_AXIS_DAMPING].count, d->axis[DECK_AXIS_DAMPING].value[0],
-          d->axis[DECK_AXIS_DAMPING].value[d->axis[DECK_AXIS_DAMPING].count - 1],
-          d->pendulum.drive_amplitude, (long long)d->ensemble.members, d->search[0], d->search[1]);
+  return d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0 ? DECK_AXIS_DRIVE_AMPLITUDE
+                                                      : DECK_AXIS_DAMPING;
 }
 
-/* What a task finds of its damping. */
+static void plan(const deck *d, FILE *out)
+{
+  const deck_axis *a = &d->axis[axis_of(d)];
+  const int dampings = axis_of(d) == DECK_AXIS_DAMPING;
+  fprintf(out,
+          "resonances at %zu %s %g to %g, %s %g: the largest mean loop area of\n"
+          "%lld members over drive frequencies %g to %g\n",
+          a->count, dampings ? "dampings" : "drive amplitudes", a->value[0],
+          a->value[a->count - 1], dampings ? "drive amplitude" : "damping",
+          dampings ? d->pendulum.drive_amplitude : d->axis[DECK_AXIS_DAMPING].value[0],
+          (long long)d->ensemble.members, d->search[0], d->search[1]);
+}
+
+/* What a task finds. */
 typedef struct record {
   pendres_status outcome;
   pendres_resonance point;
@@ -45,7 +56,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
                                                &c->ensemble, &r->point);
   if (r->outcome == PENDRES_OK && !r->point.complete)
     scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
-  /* A damping whose area has no peak in the range is a point without a result, not a failure. */
+  /* A pendulum whose area has no peak in the range is a point without a result, not a failure. */
   return scene_verdict_note(&r->verdict, r->outcome, pendres_context_message(ctx));
 }
 
@@ -53,8 +64,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   curve *c = arg;
   const record *r = in->data;
-  c->points[task] =
-    scene_peak_of(c->d->axis[DECK_AXIS_DAMPING].value[task], r->outcome, &r->point);
+  c->points[task] = scene_peak_of(c->d->axis[c->axis].value[task], r->outcome, &r->point);
   c->no_peak[task] = r->outcome != PENDRES_OK;
   scene_failures_take(&c->failed, task, &r->verdict);
   return PENDRES_OK;
@@ -81,34 +91,40 @@ static const scene_column columns[] = {
    .type = SCENE_FLAG, .value = offsetof(scene_peak, kind), .names = scene_peak_names},
 };
 
-static const scene_cell cells[] = {
-  SCENE_CELL(scene_peak, at, "damping   ", "%-9.4g "),
-  SCENE_CELL(scene_peak, resonance_frequency, "frequency     ", "%.10f  "),
-  SCENE_CELL(scene_peak, resonance_frequency_error, "+-       ", "%.0e  "),
-  SCENE_CELL(scene_peak, resonance_period, "period       ", "%.9f  "),
-  SCENE_CELL(scene_peak, mean_loop_amplitude, "amplitude  ", "%.6f   "),
-  SCENE_CELL(scene_peak, mean_loop_area, "area         ", "%.8f   "),
-  {.heading = "peak", .format = "%s", .type = SCENE_FLAG, .value = offsetof(scene_peak, kind),
-   .names = scene_peak_names},
-};
-
 static scene_table table_of(const curve *c)
 {
-  return (scene_table){.dimensions = {"damping"}, .n = c->d->axis[DECK_AXIS_DAMPING].count,
+  return (scene_table){.dimensions = {deck_axis_name(c->axis)}, .n = c->d->axis[c->axis].count,
                        .stride = sizeof *c->points, .rows = c->points, .missing = c->no_peak};
+}
+
+static void print_table(FILE *out, const curve *c)
+{
+  const scene_cell cells[] = {
+    {.heading = c->axis == DECK_AXIS_DAMPING ? "damping   " : "drive     ", .format = "%-9.4g ",
+     .value = offsetof(scene_peak, at)},
+    SCENE_CELL(scene_peak, resonance_frequency, "frequency     ", "%.10f  "),
+    SCENE_CELL(scene_peak, resonance_frequency_error, "+-       ", "%.0e  "),
+    SCENE_CELL(scene_peak, resonance_period, "period       ", "%.9f  "),
+    SCENE_CELL(scene_peak, mean_loop_amplitude, "amplitude  ", "%.6f   "),
+    SCENE_CELL(scene_peak, mean_loop_area, "area         ", "%.8f   "),
+    {.heading = "peak", .format = "%s", .type = SCENE_FLAG, .value = offsetof(scene_peak, kind),
+     .names = scene_peak_names},
+  };
+  const scene_table table = table_of(c);
+  scene_columns_print(out, &table, 20, sizeof cells / sizeof *cells, cells, scene_peak_instead);
 }
 
 static pendres_status write_results(scene_run *run, const curve *c)
 {
-  static const deck_axis_id damping = DECK_AXIS_DAMPING;
-  const deck_axis *axis = &c->d->axis[damping];
+  const deck_axis *axis = &c->d->axis[c->axis];
   const scene_table table = table_of(c);
-  pendres_status status = pendres_store_dimension(run->store, "", "damping", axis->count,
-                                                  axis->value, "damping", "1");
+  pendres_status status = pendres_store_dimension(
+    run->store, "", deck_axis_name(c->axis), axis->count, axis->value,
+    c->axis == DECK_AXIS_DAMPING ? "damping" : "drive amplitude", "1");
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   status = scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
   return status == PENDRES_OK
-           ? scene_failures_write(run, &c->failed, "failed", "resonance", 1, &damping)
+           ? scene_failures_write(run, &c->failed, "failed", "resonance", 1, &c->axis)
            : status;
 }
 
@@ -198,6 +214,7 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   scene_printed values[MOST];
   size_t n = 0;
   const double f0 = c->d->pendulum.drive_amplitude;
+  if (c->axis != DECK_AXIS_DAMPING) return PENDRES_OK;
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
@@ -218,25 +235,23 @@ static pendres_status run_scene(scene_run *run)
 {
   curve c = {.d = run->deck,
              .sweep = scene_sweep(run->deck),
-             .ensemble = scene_ensemble(run->deck)};
-  const size_t n = run->deck->axis[DECK_AXIS_DAMPING].count;
+             .ensemble = scene_ensemble(run->deck),
+             .axis = axis_of(run->deck)};
+  const size_t n = run->deck->axis[c.axis].count;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   c.points = calloc(n, sizeof *c.points);
   c.no_peak = calloc(n, 1);
   if (c.points == NULL || c.no_peak == NULL || scene_failures_create(n, &c.failed) != PENDRES_OK) {
-    (void)scene_fail(run, status, "out of memory for %zu dampings", n);
+    (void)scene_fail(run, status, "out of memory for %zu resonances", n);
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = "dampings", .last = 1, .tasks = n,
-                                             .task = compute,
+  const char *what = c.axis == DECK_AXIS_DAMPING ? "dampings" : "drive amplitudes";
+  status = scene_compute(run, &(farm_stage){ .what = what, .last = 1, .tasks = n, .task = compute,
                                              .record_size = sizeof(record), .collect = collect,
                                              .arg = &c });
   if (status == PENDRES_OK) status = write_results(run, &c);
   if (status == PENDRES_OK) status = write_paper(run, &c);
-  const scene_table table = table_of(&c);
-  if (status == PENDRES_OK && run->table != NULL)
-    scene_columns_print(run->table, &table, 20, sizeof cells / sizeof *cells, cells,
-                        scene_peak_instead);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &c);
 done:
   free(c.points);
   free(c.no_peak);

@@ -31,13 +31,6 @@ typedef struct grid {
   scene_failures peak_failed; /* [line] */
 } grid;
 
-/* The search for a resonance serves the plain pendulum alone. */
-static int is_peaked(const deck *d, const deck_axis_id axis[2])
-{
-  return deck_is_plain(d) &&
-         (axis[1] == DECK_AXIS_DRIVE_FREQUENCY || axis[1] == DECK_AXIS_DRIVE_PERIOD);
-}
-
 static void plan(const deck *d, FILE *out)
 {
   deck_axis_id axis[2];
@@ -46,8 +39,10 @@ static void plan(const deck *d, FILE *out)
   fprintf(out, "mean response of %lld members at %zu values of %s and %zu values of %s, %g to %g",
           (long long)d->ensemble.members, d->axis[axis[0]].count, deck_axis_name(axis[0]),
           along->count, deck_axis_name(axis[1]), along->value[0], along->value[along->count - 1]);
-  fprintf(out, is_peaked(d, axis) ? ";\nand the resonance of each %s\n" : "\n",
-          deck_axis_name(axis[0]));
+  if (deck_searches(d))
+    fprintf(out, ";\nand the resonance of each %s, looked for at frequencies %g to %g",
+            deck_axis_name(axis[0]), d->search[0], d->search[1]);
+  fprintf(out, "\n");
 }
 
 static pendres_pendulum pendulum_at(const grid *g, size_t line, size_t k)
@@ -339,7 +334,7 @@ static pendres_status run_scene(scene_run *run)
   scene_plane(d, g.axis);
   g.lines = d->axis[g.axis[0]].count;
   g.values = d->axis[g.axis[1]].count;
-  g.peaked = is_peaked(d, g.axis);
+  g.peaked = deck_searches(d);
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
   g.points = calloc(g.lines * g.values, sizeof *g.points);
   g.peaks = calloc(g.lines, sizeof *g.peaks);
