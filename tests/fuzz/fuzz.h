@@ -6,8 +6,11 @@
 #ifndef FUZZ_H
 #define FUZZ_H
 
-#ifndef _GNU_SOURCE
-#define _GNU_SOURCE /* mkdtemp, pread, dup */
+#ifndef _XOPEN_SOURCE
+#define _XOPEN_SOURCE 700 /* mkdtemp, pread, dup */
+#endif
+#ifndef _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE   /* syscall */
 #endif
 #include <stddef.h>
 #include <stdint.h>
