@@ -11,6 +11,7 @@
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
+#include "orbits/orbit_pair.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 
@@ -25,6 +26,7 @@ typedef struct result {
   double slope_apart; /* from the same integral by parts */
   double derivative; /* root mean square of dw/domega along the orbit */
   pendres_newton_noise noise; /* of the finer run */
+  double rounded[2]; /* what rounding makes of angles along the finer run, and of the slope */
   pendres_orbit_measures measures;
 } result;
 
@@ -134,7 +136,7 @@ static void set_point(const result *coarse, const result *fine, const pendres_or
 }
 
 static void set_slope(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
-                      double rounding, pendres_orbit *o)
+                      double rounding, pendres_orbit *o, double rounded[2])
 {
   const double omega = o->pendulum.drive_frequency, drive = fabs(o->pendulum.drive_amplitude);
   double unit[2] = {1.0, 1.0}, z[2], stretch = 1.0;
@@ -152,6 +154,8 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
   o->loop_area_slope_error =
     pendres_orbit_error(coarse->slope, fine->slope, pi * drive, &slope_doubt) +
     1.5 * fabs(fine->slope_apart);
+  rounded[0] = doubt->rounding;
+  rounded[1] = pi * drive * slope_doubt.rounding;
 }
 
 /* rounding: of a step along the whole orbit, of an angle of order one. */
@@ -177,7 +181,7 @@ static void set_spectrum(const result *coarse, const result *fine,
 
 /* rounding: of a step, of an angle of order one. */
 static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
-                 double rounding, pendres_orbit *o)
+                 double rounding, pendres_orbit *o, double rounded[2])
 {
   const double noise = sqrt(c->steps * (double)c->guess->period);
   /* Rounding errors of steps add at random. */
@@ -200,7 +204,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
     pendres_orbit_set_measures(&coarse->measures, &fine->measures, &all_along, o);
   set_point(coarse, fine, &at_start, turns, o);
   set_spectrum(coarse, fine, &at_start, rounding * noise, o);
-  set_slope(coarse, fine, &all_along, rounding * noise, o);
+  set_slope(coarse, fine, &all_along, rounding * noise, o, rounded);
 }
 
 static int accurate(const pendres_orbit *o, double tolerance)
@@ -327,7 +331,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
       outcome[k] = PENDRES_NOT_CONVERGED;
       continue;
     }
-    fill(&c[i], first, second, rounding, &out[k]);
+    fill(&c[i], first, second, rounding, &out[k], fine[k].rounded);
     outcome[k] =
       accurate(&out[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
   }
@@ -360,12 +364,31 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
   return PENDRES_OK;
 }
 
+/* What goes out, n each; coarser may be NULL. */
+typedef struct outputs {
+  pendres_orbit *orbit;
+  pendres_status *outcome;
+  pendres_orbit_coarser *coarser;
+} outputs;
+
+static void set_coarser(size_t n, const result *coarse, const result *fine, const outputs *to)
+{
+  for (size_t i = 0; i < n && to->coarser != NULL; i++)
+    to->coarser[i] = to->outcome[i] == PENDRES_NOT_CONVERGED
+                       ? (pendres_orbit_coarser){NAN, NAN, NAN, NAN, NAN}
+                       : (pendres_orbit_coarser){.cosine = coarse[i].measures.cosine[0],
+                                                 .sine = coarse[i].measures.sine[0],
+                                                 .loop_area_slope = coarse[i].slope,
+                                                 .rounding = fine[i].rounded[0],
+                                                 .slope_rounding = fine[i].rounded[1]};
+}
+
 static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres_orbit_guess *guess,
-                                   pendres_orbit_want want, pendres_orbit *out,
-                                   pendres_status *outcome)
+                                   pendres_orbit_want want, const outputs *to)
 {
   enum { MOST_TRIES = 4 };
-  if (n > 0 && (guess == NULL || out == NULL || outcome == NULL))
+  pendres_status *outcome = to->outcome;
+  if (n > 0 && (guess == NULL || to->orbit == NULL || outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "guess, out and outcome");
   if (want != PENDRES_ORBIT_PLAIN && want != PENDRES_ORBIT_FREQUENCY_SLOPE)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown wish for an orbit");
@@ -381,7 +404,7 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
   status = start(ctx, n, guess, c);
   size_t left = n;
   for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
-    status = refine_once(ctx, left, c, want, coarse, fine, out, outcome);
+    status = refine_once(ctx, left, c, want, coarse, fine, to->orbit, outcome);
     /* What missed the tolerance, or could not be told from a ghost, goes on from where it is, with
        more steps. */
     size_t again = 0;
@@ -391,6 +414,7 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
         c[again++] = c[i];
     left = again;
   }
+  if (status == PENDRES_OK) set_coarser(n, coarse, fine, to);
 done:
   free(c);
   free(coarse);
@@ -402,5 +426,14 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
                                     const pendres_orbit_guess *guess, pendres_orbit_want want,
                                     pendres_orbit *out, pendres_status *outcome)
 {
-  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, out, outcome));
+  const outputs to = {.orbit = out, .outcome = outcome};
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, &to));
+}
+
+pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,
+                                         const pendres_orbit_guess *guess, pendres_orbit *out,
+                                         pendres_orbit_coarser *coarser, pendres_status *outcome)
+{
+  const outputs to = {.orbit = out, .outcome = outcome, .coarser = coarser};
+  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, &to));
 }

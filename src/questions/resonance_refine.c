@@ -8,13 +8,19 @@
 #include <gsl/gsl_roots.h>
 
 #include "engine/context_internal.h"
+#include "orbits/orbit_error.h"
+#include "orbits/orbit_pair.h"
 #include "questions/response_loop.h"
 #include "questions/response_members.h"
 
 /* ---- evaluating frequencies ---- */
 
-/* Slopes of all states of n responses, refined side by side. */
-static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_point *points)
+/*
+ * Slopes of all states of n responses, refined side by side. coarser: of all states that are
+ * orbits, in their order; may be NULL.
+ */
+static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_point *points,
+                                 pendres_orbit_coarser *coarser)
 {
   size_t count = 0, k = 0;
   pendres_status status = PENDRES_OK;
@@ -36,7 +42,7 @@ static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_po
                                            .period = o->period,
                                            .winding = o->winding};
     }
-  status = pendres_orbit_refine(ctx, k, guess, PENDRES_ORBIT_FREQUENCY_SLOPE, orbit, outcome);
+  status = pendres_orbit_refine_pair(ctx, k, guess, orbit, coarser, outcome);
   k = 0;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     for (size_t j = 0; j < points[i].response.states; j++) {
@@ -83,7 +89,7 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulu
   status = pendres_response_members(ctx, n, pendulums, ensemble, where, responses);
   if (status != PENDRES_OK) goto done;
   for (size_t i = 0; i < n; i++) out[i] = (pendres_scan_point){.response = responses[i]};
-  status = add_slopes(ctx, n, out);
+  status = add_slopes(ctx, n, out, NULL);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) average_slope(&out[i]);
 done:
   free(pendulums);
@@ -93,8 +99,8 @@ done:
 
 /* ---- following states to another frequency ---- */
 
-pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
-                                   double omega, pendres_scan_point *to)
+static pendres_status follow(pendres_context *ctx, const pendres_scan_point *from, double omega,
+                             pendres_orbit_coarser *coarser, pendres_scan_point *to)
 {
   *to = *from;
   to->where = NULL;
@@ -109,10 +115,16 @@ pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_poin
     }
     o->pendulum.drive_frequency = omega;
   }
-  const pendres_status status = add_slopes(ctx, 1, to);
+  const pendres_status status = add_slopes(ctx, 1, to, coarser);
   if (status != PENDRES_OK) return status;
   average_slope(to);
   return pendres_response_renew(ctx, &to->response);
+}
+
+pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
+                                   double omega, pendres_scan_point *to)
+{
+  return follow(ctx, from, omega, NULL, to);
 }
 
 /* ---- smooth peaks ---- */
@@ -205,6 +217,40 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
   return pendres_response_renew(ctx, r);
 }
 
+/*
+ * The error of the phase lag at a peak where all members are on one orbit; near: a point beside
+ * it; full: the lag's own error and what that of the peak's place makes of it. Steps that shift a
+ * peak shift the whole resonance, and the lag at it hardly feels them: two computations, each at
+ * its own peak, tell how much. Claimed are shares of their difference as for an orbit's measures
+ * (orbit_error.c), a tenth of the full error, since that both agree may be chance, all of what
+ * rounding does, and one and a half times what the slope's own distance from zero does: the
+ * curvature is a difference quotient. NaN if it cannot be told.
+ */
+static double lag_error(const pendres_scan_point *at, const pendres_scan_point *near,
+                        const pendres_orbit_coarser *coarser, double full)
+{
+  static const double chance = 0.1, rest = 1.5;
+  const pendres_response *r = &at->response;
+  const pendres_orbit *o = &r->state[0].orbit, *b = &near->response.state[0].orbit;
+  if (r->states != 1 || r->unresolved + r->unlisted > 0 || !pendres_response_has_loop(r->state) ||
+      !isfinite(o->x))
+    return NAN;
+  const double width = near->response.pendulum.drive_frequency - r->pendulum.drive_frequency;
+  const double curvature = (b->loop_area_slope - o->loop_area_slope) / width;
+  const double shift = -(coarser->loop_area_slope - o->loop_area_slope) / curvature;
+  const double turn[2] = {(b->cosine[0] - o->cosine[0]) / width, (b->sine[0] - o->sine[0]) / width};
+  const double apart[2] = {coarser->cosine - o->cosine[0] + shift * turn[0],
+                           coarser->sine - o->sine[0] + shift * turn[1]};
+  const double radius = hypot(o->cosine[0], o->sine[0]);
+  const double direction[2] = {o->cosine[0] / radius, o->sine[0] / radius};
+  const double across = direction[0] * apart[1] - direction[1] * apart[0];
+  const double turning = direction[0] * turn[1] - direction[1] * turn[0];
+  const pendres_orbit_doubt doubt = {hypot(apart[0], apart[1]), coarser->rounding};
+  const double off = (rest * fabs(o->loop_area_slope) + coarser->slope_rounding) / curvature;
+  return (pendres_orbit_error(across, 0.0, 1.0, &doubt) + fabs(turning * off)) / radius +
+         chance * full;
+}
+
 pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,
                                              const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out)
@@ -242,7 +288,8 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   /* The curvature from two points astride, wide enough for the slopes' own errors. */
   pendres_scan_point at, beside;
   const double width = fmin(1e-4, 0.25 * (upper - lower));
-  pendres_status status = pendres_scan_follow(ctx, &s.latest, root, &at);
+  pendres_orbit_coarser coarser[PENDRES_RESPONSE_STATES];
+  pendres_status status = follow(ctx, &s.latest, root, coarser, &at);
   if (status == PENDRES_OK) status = pendres_scan_follow(ctx, &at, root + width, &beside);
   if (status != PENDRES_OK) return status;
   const double curvature = (beside.slope - at.slope) / width;
@@ -261,6 +308,8 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   out->frequency_error =
     (fabs(at.slope) + slope_error(&at)) / fabs(curvature) + 4e-16 * out->frequency;
   pendres_resonance_add_error(out, &beside);
+  const double full = out->response.phase_lag_error;
+  out->response.phase_lag_error = fmin(full, lag_error(&at, &beside, coarser, full));
   out->loop_area_error = out->response.mean_loop_area_error;
   return PENDRES_OK;
 }
