@@ -186,7 +186,7 @@ static void test_chained(void **state)
   }
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 /* The stacks of so many threads do not fit: fewer do as well, and nothing ends the program. */
 static void test_few_threads(void **state)
 {
@@ -407,7 +407,7 @@ int main(void)
     cmocka_unit_test(test_failure_ends_others),
     cmocka_unit_test(test_collector_refuses),
     cmocka_unit_test(test_stop),
-#ifndef __SANITIZE_ADDRESS__ /* needs terabytes of address space itself */
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) /* need terabytes themselves */
     cmocka_unit_test(test_few_threads),
 #endif
     cmocka_unit_test(test_context),
