@@ -102,30 +102,40 @@ static options_action asked_for(int option)
   }
 }
 
-/* One option; 0, or 2 after a message. */
-static int apply(int option, const char *value, const char *name, options *out)
+/* Whether an option says what is to be done; what says more goes before what says less. */
+static int take_action(int option, const char *value, options *out)
 {
   switch (option) {
   case 'n':
     /* The deck's namelist is asked for by programs: nothing may stand beside it. */
     if (out->action == OPTIONS_RUN) out->action = OPTIONS_DRY_RUN;
-    return 0;
+    return 1;
   case 'd':
     if (out->action <= OPTIONS_DRY_RUN) out->action = OPTIONS_DUMP_NAMELIST;
-    return 0;
+    return 1;
   case 'h':
   case 'V':
   case 'L':
   case 'R':
   case 'Y':
     if (out->action <= OPTIONS_DUMP_NAMELIST) out->action = asked_for(option);
-    return 0;
+    return 1;
   case 'E':
   case 'I':
-    if (out->action > OPTIONS_DUMP_NAMELIST) return 0;
+    if (out->action > OPTIONS_DUMP_NAMELIST) return 1;
     out->action = asked_for(option);
     out->word = value;
+    return 1;
+  default:
     return 0;
+  }
+}
+
+/* One option; 0, or 2 after a message. */
+static int apply(int option, const char *value, const char *name, options *out)
+{
+  if (take_action(option, value, out)) return 0;
+  switch (option) {
   case 'o':
     out->output = value;
     if (*value != '\0') return 0;
