@@ -2,7 +2,7 @@
 #ifndef ATTRACTOR_FIXTURE_H
 #define ATTRACTOR_FIXTURE_H
 
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,25 +13,6 @@
 #include "golden.h"
 
 static const double pi = 3.14159265358979323846;
-
-static inline pendres_context *context_with(const pendres_options *o)
-{
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(o, &ctx));
-  return ctx;
-}
-
-static inline int setup(void **state)
-{
-  *state = context_with(NULL);
-  return 0;
-}
-
-static inline int teardown(void **state)
-{
-  pendres_context_free(*state);
-  return 0;
-}
 
 enum { MEMBERS = 200 };
 

@@ -4,7 +4,7 @@
 #ifndef BASIN_FIXTURE_H
 #define BASIN_FIXTURE_H
 
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 
@@ -15,25 +15,6 @@ static const double pi = 3.14159265358979323846;
 
 static const pendres_pendulum fig7 = {
   .damping = 0.12, .drive_amplitude = 0.2, .drive_frequency = 0.78539816339744830962};
-
-static inline pendres_context *context_with(const pendres_options *o)
-{
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(o, &ctx));
-  return ctx;
-}
-
-static inline int setup(void **state)
-{
-  *state = context_with(NULL);
-  return 0;
-}
-
-static inline int teardown(void **state)
-{
-  pendres_context_free(*state);
-  return 0;
-}
 
 static inline double next_random(uint64_t *z)
 {

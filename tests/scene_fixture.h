@@ -89,6 +89,21 @@ static inline void scene_run_deck(const char *text, int threads, const char *nam
   scene_run_deck_by(NULL, text, threads, name);
 }
 
+/* A deck that is wrong, and is told so by a message that contains these words. */
+static inline void scene_check_refused(const char *text, const char *words)
+{
+  deck d;
+  namelist_errors errors = {0};
+  int told = 0;
+  assert_int_equal(deck_read_memory("test.nml", text, strlen(text), &d, &errors),
+                   PENDRES_INVALID_ARGUMENT);
+  for (size_t k = 0; k < errors.count; k++)
+    told |= strstr(errors.item[k].text, words) != NULL;
+  if (!told) print_error("%s: %s\n", text, errors.item[0].text);
+  assert_true(told);
+  namelist_errors_free(&errors);
+}
+
 /* The whole file; its length. */
 static inline size_t scene_bytes(const char *name, char **bytes)
 {

@@ -5,18 +5,7 @@
 
 #include <pendres/pendres.h>
 
-#include "check.h"
-
-#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
-
-/* A failure with a sentence of its own. */
-#define REFUSED(call)                                                  \
-  do {                                                                 \
-    assert_int_equal((call), PENDRES_INVALID_ARGUMENT);                \
-    const char *said = pendres_context_message(ctx);                   \
-    assert_true(strlen(said) >= 8);                                    \
-    assert_string_not_equal(said, pendres_status_message(PENDRES_INVALID_ARGUMENT)); \
-  } while (0)
+#include "refused_fixture.h"
 
 /* A ramp that is none, in each of its parts. */
 static void ramps(void **state)
