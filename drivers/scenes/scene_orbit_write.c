@@ -162,7 +162,7 @@ pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
   const size_t count = (size_t)w->d->orbit.samples, n = (size_t)periods * count;
   const uint64_t at = (uint64_t)first * count;
   const double f0 = w->pendulum.drive_amplitude;
-  double *value = malloc(2 * n * sizeof *value);
+  double *value = calloc(2 * n, sizeof *value);
   if (value == NULL)
     return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
   double *error = value + n;
