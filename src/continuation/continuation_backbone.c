@@ -29,7 +29,7 @@ typedef struct search {
  */
 static double balance(double a)
 {
-  const double pi = 2.0 * half_pi, omega = pendres_free_frequency(a);
+  const double omega = pendres_free_frequency(a);
   const double q = exp(-pi * omega / pendres_free_frequency(pi - a));
   const double first = 8.0 * sqrt(q) / (1.0 + q);
   double sum = 0.0;

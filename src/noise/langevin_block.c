@@ -217,7 +217,7 @@ static void enter(pendres_langevin_block *b)
 /* The first harmonic and the work of lane i over the period that ends at angle y. */
 static void harmonics(pendres_langevin_block *b, size_t i, double y)
 {
-  const double n = b->steps, pi = 0.5 * two_pi;
+  const double n = b->steps;
   const double moved = y - (b->x[i] - b->base[i]);
   /* The sum makes of a ramp in theta only pi/n cot(pi/n) of what it is. */
   const double missing = 1.0 - pi / n / tan(pi / n);

@@ -8,9 +8,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_fft_real.h>
 
+#include "base/angles.h"
 #include "base/student.h"
 
-static const double two_pi = 6.28318530717958647693;
 /* Rounding of an amplitude as a share of the largest. */
 static const double rounding = 4e-15;
 
