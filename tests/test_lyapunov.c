@@ -273,9 +273,29 @@ static void neighbours(void **state)
   }
 }
 
+/* A pendulum that is caught near orbits again and again, none of which holds it, has a result too:
+   what stood in its place before says nothing. */
+static void caught_and_let_go(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 1.8566037735849057,
+                              .drive_frequency = 0.7018867924528301};
+  const pendres_options options = {.tolerance = 1e-6};
+  const double x = 1.6, v = 0.0;
+  pendres_lyapunov one = {.label = PENDRES_LABEL_SA}, two = {.label = PENDRES_LABEL_LA};
+  pendres_context *ctx = NULL;
+  (void)state;
+  check_ok(pendres_context_create(&options, &ctx));
+  check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, NULL, &one));
+  check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, NULL, &two));
+  assert_int_equal(one.label, two.label);
+  assert_true(one.label != PENDRES_LABEL_SA && one.exponent == two.exponent);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(caught_and_let_go),
     cmocka_unit_test_setup_teardown(weak_drives, create, destroy),
     cmocka_unit_test_setup_teardown(other_forces, create, destroy),
     cmocka_unit_test_setup_teardown(models_side_by_side, create, destroy),

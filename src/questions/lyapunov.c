@@ -326,8 +326,9 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
   if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
   for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++, batch *= 2) {
     status = average(ctx, j, batch);
-    if (status == PENDRES_OK) judge(j, batch, out);
     if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
+    /* Those that were let go have averages of this round, and no result yet. */
+    if (status == PENDRES_OK) judge(j, batch, out);
   }
   return status;
 }
