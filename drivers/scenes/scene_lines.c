@@ -150,7 +150,7 @@ static void judge(scene_lines *l)
       scene_failures_mark(&l->failed, i, reason, message);
     } else if (outcome == PENDRES_OK && unresolved > 0) {
       scene_failure_unsettled(l->run->deck, unresolved, l->grid.options.ensemble.members, "members",
-                              NAN, words, sizeof words);
+                              l->points[i].weakest_multiplier, words, sizeof words);
       scene_failures_mark(&l->failed, i, SCENE_FAILURE_UNRESOLVED, words);
     }
   }

@@ -98,6 +98,10 @@ typedef struct pendres_phase_point {
   double la_amplitude;        /**< the same of LA; of several, of the largest */
   double la_amplitude_error;  /**< its error */
   size_t uncertain;           /**< members that may belong to another state, see response.h */
+  double weakest_multiplier;  /**< largest modulus of a Floquet multiplier among the closed orbits
+                                   that members settled on: near 1, the members draw near it slowly,
+                                   and those that are unresolved ask for a larger period_budget; NaN
+                                   if none did */
 } pendres_phase_point;
 
 /** How the points of a line are computed. */

@@ -99,7 +99,7 @@ pendres_status pendres_phase_diagram_create(const pendres_phase_grid *grid,
     .sa_fraction = NAN, .sa_fraction_error = NAN, .la_fraction = NAN, .la_fraction_error = NAN,
     .mean_loop_area = NAN, .mean_loop_area_error = NAN, .mean_loop_amplitude = NAN,
     .mean_loop_amplitude_error = NAN, .sa_amplitude = NAN, .sa_amplitude_error = NAN,
-    .la_amplitude = NAN, .la_amplitude_error = NAN};
+    .la_amplitude = NAN, .la_amplitude_error = NAN, .weakest_multiplier = NAN};
   d->line = calloc(grid->lines, sizeof *d->line);
   d->first = calloc(grid->lines + 1, sizeof *d->first);
   pendres_status status =
