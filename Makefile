@@ -366,7 +366,8 @@ $(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 # What share/pendres holds, beside what a compiler reads.
-SHARED_FILES = $(shell find examples input plots docs -type f ! -name '*.h5' ! -name '*.pyc')
+SHARED_FILES = $(shell find examples input plots docs python -type f ! -name '*.h5' ! -name '*.pyc' \
+                 ! -path '*.egg-info/*' ! -path 'python/build/*')
 
 install: all
 	$(INSTALL) -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(INCLUDEDIR)/pendres

@@ -29,7 +29,8 @@ stage=$scratch/stage
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
 for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0.1 lib/pkgconfig/pendres.pc \
   include/pendres/pendres.h share/man/man1/resonance.1 share/man/man3/pendres.3 \
-  share/pendres/input/f02.nml share/pendres/plots/plot.py share/pendres/docs/decks.md; do
+  share/pendres/input/f02.nml share/pendres/plots/plot.py share/pendres/docs/decks.md \
+  share/pendres/python/pendres/__init__.py share/pendres/python/setup.py; do
   [ -e "$stage/opt/pendres/$file" ] || fail "$file was not installed"
 done
 for header in include/pendres/*.h; do
@@ -120,6 +121,18 @@ readelf -d static | grep -q 'NEEDED.*pendres' && fail "static: still wants the s
 quiet $CC $strict stranger.c -Wl,--whole-archive static_only/libpendres.a -Wl,--no-whole-archive \
   $static -o whole
 quiet ./whole
+
+# The Python package works where it was installed, without the tree: pkg-config tells of the rest.
+for python in "${PYTHON:-python3}" /usr/bin/python3; do
+  "$python" -c 'import cffi, numpy' 2>/dev/null || continue
+  PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$prefix/share/pendres/python quiet "$python" -c '
+import pendres
+assert "share/pendres/python" in pendres.__file__
+p = pendres.pendulum(damping=0.24, drive_amplitude=0.2, drive_frequency=0.9)
+o = pendres.settle(p, 1.0, 0.0)[1].orbit[0]
+assert o.loop_area > 0.1 and abs(o.loop_area - o.dissipation) < 1e-8'
+  break
+done
 
 if [ -x "$prefix/bin/resonance" ]; then
   "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 
 #include "base/angles.h"
+#include "engine/compat.h"
 #include "engine/passage.h"
 #include "model/model.h"
 
