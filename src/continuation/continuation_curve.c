@@ -6,10 +6,9 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
-#include "continuation/continuation_locate.h"
+#include "continuation/continuation_course.h"
 #include "continuation/continuation_parameter.h"
 #include "continuation/continuation_stencil.h"
-#include "continuation/continuation_trail.h"
 
 static const double wildest = 300.0; /* default */
 
@@ -101,31 +100,21 @@ static pendres_status finish_cusp(pendres_context *ctx, const int *unknown,
   return pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
 }
 
-/* A cusp and where on the trail it lies. */
-typedef struct met {
-  pendres_trail_zero at;
-  pendres_located located;
-} met;
+static pendres_status locate_cusp(pendres_context *ctx, const pendres_trail *t,
+                                  const double u[PENDRES_U_COUNT], double reach,
+                                  pendres_course_special *out)
+{
+  out->condition = PENDRES_CONDITION_CUSP;
+  return pendres_continuation_locate(ctx, &t->kind.map, out->condition, t->kind.unknown, u, reach,
+                                     &out->located);
+}
 
-static pendres_status locate_cusps(pendres_context *ctx, const pendres_trail *t, met *list,
-                                   size_t *count)
+static pendres_status locate_cusps(pendres_context *ctx, pendres_course *c)
 {
   pendres_trail_zero zeros[MOST_CUSPS];
-  *count = 0;
-  if (t->kind.condition != PENDRES_CONDITION_FOLD) return PENDRES_OK;
-  const size_t n = pendres_trail_zeros(t, test_cusp, MOST_CUSPS, zeros);
-  for (size_t i = 0; i < n; i++) {
-    double u[PENDRES_U_COUNT];
-    met *m = &list[*count];
-    const double chord = pendres_trail_between(t, &zeros[i], u);
-    m->at = zeros[i];
-    const pendres_status status = pendres_continuation_locate(
-      ctx, &t->kind.map, PENDRES_CONDITION_CUSP, t->kind.unknown, u, 2.0 * chord, &m->located);
-    if (status == PENDRES_NOT_CONVERGED) continue;
-    if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
-    ++*count;
-  }
-  return PENDRES_OK;
+  if (c->trail->kind.condition != PENDRES_CONDITION_FOLD) return PENDRES_OK;
+  const size_t n = pendres_trail_zeros(c->trail, test_cusp, MOST_CUSPS, zeros);
+  return pendres_course_locate(ctx, locate_cusp, n, zeros, c);
 }
 
 /* ---- points ---- */
@@ -148,80 +137,79 @@ static double curvature_of(const pendres_walk *kind, const pendres_walk_point *p
          (v[0] * v[0] + omega * omega * v[1] * v[1]);
 }
 
-static void merge(const pendres_trail *t, const pendres_continuation_pair *pairs,
-                  const pendres_orbit *orbits, const double (*error)[2], const met *list,
-                  pendres_curve *c)
+/* Point number k. */
+static void fill_point(const pendres_course *course, size_t k, pendres_curve *c)
 {
-  const int *unknown = t->kind.unknown;
-  size_t k = 0;
-  for (size_t i = 0; i < t->count; i++) {
-    memcpy(c->u[c->count], pairs[i].fine, sizeof c->u[0]);
-    c->point[c->count++] =
-      (pendres_curve_point){.cusp = -1,
-                            .arclength = t->point[i].arclength,
-                            .value = {pairs[i].fine[unknown[2]], pairs[i].fine[unknown[3]]},
-                            .value_error = {error[i][0], error[i][1]},
-                            .curvature = curvature_of(&t->kind, &t->point[i]),
-                            .orbit = orbits[i]};
-    for (; k < c->cusps && list[k].at.i == i; k++) {
-      const pendres_cusp *s = &c->cusp[k];
-      double u[PENDRES_U_COUNT];
-      const double chord = pendres_trail_between(t, &list[k].at, u);
-      memcpy(c->u[c->count], list[k].located.pair.fine, sizeof c->u[0]);
-      c->point[c->count++] =
-        (pendres_curve_point){.cusp = (int)k,
-                              .arclength = t->point[i].arclength + list[k].at.part * chord,
-                              .value = {s->value[0], s->value[1]},
-                              .value_error = {s->value_error[0], s->value_error[1]},
-                              .orbit = s->orbit};
-    }
+  const pendres_course_point *p = &course->point[k];
+  const pendres_walk *kind = &course->trail->kind;
+  const pendres_cusp *s = p->special >= 0 ? &c->cusp[p->special] : NULL;
+  const pendres_continuation_pair *pair =
+    s != NULL ? &course->special[p->special].located.pair : &course->pair[p->i];
+  memcpy(c->u[k], pair->fine, sizeof c->u[k]);
+  c->point[k] = (pendres_curve_point){
+    .cusp = p->special,
+    .arclength = p->arclength,
+    .curvature = s != NULL ? 0.0 : curvature_of(kind, &course->trail->point[p->i]),
+    .orbit = s != NULL ? s->orbit : course->orbit[p->i]};
+  for (int i = 0; i < 2; i++) {
+    c->point[k].value[i] = pair->fine[kind->unknown[2 + i]];
+    c->point[k].value_error[i] = s != NULL ? s->value_error[i] : course->error[p->i][i];
   }
 }
 
-static pendres_status build(pendres_context *ctx, const pendres_trail *t, pendres_curve **out)
+static pendres_status fill(pendres_context *ctx, const pendres_course *course, pendres_curve *c)
 {
-  size_t cusps = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  const pendres_continuation_map map = t->kind.map;
-  pendres_curve *c = calloc(1, sizeof *c);
-  met *list = malloc(MOST_CUSPS * sizeof *list);
-  pendres_continuation_pair *pairs = malloc((t->count + 1) * sizeof *pairs);
-  pendres_orbit *orbits = malloc((t->count + 1) * sizeof *orbits);
-  double(*error)[2] = malloc((t->count + 1) * sizeof *error);
-  if (c == NULL || list == NULL || pairs == NULL || orbits == NULL || error == NULL) goto no_memory;
-  c->map = map;
+  c->cusp = malloc((course->specials + 1) * sizeof *c->cusp);
+  c->point = malloc((course->count + 1) * sizeof *c->point);
+  c->u = malloc((course->count + 1) * sizeof *c->u);
+  if (c->cusp == NULL || c->point == NULL || c->u == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
+  for (; c->cusps < course->specials; c->cusps++) {
+    const pendres_status status = finish_cusp(ctx, course->trail->kind.unknown,
+                                              &course->special[c->cusps].located,
+                                              &c->cusp[c->cusps]);
+    if (status != PENDRES_OK) return status;
+  }
+  for (; c->count < course->count; c->count++) fill_point(course, c->count, c);
+  return PENDRES_OK;
+}
+
+/* What a call of pendres_curve_follow() was given. */
+typedef struct curve_call {
+  const pendres_bifurcation *starts;
+  const pendres_curve_options *options;
+  pendres_curve **out;
+} curve_call;
+
+static void begin(const void *call, size_t i, pendres_trail_start *start)
+{
+  const curve_call *c = call;
+  const double spacing = c->options->spacing;
+  start->kind =
+    kind_of(&c->starts[i], c->options->second, spacing > 0.0 ? spacing : 0.05, start->u);
+}
+
+static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_trail *t)
+{
+  const curve_call *to = call;
+  pendres_course course = {0};
+  pendres_curve *c = to->out[i] = calloc(1, sizeof *c);
+  if (c == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
+  c->map = t->kind.map;
   c->condition = t->kind.condition;
   c->kind = c->condition == PENDRES_CONDITION_FOLD ? PENDRES_FOLD
-            : map.mirror                           ? PENDRES_SYMMETRY_BREAKING
+            : c->map.mirror                        ? PENDRES_SYMMETRY_BREAKING
                                                    : PENDRES_PERIOD_DOUBLING;
-  for (int i = 0; i < 2; i++) {
-    c->parameter[i] = (pendres_parameter)(t->kind.unknown[2 + i] - PENDRES_U_OMEGA);
-    c->end[i] = t->end[i];
+  for (int k = 0; k < 2; k++) {
+    c->parameter[k] = (pendres_parameter)(t->kind.unknown[2 + k] - PENDRES_U_OMEGA);
+    c->end[k] = t->end[k];
   }
-  status = locate_cusps(ctx, t, list, &cusps);
-  if (status == PENDRES_OK) status = pendres_trail_polish(ctx, t, pairs, error);
-  if (status == PENDRES_OK)
-    status = pendres_continuation_orbit_measure(ctx, t->count, pairs, orbits);
-  if (status != PENDRES_OK) goto done;
-  c->cusp = malloc((cusps + 1) * sizeof *c->cusp);
-  c->point = malloc((t->count + cusps + 1) * sizeof *c->point);
-  c->u = malloc((t->count + cusps + 1) * sizeof *c->u);
-  if (c->cusp == NULL || c->point == NULL || c->u == NULL) goto no_memory;
-  for (; c->cusps < cusps && status == PENDRES_OK; c->cusps++)
-    status = finish_cusp(ctx, t->kind.unknown, &list[c->cusps].located, &c->cusp[c->cusps]);
-  if (status != PENDRES_OK) goto done;
-  merge(t, pairs, orbits, (const double (*)[2])error, list, c);
-  *out = c;
-  c = NULL;
-  goto done;
-no_memory:
-  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
-done:
-  pendres_curve_free(c);
-  free(list);
-  free(pairs);
-  free(orbits);
-  free(error);
+  pendres_status status = pendres_course_begin(ctx, t, MOST_CUSPS, &course);
+  if (status == PENDRES_OK) status = locate_cusps(ctx, &course);
+  if (status == PENDRES_OK) status = pendres_course_measure(ctx, &course);
+  if (status == PENDRES_OK) status = fill(ctx, &course, c);
+  pendres_course_free(&course);
   return status;
 }
 
@@ -260,29 +248,14 @@ static pendres_status curve_follow(pendres_context *ctx, size_t n,
   const char *why = check(n, starts, o);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "curve: %s", why);
 
-  size_t which = 0;
+  static const pendres_course_kind kind = {
+    .name = "curves", .start = "bifurcation", .begin = begin, .build = build};
   const pendres_trail_bounds bounds = {.low = {o->low[0], o->low[1]},
                                        .high = {o->high[0], o->high[1]},
                                        .wildest = o->wildest > 0.0 ? o->wildest : wildest,
                                        .most_points = o->most_points > 0 ? o->most_points : 2000};
-  pendres_status status = PENDRES_OK;
-  pendres_trail_start *begin = calloc(n, sizeof *begin);
-  pendres_trail *trails = calloc(n, sizeof *trails);
-  if (begin == NULL || trails == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu curves", n);
-    goto done;
-  }
-  for (size_t i = 0; i < n; i++)
-    begin[i].kind =
-      kind_of(&starts[i], o->second, o->spacing > 0.0 ? o->spacing : 0.05, begin[i].u);
-  status = pendres_trail_follow(ctx, n, begin, &bounds, trails, &which);
-  if (status == PENDRES_NOT_CONVERGED)
-    (void)pendres_context_fail(ctx, status, "start %zu of the curves is no bifurcation", which);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = build(ctx, &trails[i], &out[i]);
-done:
-  for (size_t i = 0; i < n && trails != NULL; i++) pendres_trail_free(&trails[i]);
-  free(begin);
-  free(trails);
+  curve_call call = {.starts = starts, .options = o, .out = out};
+  const pendres_status status = pendres_course_follow(ctx, &kind, n, &bounds, &call);
   for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
     pendres_curve_free(out[i]);
     out[i] = NULL;
@@ -330,7 +303,7 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown,
                                                           guess, 2.0 * s.length + 1e-3, &located);
       if (status == PENDRES_NOT_CONVERGED) continue;
-      if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+      if (!pendres_located_found(status)) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
       const int again = *found > 0 &&
                         pendres_walk_distance(located.pair.fine, last) <
@@ -419,7 +392,7 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
                                 near->value);
-  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  if (!pendres_located_found(status)) return status;
   const pendres_status measured = finish_cusp(ctx, walk[0].unknown, &located, out);
   if (measured != PENDRES_OK) return measured;
   if (status == PENDRES_TOLERANCE_UNREACHABLE)

@@ -95,7 +95,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
     return pendres_context_fail(ctx, status,
                                 "the branch through %s %g has no fold near",
                                 pendres_parameter_name(parameter), from);
-  if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
+  if (!pendres_located_found(status)) return status;
   const pendres_status measured = pendres_continuation_locate_finish(
     ctx, PENDRES_CONDITION_FOLD, parameter, &located, out);
   if (measured != PENDRES_OK) return measured;

@@ -135,6 +135,11 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
   return status == PENDRES_OK ? PENDRES_TOLERANCE_UNREACHABLE : status;
 }
 
+int pendres_located_found(pendres_status status)
+{
+  return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
+}
+
 pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_continuation_condition condition,
                                                   pendres_parameter parameter,

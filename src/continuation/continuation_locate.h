@@ -30,6 +30,9 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
                                            const int *unknown, const double u[PENDRES_U_COUNT],
                                            double reach, pendres_located *out);
 
+/* Whether a status of pendres_continuation_locate() says that *out is complete. */
+int pendres_located_found(pendres_status status);
+
 /* Make a public bifurcation of a located fold or flip in one parameter. */
 pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_continuation_condition condition,

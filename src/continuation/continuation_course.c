@@ -1,0 +1,127 @@
+/* continuation_course.c -- trails with their special points; see continuation_course.h. */
+#include "continuation/continuation_course.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+pendres_status pendres_course_begin(pendres_context *ctx, const pendres_trail *t, size_t room,
+                                    pendres_course *c)
+{
+  const size_t n = t->count + 1;
+  *c = (pendres_course){.trail = t,
+                        .room = room,
+                        .special = malloc((room + 1) * sizeof *c->special),
+                        .pair = malloc(n * sizeof *c->pair),
+                        .orbit = malloc(n * sizeof *c->orbit),
+                        .error = malloc(n * sizeof *c->error),
+                        .point = malloc((n + room) * sizeof *c->point)};
+  if (c->special == NULL || c->pair == NULL || c->orbit == NULL || c->error == NULL ||
+      c->point == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+  return PENDRES_OK;
+}
+
+void pendres_course_free(pendres_course *c)
+{
+  free(c->special);
+  free(c->pair);
+  free(c->orbit);
+  free(c->error);
+  free(c->point);
+}
+
+/* ---- special points ---- */
+
+static int same_place(const pendres_walk *w, const pendres_course_special *a,
+                      const pendres_course_special *b)
+{
+  double sum = 0.0;
+  if (a->condition != b->condition) return 0;
+  for (int k = 0; k < w->unknowns; k++)
+    sum = hypot(sum, a->located.pair.fine[w->unknown[k]] - b->located.pair.fine[w->unknown[k]]);
+  return sum < 1e-8;
+}
+
+pendres_status pendres_course_locate(pendres_context *ctx, pendres_course_locator *locate,
+                                     size_t n, const pendres_trail_zero *zeros, pendres_course *c)
+{
+  for (size_t i = 0; i < n && c->specials < c->room; i++) {
+    double u[PENDRES_U_COUNT];
+    pendres_course_special *s = &c->special[c->specials];
+    const double chord = pendres_trail_between(c->trail, &zeros[i], u);
+    *s = (pendres_course_special){.at = zeros[i]};
+    const pendres_status status = locate(ctx, c->trail, u, 2.0 * chord, s);
+    if (status == PENDRES_NOT_CONVERGED) continue;
+    if (!pendres_located_found(status)) return status;
+    int known = 0;
+    for (size_t k = 0; k < c->specials && !known; k++)
+      known = same_place(&c->trail->kind, &c->special[k], s);
+    if (!known) c->specials++;
+  }
+  return PENDRES_OK;
+}
+
+static int in_order(const void *a, const void *b)
+{
+  const pendres_course_special *p = a, *q = b;
+  if (p->at.i != q->at.i) return p->at.i < q->at.i ? -1 : 1;
+  return p->at.part < q->at.part ? -1 : p->at.part > q->at.part;
+}
+
+/* ---- all points ---- */
+
+static void list_points(pendres_course *c)
+{
+  const pendres_trail *t = c->trail;
+  size_t k = 0;
+  for (size_t i = 0; i < t->count; i++) {
+    const double at = t->point[i].arclength;
+    c->point[c->count++] = (pendres_course_point){.i = i, .special = -1, .arclength = at};
+    for (; k < c->specials && c->special[k].at.i == i; k++) {
+      double u[PENDRES_U_COUNT];
+      const double chord = pendres_trail_between(t, &c->special[k].at, u);
+      c->point[c->count++] = (pendres_course_point){
+        .i = i, .special = (int)k, .arclength = at + c->special[k].at.part * chord};
+    }
+  }
+}
+
+pendres_status pendres_course_measure(pendres_context *ctx, pendres_course *c)
+{
+  qsort(c->special, c->specials, sizeof *c->special, in_order);
+  pendres_status status = pendres_trail_polish(ctx, c->trail, c->pair, c->error);
+  if (status == PENDRES_OK)
+    status = pendres_continuation_orbit_measure(ctx, c->trail->count, c->pair, c->orbit);
+  if (status == PENDRES_OK) list_points(c);
+  return status;
+}
+
+/* ---- following ---- */
+
+pendres_status pendres_course_follow(pendres_context *ctx, const pendres_course_kind *kind,
+                                     size_t n, const pendres_trail_bounds *bounds, void *call)
+{
+  size_t which = 0;
+  pendres_status status = PENDRES_OK;
+  pendres_trail_start *start = calloc(n + 1, sizeof *start);
+  pendres_trail *trail = calloc(n + 1, sizeof *trail);
+  if (start == NULL || trail == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu %s", n,
+                                  kind->name);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) kind->begin(call, i, &start[i]);
+  status = pendres_trail_follow(ctx, n, start, bounds, trail, &which);
+  if (status == PENDRES_NOT_CONVERGED)
+    (void)pendres_context_fail(ctx, status, "start %zu of the %s is no %s", which, kind->name,
+                               kind->start);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    status = kind->build(ctx, call, i, &trail[i]);
+done:
+  for (size_t i = 0; i < n && trail != NULL; i++) pendres_trail_free(&trail[i]);
+  free(start);
+  free(trail);
+  return status;
+}
