@@ -4,6 +4,8 @@
  */
 #include "phase_diagram_fixture.h"
 
+#include "oracle.h"
+
 /* ---- what curves through other dampings know ---- */
 
 static line line_of(pendres_context *ctx, double drive, double damping, double from, double step)
@@ -236,6 +238,48 @@ static void whole_diagrams(void **state)
   pendres_context_free(other);
 }
 
+/*
+ * A stiffening oscillator's resonance bends to higher frequencies: SA ends at the lower fold, and
+ * beyond the upper one it is alone. Folds beside the oracle of tests/oracle.h, which is good to
+ * 1e-14; beyond the cusp, at a damping of 0.2793, one state is left and has no name.
+ */
+static void stiffening_oscillator(void **state)
+{
+  (void)state;
+  enum { FREQUENCIES = 4, DAMPINGS = 2 };
+  const double damping[DAMPINGS] = {0.2, 0.3}, frequency[FREQUENCIES] = {1.0, 1.35, 1.6, 2.0};
+  const pendres_regime want[FREQUENCIES] = {PENDRES_REGIME_LA, PENDRES_REGIME_COEXISTENCE,
+                                            PENDRES_REGIME_SA, PENDRES_REGIME_SA};
+  const pendres_phase_grid grid = {
+    .pendulum = {.drive_amplitude = 0.3, .force = PENDRES_FORCE_POLYNOMIAL,
+                 .force_coefficients = {1.0, 0.0, 1.0}},
+    .options = {.ensemble = {.members = 20, .x_first = -2.0, .x_last = 2.0}},
+    .values = FREQUENCIES, .value = frequency,
+    .across = PENDRES_DAMPING, .lines = DAMPINGS, .line_value = damping};
+  pendres_context *ctx = context_of(1e-9);
+  pendres_phase_diagram *d = NULL;
+  check_ok(pendres_phase_diagram_compute(ctx, &grid, &d));
+  for (size_t i = 0; i < FREQUENCIES; i++) {
+    assert_int_equal(pendres_phase_diagram_point(d, i)->exact, want[i]);
+    assert_int_equal(pendres_phase_diagram_point(d, i)->regime, want[i]);
+    assert_int_equal(pendres_phase_diagram_point(d, FREQUENCIES + i)->exact, PENDRES_REGIME_SINGLE);
+  }
+  for (int k = 0; k < 2; k++) {
+    const pendres_label label = k == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+    const pendres_bifurcation *f = pendres_phase_diagram_fold(d, 0, label);
+    oracle o = oracle_of(&f->orbit.pendulum);
+    double left = NAN;
+    const double value =
+      oracle_bifurcation(&o, &o.omega, 1, 0, 1, f->orbit.x, f->orbit.v, &left);
+    check_near(f->value, k == 0 ? 1.30304597 : 1.38385653, 1e-8);
+    check_near(f->value, value, f->value_error + 1e-14);
+    assert_true(left < 1e-14 && f->value_error < 1e-9);
+    assert_int_equal(pendres_phase_diagram_ending(d, &f->orbit, f->curvature), label);
+  }
+  pendres_phase_diagram_free(d);
+  pendres_context_free(ctx);
+}
+
 /* A point that is left out, or that cannot be computed, is marked, and the others are there. */
 static void points_fail_alone(void **state)
 {
@@ -277,6 +321,7 @@ int main(void)
     cmocka_unit_test(curves_tell_where_sa_ends),
     cmocka_unit_test(above_the_cusp_there_is_no_distinction),
     cmocka_unit_test(whole_diagrams),
+    cmocka_unit_test(stiffening_oscillator),
     cmocka_unit_test(points_fail_alone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

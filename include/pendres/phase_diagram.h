@@ -21,7 +21,9 @@
  * SA and LA are named as everywhere: of the orbits of period one without winding that coexist, the
  * one of smallest amplitude is SA, the others are LA, a pair of mirror images counting as one.
  * Where there is one alone, on a line with a fold at which the small orbit ends, it is LA beyond
- * that fold; before it, it is SA if its amplitude is less than the fold's, else LA. Without such a
+ * that fold; before it, it is SA if its amplitude is less than the fold's, else LA. The small orbit
+ * ends at the upper end of its range in softening forces, as the pendulum's is, at the lower end in
+ * stiffening ones, told by the unstable orbit that it meets there. Without such a
  * fold it has no name. (A line by itself can miss that fold, if its members are on LA alone and
  * LA's branch does not lead to it.)
  */
@@ -269,13 +271,13 @@ const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phas
 const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *diagram);
 
 /** The state that ends in a fold of the diagram: PENDRES_LABEL_SA or _LA, told by the amplitude at
-    the cusp or, without a cusp, by the fold's curvature; PENDRES_LABEL_PERIODIC for folds of
+    the cusp or, without a cusp, by the fold's curvature and which way the resonance bends; PENDRES_LABEL_PERIODIC for folds of
     other orbits. */
 pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *diagram,
                                            const pendres_orbit *orbit, double curvature);
 
 /** The fold of a line at which a state ends, PENDRES_LABEL_SA or _LA: of several, that with the
-    largest value of the line's parameter. Owned by the diagram; NULL if there is none. */
+    largest value of the line's parameter, or the smallest where the resonance bends to higher ones. Owned by the diagram; NULL if there is none. */
 const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *diagram,
                                                       size_t line, pendres_label state);
 

@@ -23,7 +23,7 @@ typedef struct pendres_label_states {
   double amplitude[PENDRES_LABEL_STATES], error[PENDRES_LABEL_STATES];
 } pendres_label_states;
 
-/* The fold at which SA ends as a parameter grows, seen from one point of that line: an orbit alone
+/* The fold at which SA ends along a parameter, seen from one point of that line: an orbit alone
    beyond it is LA; before it, it is SA if its amplitude is less than the fold's, else LA. */
 typedef struct pendres_label_border {
   int distinct;     /* 0: there is no such fold, and no distinction */

@@ -24,6 +24,7 @@ struct pendres_phase_diagram {
   pendres_phase_mark curves_mark;
   pendres_cusp cusp;
   int has_cusp;
+  int falling;                 /* SA ends as the lines' parameter falls, see small_end.h */
 };
 
 const char *pendres_regime_name(pendres_regime regime)
@@ -281,8 +282,10 @@ static pendres_status gather(pendres_context *ctx, pendres_phase_diagram *d)
   free(d->bifurcation);
   d->bifurcation = all;
   n = 0;
+  d->falling = 0;
   for (size_t i = 0; i < d->grid.lines; i++) {
     d->first[i] = n;
+    d->falling |= pendres_phase_small_end(d->line[i].branches).falling;
     for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++) {
       const pendres_branch *b = pendres_branches_get(d->line[i].branches, k);
       for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
@@ -444,7 +447,8 @@ pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const
                                            double curvature)
 {
   if (d == NULL || o == NULL || !pendres_phase_on_sheets(o)) return PENDRES_LABEL_PERIODIC;
-  const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude : curvature < 0.0;
+  const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude
+                                : (d->falling ? -curvature : curvature) < 0.0;
   return small ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
 }
 
@@ -456,9 +460,10 @@ const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagra
   for (size_t i = d->first[line]; i < d->first[line + 1]; i++) {
     const pendres_bifurcation *b = &d->bifurcation[i];
     if (b->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&b->orbit)) continue;
-    if ((b->curvature > 0.0) != (state == PENDRES_LABEL_LA)) continue;
+    const double way = d->falling ? -1.0 : 1.0;
+    if ((way * b->curvature > 0.0) != (state == PENDRES_LABEL_LA)) continue;
     /* Of several on a line the one next to the cusp. */
-    if (best == NULL || b->value > best->value) best = b;
+    if (best == NULL || way * b->value > way * best->value) best = b;
   }
   return best;
 }

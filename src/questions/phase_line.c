@@ -11,42 +11,13 @@
 
 enum { MOST_CROSSINGS = 16 };
 
-/* ---- what tells SA from LA along one line ---- */
-
-/* Orbits on the sheets that fold over each other, whatever their stability. */
-int pendres_phase_on_sheets(const pendres_orbit *o)
-{
-  return pendres_label_named(o) && (o->symmetric || !pendres_pendulum_symmetric(&o->pendulum));
-}
-
-/* Among the folds below whose parameter two orbits exist, the one of the smallest amplitude. */
-static pendres_small_end find_small_end(const pendres_branches *branches)
-{
-  pendres_small_end end = {.known = 0};
-  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
-    const pendres_branch *branch = pendres_branches_get(branches, i);
-    for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
-      const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
-      if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) ||
-          !(f->curvature < 0.0))
-        continue;
-      if (end.known && f->orbit.amplitude >= end.amplitude) continue;
-      end = (pendres_small_end){.known = 1,
-                                .parameter = f->parameter,
-                                .value = f->value,
-                                .amplitude = f->orbit.amplitude};
-    }
-  }
-  return end;
-}
+/* ---- by the ensemble ---- */
 
 /* Whether the names mean something where these states are. */
 static int distinct(const pendres_small_end *end, const pendres_label_states *s)
 {
   return end->known || s->count > 1;
 }
-
-/* ---- by the ensemble ---- */
 
 static int other_of(const pendres_attractor *a)
 {
@@ -313,7 +284,7 @@ static pendres_status compute_line(pendres_context *ctx, size_t n,
     status = find_branches(ctx, n, r, options, branches);
   if (status != PENDRES_OK) goto done;
   *l = (line){.ctx = ctx, .options = options, .branches = *branches,
-              .end = find_small_end(*branches)};
+              .end = pendres_phase_small_end(*branches)};
   status = judge_line(l, n, r, out);
 done:
   free(r);
@@ -453,7 +424,7 @@ static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *c
   pendres_status status = PENDRES_OK;
   const size_t first = pendres_branches_count(branches);
   /* What the points were judged by: without that fold, those with one state have no names. */
-  pendres_small_end before = find_small_end(branches);
+  pendres_small_end before = pendres_phase_small_end(branches);
   for (size_t i = 0; i < n; i++)
     if (isnan(points[i].sa_fraction)) before = (pendres_small_end){.known = 0};
   const pendres_branch_options options =
@@ -463,7 +434,7 @@ static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *c
     if (bounds_named(c)) status = add_crossed(l->ctx, c, &points[0].pendulum, &options, branches);
   }
   if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
-  l->end = beyond_cusps(curves, &points[0].pendulum) ? before : find_small_end(branches);
+  l->end = beyond_cusps(curves, &points[0].pendulum) ? before : pendres_phase_small_end(branches);
   if (l->end.known != before.known || l->end.value != before.value)
     return compute_again(l, n, points, branches);
   return judge_again(l, n, first, points);

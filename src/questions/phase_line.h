@@ -6,9 +6,14 @@
 
 #include <pendres/phase_diagram.h>
 
+#include "questions/small_end.h"
+
 /* Orbits on the sheets of SA and LA and the unstable one between, whatever their stability: one
    drive period, no winding, their own mirror images where there is the mirror symmetry. */
 int pendres_phase_on_sheets(const pendres_orbit *orbit);
+
+/* The fold at which SA ends along the line whose branches these are; not known if there is none. */
+pendres_small_end pendres_phase_small_end(const pendres_branches *branches);
 
 /* How far branches and curves are followed in a parameter around a diagram's first and last
    value of it, so that what names its points is met. plain: the pendulums have neither torque nor

@@ -4,8 +4,8 @@
 pendres_label_border pendres_small_end_from(const pendres_small_end *end,
                                             const pendres_pendulum *pendulum)
 {
-  return (pendres_label_border){
-    .distinct = end->known,
-    .beyond = pendres_parameter_get(end->parameter, pendulum) > end->value,
-    .amplitude = end->amplitude};
+  const double past = pendres_parameter_get(end->parameter, pendulum) - end->value;
+  return (pendres_label_border){.distinct = end->known,
+                                .beyond = (end->falling ? -past : past) > 0.0,
+                                .amplitude = end->amplitude};
 }
