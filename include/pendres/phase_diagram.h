@@ -271,13 +271,14 @@ const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phas
 const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *diagram);
 
 /** The state that ends in a fold of the diagram: PENDRES_LABEL_SA or _LA, told by the amplitude at
-    the cusp or, without a cusp, by the fold's curvature and which way the resonance bends; PENDRES_LABEL_PERIODIC for folds of
-    other orbits. */
+    the cusp or, without a cusp, by the fold's curvature and which way the resonance bends;
+    PENDRES_LABEL_PERIODIC for folds of other orbits. */
 pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *diagram,
                                            const pendres_orbit *orbit, double curvature);
 
 /** The fold of a line at which a state ends, PENDRES_LABEL_SA or _LA: of several, that with the
-    largest value of the line's parameter, or the smallest where the resonance bends to higher ones. Owned by the diagram; NULL if there is none. */
+    largest value of the line's parameter, or the smallest where the resonance bends to higher ones.
+    Owned by the diagram; NULL if there is none. */
 const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *diagram,
                                                       size_t line, pendres_label state);
 

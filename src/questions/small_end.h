@@ -16,7 +16,7 @@ typedef struct pendres_small_end {
   double value;                /* of the parameter, at the fold */
   double amplitude;            /* of the orbit there */
   int falling;                 /* nonzero: SA ends as the parameter falls, not as it grows: with
-                                  stiffening forces, which bend the resonance to higher frequencies */
+                                  stiffening forces, whose resonance bends to higher ones */
 } pendres_small_end;
 
 /* The fold as an orbit at these parameters has it before or behind itself. */
