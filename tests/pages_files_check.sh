@@ -1,6 +1,6 @@
 #!/bin/sh
-# pages_files_check.sh -- every command of docs/files.md, in its order: the program's, h5copy's where
-# it is installed, Python's where there is xarray, Octave's where there is Octave.
+# pages_files_check.sh -- every command of docs/files.md, in its order: the program's, Python's where
+# there is xarray, Octave's where there is Octave, R's where there is R with rhdf5.
 # Run by make check, which sets BUILD and RESONANCE.
 set -u
 [ -n "${RESONANCE:-}" ] || exit 77
@@ -26,8 +26,9 @@ cd "$scratch" || exit 1
 sed '/^```/,/^```/d' "$page" | sed -n 's/^    //p' >all.sh
 blocks python >page.py
 blocks octave >page.m
-[ "$(wc -l <all.sh)" -ge 6 ] && [ -s page.py ] && [ -s page.m ] || { : >log; fail "commands are missing"; }
-command -v h5copy >/dev/null || sed -i '/^h5copy/d' all.sh
+blocks r >page.R
+[ "$(wc -l <all.sh)" -ge 5 ] && [ -s page.py ] && [ -s page.m ] && [ -s page.R ] ||
+  { : >log; fail "commands are missing"; }
 e='ensemble.members=8'
 {
   ./resonance -q input/f02.nml sweep.damping=0.2,0.3 $e &&
@@ -45,6 +46,12 @@ for candidate in "${PYTHON:-python3}" /usr/bin/python3; do
 done
 if command -v octave-cli >/dev/null; then
   octave-cli --norc page.m >printed 2>log || fail "Octave's commands failed"
-  grep -q '0\.9223' printed || fail "not the resonances: $(cat printed)"
+  grep -q '0\.9223' printed && grep -q '^0\.8[0-9]*$' printed && ! grep -q warning log ||
+    fail "not the resonances and jumps: $(cat printed)"
+fi
+if command -v Rscript >/dev/null && Rscript -e 'library(rhdf5)' >/dev/null 2>&1; then
+  Rscript page.R >printed 2>log || fail "R's commands failed"
+  grep -q '0\.9223' printed && grep -q '"up" *"down"' printed && grep -q 'resonance_curve' printed ||
+    fail "R does not read what the page asks for: $(cat printed)"
 fi
 exit 0

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Check that h5py and xarray, with both of its engines, open every group of a result file, and
-that GNU Octave, where it is installed, loads the numbers of its root.
+"""Check that h5py and xarray, with both of its engines, open every group of a result file; that
+h5dump, where it is installed, reads all of it, and GNU Octave and R's rhdf5 the numbers of its root.
 
     store_readers.py FILE...
 
@@ -103,9 +103,11 @@ def check_xarray(name, engine):
 
 
 # Name, sizes in the order of the file (Octave's is the other way round), and numbers of all but
-# structs, as groups of numbers become.
+# structs, as groups of numbers become. Text in the root stops load unless variables are named.
 OCTAVE = """
-s = load(getenv("FILE"));
+names = strsplit(getenv("NAMES"), " ");
+if isempty(names{1}) names = {}; end
+s = load(getenv("FILE"), names{:});
 for [value, key] = s
   if isstruct(value) continue; end
   printf("%s", key);
@@ -117,23 +119,41 @@ end
 """
 
 
-def check_octave(name):
-    """load reads every number of the root, and passes over groups with text."""
+# The same of R, whose order is that of Octave.
+R = """
+suppressPackageStartupMessages(library(rhdf5))
+file <- Sys.getenv("FILE")
+for (name in strsplit(Sys.getenv("NAMES"), " ")[[1]]) {
+  value <- h5read(file, name, bit64conversion = "double")
+  values <- as.numeric(value)
+  cat(name, rev(dim(value)), ":", sprintf("%.17g", values[seq_len(min(1000, length(values)))]))
+  cat("\\n")
+}
+"""
+
+
+def root_of(name):
+    """What stands in the root, and the names of the numbers in it."""
     import h5py
-    import numpy
     with h5py.File(name, "r") as f:
-        wanted = {key: item[()] for key, item in f.items() if isinstance(item, h5py.Dataset)}
-    ran = subprocess.run(["octave-cli", "--norc", "--eval", OCTAVE], capture_output=True, text=True,
-                         env=os.environ | {"FILE": name})
-    wrong = [f"Octave: {line}" for line in ran.stderr.splitlines()
-             if not line.startswith("error: ignoring")]  # how it ends without a terminal
+        root = {key: item[()] for key, item in f.items() if isinstance(item, h5py.Dataset)}
+        return root, [key for key in root if f[key].dtype.kind != "O"]
+
+
+def check_printed(who, command, name, names, wanted):
+    """What another program prints of a file, given what to read, beside what h5py reads."""
+    import numpy
+    ran = subprocess.run(command, capture_output=True, text=True,
+                         env=os.environ | {"FILE": name, "NAMES": " ".join(names)})
+    wrong = [f"{who}: {line}" for line in ran.stderr.splitlines()
+             if not line.startswith("error: ignoring")]  # how Octave ends without a terminal
     found = {}
     for line in ran.stdout.splitlines():
         sizes, numbers = line.split(" :")
         key, *sizes = sizes.split()
         found[key] = [int(s) for s in sizes], numpy.array(numbers.split(), dtype=float)
     if set(found) != set(wanted):
-        wrong.append(f"Octave: variables differ: {sorted(set(found) ^ set(wanted))}")
+        wrong.append(f"{who}: variables differ: {sorted(set(found) ^ set(wanted))}")
     for key in sorted(set(found) & set(wanted)):
         values = numpy.array(wanted[key], dtype=float)
         sizes, numbers = found[key]
@@ -141,16 +161,50 @@ def check_octave(name):
             sizes.remove(1)
         if sizes != list(values.shape) or \
                 not numpy.array_equal(numbers, values.ravel()[:1000], equal_nan=True):
-            wrong.append(f"Octave: {key} differs")
+            wrong.append(f"{who}: {key} differs")
     return wrong
 
 
+def check_octave(name):
+    """load reads every number of the root, and passes over groups with text."""
+    root, numbers = root_of(name)
+    names = numbers if len(numbers) < len(root) else []
+    return check_printed("Octave", ["octave-cli", "--norc", "--eval", OCTAVE], name, names,
+                         {key: root[key] for key in numbers})
+
+
+def check_r(name):
+    """h5read reads every number of the root."""
+    root, numbers = root_of(name)
+    return check_printed("R", ["Rscript", "-e", R], name, numbers,
+                         {key: root[key] for key in numbers})
+
+
+def check_h5dump(name):
+    """All of the file is readable for HDF5's own tool."""
+    ran = subprocess.run(["h5dump", name], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                         text=True)
+    return ([] if ran.returncode == 0 else ["h5dump failed"]) + ran.stderr.splitlines()
+
+
 def check_one(how, name):
-    wrong = check_h5py(name) if how == "h5py" else check_octave(name) if how == "octave" \
-        else check_xarray(name, how)
+    own = {"h5py": check_h5py, "octave": check_octave, "r": check_r, "h5dump": check_h5dump}
+    wrong = own[how](name) if how in own else check_xarray(name, how)
     for line in wrong:
         print(line, file=sys.stderr)
     return 1 if wrong else 0
+
+
+def readers():
+    """All that this machine has."""
+    yield from ("h5py", "h5netcdf", "netcdf4")
+    if shutil.which("h5dump"):
+        yield "h5dump"
+    if shutil.which("octave-cli"):
+        yield "octave"
+    if shutil.which("Rscript") and subprocess.run(
+            ["Rscript", "-e", "library(rhdf5)"], capture_output=True).returncode == 0:
+        yield "r"
 
 
 def main(arguments):
@@ -164,14 +218,9 @@ def main(arguments):
     if missing:
         print("skipped, missing: " + ", ".join(missing))
         return 77
-    import h5py
     failed = 0
-    for name in arguments:
-        with h5py.File(name, "r") as f:  # text in the root stops Octave, see docs/files.md
-            loads = not any(isinstance(item, h5py.Dataset) and item.dtype.kind == "O"
-                            for item in f.values())
-        for how in ("h5py", "h5netcdf", "netcdf4") + ("octave",) * bool(
-                loads and shutil.which("octave-cli")):
+    for how in readers():
+        for name in arguments:
             # Of its own, since a library may take the whole process with it.
             code = subprocess.run([sys.executable, __file__, "--one", how, name]).returncode
             print(f"{'ok' if code == 0 else 'FAILED'} {how} {name}")

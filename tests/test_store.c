@@ -334,7 +334,7 @@ static void equal_runs_give_equal_bytes(void **state)
   check_same_bytes(one, other);
 }
 
-/* Python's readers and GNU Octave, where they are installed. Python can be named by $PYTHON. */
+/* Readers by h5py, xarray, HDF5, Octave and R, where they are installed; $PYTHON names Python. */
 static void readers_open_every_group(void **state)
 {
   const char *const pythons[] = { getenv("PYTHON"), "python3", "/usr/bin/python3" };
