@@ -198,6 +198,7 @@ static int start_farm(job *j)
   if (scene_precision(&j->deck, &j->precision, &why) != PENDRES_OK) return BAD_USAGE;
   const farm_options options = { .library = j->precision,
                                  .threads = j->options.threads,
+                                 .budget = j->options.budget,
                                  .stop = signals_stop,
                                  .run = ++j->turn,
                                  .progress = &j->progress };
@@ -251,17 +252,25 @@ static int open_journal(job *j)
 static int leave_part(job *j)
 {
   const options *o = &j->options;
+  const size_t lost = farm_points_lost(j->farm);
   progress_note(&j->progress, "part %zu of %zu is done: %zu finished tasks in %s; when all parts "
                 "are, the same command with --merge instead of --shard writes %s", o->shard,
                 o->shards, journal_own(j->journal), journal_path(j->journal), j->deck.output);
-  return DONE;
+  if (lost == 0) return DONE;
+  progress_error(&j->progress, "%zu point%s ended by --budget, and %s to --merge --resume", lost,
+                 lost == 1 ? " was" : "s were", lost == 1 ? "is left" : "are left");
+  return SOME_POINTS_FAILED;
 }
 
-/* Where orbits are wanted, a method that is not of fixed steps is told not to be theirs. */
-static void tell_method(job *j)
+/* What was asked for and has no effect: a budget where points have none, and, where orbits are
+   wanted, a method that is not of fixed steps. */
+static void tell_without_effect(job *j)
 {
   const char *method = j->deck.precision.method;
   const deck_kind k = j->deck.kind;
+  if (j->options.budget > 0.0 && !j->scene->budget)
+    progress_note(&j->progress, "--budget has no effect on scenes of this kind; "
+                  "precision.period_budget limits the drive periods of a pendulum");
   if (method[0] == '\0' || strcmp(method, pendres_method_name(PENDRES_BLOCK_FIXED)) == 0) return;
   if (k == DECK_FREE_OSCILLATION || k == DECK_WORK_PRECISION || k == DECK_HARD_CASES) return;
   progress_note(&j->progress, "method '%s' advances and settles pendulums; orbits and their "
@@ -272,7 +281,7 @@ static int compute(job *j)
 {
   progress_note(&j->progress, "%s: %s on %d thread%s", j->deck.name, deck_kind_name(j->deck.kind),
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
-  tell_method(j);
+  tell_without_effect(j);
   pendres_status status = j->scene->run(&j->run);
   farm_dismiss(j->farm);
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
@@ -314,7 +323,7 @@ static int finish_output(job *j)
     progress_error(&j->progress, "%s", pendres_store_message(store));
     return FAILED;
   }
-  journal_remove(j->journal);
+  resume_leave(j->journal, farm_points_lost(j->farm), &j->progress);
   j->journal = NULL;
   return DONE;
 }

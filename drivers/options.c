@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -43,6 +44,8 @@ static const char help[] =
   "      --shard=I/N       compute the I-th of N parts and leave it in FILE.I-of-N.journal;\n"
   "                        auto or auto/N: as the variables of an array of jobs say\n"
   "      --merge           put the parts together; with --resume compute what is missing\n"
+  "      --budget=SECONDS  end a point that has taken so many seconds of processor time, mark\n"
+  "                        it as failed, and go on; --resume computes such points again\n"
   "  -t, --threads=N       use N threads (default: OMP_NUM_THREADS, or all cores)\n"
   "  -q, --quiet           no progress and no notes; errors are still reported\n"
   "      --log=FILE        append progress, notes and errors to FILE, with the time\n"
@@ -77,6 +80,16 @@ static int threads_of(const char *text)
   errno = 0;
   const long n = strtol(text, &end, 10);
   return errno != 0 || end == text || *end != '\0' || n < 1 || n > MOST_THREADS ? 0 : (int)n;
+}
+
+/* --budget; 0, or 2 after a message. */
+static int take_budget(const char *value, const char *name, options *out)
+{
+  char *end = NULL;
+  out->budget = strtod(value, &end);
+  if (end != value && *end == '\0' && out->budget > 0.0 && isfinite(out->budget)) return 0;
+  fprintf(stderr, "%s: --budget takes seconds, more than 0, not '%s'\n", name, value);
+  return complain(name);
 }
 
 /* --shard; 0, or 2 after a message. */
@@ -161,6 +174,8 @@ static int apply(int option, const char *value, const char *name, options *out)
     return 0;
   case 'S':
     return take_shard(value, name, out);
+  case 'B':
+    return take_budget(value, name, out);
   case 'M':
     out->merge = 1;
     return 0;
@@ -246,8 +261,8 @@ int options_parse(int argc, char **argv, options *out)
     { "force", no_argument, NULL, 'f' },         { "resume", no_argument, NULL, 'r' },
     { "journal", required_argument, NULL, 'j' }, { "no-journal", no_argument, NULL, 'J' },
     { "shard", required_argument, NULL, 'S' },   { "merge", no_argument, NULL, 'M' },
-    { "csv", no_argument, NULL, 'C' },         { "verify", no_argument, NULL, 'Y' },
-    { NULL, 0, NULL, 0 },
+    { "budget", required_argument, NULL, 'B' },  { "csv", no_argument, NULL, 'C' },
+    { "verify", no_argument, NULL, 'Y' },     { NULL, 0, NULL, 0 },
   };
   const char *name = argc > 0 ? argv[0] : "resonance";
   int option = 0;

@@ -39,6 +39,7 @@ typedef struct options {
   int force;          /* nonzero: an output that is there is not kept */
   const char *log;    /* NULL: none */
   const char *word;   /* of --explain and --init */
+  double budget;      /* processor seconds a point; 0: as many as it takes */
   int threads;        /* of --threads or OMP_NUM_THREADS; 0: all cores */
   int quiet;
 } options;

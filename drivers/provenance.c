@@ -110,6 +110,10 @@ static pendres_status write_cost(const provenance *p, const farm *f, size_t fail
     { .key = "periods_per_settled_pendulum",
       .number = cost.settled_pendulums > 0.0 ? cost.pendulum_periods / cost.settled_pendulums : NAN,
       .long_name = "drive periods of the whole run for each settled pendulum" },
+    { .key = "budget", .number = farm_budget(f) > 0.0 ? farm_budget(f) : NAN, .units = "s",
+      .long_name = "processor time after which a point was given up (NaN: never)" },
+    { .key = "points_given_up", .integer = (int64_t)farm_points_lost(f), .is_integer = 1,
+      .long_name = "points that this budget has ended, and that a faster machine may not end" },
     { .key = "failed_points", .integer = (int64_t)failed_points, .is_integer = 1,
       .long_name = "points without a result" },
   };

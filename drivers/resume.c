@@ -177,3 +177,18 @@ const char *resume_advice(const journal *j, char *text, size_t size)
              "goes on from there", journal_own(j), journal_path(j));
   return text;
 }
+
+void resume_leave(journal *j, size_t lost, progress *p)
+{
+  char kept[JOURNAL_WORDS] = " them";
+  if (lost == 0) {
+    journal_remove(j);
+    return;
+  }
+  if (j != NULL && journal_count(j) > 0)
+    snprintf(kept, sizeof kept, " these alone, since all else is kept in %.300s",
+             journal_own(j) > 0 ? journal_path(j) : "the journals of the parts");
+  progress_note(p, "%zu point%s ended by --budget; the same command with --resume and a larger "
+                "budget, or none, computes%s", lost, lost == 1 ? " was" : "s were", kept);
+  journal_close(j);
+}

@@ -16,6 +16,10 @@
    code after an error. */
 int resume_open(const deck *d, const options *o, progress *p, journal **out);
 
+/* The results stand, and the journal, which is let go of, is no longer needed: unless a budget has
+   ended points, which may be computed yet. NULL is allowed. */
+void resume_leave(journal *j, size_t lost, progress *p);
+
 /* How to go on, in words, where something was kept: " ...", else "". */
 const char *resume_advice(const journal *j, char *text, size_t size);
 

@@ -333,11 +333,11 @@ static void test_long_task(void **state)
 
   p = talkative();
   progress_start(&p, "things", 10, 0);
-  progress_tick(&p, 4, 7, 400.0);
+  progress_tick(&p, 4, "damping 0.1", 400.0);
   progress_end(&p);
   read_lines(p.stream, text, sizeof text);
   assert_non_null(strstr(text, "4 of 10 things after "));
-  assert_non_null(strstr(text, " s; the longest at work is number 7, for 400 s"));
+  assert_non_null(strstr(text, " s; the longest at work is damping 0.1, for 400 s"));
 }
 
 /* A trial computes some tasks, and concludes from them; all of them, if there is time. */

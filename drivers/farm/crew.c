@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "farm/deal.h"
+#include "farm/point.h"
 
 /* Whether a task's record is there: in memory; in the journal alone, from this run or from an
    earlier one; or another shard's to compute. */
@@ -20,9 +21,10 @@ enum { MOST_WAITING = 64 << 20 };
 typedef struct worker {
   crew *crew;
   size_t task;
+  farm_watch watch; /* of the point that it is at */
 } worker;
 
-static long long milliseconds(void)
+long long crew_milliseconds(void)
 {
   struct timespec t = { 0 };
   (void)clock_gettime(CLOCK_MONOTONIC, &t);
@@ -30,10 +32,9 @@ static long long milliseconds(void)
 }
 
 /* Where nothing has been told for long, say what is being worked on. */
-static void look_at_clock(crew *c)
+static void look_at_clock(crew *c, long long t)
 {
   progress *p = c->farm->options.progress;
-  const long long t = milliseconds();
   if (p == NULL || t < atomic_load(&c->look)) return;
   pthread_mutex_lock(&c->lock);
   const at_work *first = NULL;
@@ -42,25 +43,38 @@ static void look_at_clock(crew *c)
     if (w->since > 0 && (first == NULL || w->since < first->since)) first = w;
   }
   if (first != NULL && t >= atomic_load(&c->look))
-    progress_tick(p, c->finished, first->task, 1e-3 * (double)(t - first->since));
+    progress_tick(p, c->finished, first->name, 1e-3 * (double)(t - first->since));
   atomic_store(&c->look, t + (p->every < 4.0 ? 1 : 1000));
   pthread_mutex_unlock(&c->lock);
 }
 
-static void note_work(crew *c, int thread, at_work what)
+void crew_tell(crew *c, const char *words)
 {
   pthread_mutex_lock(&c->lock);
-  c->bench[thread] = what;
+  progress_note(c->farm->options.progress, "%s", words);
   pthread_mutex_unlock(&c->lock);
 }
 
-/* Stop at a signal, and where an earlier task has failed already. */
+/* A thread begins a task, or has ended it: since is 0. */
+static void note_work(crew *c, int thread, size_t task, long long since)
+{
+  pthread_mutex_lock(&c->lock);
+  at_work *w = &c->bench[thread];
+  w->since = since;
+  snprintf(w->name, sizeof w->name, "number %zu", task);
+  pthread_mutex_unlock(&c->lock);
+}
+
+/* Stop at a signal, where an earlier task has failed already, and where a budget has come to its
+   end. */
 static int worker_stop(void *arg)
 {
-  const worker *w = arg;
+  worker *w = arg;
   crew *c = w->crew;
-  look_at_clock(c);
-  return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted);
+  const long long now = crew_milliseconds();
+  look_at_clock(c, now);
+  return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted) ||
+         point_over(&w->watch, now);
 }
 
 /* What a context has spent outside of tasks goes to the farm's sum: the next is a task's. */
@@ -120,12 +134,13 @@ static pendres_status collect_next(crew *c)
 
 /*
  * Keep a finished task's record on disk; 0 if it is not there. Then the run goes on without, but
- * not as a shard, of which the journal is all that stays.
+ * not as a shard, of which the journal is all that stays. What a budget has ended is to be computed
+ * again, and so is what has read it.
  */
 static int keep(crew *c, size_t task, farm_record *record, pendres_status *status)
 {
   char words[JOURNAL_WORDS];
-  if (c->journal == NULL) return 0;
+  if (c->journal == NULL || record->lost > 0 || (c->stage->chained && c->farm->lost > 0)) return 0;
   if (journal_append(c->journal, c->number, task, record, words) == PENDRES_OK) return 1;
   if (c->others > 0) {
     *status = PENDRES_IO;
@@ -143,6 +158,7 @@ static int keep(crew *c, size_t task, farm_record *record, pendres_status *statu
 static void note_record(crew *c, size_t task, farm_record *record, int on_disk)
 {
   const int long_way = c->others > 0 || c->waiting + record->size > MOST_WAITING;
+  c->farm->lost += record->lost;
   c->done[task] = on_disk && long_way && task != c->collected ? KEPT : DONE;
   if (c->done[task] == DONE) {
     c->record[task] = (kept){ record->data, record->size };
@@ -187,8 +203,11 @@ static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_re
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);
+  record->watch = &w->watch;
   pendres_context_set_interrupt(ctx, worker_stop, w);
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);
+  point_end(&w->watch);
+  record->watch = NULL;
   pendres_context_cost(ctx, &record->cost);
   pendres_context_cost_reset(ctx);
   farm_spend(c->farm, &record->cost);
@@ -200,13 +219,13 @@ static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_re
 static void work(crew *c, int thread)
 {
   pendres_context *ctx = NULL;
-  worker w = { .crew = c };
+  worker w = { .crew = c, .watch = { .crew = c, .thread = thread } };
   while (deal_take(c, thread, &w.task)) {
     farm_record record = { 0 };
-    note_work(c, thread, (at_work){ w.task, milliseconds() });
+    note_work(c, thread, w.task, crew_milliseconds());
     pendres_status status = farm_context_of(c->farm, thread, &ctx);
     if (status == PENDRES_OK) status = run_task(c, &w, ctx, &record);
-    note_work(c, thread, (at_work){ 0 });
+    note_work(c, thread, w.task, 0);
     deal_finish(c, w.task, status, &record);
     free(record.data);
   }
@@ -301,7 +320,7 @@ static pendres_status outcome(crew *c)
 static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage, int threads)
 {
   *c = (crew){ .farm = f, .stage = stage, .number = f->stages,
-               .journal = stage->timed ? NULL : f->journal };
+               .journal = stage->timed || f->lost > 0 ? NULL : f->journal };
   atomic_init(&c->limit, stage->tasks);
   c->done = calloc(stage->tasks, 1);
   c->record = calloc(stage->tasks, sizeof *c->record);

@@ -15,11 +15,26 @@ typedef struct kept {
   size_t size;
 } kept;
 
-/* A thread's task, and since when; 0: it has none. */
+enum { POINT_NAME = 120 };
+
+/* What a thread is at, and since when; 0: nothing. */
 typedef struct at_work {
-  size_t task;
+  char name[POINT_NAME];
   long long since; /* milliseconds */
 } at_work;
+
+/* The point that a thread works on, point.c's: only that thread touches it. */
+typedef struct farm_watch {
+  struct crew *crew;
+  int thread;      /* of the crew's bench */
+  double start;    /* of this thread's processor time, seconds */
+  size_t points;   /* that were begun together; 0: none */
+  int over;        /* the budget has ended them ... */
+  double spent;    /* ... after so many seconds */
+  int told;        /* they are costly, and that was said */
+  long long look;  /* when to look at the clock again, milliseconds; 0: at once */
+  char name[POINT_NAME];
+} farm_watch;
 
 /* The tasks of one farm_run; whatever changes does so under the lock alone, but for `limit`. */
 typedef struct crew {
@@ -40,6 +55,8 @@ typedef struct crew {
   atomic_size_t limit;  /* the first task that failed; tasks, while there is none */
   pendres_status status;
   at_work *bench;       /* what each thread is at */
+  size_t points;        /* that were finished here, and the seconds that they took */
+  double point_seconds;
   int threads;          /* of them */
   atomic_llong look;    /* when somebody is to look at the clock again, milliseconds */
   /* deal.c's: */
@@ -48,6 +65,11 @@ typedef struct crew {
   atomic_int halted;    /* of another rank: rank 0 wants no more of it */
   atomic_int ended;     /* of another rank: rank 0 has told how the stage ended */
 } crew;
+
+long long crew_milliseconds(void);
+
+/* A line for the user, while others work. */
+void crew_tell(crew *c, const char *words);
 
 /* The next task that nobody has; 0: there is none. */
 int crew_take(crew *c, size_t *task);

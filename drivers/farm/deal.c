@@ -15,6 +15,7 @@ enum { TO_ROOT, TO_ALL, TO_THREAD };
 
 typedef enum kind {
   ASK,    /* for a task */
+  TELL,   /* the user: the words are the message */
   RESULT, /* of a task: its record follows, and the words of a failure */
   TASK,   /* to be computed */
   NONE,   /* there is none any more */
@@ -27,7 +28,7 @@ typedef enum kind {
 /* What stands before the data of every parcel. */
 typedef struct note {
   int32_t kind, thread, status, unused;
-  uint64_t run, stage, task, size;
+  uint64_t run, stage, task, size, lost;
   pendres_cost cost;
   char message[512];
 } note;
@@ -71,7 +72,7 @@ static void send_to_others(const note *n, const void *data)
 /* A record that came from another rank. */
 static void take_result(crew *c, const note *n, const char *data)
 {
-  farm_record record = { .cost = n->cost };
+  farm_record record = { .cost = n->cost, .lost = (size_t)n->lost };
   pendres_status status = (pendres_status)n->status;
   snprintf(record.message, sizeof record.message, "%s", n->message);
   if (status == PENDRES_OK && farm_record_resize(&record, (size_t)n->size) == NULL)
@@ -93,6 +94,10 @@ static int answer(crew *c, const ranks_parcel *p)
     if (!is_of(c, n)) return 0;
     take_result(c, n, data);
     return -1;
+  }
+  if (n->kind == TELL) {
+    crew_tell(c, n->message);
+    return 0;
   }
   note reply = { .kind = NONE, .run = n->run, .stage = n->stage };
   if (is_of(c, n) && crew_take(c, &task)) {
@@ -209,6 +214,7 @@ static void hand_in(crew *c, size_t task, pendres_status status, const farm_reco
   n.task = task;
   n.status = (int32_t)status;
   n.cost = record->cost;
+  n.lost = record->lost;
   snprintf(n.message, sizeof n.message, "%s", record->message);
   n.size = status == PENDRES_OK ? record->size : 0;
   if (send_note(0, TO_ROOT, &n, record->data)) return;
@@ -236,6 +242,17 @@ void deal_finish(crew *c, size_t task, pendres_status status, farm_record *recor
 {
   if (ranks_own() == 0) crew_finish(c, task, status, record);
   else hand_in(c, task, status, record);
+}
+
+void deal_tell(crew *c, const char *words)
+{
+  note n = note_of(c, TELL);
+  if (ranks_own() == 0) {
+    crew_tell(c, words);
+    return;
+  }
+  snprintf(n.message, sizeof n.message, "%s", words);
+  (void)ranks_send(0, TO_ROOT, &n, sizeof n);
 }
 
 pendres_status deal_begin(crew *c)

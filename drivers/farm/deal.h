@@ -19,6 +19,9 @@ void deal_end(crew *c);
 int deal_take(crew *c, int thread, size_t *task);
 void deal_finish(crew *c, size_t task, pendres_status status, farm_record *record);
 
+/* A line for the user, from any rank. */
+void deal_tell(crew *c, const char *words);
+
 /* Before rank 0 collects a record: the others get it too, if they need it. */
 void deal_share(crew *c, size_t task, const farm_record *record);
 

@@ -29,6 +29,7 @@ typedef struct farm_options {
   int threads;             /* 0: as many as there are processors for this process */
   int (*stop)(void *arg);  /* asked now and then; nonzero: stop. May be NULL */
   void *stop_arg;
+  double budget;           /* processor seconds a point, see farm_point(); 0: as many as it takes */
   progress *progress;      /* told of finished tasks; may be NULL. Not owned */
   size_t run;              /* the same number in all ranks, another for each farm of a rank */
 } farm_options;
@@ -47,6 +48,19 @@ typedef pendres_status farm_task(const void *arg, size_t task, pendres_context *
    in this order, by one thread at a time (so it may write to a store). It may not change what
    other tasks read. */
 typedef pendres_status farm_collect(void *arg, size_t task, const farm_record *record);
+
+/*
+ * For a task to call: it begins `points` points at once, and what it has begun before is finished.
+ * By this name the user is told what is worked on, and which points are costly beside those before.
+ * When they have taken so many times the budget of a point, the library is stopped, as by a signal:
+ * a task for which farm_gave_up() then says yes goes on with farm_point() for the next, or for some
+ * of the same, and calls farm_lost() for each point that it gives up, to be marked; words say why.
+ * Such a record is not kept in the journal, nor is what depends on it.
+ */
+void farm_point(farm_record *record, size_t points, const char *format, ...)
+  __attribute__((format(printf, 3, 4)));
+int farm_gave_up(const farm_record *record, pendres_status status);
+void farm_lost(farm_record *record, char *words, size_t size);
 
 /* Tasks of one kind. */
 typedef struct farm_stage {
@@ -110,6 +124,10 @@ int farm_threads(const farm *f);
 
 /* Is the run to stop? For what a task does without its context: `farm` is a farm. */
 int farm_stopped(void *farm);
+
+/* Processor seconds a point; points that were given up: farm_lost(). */
+double farm_budget(const farm *f);
+size_t farm_points_lost(const farm *f);
 
 /* What all tasks have spent, and the contexts outside of tasks. */
 void farm_cost(const farm *f, pendres_cost *cost);

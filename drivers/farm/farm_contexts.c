@@ -149,6 +149,16 @@ int farm_threads(const farm *f)
   return f->threads;
 }
 
+double farm_budget(const farm *f)
+{
+  return f->options.budget;
+}
+
+size_t farm_points_lost(const farm *f)
+{
+  return f->lost;
+}
+
 void farm_cost(const farm *f, pendres_cost *cost)
 {
   *cost = f->spent;

@@ -17,6 +17,7 @@ struct farm {
   journal *journal;          /* NULL: none */
   farm_share share;
   struct farm_trial *trial;  /* NULL: a run proper */
+  size_t lost;               /* points that were given up */
   int left;                  /* a stage was left to other shards */
   size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];

@@ -14,6 +14,8 @@ typedef struct farm_record {
   void *data;        /* zero at first; the farm's */
   size_t size;       /* bytes: as the stage says, unless the task has asked for another size */
   pendres_cost cost; /* of the task, as its context tells: the farm's to fill in */
+  struct farm_watch *watch; /* of its points, see farm_point(): the farm's; NULL: nobody watches */
+  size_t lost;       /* points that were given up, see farm_lost() */
   char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
 } farm_record;
 

@@ -352,5 +352,6 @@ const scene_kind scene_branches = {
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
                 "chapters 4, 9 and 10",
+  .budget = 1,
   .plan = plan,
   .run = run_scene};

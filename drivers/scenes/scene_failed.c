@@ -90,6 +90,42 @@ pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const
   return PENDRES_OK;
 }
 
+/* "damping 0.12, drive_period 8" */
+static void name_point(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
+                       size_t size)
+{
+  size_t block = 1, used = 0;
+  text[0] = '\0';
+  for (int i = 1; i < axes; i++) block *= d->axis[axis[i]].count;
+  for (int i = 0; i < axes; i++) {
+    const deck_axis *a = &d->axis[axis[i]];
+    const int n = snprintf(text + used, size - used, "%s%s %.10g", i > 0 ? ", " : "",
+                           deck_axis_name(axis[i]), a->value[point / block % a->count]);
+    if (n < 0 || (size_t)n >= size - used) return;
+    used += (size_t)n;
+    if (i + 1 < axes) block /= d->axis[axis[i + 1]].count;
+  }
+}
+
+void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
+                       const deck_axis_id *axis)
+{
+  char name[120], more[40] = "";
+  name_point(d, first, axes, axis, name, sizeof name);
+  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
+  farm_point(record, n, "%s%s", name, more);
+}
+
+pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
+                                   farm_record *record)
+{
+  char why[SCENE_TOLD];
+  if (!farm_gave_up(record, status)) return scene_verdict_note(v, status, words);
+  farm_lost(record, why, sizeof why);
+  scene_verdict_mark(v, SCENE_FAILURE_OUT_OF_TIME, why);
+  return PENDRES_OK;
+}
+
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
                              double multiplier, char *words, size_t size)
 {
@@ -115,23 +151,6 @@ void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
   va_end(args);
   const size_t used = strlen(line);
   snprintf(line + used, SCENE_TOLD - used, ": %s", words != NULL ? words : reasons[reason].words);
-}
-
-/* "damping 0.12, drive_period 8" */
-static void name_point(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
-                       size_t size)
-{
-  size_t block = 1, used = 0;
-  text[0] = '\0';
-  for (int i = 1; i < axes; i++) block *= d->axis[axis[i]].count;
-  for (int i = 0; i < axes; i++) {
-    const deck_axis *a = &d->axis[axis[i]];
-    const int n = snprintf(text + used, size - used, "%s%s %.10g", i > 0 ? ", " : "",
-                           deck_axis_name(axis[i]), a->value[point / block % a->count]);
-    if (n < 0 || (size_t)n >= size - used) return;
-    used += (size_t)n;
-    if (i + 1 < axes) block /= d->axis[axis[i + 1]].count;
-  }
 }
 
 /* ---- the file ------------------------------------------------------------------------------ */

@@ -23,7 +23,10 @@
   X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
   X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
   X(BUDGET, "budget", "the search could look at too few frequencies: there may be more; a "     \
-                      "narrower sweep.drive_frequency_range leaves more for each frequency")
+                      "narrower sweep.drive_frequency_range leaves more for each frequency")     \
+  X(OUT_OF_TIME, "out_of_time", "ended by its budget of processor time: raise "                 \
+                                "--budget=SECONDS, or bound its drive periods by "              \
+                                "precision.period_budget")
 
 typedef enum scene_failure {
 #define SCENE_FAILURE_CODE(code, meaning, words) SCENE_FAILURE_##code,
@@ -57,6 +60,16 @@ void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *word
 /* What became of a point: marked if the failure is its own, and then PENDRES_OK; else the status as
    it is. words: the message of the context that failed. */
 pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words);
+
+/* Begin n points of a task next to each other in the deck's grid of `axes` axes, slowest first, the
+   first of which has the number `first`: farm_point() with their names. */
+void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
+                       const deck_axis_id *axis);
+
+/* As scene_verdict_note() for the point that was begun last: one that its budget has ended is
+   marked, too. */
+pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
+                                   farm_record *record);
 
 /*
  * What to say of `some` of `all` pendulums ("members", "states") that did not settle, with the

@@ -82,27 +82,99 @@ static pendres_status hand_over(pendres_status status, pendres_phase_record *r, 
   return status;
 }
 
+static pendres_pendulum pendulum_at(const scene_lines *l, size_t point)
+{
+  pendres_pendulum p = l->grid.pendulum;
+  pendres_parameter_set(l->grid.across, l->grid.line_value[point / l->grid.values], &p);
+  pendres_parameter_set(l->grid.options.parameter, l->grid.value[point % l->grid.values], &p);
+  return p;
+}
+
+/* A line as a whole, in its own diagram; one whose budget ends it has no points. */
+static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
+                                    pendres_phase_diagram *alone, farm_record *out,
+                                    pendres_phase_record **r)
+{
+  char words[SCENE_TOLD];
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
+  pendres_status status = pendres_phase_diagram_compute_line(ctx, alone, 0, r);
+  if (!farm_gave_up(out, status)) return status;
+  farm_lost(out, words, sizeof words);
+  for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
+  return pendres_phase_diagram_compute_line(ctx, alone, 0, r);
+}
+
+/* A line that its budget has ended, without the points that end their own. */
+static pendres_status compute_by_points(const scene_lines *l, size_t task, pendres_context *ctx,
+                                        farm_record *out, pendres_phase_record **r)
+{
+  const size_t values = l->grid.values;
+  pendres_phase_diagram *alone = NULL;
+  pendres_phase_grid grid = l->grid;
+  grid.lines = 1;
+  grid.line_value = &l->grid.line_value[task];
+  pendres_status status = pendres_phase_diagram_create(&grid, &alone);
+  for (size_t k = 0; k < values && status == PENDRES_OK; k++) {
+    char words[SCENE_TOLD];
+    const size_t point = task * values + k;
+    const pendres_pendulum p = pendulum_at(l, point);
+    pendres_response response;
+    int left_out = l->failed.reason[point] != SCENE_FAILURE_NONE;
+    scene_point_begin(out, l->run->deck, point, 1, 2, l->axis);
+    if (!left_out)
+      status = pendres_response_compute(ctx, 1, &p, &grid.options.ensemble, &response);
+    if (farm_gave_up(out, status)) {
+      farm_lost(out, words, sizeof words);
+      left_out = 1;
+    }
+    /* What fails otherwise is sorted out with the line. */
+    if (left_out || scene_failure_of(status) != SCENE_FAILURE_NONE) status = PENDRES_OK;
+    if (left_out) (void)pendres_phase_diagram_leave_out(alone, k);
+  }
+  if (status == PENDRES_OK) status = compute_alone(l, task, ctx, alone, out, r);
+  pendres_phase_diagram_free(alone);
+  return status;
+}
+
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const scene_lines *l = arg;
   pendres_phase_record *r = NULL;
-  const pendres_status status = pendres_phase_diagram_compute_line(ctx, l->diagram, task, &r);
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
+  pendres_status status = pendres_phase_diagram_compute_line(ctx, l->diagram, task, &r);
+  if (farm_gave_up(out, status)) status = compute_by_points(l, task, ctx, out, &r);
   return hand_over(status, r, out);
 }
 
+/* A line that its budget has ended stays as it was: its record is empty. */
 static pendres_status complete(const void *arg, size_t task, pendres_context *ctx,
                                farm_record *out)
 {
   const scene_lines *l = arg;
+  char words[SCENE_TOLD];
   pendres_phase_record *r = NULL;
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
   const pendres_status status = pendres_phase_diagram_complete_line(ctx, l->diagram, task, &r);
-  return hand_over(status, r, out);
+  if (!farm_gave_up(out, status)) return hand_over(status, r, out);
+  farm_lost(out, words, sizeof words);
+  return PENDRES_OK;
 }
 
+/* What is left out of a line though the deck has it has had its time. */
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
-  const scene_lines *l = arg;
-  return pendres_phase_diagram_take_line(l->diagram, task, in->size, in->data);
+  scene_lines *l = arg;
+  const size_t first = task * l->grid.values;
+  pendres_status status = PENDRES_OK;
+  if (in->size > 0)
+    status = pendres_phase_diagram_take_line(l->diagram, task, in->size, in->data);
+  for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
+    const int lost = in->size == 0 ||
+                     pendres_phase_diagram_outcome(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
+    if (lost && l->failed.reason[i] == SCENE_FAILURE_NONE)
+      scene_failures_mark(&l->failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
+  }
+  return status;
 }
 
 /* Curves through the bifurcations of all lines, and what they show the lines, until that is all. */
@@ -129,9 +201,7 @@ static void leave_out(scene_lines *l)
 {
   for (size_t i = 0; i < l->n; i++) {
     char words[120];
-    pendres_pendulum p = l->grid.pendulum;
-    pendres_parameter_set(l->grid.across, l->grid.line_value[i / l->grid.values], &p);
-    pendres_parameter_set(l->grid.options.parameter, l->grid.value[i % l->grid.values], &p);
+    const pendres_pendulum p = pendulum_at(l, i);
     if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
     scene_failures_mark(&l->failed, i, SCENE_FAILURE_TOO_LONG, words);

@@ -49,6 +49,11 @@ static double coordinate(const work *w, size_t point, int axis)
 
 /* ---- computing ----------------------------------------------------------------------------- */
 
+static const row no_row = {.lyapunov = NAN, .lyapunov_error = NAN, .rotation = NAN,
+                           .rotation_error = NAN, .period = NAN, .period_error = NAN,
+                           .winding = NAN, .winding_error = NAN,
+                           .label = PENDRES_LABEL_UNRESOLVED, .failed = SCENE_FAILURE_OUT_OF_TIME};
+
 static row row_of(const pendres_lyapunov *l)
 {
   const double closed = l->period > 0 ? 0.0 : NAN;
@@ -60,13 +65,42 @@ static row row_of(const pendres_lyapunov *l)
                                                               : SCENE_FAILURE_NONE};
 }
 
+/* Points from the first on; where their budget ends them, their halves, down to single ones. */
+typedef struct some {
+  size_t first, n;
+  const pendres_pendulum *p;
+  const double *x, *v;
+  pendres_lyapunov *found; /* room */
+  row *rows;
+} some;
+
+static pendres_status find(const work *w, const some *s, pendres_context *ctx, farm_record *out)
+{
+  const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
+                                            .periods = (long)w->d->lyapunov.periods};
+  const size_t half = s->n / 2;
+  char words[SCENE_TOLD];
+  scene_point_begin(out, w->d, s->first, s->n, AXES, w->axis);
+  pendres_status status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
+  for (size_t i = 0; i < s->n && status == PENDRES_OK; i++) s->rows[i] = row_of(&s->found[i]);
+  if (!farm_gave_up(out, status)) return status;
+  if (half == 0) {
+    farm_lost(out, words, sizeof words);
+    s->rows[0] = no_row;
+    return PENDRES_OK;
+  }
+  const some one = {s->first, half, s->p, s->x, s->v, s->found, s->rows};
+  const some two = {s->first + half, s->n - half, s->p + half, s->x + half, s->v + half, s->found,
+                    s->rows + half};
+  status = find(w, &one, ctx, out);
+  return status == PENDRES_OK ? find(w, &two, ctx, out) : status;
+}
+
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const work *w = arg;
   record *r = out->data;
   const size_t n = count_of(w, task), first = task * CHUNK;
-  const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
-                                            .periods = (long)w->d->lyapunov.periods};
   pendres_pendulum *p = malloc(n * sizeof *p);
   pendres_lyapunov *found = malloc(n * sizeof *found);
   double *x = malloc(2 * n * sizeof *x);
@@ -79,8 +113,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
     x[n + i] = w->d->orbit.v;
   }
   if (p != NULL && found != NULL && x != NULL)
-    status = pendres_lyapunov_find(ctx, n, p, x, x + n, &options, found);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) r->rows[i] = row_of(&found[i]);
+    status = find(w, &(some){first, n, p, x, x + n, found, r->rows}, ctx, out);
   free(p);
   free(found);
   free(x);
@@ -101,8 +134,10 @@ static void tell_failed(scene_run *run, const work *w)
 {
   for (size_t i = 0; i < w->count; i++) {
     if (w->rows[i].failed == SCENE_FAILURE_NONE) continue;
+    const scene_failure reason = (scene_failure)w->rows[i].failed;
+    const char *words = "neither an orbit nor chaos within its time";
     run->failed_points++;
-    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, "neither an orbit nor chaos within its time",
+    scene_failure_tell(run, reason, reason == SCENE_FAILURE_UNRESOLVED ? words : NULL,
                        "%s %.10g, %s %.10g", deck_axis_name(w->axis[0]), coordinate(w, i, 0),
                        deck_axis_name(w->axis[1]), coordinate(w, i, 1));
   }
@@ -189,6 +224,7 @@ const scene_kind scene_lyapunov_map = {
   .kind = DECK_LYAPUNOV_MAP,
   .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
                 "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
+  .budget = 1,
   .plan = plan,
   .run = run_scene,
 };

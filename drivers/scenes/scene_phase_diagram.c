@@ -89,5 +89,6 @@ const scene_kind scene_phase_diagram = {
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
                 "Bifurcation Theory, chapters 9 and 10",
+  .budget = 1,
   .plan = plan,
   .run = run_scene};

@@ -52,12 +52,13 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   record *r = out->data;
   pendres_pendulum p = pendres_sweep_pendulum(&c->sweep, task, NULL, NULL);
   p.drive_frequency = c->d->search[0];
+  scene_point_begin(out, c->d, task, 1, 1, &c->axis);
   r->outcome = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
                                                &c->ensemble, &r->point);
   if (r->outcome == PENDRES_OK && !r->point.complete)
     scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
   /* A pendulum whose area has no peak in the range is a point without a result, not a failure. */
-  return scene_verdict_note(&r->verdict, r->outcome, pendres_context_message(ctx));
+  return scene_verdict_point(&r->verdict, r->outcome, pendres_context_message(ctx), out);
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
@@ -264,5 +265,6 @@ const scene_kind scene_resonance_curve = {
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
                 "(1999) 2067",
+  .budget = 1,
   .plan = plan,
   .run = run_scene};

@@ -62,8 +62,9 @@ typedef struct peak_record {
   scene_verdict verdict;
 } peak_record;
 
-static pendres_status compute_peak(const grid *g, size_t i, pendres_context *ctx, peak_record *r)
+static pendres_status compute_peak(const grid *g, size_t i, pendres_context *ctx, farm_record *out)
 {
+  peak_record *r = out->data;
   enum { FREQUENCIES = 50 /* of a search, about */ };
   char words[120];
   pendres_pendulum p = pendulum_at(g, i, 0);
@@ -73,11 +74,13 @@ static pendres_status compute_peak(const grid *g, size_t i, pendres_context *ctx
     r->outcome = PENDRES_NOT_CONVERGED;
     return PENDRES_OK;
   }
+  farm_point(out, 1, "resonance at %s %.10g", deck_axis_name(g->axis[0]),
+             g->d->axis[g->axis[0]].value[i]);
   r->outcome = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
                                                &g->ensemble, &r->peak);
   if (r->outcome == PENDRES_OK && !r->peak.complete)
     scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
-  return scene_verdict_note(&r->verdict, r->outcome, pendres_context_message(ctx));
+  return scene_verdict_point(&r->verdict, r->outcome, pendres_context_message(ctx), out);
 }
 
 /* A point without a response: nothing is known of any member. */
@@ -88,18 +91,23 @@ static pendres_response no_response(const pendres_pendulum *p, size_t members)
   return r;
 }
 
-/* What cannot be had of several points at a time is had, or not, of each. */
-static pendres_status compute_points(const grid *g, size_t n, const pendres_pendulum *pendulums,
-                                     pendres_context *ctx, point_record *r)
+/* The n points from the first on. What cannot be had of several at a time is had, or not, of
+   each. */
+static pendres_status compute_points(const grid *g, size_t first, size_t n,
+                                     const pendres_pendulum *pendulums, pendres_context *ctx,
+                                     farm_record *out)
 {
+  point_record *r = out->data;
   pendres_status status = PENDRES_OK;
   char words[120];
   int too_long = 0;
   for (size_t i = 0; i < n; i++)
     too_long |= scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words);
   if (!too_long) {
+    scene_point_begin(out, g->d, first, n, 2, g->axis);
     status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, r->point);
-    if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE && !farm_gave_up(out, status))
+      return status;
   }
   status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
@@ -108,10 +116,11 @@ static pendres_status compute_points(const grid *g, size_t n, const pendres_pend
       scene_verdict_mark(&r->verdict[i], SCENE_FAILURE_TOO_LONG, words);
       continue;
     }
+    scene_point_begin(out, g->d, first + i, 1, 2, g->axis);
     status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &r->point[i]);
-    if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
+    if (status == PENDRES_OK) continue;
     r->point[i] = no_response(&pendulums[i], g->ensemble.members);
-    status = scene_verdict_note(&r->verdict[i], status, pendres_context_message(ctx));
+    status = scene_verdict_point(&r->verdict[i], status, pendres_context_message(ctx), out);
   }
   return status;
 }
@@ -151,14 +160,14 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   if (task >= g->lines * g->chunks) {
     peak_record *peak = farm_record_resize(out, sizeof *peak);
     return peak == NULL ? PENDRES_OUT_OF_MEMORY
-                        : compute_peak(g, task - g->lines * g->chunks, ctx, peak);
+                        : compute_peak(g, task - g->lines * g->chunks, ctx, out);
   }
   point_record *r = farm_record_resize(out, sizeof *r);
   if (r == NULL) return PENDRES_OUT_OF_MEMORY;
   const size_t first = first_of(g, task, &n);
   for (size_t k = 0; k < n; k++)
     pendulums[k] = pendres_sweep_pendulum(&g->sweep, first + k, NULL, NULL);
-  const pendres_status status = compute_points(g, n, pendulums, ctx, r);
+  const pendres_status status = compute_points(g, first, n, pendulums, ctx, out);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++)
     judge_point(g, &r->point[k], &r->verdict[k]);
   return status;
@@ -370,5 +379,6 @@ const scene_kind scene_response = {
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
                 "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
+  .budget = 1,
   .plan = plan,
   .run = run_scene};

@@ -29,11 +29,14 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   const work *w = arg;
   const size_t plane = w->grid->dampings * w->grid->drives;
   const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / plane];
+  deck_axis_id axis[3] = {DECK_AXIS_TEMPERATURE};
   point *p = out->data;
+  scene_plane(w->d, &axis[1]);
+  scene_point_begin(out, w->d, task, 1, 3, axis);
   const pendres_status status = pendres_response_add_noise(
     ctx, &w->grid->points[task % plane], temperature, (size_t)w->d->noise.trajectories,
     (long)w->d->noise.periods, &p->response);
-  return scene_verdict_note(&p->verdict, status, pendres_context_message(ctx));
+  return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)

@@ -89,9 +89,10 @@ static pendres_status choose(const void *arg, size_t task, pendres_context *ctx,
 {
   const work *w = arg;
   choice *c = out->data;
+  farm_point(out, 1, "steps for %s", w->state[task]);
   const pendres_status status =
     pendres_switching_choose_steps(ctx, &w->survey, (int)task, &c->steps);
-  return scene_verdict_note(&c->verdict, status, pendres_context_message(ctx));
+  return scene_verdict_point(&c->verdict, status, pendres_context_message(ctx), out);
 }
 
 static pendres_status collect_choice(void *arg, size_t task, const farm_record *in)
@@ -109,9 +110,10 @@ static pendres_status count(const void *arg, size_t task, pendres_context *ctx, 
   part *p = out->data;
   const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / w->parts];
   if (w->survey.steps_per_period == 0) return PENDRES_OK; /* they could not be chosen */
+  farm_point(out, 1, "temperature %.10g, part %zu", temperature, task % w->parts + 1);
   const pendres_status status =
     pendres_switching_follow(ctx, &w->survey, temperature, task % w->parts, &p->tally);
-  return scene_verdict_note(&p->verdict, status, pendres_context_message(ctx));
+  return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
 }
 
 /* A temperature of which a part fails has its first failure. */
@@ -374,5 +376,6 @@ const scene_kind scene_switching = {
                 "1, 2, 3, SC11 (2011); H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
                 "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
                 "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
+  .budget = 1,
   .plan = plan,
   .run = run_scene };

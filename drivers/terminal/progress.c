@@ -1,21 +1,25 @@
 /* progress.c -- bar, lines and log; see progress.h. */
+#define _DEFAULT_SOURCE /* TIOCGWINSZ */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime, isatty */
 #include "terminal/progress.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "terminal/safe_text.h"
 
-enum { BAR = 30, LINE_STEP = 10 };
+enum { BAR = 30, LINE_STEP = 10, MOST_COLUMNS = 240 };
 
 /* Redrawing more often would only make a terminal flicker. */
 static const double redraw_after = 0.1;
 /* What is done sooner needs no lines. */
 static const double first_line_after = 1.0;
+/* A bar names what has been at work for longer. */
+static const double named_after = 3.0;
 
 static double now(void)
 {
@@ -48,9 +52,17 @@ static void clear(progress *p)
   p->width = 0;
 }
 
+/* A line of the terminal has so many characters. */
+static int columns_of(const progress *p)
+{
+  struct winsize size = { 0 };
+  if (ioctl(fileno(p->stream), TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col < MOST_COLUMNS ? size.ws_col : MOST_COLUMNS;
+}
+
 static void draw(progress *p, size_t done, double elapsed)
 {
-  char bar[BAR + 1], left[32] = "";
+  char bar[BAR + 1], left[32] = "", at_work[160] = "", line[MOST_COLUMNS + 1];
   const double part = (double)done / (double)p->total;
   const int filled = (int)(BAR * part);
   memset(bar, '.', BAR);
@@ -60,9 +72,15 @@ static void draw(progress *p, size_t done, double elapsed)
     const double seconds = elapsed * (double)(p->total - done) / (double)(done - p->before);
     snprintf(left, sizeof left, ", %.0f s left", seconds);
   }
+  const double busy = p->start + elapsed - p->since;
+  if (p->name[0] != '\0' && busy > named_after)
+    snprintf(at_work, sizeof at_work, "; %s for %.0f s", p->name, busy);
+  /* The last column stays free: many terminals go on to the next line there. */
+  snprintf(line, (size_t)columns_of(p), "%3.0f %% [%s] %zu of %zu %.20s%s%s", 100.0 * part, bar,
+           done, p->total, p->what, left, at_work);
   clear(p);
-  p->width = fprintf(p->stream, "%3.0f %% [%s] %zu of %zu %.20s%s", 100.0 * part, bar, done,
-                     p->total, p->what, left);
+  p->width = fprintf(p->stream, "%s", line);
+  p->drawn = elapsed;
   fflush(p->stream);
 }
 
@@ -75,6 +93,7 @@ void progress_start(progress *p, const char *what, size_t total, size_t done)
   p->percent = (int)(100.0 * (double)done / (double)total);
   p->start = p->spoken = now();
   p->drawn = -1.0;
+  p->name[0] = '\0';
 }
 
 /* A line on what is under way; a terminal has its bar. */
@@ -87,12 +106,17 @@ static void tell(progress *p, const char *text)
   fflush(p->stream);
 }
 
-void progress_tick(progress *p, size_t done, size_t task, double seconds)
+void progress_tick(progress *p, size_t done, const char *name, double seconds)
 {
-  char text[240];
-  if (p == NULL || p->total == 0 || now() - p->spoken < p->every) return;
-  snprintf(text, sizeof text, "%zu of %zu %s after %.0f s; the longest at work is number %zu, for "
-           "%.0f s", done, p->total, p->what, now() - p->start, task, seconds);
+  char text[400];
+  if (p == NULL || p->total == 0) return;
+  const double t = now();
+  snprintf(p->name, sizeof p->name, "%s", name);
+  p->since = t - seconds;
+  if (p->terminal && !p->quiet) draw(p, done, t - p->start);
+  if (t - p->spoken < p->every) return;
+  snprintf(text, sizeof text, "%zu of %zu %s after %.0f s; the longest at work is %s, for %.0f s",
+           done, p->total, p->what, t - p->start, name, seconds);
   tell(p, text);
 }
 
@@ -102,10 +126,7 @@ void progress_step(progress *p, size_t done)
   if (p == NULL || p->total == 0) return;
   const int percent = (int)(100.0 * (double)done / (double)p->total);
   const double elapsed = now() - p->start;
-  if (p->terminal && !p->quiet && elapsed - p->drawn >= redraw_after) {
-    draw(p, done, elapsed);
-    p->drawn = elapsed;
-  }
+  if (p->terminal && !p->quiet && elapsed - p->drawn >= redraw_after) draw(p, done, elapsed);
   if (percent / LINE_STEP == p->percent / LINE_STEP) return;
   p->percent = percent;
   if (elapsed < first_line_after) return;

@@ -22,6 +22,8 @@ typedef struct progress {
   size_t total;      /* 0: nothing under way */
   size_t before;     /* were done at the start */
   int percent;       /* shown last */
+  char name[120];    /* of what has been at work for the longest; "": not known */
+  double since;      /* that it is, seconds */
   int width;         /* of the bar's line as it stands; 0: none */
   double start, drawn, spoken; /* seconds: of what is under way, of the bar, of the last line */
   double every;      /* seconds after which a line comes in any case */
@@ -37,8 +39,9 @@ void progress_step(progress *p, size_t done);
 void progress_end(progress *p);
 
 /* To be called now and then while `done` of them are: where there was no line for five minutes one
-   says so, and which has been at work for the longest, number `task`, for so many seconds. */
-void progress_tick(progress *p, size_t done, size_t task, double seconds);
+   says so, and what has been at work for the longest, `name`, for so many seconds; a bar has it
+   always. */
+void progress_tick(progress *p, size_t done, const char *name, double seconds);
 
 /* A line on the run; an error. A line break is added. */
 void progress_note(progress *p, const char *format, ...) __attribute__((format(printf, 2, 3)));

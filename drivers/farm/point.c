@@ -1,0 +1,121 @@
+/* point.c -- the point that a task works on; see point.h and farm_point(). */
+#define _POSIX_C_SOURCE 200809L /* clock_gettime */
+#include "farm/point.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <time.h>
+
+#include "farm/deal.h"
+
+/* A point is costly, and told of, when it has taken so many times the mean of those before, of
+   which there have to be some, and longer than one waits for gladly: a part of the time between two
+   lines on the run, five seconds as a rule. */
+static const double many_times = 20.0, long_wait = 1.0 / 60.0;
+enum { POINTS_BEFORE = 8, LOOK_EVERY = 20 /* milliseconds */, WORDS = 400 };
+
+/* Processor seconds of this thread. */
+static double point_clock(void)
+{
+  struct timespec t = { 0 };
+  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Seconds a point of the stage, on average; 0 while there are too few. */
+static double mean_of(crew *c)
+{
+  pthread_mutex_lock(&c->lock);
+  const double mean = c->points < POINTS_BEFORE ? 0.0 : c->point_seconds / (double)c->points;
+  pthread_mutex_unlock(&c->lock);
+  return mean;
+}
+
+/* Beside the mean of so many points, which is told, too. */
+static int is_costly(const farm_watch *w, double spent, double *mean)
+{
+  const progress *p = w->crew->farm->options.progress;
+  if (p == NULL || spent < long_wait * p->every) return 0;
+  *mean = (double)w->points * mean_of(w->crew);
+  return *mean > 0.0 && spent > many_times * *mean;
+}
+
+static void tell_costly(farm_watch *w, double spent, double mean)
+{
+  char words[WORDS];
+  const double budget = w->crew->farm->options.budget;
+  const int n = snprintf(words, sizeof words, "%s takes long: %.2g s of processor time by now, "
+                         "%.0f times what points took so far", w->name, spent, spent / mean);
+  if (budget > 0.0)
+    snprintf(words + n, sizeof words - (size_t)n, "; its budget ends it after %g s",
+             budget * (double)w->points);
+  else
+    snprintf(words + n, sizeof words - (size_t)n, " (--budget=SECONDS ends such points)");
+  w->told = 1;
+  deal_tell(w->crew, words);
+}
+
+int point_over(farm_watch *w, long long now)
+{
+  if (w->points == 0 || w->over || now < w->look) return w->over;
+  const double budget = w->crew->farm->options.budget, points = (double)w->points;
+  const double spent = point_clock() - w->start;
+  double mean;
+  w->look = now + LOOK_EVERY;
+  if (!w->told && is_costly(w, spent, &mean)) tell_costly(w, spent, mean);
+  w->over = budget > 0.0 && spent > budget * points;
+  w->spent = spent;
+  return w->over;
+}
+
+void point_end(farm_watch *w)
+{
+  crew *c = w->crew;
+  if (w->points == 0) return;
+  if (!w->over) {
+    const double spent = point_clock() - w->start;
+    pthread_mutex_lock(&c->lock);
+    c->points += w->points;
+    c->point_seconds += spent;
+    pthread_mutex_unlock(&c->lock);
+  }
+  w->points = 0;
+  w->over = 0;
+}
+
+void farm_point(farm_record *record, size_t points, const char *format, ...)
+{
+  va_list args;
+  farm_watch *w = record->watch;
+  if (w == NULL) return; /* as in a trial */
+  point_end(w);
+  va_start(args, format);
+  (void)vsnprintf(w->name, sizeof w->name, format, args);
+  va_end(args);
+  pthread_mutex_lock(&w->crew->lock);
+  at_work *bench = &w->crew->bench[w->thread];
+  snprintf(bench->name, sizeof bench->name, "%s", w->name);
+  bench->since = crew_milliseconds();
+  pthread_mutex_unlock(&w->crew->lock);
+  w->points = points;
+  w->told = 0;
+  w->look = 0;
+  w->start = point_clock();
+}
+
+int farm_gave_up(const farm_record *record, pendres_status status)
+{
+  return status == PENDRES_INTERRUPTED && record->watch != NULL && record->watch->over;
+}
+
+void farm_lost(farm_record *record, char *words, size_t size)
+{
+  const farm_watch *w = record->watch;
+  record->lost += w->points;
+  const double mean = mean_of(w->crew), spent = w->spent / (double)w->points;
+  char times[80] = "";
+  if (mean > 0.0)
+    snprintf(times, sizeof times, ", %.3g times what points took so far", spent / mean);
+  snprintf(words, size, "ended by its budget after %.3g s of processor time%s: raise "
+           "--budget=SECONDS, or bound its drive periods by precision.period_budget", spent, times);
+}
