@@ -1,7 +1,5 @@
-/*
- * test_kernels.c -- the inner loops: the same bytes on every instruction set and for every split of
- * the lanes, and right.
- */
+/* test_kernels.c -- the inner loops: the same bytes on every instruction set and for every split of
+   the lanes, and right. */
 #include "check.h"
 
 #include <stdlib.h>
@@ -10,7 +8,7 @@
 #include "engine/kernels.h"
 #include "engine/lanes.h"
 
-enum { MOST_LANES = 96, VECTORS = 6, ROWS = PENDRES_ROWS_SENSITIVITY, SIZE = ROWS * MOST_LANES };
+enum { MOST_LANES = 96, VECTORS = 6, ROWS = PENDRES_ROWS_ALL, SIZE = ROWS * MOST_LANES };
 
 /* Those that this processor runs; the first is the plainest. */
 static size_t available(const pendres_kernels *list[3])
@@ -37,7 +35,8 @@ static double uniform(double from, double to)
 
 /* Some vectors of all rows, one lane after the other within a row, and the equation's numbers. */
 typedef struct bench {
-  double *vector[VECTORS], *stiffness, *drive, *friction, *inverse;
+  double *vector[VECTORS], *stiffness, *drive, *friction, *inverse, *torque, *modulation;
+  double *power[PENDRES_FORCE_COEFFICIENTS];
   pendres_sum sum[3];
 } bench;
 
@@ -48,6 +47,26 @@ static void close_bench(bench *b)
   free(b->drive);
   free(b->friction);
   free(b->inverse);
+  free(b->torque);
+  free(b->modulation);
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) free(b->power[k]);
+}
+
+/* What other models have; powers weigh so little that none overflows in program(). */
+static void open_terms(bench *b)
+{
+  b->torque = pendres_lanes_allocate(MOST_LANES);
+  b->modulation = pendres_lanes_allocate(MOST_LANES);
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+    b->power[k] = pendres_lanes_allocate(MOST_LANES);
+    assert_non_null(b->power[k]);
+    for (int i = 0; i < MOST_LANES; i++) b->power[k][i] = uniform(-1.0, 1.0) * pow(0.01, k);
+  }
+  assert_true(b->torque && b->modulation);
+  for (int i = 0; i < MOST_LANES; i++) {
+    b->torque[i] = uniform(-1.0, 1.0);
+    b->modulation[i] = uniform(-2.0, 2.0);
+  }
 }
 
 static void open_bench(bench *b, uint64_t seed)
@@ -79,6 +98,7 @@ static void open_bench(bench *b, uint64_t seed)
       q->term[j].x = b->vector[(s + j) % VECTORS]; /* its own z among them */
     }
   }
+  open_terms(b);
 }
 
 /* All kinds of operations; vectors are read after they were written, and sums into themselves. */
@@ -99,23 +119,46 @@ static size_t program(const bench *b, pendres_operation o[10])
   return n;
 }
 
-static pendres_strip strip_of(const bench *b, size_t rows, size_t lane, size_t lanes)
-{
-  return (pendres_strip){
-    .lanes = lanes,
-    .at = rows * lane,
-    .k = {b->stiffness + lane, b->drive + lane, b->friction + lane, b->inverse + lane}};
-}
+/* Equations: rows of each model. */
+typedef struct equation {
+  size_t rows;
+  pendres_model_terms model;
+} equation;
 
-static const size_t equations[] = {PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL,
-                                   PENDRES_ROWS_SENSITIVITY};
+static const equation equations[] = {
+  {PENDRES_ROWS_STATE, PENDRES_MODEL_PLAIN},
+  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_PLAIN},
+  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_PLAIN},
+  {PENDRES_ROWS_STATE, PENDRES_MODEL_PENDULUM},
+  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_PENDULUM},
+  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_PENDULUM},
+  {PENDRES_ROWS_DRIVES, PENDRES_MODEL_PENDULUM},
+  {PENDRES_ROWS_STATE, PENDRES_MODEL_POLYNOMIAL},
+  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_POLYNOMIAL},
+  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_POLYNOMIAL},
+  {PENDRES_ROWS_DRIVES, PENDRES_MODEL_POLYNOMIAL},
+  {PENDRES_ROWS_ALL, PENDRES_MODEL_POLYNOMIAL}};
+enum { EQUATIONS = sizeof equations / sizeof *equations };
+static const equation plain = {PENDRES_ROWS_STATE, PENDRES_MODEL_PLAIN};
+
+static pendres_strip strip_of(const bench *b, equation e, size_t lane, size_t lanes)
+{
+  pendres_strip s = {
+    .lanes = lanes,
+    .model = e.model,
+    .at = e.rows * lane,
+    .k = {b->stiffness + lane, b->drive + lane, b->friction + lane, b->inverse + lane,
+          b->torque + lane, b->modulation + lane, {NULL}}};
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) s.k.power[k] = b->power[k] + lane;
+  return s;
+}
 
 static void test_same_bytes_on_every_instruction_set(void **state)
 {
   const pendres_kernels *list[3];
   const size_t count = available(list);
   (void)state;
-  for (size_t e = 0; e < 3; e++)
+  for (size_t e = 0; e < EQUATIONS; e++)
     for (size_t lanes = 8; lanes <= MOST_LANES; lanes += 8) {
       bench first;
       for (size_t k = 0; k < count; k++) {
@@ -124,10 +167,10 @@ static void test_same_bytes_on_every_instruction_set(void **state)
         open_bench(&b, 1000 * e + lanes);
         const size_t n = program(&b, o);
         const pendres_strip s = strip_of(&b, equations[e], 0, lanes);
-        list[k]->run(equations[e], &s, o, n);
+        list[k]->run(equations[e].rows, &s, o, n);
         for (int i = 0; i < VECTORS && k > 0; i++)
           assert_memory_equal(b.vector[i], first.vector[i],
-                              equations[e] * lanes * sizeof(double));
+                              equations[e].rows * lanes * sizeof(double));
         if (k == 0)
           first = b;
         else
@@ -144,8 +187,8 @@ static void test_same_bytes_however_lanes_are_split(void **state)
   const size_t count = available(list), lanes = 88;
   (void)state;
   for (size_t k = 0; k < count; k++)
-    for (size_t e = 0; e < 3; e++) {
-      const size_t rows = equations[e];
+    for (size_t e = 0; e < EQUATIONS; e++) {
+      const size_t rows = equations[e].rows;
       bench whole, parts;
       pendres_operation o[10];
       open_bench(&whole, e);
@@ -157,11 +200,11 @@ static void test_same_bytes_however_lanes_are_split(void **state)
             parts.vector[i][rows * (lane - lane % 8) + 8 * r + lane % 8] =
               whole.vector[i][r * lanes + lane];
       size_t n = program(&whole, o);
-      pendres_strip s = strip_of(&whole, rows, 0, lanes);
+      pendres_strip s = strip_of(&whole, equations[e], 0, lanes);
       list[k]->run(rows, &s, o, n);
       n = program(&parts, o);
       for (size_t lane = 0; lane < lanes; lane += 8) {
-        s = strip_of(&parts, rows, lane, 8);
+        s = strip_of(&parts, equations[e], lane, 8);
         list[k]->run(rows, &s, o, n);
       }
       for (int i = 0; i < VECTORS; i++)
@@ -182,9 +225,9 @@ static void test_stage_is_sum_then_slope(void **state)
   const size_t count = available(list), lanes = 72;
   (void)state;
   for (size_t k = 0; k < count; k++)
-    for (size_t e = 0; e < 3; e++)
+    for (size_t e = 0; e < EQUATIONS; e++)
       for (int keep = 0; keep < 2; keep++) {
-        const size_t bytes = equations[e] * lanes * sizeof(double);
+        const size_t bytes = equations[e].rows * lanes * sizeof(double);
         bench a, b;
         open_bench(&a, 7 * e);
         open_bench(&b, 7 * e);
@@ -195,9 +238,9 @@ static void test_stage_is_sum_then_slope(void **state)
           .sum = &b.sum[0], .to = b.vector[0], .slope = b.vector[5], .cos_theta = 0.4,
           .keep = keep};
         pendres_strip s = strip_of(&a, equations[e], 0, lanes);
-        list[k]->run(equations[e], &s, two, 2);
+        list[k]->run(equations[e].rows, &s, two, 2);
         s = strip_of(&b, equations[e], 0, lanes);
-        list[k]->run(equations[e], &s, &one, 1);
+        list[k]->run(equations[e].rows, &s, &one, 1);
         assert_memory_equal(a.vector[5], b.vector[5], bytes);
         if (keep) assert_memory_equal(a.vector[0], b.vector[0], bytes);
         close_bench(&a);
@@ -225,7 +268,7 @@ static void test_sums(void **state)
         }
       }
       const pendres_operation o = {.sum = q, .to = q->z};
-      const pendres_strip s = strip_of(&b, PENDRES_ROWS_STATE, 0, lanes);
+      const pendres_strip s = strip_of(&b, plain, 0, lanes);
       list[k]->run(PENDRES_ROWS_STATE, &s, &o, 1);
       for (size_t i = 0; i < 2 * lanes; i++)
         check_near((double)(q->z[i] - want[i]), 0.0, (double)(q->terms * 0x1p-53L * size[i]));
@@ -335,12 +378,25 @@ static void test_sine_of_nothing(void **state)
 
 /* A lane's equation in long double, from the physical parameters. */
 typedef struct physics {
-  long double omega, damping, amplitude, cosine;
+  long double omega, damping, amplitude, torque, modulation, power[PENDRES_FORCE_COEFFICIENTS];
+  long double cosine;
+  pendres_model_terms model;
 } physics;
+
+/* f (derivative = 0) or f' (1), times what the parametric drive makes of it. */
+static long double force_of(const physics *p, long double y, int derivative)
+{
+  long double f = derivative ? cosl(y) : sinl(y);
+  if (p->model == PENDRES_MODEL_POLYNOMIAL) f = 0.0L;
+  for (int k = 0; p->model == PENDRES_MODEL_POLYNOMIAL && k < PENDRES_FORCE_COEFFICIENTS; k++)
+    f += p->power[k] * (derivative ? (k + 1) * powl(y, k) : powl(y, k + 1));
+  return f * (1.0L + p->modulation * p->cosine);
+}
 
 static long double slope_of_w(const physics *p, long double y, long double w)
 {
-  return (p->amplitude * p->cosine - sinl(y)) / (p->omega * p->omega) - p->damping / p->omega * w;
+  const long double push = p->amplitude * p->cosine + p->torque - force_of(p, y, 0);
+  return push / (p->omega * p->omega) - p->damping / p->omega * w;
 }
 
 /* d(slope of w)/d(parameter number k) at fixed y and w, by central differences: off by h^2 times a
@@ -348,7 +404,9 @@ static long double slope_of_w(const physics *p, long double y, long double w)
 static long double by_parameter(physics p, int k, long double y, long double w)
 {
   const long double h = 1e-6L;
-  long double *const parameter[] = {&p.omega, &p.damping, &p.amplitude};
+  long double *const parameter[] = {&p.omega, &p.damping, &p.amplitude, &p.torque,
+                                    &p.modulation, &p.power[0], &p.power[1], &p.power[2],
+                                    &p.power[3], &p.power[4]};
   const long double middle = *parameter[k];
   *parameter[k] = middle + h;
   const long double above = slope_of_w(&p, y, w);
@@ -357,19 +415,33 @@ static long double by_parameter(physics p, int k, long double y, long double w)
   return (above - below) / (2.0L * h);
 }
 
-static void check_lane(const bench *b, size_t rows, size_t lanes, size_t i, double cos_theta)
+static physics physics_of(const bench *b, pendres_model_terms model, size_t i, double cos_theta)
+{
+  const long double omega = 1.0L / b->inverse[i], square = omega * omega;
+  physics p = {.omega = omega, .damping = b->friction[i] * omega,
+               .amplitude = b->drive[i] * square, .cosine = cos_theta, .model = model};
+  if (model == PENDRES_MODEL_PLAIN) return p;
+  p.torque = b->torque[i] * square;
+  p.modulation = b->modulation[i];
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) p.power[k] = b->power[k][i];
+  return p;
+}
+
+static void check_lane(const bench *b, equation e, size_t lanes, size_t i, double cos_theta)
 {
   const double *x = b->vector[0] + i, *got = b->vector[1] + i;
-  const long double omega = 1.0L / b->inverse[i];
-  const physics p = {omega, b->friction[i] * omega, b->drive[i] * omega * omega, cos_theta};
-  const long double y = x[0], w = x[lanes];
-  const long double to_y = -cosl(y) / (omega * omega), to_w = -p.damping / omega;
-  const double size = (double)(1.0L / (omega * omega) * (2.0L + p.amplitude) + 4.0L * p.damping);
+  const physics p = physics_of(b, e.model, i, cos_theta);
+  const long double y = x[0], w = x[lanes], square = p.omega * p.omega;
+  const long double to_y = -force_of(&p, y, 1) / square, to_w = -p.damping / p.omega;
+  /* At |y| <= 4 a polynomial's force is below 5, and its slope below 2. */
+  const long double force = e.model == PENDRES_MODEL_POLYNOMIAL ? 6.0L : 2.0L;
+  const long double push = force * (1.0L + fabsl(p.modulation)) + p.amplitude + fabsl(p.torque);
+  const double size = (double)(push / square + 4.0L * p.damping);
 
   assert_true(got[0] == x[lanes]);
   /* Coefficients rounded to doubles, and a handful of operations on them: 8 half units. */
   check_near(got[lanes], (double)slope_of_w(&p, y, w), 8.0 * 0x1p-53 * size);
-  for (size_t r = 2; r < rows; r += 2) {
+  for (size_t r = 2; r < e.rows; r += 2) {
     const long double u = x[r * lanes], v = x[(r + 1) * lanes];
     long double want = to_y * u + to_w * v;
     double tolerance = 16.0 * 0x1p-53 * 4.0 * size;
@@ -388,7 +460,7 @@ static void test_right_hand_sides(void **state)
   const size_t count = available(list), lanes = MOST_LANES;
   (void)state;
   for (size_t k = 0; k < count; k++)
-    for (size_t e = 0; e < 3; e++)
+    for (size_t e = 0; e < EQUATIONS; e++)
       for (uint64_t seed = 0; seed < 10; seed++) {
         bench b;
         open_bench(&b, seed);
@@ -396,7 +468,7 @@ static void test_right_hand_sides(void **state)
         const pendres_operation o = {
           .from = b.vector[0], .slope = b.vector[1], .cos_theta = cos_theta};
         const pendres_strip s = strip_of(&b, equations[e], 0, lanes);
-        list[k]->run(equations[e], &s, &o, 1);
+        list[k]->run(equations[e].rows, &s, &o, 1);
         for (size_t i = 0; i < lanes; i++) check_lane(&b, equations[e], lanes, i, cos_theta);
         close_bench(&b);
       }
