@@ -238,10 +238,11 @@ static void test_refusals(void **state)
   assert_int_equal(pendres_flow_set_steps(flow, 0), PENDRES_INVALID_ARGUMENT);
   check_ok(pendres_flow_set_steps(flow, 9));
   assert_int_equal(pendres_flow_half_period(flow), PENDRES_INVALID_ARGUMENT);
-  check_ok(pendres_context_flow(ctx, PENDRES_FLOW_ADAPTIVE, &flow));
+  check_ok(pendres_context_flow_adaptive(ctx, 1e-8, &flow));
   assert_int_equal(pendres_flow_set_steps(flow, 20), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_flow_period_sampled(flow, keep, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_flow_half_period(flow), PENDRES_INVALID_ARGUMENT);
+  pendres_flow_free(flow);
   pendres_context_free(ctx);
 }
 

@@ -11,16 +11,20 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
 enum { MOST_ITERATIONS = 30 };
 
 /* A pendulum on its way: a secant for the lag over the frequency. */
 typedef struct search {
-  size_t index;
+  int trials;                    /* so far */
   double omega, before;          /* frequencies of this and the last trial */
   double off, off_before;        /* lag - pi/2 there */
   pendres_orbit_guess guess;
+  pendres_orbit *out;            /* where its result goes */
+  double *error;                 /* may be NULL */
+  pendres_status *outcome;
 } search;
 
 /*
@@ -64,28 +68,30 @@ static double start_amplitude(const pendres_pendulum *p)
   return 0.5 * (low + high);
 }
 
-static void finish_one(const search *s, const pendres_orbit *o, pendres_status refined,
-                       double tolerance, pendres_orbit *out, double *error,
-                       pendres_status *outcome)
+static void finish(const pendres_context *ctx, const search *s, const pendres_orbit *o,
+                   pendres_status refined)
 {
   /* How fast the lag grows with the frequency turns its error into one of the frequency. */
   const double slope = (s->off - s->off_before) / (s->omega - s->before);
-  *out = *o;
   const double e = fabs(s->off / slope) + fabs(o->phase_lag_error / slope);
-  if (error != NULL) *error = e;
-  *outcome = refined == PENDRES_OK && e <= tolerance ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+  const int good = refined == PENDRES_OK && e <= ctx->options.tolerance;
+  *s->out = *o;
+  if (s->error != NULL) *s->error = e;
+  *s->outcome = good ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
 }
 
 /* Take over a trial's orbit. Returns 1 when the search is over. */
-static int improve(search *s, const pendres_orbit *o, pendres_status refined, double tolerance,
-                   int trial, pendres_orbit *out, double *error, pendres_status *outcome)
+static int improve(const pendres_context *ctx, search *s, const pendres_orbit *o,
+                   pendres_status refined)
 {
-  if (refined == PENDRES_NOT_CONVERGED || trial + 1 == MOST_ITERATIONS) return 1;
+  const int trial = s->trials++;
+  if (refined == PENDRES_NOT_CONVERGED || s->trials == MOST_ITERATIONS) return 1;
   const double omega = o->pendulum.drive_frequency;
   s->off_before = s->off;
   s->off = o->phase_lag - half_pi;
-  if (trial > 0 && fabs(s->off) <= 0.1 * tolerance + 2.0 * o->phase_lag_error) {
-    finish_one(s, o, refined, tolerance, out, error, outcome);
+  if (trial > 0 &&
+      fabs(s->off) <= pendres_accuracy_negligible(ctx) + 2.0 * o->phase_lag_error) {
+    finish(ctx, s, o, refined);
     return 1;
   }
   /* The first step goes a little way; the lag grows with the frequency. */
@@ -101,22 +107,24 @@ static int improve(search *s, const pendres_orbit *o, pendres_status refined, do
   return 0;
 }
 
-static size_t begin(size_t n, const pendres_pendulum *pendulums, search *s, double *error,
-                    pendres_status *outcome)
+static size_t begin(size_t n, const pendres_pendulum *pendulums, const search *into, search *s)
 {
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
     pendres_pendulum p = pendulums[i];
     const double a = start_amplitude(&p);
-    outcome[i] = PENDRES_NOT_FOUND;
-    if (error != NULL) error[i] = NAN;
+    const search to = {.out = into->out + i,
+                       .error = into->error != NULL ? into->error + i : NULL,
+                       .outcome = into->outcome + i};
+    *to.outcome = PENDRES_NOT_FOUND;
+    if (to.error != NULL) *to.error = NAN;
     if (isnan(a)) continue;
     p.drive_frequency = pendres_free_frequency(a);
+    s[count] = to;
+    s[count].omega = p.drive_frequency;
     /* y goes as sin(theta): through its well with the speed of its energy. */
-    s[count++] = (search){
-      .index = i,
-      .omega = p.drive_frequency,
-      .guess = {.pendulum = p, .x = half_pi, .v = 2.0 * sin(0.5 * a), .period = 1}};
+    s[count++].guess =
+      (pendres_orbit_guess){.pendulum = p, .x = half_pi, .v = 2.0 * sin(0.5 * a), .period = 1};
   }
   return count;
 }
@@ -143,18 +151,14 @@ static pendres_status backbone_find(pendres_context *ctx, size_t n,
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
     goto done;
   }
-  size_t left = begin(n, pendulums, s, frequency_error, outcome);
-  for (int trial = 0; left > 0 && trial < MOST_ITERATIONS && status == PENDRES_OK; trial++) {
-    size_t again = 0;
+  const search into = {.out = out, .error = frequency_error, .outcome = outcome};
+  for (size_t left = begin(n, pendulums, &into, s), again = 0; left > 0 && status == PENDRES_OK;
+       left = again) {
+    again = 0;
     for (size_t i = 0; i < left; i++) guess[i] = s[i].guess;
     status = pendres_orbit_refine(ctx, left, guess, PENDRES_ORBIT_PLAIN, orbit, refined);
-    for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      const size_t k = s[i].index;
-      if (!improve(&s[i], &orbit[i], refined[i], ctx->options.tolerance, trial, &out[k],
-                   frequency_error != NULL ? &frequency_error[k] : NULL, &outcome[k]))
-        s[again++] = s[i];
-    }
-    left = again;
+    for (size_t i = 0; i < left && status == PENDRES_OK; i++)
+      if (!improve(ctx, &s[i], &orbit[i], refined[i])) s[again++] = s[i];
   }
 done:
   free(s);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_course.h"
 #include "continuation/continuation_parameter.h"
@@ -72,7 +73,7 @@ static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
   *twice = 0;
   if (!pendres_continuation_map_half(&t->kind.map, 0, half)) return PENDRES_NOT_CONVERGED;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, t->kind.map.force, u, 10.0 * ctx->options.tolerance,
+    pendres_continuation_map_steps(ctx, t->kind.map.force, u, pendres_accuracy_first(ctx),
                                    &steps);
   for (int k = 0; !*twice && status == PENDRES_OK; k++) {
     double miss[1][2] = {{NAN, NAN}};

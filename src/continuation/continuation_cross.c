@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_parameter.h"
 #include "model/model.h"
@@ -101,7 +102,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     pendres_walk_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
   if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&one.map);
   pendres_status status =
-    pendres_continuation_map_steps(ctx, one.map.force, u, 10.0 * ctx->options.tolerance, &steps);
+    pendres_continuation_map_steps(ctx, one.map.force, u, pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
     status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, &image);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_walk.h"
 #include "engine/steps.h"
@@ -119,7 +120,7 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
   const double tolerance = ctx->options.tolerance;
   int steps = 0;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, map->force, u, 10.0 * tolerance, &steps);
+    pendres_continuation_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
   for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {

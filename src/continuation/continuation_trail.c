@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 
@@ -342,7 +343,7 @@ static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
     memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
     status =
       pendres_continuation_map_steps(ctx, t->kind.map.force, t->point[i].u,
-                                     10.0 * ctx->options.tolerance, &pairs[i].coarse_steps);
+                                     pendres_accuracy_first(ctx), &pairs[i].coarse_steps);
   }
   return status;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
 const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1, 0.1,
@@ -25,7 +26,7 @@ pendres_walk pendres_walk_of(const pendres_orbit *orbit, pendres_continuation_co
   pendres_walk w = {.condition = condition,
                     .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
                     .unknown = {PENDRES_U_Y, PENDRES_U_W},
-                    .tolerance = 1e-7,
+                    .tolerance = pendres_accuracy_to_walk(),
                     .longest = spacing};
   for (int k = 2; k < w.unknowns; k++) w.unknown[k] = PENDRES_U_OMEGA + (int)parameter[k - 2];
   w.map = pendres_continuation_map_of(orbit, w.unknowns, w.unknown, u);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_trail.h"
 
@@ -172,7 +173,7 @@ static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
   *out = part < 0.5 ? *a : *b;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[0][i] = a->u[i] + part * (b->u[i] - a->u[i]);
   pendres_status status =
-    pendres_continuation_map_steps(ctx, t->kind.map.force, u[0], 10.0 * ctx->options.tolerance,
+    pendres_continuation_map_steps(ctx, t->kind.map.force, u[0], pendres_accuracy_first(ctx),
                                    &steps);
   if (status == PENDRES_OK)
     status = pendres_walk_correct(ctx, &t->kind, 1, out, &steps, u, &rounding);

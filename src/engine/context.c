@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/compat.h"
 #include "engine/flow.h"
 #include "engine/steps_memo.h"
@@ -38,9 +39,9 @@ int pendres_table_order(pendres_table table)
 /* NULL when all is well, else what is wrong. */
 static const char *resolve(pendres_options *o)
 {
-  if (o->tolerance == 0.0) o->tolerance = 1e-8;
+  if (o->tolerance == 0.0) o->tolerance = PENDRES_ACCURACY_DEFAULT;
   if (!(o->tolerance <= 1e-2)) return "the tolerance must be at most 1e-2";
-  if (!(o->tolerance >= 1e-13))
+  if (!(o->tolerance >= PENDRES_ACCURACY_TIGHTEST))
     return "a tolerance below 1e-13 is beyond double precision; ask for 1e-13 or more";
   if ((unsigned)o->method >= PENDRES_METHOD_COUNT) return "unknown method";
   if ((unsigned)o->table >= PENDRES_TABLE_COUNT) return "unknown table";
@@ -181,27 +182,35 @@ pendres_status pendres_context_flow_failed(pendres_context *ctx, const pendres_f
                               pendres_flow_failure(flow));
 }
 
+static pendres_status make_flow(pendres_context *ctx, size_t rows, double tolerance,
+                                pendres_flow **out)
+{
+  const pendres_flow_options options = {.rows = rows,
+                                        .lanes = (size_t)ctx->options.block_lanes,
+                                        .table = ctx->options.table,
+                                        .stop = pendres_context_stops,
+                                        .stop_arg = ctx,
+                                        .tolerance = tolerance};
+  const pendres_status status = pendres_flow_create(&options, ctx->sun, out);
+  if (status == PENDRES_OK) return status;
+  return pendres_context_fail(ctx, status, "no block of pendulums could be set up: %s",
+                              pendres_status_message(status));
+}
+
 pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
                                     pendres_flow **out)
 {
-  static const size_t rows[PENDRES_FLOW_KINDS] = {
-    PENDRES_ROWS_STATE,  PENDRES_ROWS_VARIATIONAL, PENDRES_ROWS_SENSITIVITY,
-    PENDRES_ROWS_DRIVES, PENDRES_ROWS_ALL,         PENDRES_ROWS_STATE};
-
-  if (ctx->flows[kind] == NULL) {
-    const pendres_flow_options options = {.rows = rows[kind],
-                                          .lanes = (size_t)ctx->options.block_lanes,
-                                          .table = ctx->options.table,
-                                          .stop = pendres_context_stops,
-                                          .stop_arg = ctx,
-                                          .tolerance = kind == PENDRES_FLOW_ADAPTIVE
-                                                         ? ctx->options.tolerance
-                                                         : 0.0};
-    const pendres_status status = pendres_flow_create(&options, ctx->sun, &ctx->flows[kind]);
-    if (status != PENDRES_OK)
-      return pendres_context_fail(ctx, status, "no block of pendulums could be set up: %s",
-                                  pendres_status_message(status));
-  }
+  static const size_t rows[PENDRES_FLOW_KINDS] = {PENDRES_ROWS_STATE, PENDRES_ROWS_VARIATIONAL,
+                                                  PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_DRIVES,
+                                                  PENDRES_ROWS_ALL};
+  pendres_status status = PENDRES_OK;
+  if (ctx->flows[kind] == NULL) status = make_flow(ctx, rows[kind], 0.0, &ctx->flows[kind]);
   *out = ctx->flows[kind];
-  return PENDRES_OK;
+  return status;
+}
+
+pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolerance,
+                                             pendres_flow **out)
+{
+  return make_flow(ctx, PENDRES_ROWS_STATE, tolerance, out);
 }

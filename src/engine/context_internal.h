@@ -12,14 +12,13 @@
 
 #include "base/guard.h"
 
-/* The blocks of a context. */
+/* The blocks of a context, all with fixed steps. */
 typedef enum pendres_flow_kind {
   PENDRES_FLOW_STATE,
   PENDRES_FLOW_VARIATIONAL,
   PENDRES_FLOW_SENSITIVITY,
   PENDRES_FLOW_DRIVES, /* sensitivities to torque and parametric drive as well */
   PENDRES_FLOW_ALL,    /* and to the coefficients of a polynomial force */
-  PENDRES_FLOW_ADAPTIVE, /* the state, by adaptive steps */
   PENDRES_FLOW_KINDS
 } pendres_flow_kind;
 
@@ -63,6 +62,10 @@ pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,
 /* The context's block of a kind, made at its first use. */
 pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind,
                                     pendres_flow **out);
+
+/* Another block of states, by adaptive steps at a tolerance; the caller frees it. */
+pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolerance,
+                                             pendres_flow **out);
 
 /* PENDRES_INTERRUPTED when the caller asked to stop. */
 pendres_status pendres_context_poll(pendres_context *ctx);

@@ -28,13 +28,21 @@ typedef struct pendres_strobe_lane {
 /* Look at lane number `index` after one more period; nonzero: it is done. */
 typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_lane *lane);
 
+/* A run: lanes, who looks at them, and how exact methods are that choose their own steps. */
+typedef struct pendres_strobe_job {
+  size_t n; /* > 0 */
+  pendres_strobe_lane *lanes;
+  pendres_strobe_visit *visit;
+  void *arg;        /* of visit */
+  double tolerance; /* relative and absolute, of a step; unused where steps are fixed */
+} pendres_strobe_job;
+
 typedef struct pendres_method_functions {
   const char *name;    /* in decks and messages */
   int fixed_steps;     /* as many as a lane says; others choose their own by the tolerance */
   int running_clock;   /* not put back at a period's end, so that its rounding adds up */
-  /* Run n > 0 lanes until visit() has declared each of them done; they keep their final state. */
-  pendres_status (*run)(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                        pendres_strobe_visit *visit, void *arg);
+  /* Run lanes until visit() has declared each of them done; they keep their final state. */
+  pendres_status (*run)(pendres_context *ctx, const pendres_strobe_job *job);
 } pendres_method_functions;
 
 /* The list: a method's value in the enum of context.h, and its struct, pendres_method_NAME. */

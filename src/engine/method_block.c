@@ -10,17 +10,15 @@
 typedef struct block {
   pendres_context *ctx;
   pendres_flow *flow;
-  pendres_strobe_lane *lanes;
+  const pendres_strobe_job *job;
   size_t *slot; /* which lane sits in a slot of the block */
   size_t filled;
   int carry; /* errors */
-  pendres_strobe_visit *visit;
-  void *arg;
 } block;
 
 static void put(block *b, size_t slot, size_t index)
 {
-  const pendres_strobe_lane *l = &b->lanes[index];
+  const pendres_strobe_lane *l = &b->job->lanes[index];
   b->slot[slot] = index;
   pendres_flow_set_lane(b->flow, slot, l->pendulum, l->y, l->w);
   if (b->carry) pendres_flow_set_error(b->flow, slot, &l->off, l->added);
@@ -29,7 +27,7 @@ static void put(block *b, size_t slot, size_t index)
 /* Take the states over from the block after a period; returns whether the lane is done. */
 static int look(block *b, size_t slot)
 {
-  pendres_strobe_lane *l = &b->lanes[b->slot[slot]];
+  pendres_strobe_lane *l = &b->job->lanes[b->slot[slot]];
   const pendres_rows rows = pendres_flow_rows(b->flow);
   l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, slot);
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, slot);
@@ -41,7 +39,7 @@ static int look(block *b, size_t slot)
     const double off = l->off.yy + l->off.ww;
     if (!(off <= l->worst)) l->worst = off; /* no number is no error to live with */
   }
-  return b->visit(b->arg, b->slot[slot], l);
+  return b->job->visit(b->job->arg, b->slot[slot], l);
 }
 
 /* Run all lanes of one class of steps, queue[0..n). */
@@ -86,29 +84,25 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
   return PENDRES_OK;
 }
 
-pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind kind, size_t n,
-                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
-                                        void *arg)
+pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow, int fixed,
+                                        const pendres_strobe_job *job)
 {
-  block b = {.ctx = ctx, .lanes = lanes, .visit = visit, .arg = arg};
-  pendres_rank *queue = NULL;
-  const int adaptive = kind == PENDRES_FLOW_ADAPTIVE;
-  pendres_status status = pendres_context_flow(ctx, kind, &b.flow);
-  if (status != PENDRES_OK) return status;
-
-  queue = malloc(n * sizeof *queue);
-  b.slot = malloc(pendres_flow_capacity(b.flow) * sizeof *b.slot);
+  const size_t n = job->n;
+  const pendres_strobe_lane *lanes = job->lanes;
+  pendres_status status = PENDRES_OK;
+  block b = {.ctx = ctx, .flow = flow, .job = job, .carry = fixed && lanes[0].added > 0.0};
+  pendres_rank *queue = malloc(n * sizeof *queue);
+  b.slot = malloc(pendres_flow_capacity(flow) * sizeof *b.slot);
   if (queue == NULL || b.slot == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    queue[i] = (pendres_rank){.steps = adaptive ? 0 : lanes[i].steps,
+    queue[i] = (pendres_rank){.steps = fixed ? lanes[i].steps : 0,
                               .model = pendres_model_kind(lanes[i].pendulum),
                               .index = i};
   pendres_rank_order(n, queue);
 
-  b.carry = !adaptive && lanes[0].added > 0.0;
   if (b.carry) status = pendres_flow_carry(b.flow, 1);
   if (status != PENDRES_OK)
     (void)pendres_context_fail(ctx, status, "out of memory for the errors of %zu lanes", n);

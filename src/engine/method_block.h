@@ -8,12 +8,11 @@
 #include "engine/method.h"
 
 /*
- * Run lanes as pendres_method_functions says, in the context's block of states: with each lane's
- * own steps, or adaptive ones. Lanes with the same steps a period share blocks; retired lanes are
- * replaced at once. Errors are carried along if steps are fixed and the first lane says so.
+ * Run lanes as pendres_method_functions says, in a block of states: with each lane's own steps if
+ * they are fixed. Lanes with the same steps a period share blocks; retired lanes are replaced at
+ * once. Errors are carried along if steps are fixed and the first lane says so.
  */
-pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow_kind kind, size_t n,
-                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
-                                        void *arg);
+pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow, int fixed,
+                                        const pendres_strobe_job *job);
 
 #endif

@@ -12,12 +12,11 @@ static int open(pendres_one *b)
   return c->fixed_point == NULL || CVodeSetNonlinearSolver(c->cvode, c->fixed_point) != 0;
 }
 
-static pendres_status run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                          pendres_strobe_visit *visit, void *arg)
+static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 {
   static const pendres_one_solver solver = {open, pendres_cvode_advance, pendres_one_read,
                                             pendres_cvode_steps, pendres_cvode_close};
-  return pendres_one_run(ctx, n, lanes, visit, arg, &solver);
+  return pendres_one_run(ctx, job, &solver);
 }
 
 const pendres_method_functions pendres_method_cvode_adams = {

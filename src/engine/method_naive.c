@@ -27,7 +27,7 @@ static int slope(sunrealtype t, N_Vector state, N_Vector out, void *arg)
 /* The state becomes x and v. */
 static int open(pendres_one *b)
 {
-  const double tolerance = b->ctx->options.tolerance;
+  const double tolerance = b->tolerance;
   double *s = N_VGetArrayPointer(b->state);
   const pendres_place at = {.y = s[0], .w = s[1]};
   pendres_passage_out(b->p, &at, &s[0], &s[1]);
@@ -58,12 +58,11 @@ static void read(const pendres_one *b, double *y, double *w)
   *w = at.w;
 }
 
-static pendres_status run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                          pendres_strobe_visit *visit, void *arg)
+static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 {
   static const pendres_one_solver solver = {open, advance, read, pendres_one_erk_steps,
                                             pendres_one_erk_close};
-  return pendres_one_run(ctx, n, lanes, visit, arg, &solver);
+  return pendres_one_run(ctx, job, &solver);
 }
 
 const pendres_method_functions pendres_method_naive = {

@@ -43,7 +43,7 @@ int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one
 int pendres_one_weights(N_Vector state, N_Vector out, void *one)
 {
   const pendres_one *b = one;
-  const double *s = N_VGetArrayPointer(state), tolerance = b->ctx->options.tolerance;
+  const double *s = N_VGetArrayPointer(state), tolerance = b->tolerance;
   double *w = N_VGetArrayPointer(out);
   const double turn = pendres_model_turn(b->p);
   const double asked = tolerance * (1.0 + fmin(fabs(s[0]), 0.5 * turn));
@@ -99,9 +99,10 @@ static pendres_status advance(pendres_one *b, const pendres_one_solver *solver, 
   return PENDRES_OK;
 }
 
-static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver, size_t index,
-                              pendres_strobe_lane *lane, pendres_strobe_visit *visit, void *arg)
+static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver,
+                              const pendres_strobe_job *job, size_t index)
 {
+  pendres_strobe_lane *lane = &job->lanes[index];
   /* The clock starts now, however many periods the lane has behind it. */
   const long turns = lane->turns, first = lane->period;
   pendres_status status = open_problem(b, solver, lane);
@@ -112,20 +113,19 @@ static pendres_status run_one(pendres_one *b, const pendres_one_solver *solver, 
     lane->turns = turns;
     solver->read(b, &lane->y, &lane->w);
     pendres_passage_wrap(b->p, &lane->y, &lane->turns);
-    done = visit(arg, index, lane);
+    done = job->visit(job->arg, index, lane);
   }
   return status;
 }
 
-pendres_status pendres_one_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                               pendres_strobe_visit *visit, void *arg,
+pendres_status pendres_one_run(pendres_context *ctx, const pendres_strobe_job *job,
                                const pendres_one_solver *solver)
 {
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    pendres_one b = {.ctx = ctx};
+  for (size_t i = 0; i < job->n && status == PENDRES_OK; i++) {
+    pendres_one b = {.ctx = ctx, .tolerance = job->tolerance};
     long steps = 0;
-    status = run_one(&b, solver, i, &lanes[i], visit, arg);
+    status = run_one(&b, solver, job, i);
     if (b.memory != NULL && solver->steps(&b, &steps) == 0) ctx->cost.steps += (double)steps;
     solver->close(&b);
     if (b.state != NULL) N_VDestroy(b.state);

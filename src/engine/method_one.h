@@ -18,6 +18,7 @@
 typedef struct pendres_one {
   pendres_context *ctx;
   const pendres_pendulum *p;
+  double tolerance;
   N_Vector state; /* y and w over drive phase, unless the solver says otherwise */
   void *memory;   /* the solver's */
   int stopped;
@@ -34,14 +35,13 @@ typedef struct pendres_one_solver {
 } pendres_one_solver;
 
 /* As the `run` of a method's functions, by a solver. */
-pendres_status pendres_one_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                               pendres_strobe_visit *visit, void *arg,
+pendres_status pendres_one_run(pendres_context *ctx, const pendres_strobe_job *job,
                                const pendres_one_solver *solver);
 
 /* For solvers over drive phase: the right-hand side, which asks now and then whether to go on
    ... */
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one);
-/* ... error weights by the context's tolerance ... */
+/* ... error weights by the tolerance ... */
 int pendres_one_weights(N_Vector state, N_Vector out, void *one);
 /* ... and the state as it is. */
 void pendres_one_read(const pendres_one *b, double *y, double *w);

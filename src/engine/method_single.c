@@ -37,12 +37,11 @@ static int advance(pendres_one *b, double theta)
   return code != 0 ? code : ERKStepEvolve(b->memory, theta, b->state, &reached, ARK_NORMAL);
 }
 
-static pendres_status run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                          pendres_strobe_visit *visit, void *arg)
+static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 {
   static const pendres_one_solver solver = {open, advance, pendres_one_read, pendres_one_erk_steps,
                                             pendres_one_erk_close};
-  return pendres_one_run(ctx, n, lanes, visit, arg, &solver);
+  return pendres_one_run(ctx, job, &solver);
 }
 
 const pendres_method_functions pendres_method_single = {

@@ -34,6 +34,14 @@ pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum 
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg)
 {
-  if (n == 0) return PENDRES_OK;
-  return pendres_method_of(ctx)->run(ctx, n, lanes, visit, arg);
+  return pendres_strobe_run_within(ctx, ctx->options.tolerance, n, lanes, visit, arg);
+}
+
+pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
+                                         pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                         void *arg)
+{
+  const pendres_strobe_job job = {
+    .n = n, .lanes = lanes, .visit = visit, .arg = arg, .tolerance = tolerance};
+  return n > 0 ? pendres_method_of(ctx)->run(ctx, &job) : PENDRES_OK;
 }

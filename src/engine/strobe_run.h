@@ -13,11 +13,16 @@
 #include "engine/method.h"
 
 /*
- * Run n lanes by the context's method until visit() has declared each of them done. Lanes keep
- * their final state.
+ * Run n lanes by the context's method, at the context's tolerance, until visit() has declared each
+ * of them done. Lanes keep their final state.
  */
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
+
+/* The same at another tolerance, by which methods go that choose their own steps. */
+pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
+                                         pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                         void *arg);
 
 /* A lane at a state (x, v), whole turns taken out: steps and errors are the caller's to set. */
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v);

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "orbits/attractor_internal.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
 #include "engine/passage.h"
@@ -144,7 +145,7 @@ static pendres_status attractors_settle(pendres_context *ctx, const pendres_attr
                                 "these are attractors of several parameter sets");
   pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
-  return pendres_settle_known(ctx, set->catalogues, n, x, v, pendres_settle_accuracy(ctx),
+  return pendres_settle_known(ctx, set->catalogues, n, x, v, pendres_accuracy_to_settle(ctx),
                               PENDRES_SETTLE_FULL, outcome);
 }
 

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
 
@@ -101,43 +102,50 @@ static int correct(const pendres_context *ctx, swing *s, const pendres_strobe_la
   return 1;
 }
 
-/* Turn all swings that are not done once; *left is how many are not done afterwards. */
-static pendres_status turn(pendres_context *ctx, size_t n, swing *s, pendres_strobe_lane *lane,
-                           size_t *which, size_t *left)
+/* All swings, and what turning them needs. */
+typedef struct swings {
+  size_t n, left;            /* how many are not done */
+  swing *one;
+  pendres_strobe_lane *lane; /* [n] */
+  size_t *which;             /* [n]: the swing of each lane */
+} swings;
+
+/* Turn all swings that are not done once. */
+static pendres_status turn(pendres_context *ctx, double tolerance, swings *s)
 {
   size_t active = 0;
-  for (size_t i = 0; i < n; i++) {
-    if (!isnan(s[i].error)) continue;
-    which[active] = i;
-    lane[active++] = (pendres_strobe_lane){ .pendulum = &s[i].pendulum, .y = s[i].amplitude,
-                                            .steps = s[i].steps };
+  for (size_t i = 0; i < s->n; i++) {
+    const swing *one = &s->one[i];
+    if (!isnan(one->error)) continue;
+    s->which[active] = i;
+    s->lane[active++] = (pendres_strobe_lane){.pendulum = &one->pendulum, .y = one->amplitude,
+                                              .steps = one->steps};
   }
-  const pendres_status status = pendres_strobe_run(ctx, active, lane, one_period, NULL);
+  const pendres_status status =
+    pendres_strobe_run_within(ctx, tolerance, active, s->lane, one_period, NULL);
   if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)active;
-  *left = 0;
+  s->left = 0;
   for (size_t k = 0; k < active; k++) {
-    swing *one = &s[which[k]];
-    if (!correct(ctx, one, &lane[k]))
+    swing *one = &s->one[s->which[k]];
+    if (!correct(ctx, one, &s->lane[k]))
       return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED,
                                   "the period of the free pendulum at amplitude %.17g was not "
                                   "found within %d iterations", one->amplitude, MOST_ITERATIONS);
-    *left += isnan(one->error);
+    s->left += isnan(one->error);
   }
   return PENDRES_OK;
 }
 
-/* Clocks of all swings by steps that the method chooses itself; they go on from where they are. */
-static pendres_status settle_clocks(pendres_context *ctx, size_t n, swing *s,
-                                    pendres_strobe_lane *lane, size_t *which)
+/* Clocks of all swings, which go on from where they are. */
+static pendres_status settle_clocks(pendres_context *ctx, double tolerance, swings *s)
 {
   pendres_status status = PENDRES_OK;
-  size_t left = n;
-  for (size_t i = 0; i < n; i++) {
-    s[i].error = NAN;
-    s[i].iterations = 0;
+  for (size_t i = 0; i < s->n; i++) {
+    s->one[i].error = NAN;
+    s->one[i].iterations = 0;
   }
-  while (left > 0 && status == PENDRES_OK) status = turn(ctx, n, s, lane, which, &left);
+  for (s->left = s->n; s->left > 0 && status == PENDRES_OK;) status = turn(ctx, tolerance, s);
   return status;
 }
 
@@ -145,72 +153,46 @@ static pendres_status settle_clocks(pendres_context *ctx, size_t n, swing *s,
  * Methods that choose their own steps: a run with a far smaller tolerance is the result, and the
  * error is that of the run as asked for, which is larger.
  */
-static pendres_status find_adaptively(pendres_context *ctx, size_t n, swing *s,
-                                      pendres_strobe_lane *lane, size_t *which)
+static pendres_status find_adaptively(pendres_context *ctx, swings *s)
 {
-  pendres_options options = ctx->options;
-  pendres_context *tight = NULL;
-  pendres_cost cost;
-  options.tolerance = fmax(1e-13, 1e-2 * options.tolerance);
-  pendres_status status = pendres_context_create(&options, &tight);
-  if (status != PENDRES_OK)
-    return pendres_context_fail(ctx, status, "out of memory for a second context");
-  /* It asks as the first one does, which is in use meanwhile. */
-  pendres_context_set_interrupt(tight, pendres_context_stops, ctx);
-
-  status = settle_clocks(ctx, n, s, lane, which);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    s[i].coarse = s[i].pendulum.drive_frequency;
-  if (status == PENDRES_OK) {
-    status = settle_clocks(tight, n, s, lane, which);
-    if (status != PENDRES_OK)
-      (void)pendres_context_fail(ctx, status, "%s", pendres_context_message(tight));
-  }
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+  const double better = pendres_accuracy_far_better(ctx);
+  pendres_status status = settle_clocks(ctx, ctx->options.tolerance, s);
+  for (size_t i = 0; i < s->n; i++) s->one[i].coarse = s->one[i].pendulum.drive_frequency;
+  if (status == PENDRES_OK) status = settle_clocks(ctx, better, s);
+  for (size_t i = 0; i < s->n && status == PENDRES_OK; i++) {
+    swing *one = &s->one[i];
     /* The tolerance is one of each step, relative to one radian; a quarter of a period is made
        of some tens of them. */
-    s[i].error = fabs(s[i].pendulum.drive_frequency - s[i].coarse) / s[i].coarse +
-                 (amplification(&s[i]) + 1.0 / s[i].amplitude) * 20.0 * options.tolerance +
-                 rounding(&s[i]);
-  pendres_context_cost(tight, &cost);
-  ctx->cost.pendulum_periods += cost.pendulum_periods;
-  ctx->cost.rhs_evaluations += cost.rhs_evaluations;
-  ctx->cost.steps += cost.steps;
-  ctx->cost.newton_steps += cost.newton_steps;
-  pendres_context_free(tight);
+    one->error = fabs(one->pendulum.drive_frequency - one->coarse) / one->coarse +
+                 (amplification(one) + 1.0 / one->amplitude) * 20.0 * better + rounding(one);
+  }
   return status;
 }
 
 static pendres_status find_all(pendres_context *ctx, size_t n, const double *amplitude,
                                double *frequency, double *error)
 {
-  pendres_status status = PENDRES_OK;
-  size_t left = n;
-  swing *s = malloc(n * sizeof *s);
-  pendres_strobe_lane *lane = malloc(n * sizeof *lane);
-  size_t *which = malloc(n * sizeof *which);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
   const int asked = (ctx->options.steps_per_period + 3) / 4;
-
-  if (s == NULL || lane == NULL || which == NULL) {
-    status =
-      pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu amplitudes", n);
+  swings s = {.n = n, .one = malloc(n * sizeof *s.one), .lane = malloc(n * sizeof *s.lane),
+              .which = malloc(n * sizeof *s.which)};
+  if (s.one == NULL || s.lane == NULL || s.which == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu amplitudes", n);
     goto done;
   }
   for (size_t i = 0; i < n; i++)
-    s[i] = (swing){ .amplitude = amplitude[i], .steps = asked > 0 ? asked : FIRST_STEPS,
-                    .pendulum.drive_frequency = 4.0 * guess(amplitude[i]), .error = NAN };
-  if (!pendres_method_of(ctx)->fixed_steps)
-    status = find_adaptively(ctx, n, s, lane, which);
-  else
-    while (left > 0 && status == PENDRES_OK) status = turn(ctx, n, s, lane, which, &left);
+    s.one[i] = (swing){ .amplitude = amplitude[i], .steps = asked > 0 ? asked : FIRST_STEPS,
+                        .pendulum.drive_frequency = 4.0 * guess(amplitude[i]), .error = NAN };
+  status = pendres_method_of(ctx)->fixed_steps ? settle_clocks(ctx, ctx->options.tolerance, &s)
+                                               : find_adaptively(ctx, &s);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    frequency[i] = 0.25 * s[i].pendulum.drive_frequency;
-    error[i] = s[i].error * frequency[i];
+    frequency[i] = 0.25 * s.one[i].pendulum.drive_frequency;
+    error[i] = s.one[i].error * frequency[i];
   }
 done:
-  free(s);
-  free(lane);
-  free(which);
+  free(s.one);
+  free(s.lane);
+  free(s.which);
   return status;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
@@ -358,7 +359,7 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
     /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
        tell whether it was enough. */
     const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, speed,
-                                                       10.0 * ctx->options.tolerance, &c[i].steps);
+                                                       pendres_accuracy_first(ctx), &c[i].steps);
     if (status != PENDRES_OK) return status;
   }
   return PENDRES_OK;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/settle_certain.h"
 #include "orbits/settle_hunt.h"
@@ -62,20 +63,13 @@ static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catal
   return status;
 }
 
-double pendres_settle_accuracy(const pendres_context *ctx)
-{
-  /* An error of the size of the tolerance moves a basin's boundary by about as much; a loose one
-     would leave most labels in doubt. */
-  return fmin(10.0 * ctx->options.tolerance, 1e-5);
-}
-
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     pendres_catalogue *catalogues, int explore, size_t n,
                                     const size_t *set, const double *x, const double *v,
                                     pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
-  const double accuracy = pendres_settle_accuracy(ctx);
+  const double accuracy = pendres_accuracy_to_settle(ctx);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes), *starts = NULL;
   double *doubt = malloc((n + 1) * sizeof *doubt);
   long *budget = malloc((sets + 1) * sizeof *budget);

@@ -16,9 +16,6 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     const size_t *set, const double *x, const double *v,
                                     pendres_outcome *outcome);
 
-/* Error a period with which pendulums of a context are labelled at first. */
-double pendres_settle_accuracy(const pendres_context *ctx);
-
 /* Periods that pendulums get which are labelled against attractors that are known. */
 typedef enum pendres_settle_budget {
   PENDRES_SETTLE_SHORT, /* enough for almost all; what takes longer stays unresolved */

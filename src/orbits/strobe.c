@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
@@ -60,23 +61,12 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
     if (!pendres_method_of(ctx)->fixed_steps) continue;
     const pendres_status status =
       pendres_steps_choose(ctx, &p[i], pendres_steps_speed(&p[i], x[i], v[i]),
-                           ctx->options.tolerance / periods_that_count(&p[i], periods), &l->steps);
+                           pendres_accuracy_of_run(ctx, periods_that_count(&p[i], periods)),
+                           &l->steps);
     if (status != PENDRES_OK) return status;
     if (refinement != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * refinement));
   }
   return PENDRES_OK;
-}
-
-/* A run by a method of adaptive steps with another tolerance. */
-static pendres_status run_tighter(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                                  long periods, double asked)
-{
-  static const double tightest = 1e-15; /* what CVODE still works with */
-  const double tolerance = ctx->options.tolerance;
-  ctx->options.tolerance = fmax(tightest, asked);
-  const pendres_status status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
-  ctx->options.tolerance = tolerance;
-  return status;
 }
 
 /*
@@ -92,8 +82,8 @@ static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p,
 }
 
 /*
- * The same pendulums once more, by a better method. With fixed steps: more of them; else a tenth of
- * the tolerance. noise[n] receives the rounding errors.
+ * The same pendulums once more, by a better method: more steps where they are fixed, else a smaller
+ * tolerance. noise[n] receives the rounding errors.
  */
 static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                 const double *x, const double *v, long periods,
@@ -104,7 +94,8 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
   if (pendres_method_of(ctx)->fixed_steps)
     return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
   for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, &p[i], periods);
-  return run_tighter(ctx, n, finer, periods, 0.1 * ctx->options.tolerance);
+  return pendres_strobe_run_within(ctx, pendres_accuracy_second(ctx), n, finer, after_all_periods,
+                                   &periods);
 }
 
 /* |a - b| of two final states, in x and v. */
@@ -131,8 +122,7 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
  * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
  * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
  * steps of stiff pendulums), so that a tenth of it may change next to nothing. With such methods
- * all pendulums are therefore run a third time, with a hundredth of the tolerance, but never more
- * than 1e-6, since runs with tolerances up to 1e-4 may all end in the same wrong basin. noise[] as
+ * all pendulums are therefore run a third time, with a tolerance that is smaller again. noise[] as
  * in run_finer; lanes[n] is the first run, room[n] is scratch.
  */
 static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
@@ -141,7 +131,6 @@ static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_
                                   pendres_strobe_lane *room, double *apart)
 {
   const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
-  const double third = fmin(1e-6, 0.01 * ctx->options.tolerance);
   const int fixed = pendres_method_of(ctx)->fixed_steps;
   size_t some = 0;
   for (size_t i = 0; i < n; i++) {
@@ -150,9 +139,8 @@ static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_
     if (status != PENDRES_OK) return status;
     some++;
   }
-  const pendres_status status =
-    fixed ? pendres_strobe_run(ctx, some, room, after_all_periods, &periods)
-          : run_tighter(ctx, some, room, periods, third);
+  const pendres_status status = pendres_strobe_run_within(ctx, pendres_accuracy_third(ctx), some,
+                                                          room, after_all_periods, &periods);
   some = 0;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     if (!fixed || noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));

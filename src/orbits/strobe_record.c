@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
@@ -149,7 +150,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p, dou
   if (status == PENDRES_OK)
     /* Errors of all periods may add up. */
     status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x0, v0),
-                                  ctx->options.tolerance / fmax(1.0, (double)periods), &steps);
+                                  pendres_accuracy_of_run(ctx, fmax(1.0, (double)periods)), &steps);
   if (status != PENDRES_OK) return status;
   const pendres_place s = pendres_passage_in(p, x0, v0);
   memset(out, 0, sizeof *out); /* what is between the fields, too */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "orbits/attractor_internal.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
 
@@ -86,9 +87,6 @@ pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pend
   return PENDRES_CONTEXT_CALL(ctx, basin_attractors(ctx, p, grid, out));
 }
 
-/* That of a context for which none was asked. */
-static const double default_tolerance = 1e-8;
-
 static double smallest_spacing(size_t n, const double *values)
 {
   double least = INFINITY;
@@ -101,10 +99,7 @@ double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_gr
   if (ctx == NULL || grid == NULL || grid->x == NULL || grid->v == NULL) return NAN;
   const double spacing =
     fmin(smallest_spacing(grid->nx, grid->x), smallest_spacing(grid->nv, grid->v));
-  const double finest = 10.0 * ctx->options.tolerance;
-  /* Who asks for more than the default means it, even if a picture does not show it. */
-  if (ctx->options.tolerance < default_tolerance) return finest;
-  return isfinite(spacing) ? fmax(finest, fmin(1e-3 * spacing, 1e-5)) : finest;
+  return pendres_accuracy_to_picture(ctx, spacing);
 }
 
 /* Settle states by number; outcomes in their order. */

@@ -8,6 +8,7 @@
 #include "orbits/attractor_internal.h"
 #include "questions/basin_scatter.h"
 #include "questions/basin_uncertainty.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/settle.h"
 
@@ -103,7 +104,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
           &a->x[i * each], &a->v[i * each]);
   const pendres_status status =
     pendres_settle_known(ctx, a->set->catalogues, count * each, a->x, a->v,
-                         10.0 * ctx->options.tolerance, PENDRES_SETTLE_FULL, a->outcome);
+                         pendres_accuracy_to_sample(ctx), PENDRES_SETTLE_FULL, a->outcome);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
     out->unresolved += a->outcome[i * each].attractor == PENDRES_ATTRACTOR_UNKNOWN;

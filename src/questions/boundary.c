@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "questions/boundary_grow.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -197,7 +198,7 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
   int steps = 0;
   const double speed = fmax(fabs(o->v_low), fabs(o->v_high));
   pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
-                                               10.0 * ctx->options.tolerance, &steps);
+                                               pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
     status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_rung((int)ceil(1.4 * steps)),
                                         &seed);

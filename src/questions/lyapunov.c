@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/rank.h"
@@ -23,8 +24,6 @@ enum {
   ROUNDS = 4           /* of averages, each twice as long as the one before */
 };
 
-/* Errors of a period that means over time forgive; see chaos_walk.c. */
-static const double loosest = 1e-7;
 /* Strobe points that come back so closely are next to an orbit: at first, and once that orbit has
    turned out not to attract the pendulum. */
 static const double close_by = 1e-4, very_close_by = 1e-7;
@@ -291,7 +290,7 @@ static double speed_of(const pendres_pendulum *p, double x, double v)
 static pendres_status start(pendres_context *ctx, const job *j, const pendres_pendulum *p,
                             const double *x, const double *v)
 {
-  const double accuracy = fmax(loosest, ctx->options.tolerance);
+  const double accuracy = pendres_accuracy_to_average(ctx);
   for (size_t i = 0; i < j->n; i++) {
     runner *r = &j->runner[i];
     *r = (runner){.lane = pendres_strobe_lane_at(&p[i], x[i], v[i]), .u = {0.6, 0.8},

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
 #include "noise/langevin_moving.h"
@@ -304,7 +305,7 @@ static pendres_status ramp_scatter(pendres_context *ctx, const pendres_ramp *ram
   if (time == NULL && n > 0 && ramp->jumps > 0) return PENDRES_CONTEXT_NULL(ctx, "time");
   motion m = {.ramp = ramp, .temperature = ramp->pendulum.temperature};
   int steps = 0;
-  status = choose_steps(ctx, ramp, fmax(1e-6, ctx->options.tolerance), &steps);
+  status = choose_steps(ctx, ramp, pendres_accuracy_with_noise(ctx), &steps);
   if (status == PENDRES_OK)
     status = follow(ctx, &m, steps, n, first_id, 1, NULL, NULL, time);
   for (size_t i = 0; i < ramp->jumps * n && status == PENDRES_OK && value != NULL; i++)

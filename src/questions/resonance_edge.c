@@ -6,6 +6,7 @@
 
 #include <pendres/continuation.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "questions/resonance_gap.h"
 
@@ -223,7 +224,7 @@ pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres
                                              const pendres_scan_point *b, pendres_resonance *out)
 {
   pendres_scan_point lower = *a, upper = *b;
-  const double width = 0.25 * pendres_context_options(ctx)->tolerance;
+  const double width = pendres_accuracy_of_jump(ctx);
   const pendres_status status = bisect(ctx, ensemble, width, &lower, &upper);
   if (status != PENDRES_OK) return status;
   const int low = lower.response.mean_loop_area > upper.response.mean_loop_area;

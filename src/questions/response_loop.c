@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "orbits/orbit_sample.h"
 
@@ -36,7 +37,7 @@ pendres_status pendres_response_refine_loop(pendres_context *ctx, size_t n,
     loops += 1 + (attractor[i].orbit.period > 1);
   }
   /* One loop that closes in a cycle is the orbit itself, and has its amplitude. */
-  if (loops <= 1 || !(rest > 0.1 * share * ctx->options.tolerance)) return PENDRES_OK;
+  if (loops <= 1 || !(rest > share * pendres_accuracy_negligible(ctx))) return PENDRES_OK;
 
   const size_t modes = modes_of(n, attractor, members);
   pendres_orbit_series all = {.samples = (2 * modes + 2) / 3, .modes = modes};

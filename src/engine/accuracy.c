@@ -1,0 +1,75 @@
+/* accuracy.c -- tolerances of parts from the caller's; see accuracy.h. */
+#include "engine/accuracy.h"
+
+#include <math.h>
+
+#include "engine/context_internal.h"
+
+static const double least_step_error = 1e-15; /* what CVODE still works with */
+
+double pendres_accuracy_first(const pendres_context *ctx)
+{
+  return 10.0 * ctx->options.tolerance;
+}
+
+double pendres_accuracy_of_run(const pendres_context *ctx, double that_count)
+{
+  return ctx->options.tolerance / that_count;
+}
+
+double pendres_accuracy_to_settle(const pendres_context *ctx)
+{
+  return fmin(10.0 * ctx->options.tolerance, 1e-5);
+}
+
+double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)
+{
+  const double finest = 10.0 * ctx->options.tolerance;
+  if (ctx->options.tolerance < PENDRES_ACCURACY_DEFAULT || !isfinite(spacing)) return finest;
+  return fmax(finest, fmin(1e-3 * spacing, 1e-5));
+}
+
+double pendres_accuracy_to_sample(const pendres_context *ctx)
+{
+  return 10.0 * ctx->options.tolerance;
+}
+
+double pendres_accuracy_to_average(const pendres_context *ctx)
+{
+  return fmax(1e-7, ctx->options.tolerance);
+}
+
+double pendres_accuracy_with_noise(const pendres_context *ctx)
+{
+  return fmax(1e-6, ctx->options.tolerance);
+}
+
+double pendres_accuracy_to_walk(void)
+{
+  return 1e-7;
+}
+
+double pendres_accuracy_second(const pendres_context *ctx)
+{
+  return fmax(least_step_error, 0.1 * ctx->options.tolerance);
+}
+
+double pendres_accuracy_third(const pendres_context *ctx)
+{
+  return fmax(least_step_error, fmin(1e-6, 0.01 * ctx->options.tolerance));
+}
+
+double pendres_accuracy_far_better(const pendres_context *ctx)
+{
+  return fmax(PENDRES_ACCURACY_TIGHTEST, 1e-2 * ctx->options.tolerance);
+}
+
+double pendres_accuracy_of_jump(const pendres_context *ctx)
+{
+  return 0.25 * ctx->options.tolerance;
+}
+
+double pendres_accuracy_negligible(const pendres_context *ctx)
+{
+  return 0.1 * ctx->options.tolerance;
+}

@@ -1,0 +1,68 @@
+/*
+ * accuracy.h -- how exact the parts of a computation are to be, so that the whole of it is as exact
+ * as its caller asks: every tolerance that follows from the context's is made here, by name.
+ *
+ * Owns: the factors between them, and the reasons.
+ */
+#ifndef PENDRES_ACCURACY_H
+#define PENDRES_ACCURACY_H
+
+#include <pendres/context.h>
+
+/* What stands for 0 in options, and the least that can be asked for. */
+#define PENDRES_ACCURACY_DEFAULT 1e-8
+#define PENDRES_ACCURACY_TIGHTEST 1e-13
+
+/* ---- errors of a drive period, which choose its steps (steps.h) ---- */
+
+/* Of what is computed again with more steps until its own estimate of the error meets the
+   tolerance: orbits, branches, bifurcations, boundaries. The probes that choose steps are harder
+   than orbits are, so the first run may be looser. */
+double pendres_accuracy_first(const pendres_context *ctx);
+
+/* Of a run over many periods, `that_count` of whose errors add up. */
+double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
+
+/* Of pendulums on their way to an attractor: an error of the size of the tolerance moves a basin's
+   boundary by about as much, and a loose one would leave most labels in doubt. */
+double pendres_accuracy_to_settle(const pendres_context *ctx);
+
+/* The same for a picture of basins whose nearest states are so far apart. A picture does not show
+   a boundary that is off by a thousandth of that, but who asks for more than the default of
+   tolerances means it. */
+double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing);
+
+/* The same for states drawn at random, whose neighbours may be as near as they like. */
+double pendres_accuracy_to_sample(const pendres_context *ctx);
+
+/* Of trajectories that are averaged over long times, as for exponents: they forget their errors
+   (chaos_walk.c). */
+double pendres_accuracy_to_average(const pendres_context *ctx);
+
+/* Of noisy trajectories, whose scatter hides errors far larger than rounding. */
+double pendres_accuracy_with_noise(const pendres_context *ctx);
+
+/* Of walks along branches: a walk's points are corrected anew when it is over. */
+double pendres_accuracy_to_walk(void);
+
+/* ---- tolerances of methods that choose their own steps (strobe_run.h) ---- */
+
+/* Of the second run and the third, by which the first is judged: methods follow their tolerance
+   loosely, and runs with tolerances up to 1e-4 may all end in the same wrong basin. */
+double pendres_accuracy_second(const pendres_context *ctx);
+double pendres_accuracy_third(const pendres_context *ctx);
+
+/* Of a result that is itself the better one of two runs. */
+double pendres_accuracy_far_better(const pendres_context *ctx);
+
+/* ---- how far to go on ---- */
+
+/* The width of an interval in which a jump is left: its middle and the rest of the error have room
+   below the tolerance. */
+double pendres_accuracy_of_jump(const pendres_context *ctx);
+
+/* What a part may add to a result's error without being looked at: harmonics left out of a mean,
+   the last step of a search. */
+double pendres_accuracy_negligible(const pendres_context *ctx);
+
+#endif
