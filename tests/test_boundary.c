@@ -87,19 +87,19 @@ static void curve_is_a_curve(void **state)
   pendres_boundary_free(b);
 }
 
-/* Step to both sides of every point of the curve by a few times its error. */
-static void sides_go_to_different_attractors(void **state)
+/* Step to both sides of every fifth point of the curve by a few times its error: at least so many
+   states. */
+static void check_sides(const fixture *f, const pendres_boundary_options *window, size_t least)
 {
-  fixture *f = *state;
-  const pendres_boundary_options window = {.v_low = -1.2, .v_high = 1.2, .deviation = 1e-6};
   pendres_boundary *b = NULL;
-  check_ok(pendres_boundary_find(f->ctx, &f->saddle, &window, &b));
+  check_ok(pendres_boundary_find(f->ctx, &f->saddle, window, &b));
   const size_t n = pendres_boundary_count(b);
   const double *x = pendres_boundary_x(b), *v = pendres_boundary_v(b);
   const double *error = pendres_boundary_error(b);
   const int *piece = pendres_boundary_piece(b);
   /* Twice the deviation asked for: the estimate of the bend carries a margin of 1.5. */
-  assert_true(pendres_boundary_bound(b) <= 2e-6 && pendres_boundary_bound(b) > 0.0);
+  assert_true(pendres_boundary_bound(b) <= 2.0 * window->deviation);
+  assert_true(pendres_boundary_bound(b) > 0.0);
 
   double *px = malloc(2 * n * sizeof *px), *pv = malloc(2 * n * sizeof *pv);
   pendres_outcome *outcome = malloc(2 * n * sizeof *outcome);
@@ -124,12 +124,87 @@ static void sides_go_to_different_attractors(void **state)
       outcome[i].well == outcome[i + 1].well;
   }
   /* Two strands of the boundary may be so close that both are stepped over: a few in a thousand. */
-  assert_true(m > 400);
+  assert_true(m > least);
   assert_true(same <= m / 500);
   free(px);
   free(pv);
   free(outcome);
   pendres_boundary_free(b);
+}
+
+static void sides_go_to_different_attractors(void **state)
+{
+  const pendres_boundary_options window = {.v_low = -1.2, .v_high = 1.2, .deviation = 1e-6};
+  check_sides(*state, &window, 400);
+}
+
+/* ---- other models ---- */
+
+/* A torque moves the wells' bottoms, a parametric drive tilts them twice a period, and Duffing's
+   oscillator has no wells side by side: their boundaries part attractors too. */
+static void boundaries_of_other_models(void **state)
+{
+  (void)state;
+  static const struct {
+    pendres_pendulum p;
+    size_t least;
+  } cases[] = {
+    {{.damping = 0.14, .drive_amplitude = 0.2, .drive_frequency = 0.82, .torque = 0.02,
+      .parametric_amplitude = 0.05}, 200},
+    {{.damping = 0.2, .drive_amplitude = 0.3, .drive_frequency = 1.35,
+      .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}}, 100}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const pendres_boundary_options window = {.x_low = -1.5, .x_high = 1.5, .v_low = -1.2,
+                                             .v_high = 1.2, .deviation = 1e-6};
+    fixture f = {NULL, NULL, {.period = 0}};
+    check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &f.ctx));
+    check_ok(pendres_attractors_find(f.ctx, &cases[i].p, 0, NULL, NULL, &f.found));
+    check_ok(pendres_saddle_find(f.ctx, &pendres_attractors_get(f.found, 0)->orbit, &f.saddle));
+    check_sides(&f, &window, cases[i].least);
+    pendres_attractors_free(f.found);
+    pendres_context_free(f.ctx);
+  }
+}
+
+/*
+ * x'' + gamma x' - x = F0 cos omega t has one orbit, a saddle, and its stable manifold is the
+ * straight line through it along which errors shrink as exp(-lambda t), lambda (lambda - gamma) =
+ * 1: within the errors that are claimed, and rounding.
+ */
+static void a_linear_saddle(void **state)
+{
+  (void)state;
+  const double gamma = 0.3, drive = 0.5, omega = 1.1, square = 1.0 + omega * omega;
+  const double lambda = 0.5 * (gamma + sqrt(gamma * gamma + 4.0));
+  const double of_cosine = -drive * square / (square * square + gamma * gamma * omega * omega);
+  const double of_sine = -of_cosine * gamma * omega / square;
+  const pendres_orbit_guess guess = {
+    .pendulum = {.damping = gamma, .drive_amplitude = drive, .drive_frequency = omega,
+                 .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0}},
+    .x = of_cosine, .v = omega * of_sine, .period = 1};
+  const pendres_boundary_options window = {.x_low = -3.0, .x_high = 3.0, .v_low = -3.0,
+                                           .v_high = 3.0};
+  pendres_context *ctx = NULL;
+  pendres_boundary *b = NULL;
+  pendres_orbit saddle;
+  pendres_status outcome = PENDRES_INTERNAL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
+  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &saddle, &outcome));
+  check_near(saddle.x, of_cosine, saddle.x_error);
+  check_ok(pendres_boundary_find(ctx, &saddle, &window, &b));
+  double low = 0.0, high = 0.0;
+  for (size_t i = 0; i < pendres_boundary_count(b); i++) {
+    const double x = pendres_boundary_x(b)[i], v = pendres_boundary_v(b)[i];
+    const double off = v - omega * of_sine + lambda * (x - of_cosine);
+    check_near(off / hypot(1.0, lambda), 0.0, pendres_boundary_error(b)[i]);
+    low = fmin(low, v);
+    high = fmax(high, v);
+  }
+  assert_true(low < -2.9 && high > 2.9 && pendres_boundary_bound(b) < 1e-7);
+  /* With a polynomial force what is outside may come back, for all that is known. */
+  assert_int_equal(pendres_boundary_complete(b), 0);
+  pendres_boundary_free(b);
+  pendres_context_free(ctx);
 }
 
 /* A coarser curve lies on the finer one, to the sum of their bounds. */
@@ -195,7 +270,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(saddle_matches_reference),      cmocka_unit_test(curve_is_a_curve),
     cmocka_unit_test(sides_go_to_different_attractors), cmocka_unit_test(coarse_and_fine_agree),
-    cmocka_unit_test(mistakes_are_told),
+    cmocka_unit_test(mistakes_are_told), cmocka_unit_test(boundaries_of_other_models),
+    cmocka_unit_test(a_linear_saddle),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -10,6 +10,10 @@
  * in a mirror: time -> -time turns (damping, v) into (-damping, -v) and leaves the drive, which
  * is even in time, alone. Going back, errors across the manifold shrink.
  *
+ * Serves all pendulums and forces. With a polynomial force a state that has left may come back from
+ * any distance, so the curve is followed as far as twice the window's size around it, and is never
+ * said to be complete.
+ *
  * Source: You, Kostelich and Yorke, Int. J. Bifurcation Chaos 1 (1991) 605; Hobson,
  * J. Comput. Phys. 104 (1993) 14, for the refinement by distance and angle.
  */
@@ -27,7 +31,8 @@ extern "C" {
 /** What is wanted. Zero in a field means the default. */
 typedef struct pendres_boundary_options {
   double x_low;         /**< window in which points are kept, rad; where x_low and x_high are 0: one
-                             turn around well 0 */
+                             turn around well 0, of a polynomial pi times its length (the largest at
+                             which two of its terms are alike, or 1) to both sides of 0 */
   double x_high;        /**< its other side */
   double v_low;         /**< the same in v; where v_low and v_high are 0: -2.5 to 2.5 */
   double v_high;        /**< its other side */

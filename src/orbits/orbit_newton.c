@@ -26,12 +26,6 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   return pendres_passage_refuses(&o->pendulum, o->x, o->v);
 }
 
-const char *pendres_orbit_refuses_others(const pendres_orbit *o)
-{
-  const char *why = pendres_model_refuses_others(&o->pendulum);
-  return why != NULL ? why : pendres_orbit_refuses(o);
-}
-
 void pendres_newton_tape_free(pendres_newton_tape *tape)
 {
   free(tape->data);

@@ -50,8 +50,6 @@ static inline const double *pendres_newton_sample(const pendres_newton_tape *t, 
 /* NULL, or why a caller's orbit is none that could be followed: a static sentence. */
 const char *pendres_orbit_refuses(const pendres_orbit *o);
 
-/* The same where only orbits of the plain pendulum are served. */
-const char *pendres_orbit_refuses_others(const pendres_orbit *o);
 
 void pendres_newton_tape_free(pendres_newton_tape *tape);
 

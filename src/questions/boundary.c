@@ -11,6 +11,7 @@
 #include "questions/boundary_grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
 
@@ -72,11 +73,12 @@ int pendres_boundary_complete(const pendres_boundary *b)
 
 /* ---- what is wanted ---- */
 
-static const char *resolve(pendres_boundary_options *o)
+static const char *resolve(const pendres_pendulum *p, pendres_boundary_options *o)
 {
   if (o->x_low == 0.0 && o->x_high == 0.0) {
-    o->x_low = -half_pi;
-    o->x_high = 3.0 * half_pi;
+    const double scale = pi * pendres_model_scale(p);
+    o->x_low = pendres_model_origin(p) - scale;
+    o->x_high = pendres_model_origin(p) + scale;
   }
   if (o->v_low == 0.0 && o->v_high == 0.0) {
     o->v_low = -2.5;
@@ -161,6 +163,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
 {
   const size_t n = curve->count;
   const double omega = saddle->pendulum.drive_frequency;
+  const double origin = pendres_model_origin(&saddle->pendulum);
   pendres_boundary_seed coarse;
   double *memory = malloc((3 * n + 1) * sizeof *memory);
   if (memory == NULL)
@@ -172,7 +175,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
   if (status != PENDRES_OK) goto done;
   double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < n; i++) {
-    x[i] = curve->node[i].y + half_pi;
+    x[i] = curve->node[i].y + origin;
     v[i] = curve->node[i].w * omega;
     /* The coarser manifold is some fifteen times as far from the true one as the finer. */
     error[i] = 0.25 * error[i] + 1.5 * curve->node[i].sagitta + rounding;
@@ -180,10 +183,12 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
     high = fmax(high, x[i]);
   }
   const traced t = {.node = curve->node, .x = x, .v = v, .error = error, .count = n};
-  for (double k = floor((o->x_low - high) / two_pi); k <= ceil((o->x_high - low) / two_pi); k++) {
-    status = show(ctx, &t, o, k * two_pi, b);
-    if (status != PENDRES_OK) break;
-  }
+  /* With its translations by whole turns, where turns mean nothing. */
+  const double turn = pendres_model_of(saddle->pendulum.force)->period;
+  const double from = turn > 0.0 ? floor((o->x_low - high) / turn) : 0.0;
+  const double to = turn > 0.0 ? ceil((o->x_high - low) / turn) : 0.0;
+  for (double k = from; k <= to && status == PENDRES_OK; k++)
+    status = show(ctx, &t, o, k * turn, b);
 done:
   free(memory);
   return status;
@@ -196,7 +201,8 @@ static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddl
   pendres_boundary_seed seed;
   pendres_boundary_curve curve = {.complete = 1};
   int steps = 0;
-  const double speed = fmax(fabs(o->v_low), fabs(o->v_high));
+  const double v = fmax(fabs(o->v_low), fabs(o->v_high)), x = fmax(fabs(o->x_low), fabs(o->x_high));
+  const double speed = pendres_steps_speed(&saddle->pendulum, x, v);
   pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
                                                pendres_accuracy_first(ctx), &steps);
   if (status == PENDRES_OK)
@@ -213,14 +219,14 @@ static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *s
                                     const pendres_boundary_options *options, pendres_boundary **out)
 {
   if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
-  const char *no_orbit = pendres_orbit_refuses_others(saddle);
+  const char *no_orbit = pendres_orbit_refuses(saddle);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", no_orbit);
   *out = NULL;
   pendres_boundary_options o = {0};
   const char *why = NULL;
   if (options != NULL) o = *options;
-  why = resolve(&o);
+  why = resolve(&saddle->pendulum, &o);
   if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
   if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);

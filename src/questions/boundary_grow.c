@@ -9,12 +9,15 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/strobe_run.h"
+#include "model/model.h"
 
 /* The second-order manifold is exact to the cube of this, which further maps shrink; a seed
    parameter is exact to rounding over this. */
 static const double start_distance = 2e-4;
 static const double far_before = -1e4; /* a seed parameter on the saddle */
 enum { FIRST_NODES = 5, MOST_GENERATIONS = 400, MOST_ROUNDS = 60 };
+/* What stands for a place at infinity: beyond all windows. */
+static const double at_infinity = 1e9;
 /* Seed parameters differ by rounding, 1e-12: closer than this there is no order along the curve. */
 static const double closest_seeds = 1e-9;
 
@@ -70,7 +73,8 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
   pendres_continuation_equations at;
   (void)pendres_continuation_map_of(saddle, 2, unknown, u);
   /* The whole period also where half of one would do: sides are kept then. */
-  const pendres_continuation_map map = {.period = saddle->period, .winding = saddle->winding};
+  const pendres_continuation_map map = {
+    .force = saddle->pendulum.force, .period = saddle->period, .winding = saddle->winding};
   pendres_status status = pendres_continuation_map_solve(ctx, &map, PENDRES_CONDITION_NONE, steps,
                                                          unknown, 0.01, u, &at);
   if (status == PENDRES_NOT_CONVERGED)
@@ -119,7 +123,18 @@ static void place(const pendres_boundary_seed *seed, double s, int side, double 
 
 static int mapped(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
-  return lane->period >= ((const long *)arg)[index];
+  /* A polynomial force may lead to infinity within some periods, back in time as forwards. */
+  return lane->period >= ((const long *)arg)[index] || !isfinite(lane->y) || !isfinite(lane->w);
+}
+
+/* Where a lane has come to, going back. */
+static void take_back(const pendres_strobe_lane *lane, double *y, double *w)
+{
+  *y = lane->y + two_pi * (double)lane->turns;
+  *w = -lane->w;
+  if (isfinite(*y) && isfinite(*w)) return;
+  *y = at_infinity;
+  *w = at_infinity;
 }
 
 /* Where n nodes are, from their seeds. */
@@ -144,10 +159,8 @@ static pendres_status map_seeds(pendres_context *ctx, const pendres_boundary_see
     index[moving++] = i;
   }
   status = pendres_strobe_run(ctx, moving, lane, mapped, periods);
-  for (size_t i = 0; i < moving && status == PENDRES_OK; i++) {
-    y[index[i]] = lane[i].y + two_pi * (double)lane[i].turns;
-    w[index[i]] = -lane[i].w;
-  }
+  for (size_t i = 0; i < moving && status == PENDRES_OK; i++)
+    take_back(&lane[i], &y[index[i]], &w[index[i]]);
 done:
   free(lane);
   free(periods);
@@ -172,7 +185,8 @@ static double distance_of(const pendres_boundary_seed *seed, const double u[PEND
   /* Forward again: w has its own sign. */
   double dy = image->f[0] + u[PENDRES_U_Y] - seed->y;
   const double dw = image->f[1] + u[PENDRES_U_W] + seed->w;
-  dy -= two_pi * rint(dy / two_pi);
+  const double turn = pendres_model_turn(&seed->backward);
+  dy -= turn * rint(dy / turn);
   const double a = dy * seed->e[0] - dw * seed->e[1], c = dy * seed->f[0] - dw * seed->f[1];
   const double off = c - seed->bend * a * a;
   const double by_y = seed->f[0] - 2.0 * seed->bend * a * seed->e[0];
@@ -204,7 +218,8 @@ pendres_status pendres_boundary_grow_distance(pendres_context *ctx,
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
     last = first;
     while (last < n && order[last]->generation == order[first]->generation) last++;
-    const pendres_continuation_map map = {.period = order[first]->generation * seed->iterates};
+    const pendres_continuation_map map = {.force = seed->backward.force,
+                                          .period = order[first]->generation * seed->iterates};
     status = pendres_continuation_map_states(ctx, &map, seed->steps, last - first,
                                              (const double (*)[PENDRES_U_COUNT])u + first,
                                              image + first);
@@ -224,14 +239,17 @@ done:
 typedef struct front {
   const pendres_boundary_seed *seed;
   const pendres_boundary_options *options;
-  double out_v; /* beyond this speed a state never comes back, going back in time */
+  /* Beyond this speed a state never comes back, going back in time; with a polynomial force states
+     are given up beyond these bounds, and may come back. */
+  double out_v, out_low, out_high;
   size_t count, capacity;
   pendres_boundary_node *node; /* of one side and generation, s ascending */
 } front;
 
 static int is_out(const front *f, const pendres_boundary_node *n)
 {
-  return fabs(n->w) * f->seed->backward.drive_frequency > f->out_v;
+  return fabs(n->w) * f->seed->backward.drive_frequency > f->out_v || n->y < f->out_low ||
+         n->y > f->out_high;
 }
 
 /* Room for n nodes. */
@@ -356,8 +374,7 @@ static pendres_status next_generation(pendres_context *ctx, front *f)
   status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);
   for (size_t i = 0; i < f->count && status == PENDRES_OK; i++) {
     f->node[i].generation++;
-    f->node[i].y = lane[i].y + two_pi * (double)lane[i].turns;
-    f->node[i].w = -lane[i].w;
+    take_back(&lane[i], &f->node[i].y, &f->node[i].w);
   }
 done:
   free(lane);
@@ -442,15 +459,34 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
   return status;
 }
 
+/*
+ * Going back in time, d(energy)/dt = damping v^2 -+ push v >= 0 while |v| >= push/damping, and the
+ * potential of a pendulum varies by 2: faster than out_v, |v| never falls below `speed` again. The
+ * push is what drive, torque and parametric drive can do at most. That of a polynomial varies
+ * without bound, and its states are followed to twice the window's size around it.
+ */
+static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_options *o)
+{
+  const pendres_pendulum *p = &seed->backward;
+  const double most = fmax(fabs(o->v_low), fabs(o->v_high));
+  if (p->force == PENDRES_FORCE_POLYNOMIAL) {
+    const double width = o->x_high - o->x_low;
+    return (front){.seed = seed, .options = o, .out_v = 2.0 * most,
+                   .out_low = o->x_low - 0.5 * width, .out_high = o->x_high + 0.5 * width};
+  }
+  const double push =
+    fabs(p->drive_amplitude) + fabs(p->torque) + fabs(p->parametric_amplitude);
+  const double speed = fmax(most, push / -p->damping);
+  return (front){.seed = seed, .options = o, .out_v = sqrt(speed * speed + 4.0),
+                 .out_low = -INFINITY, .out_high = INFINITY};
+}
+
 pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundary_seed *seed,
                                      const pendres_boundary_options *o,
                                      pendres_boundary_curve *curve)
 {
-  const double drive = fabs(seed->backward.drive_amplitude), damping = -seed->backward.damping;
-  const double speed = fmax(fmax(fabs(o->v_low), fabs(o->v_high)), drive / damping);
-  /* Going back in time, d(energy)/dt = damping v^2 -+ drive v >= 0 while |v| >= drive/damping, and
-     the potential varies by 2: faster than this, |v| never falls below `speed` again. */
-  front f = {.seed = seed, .options = o, .out_v = sqrt(speed * speed + 4.0)};
+  front f = front_of(seed, o);
+  if (seed->backward.force == PENDRES_FORCE_POLYNOMIAL) curve->complete = 0;
   pendres_status status = grow_side(ctx, &f, 1, curve);
   if (status == PENDRES_OK) status = grow_side(ctx, &f, -1, curve);
   free(f.node);

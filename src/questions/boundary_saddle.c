@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/angles.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "continuation/continuation_walk.h"
 
@@ -46,7 +46,8 @@ static pendres_status refine(pendres_context *ctx, const pendres_orbit *attracto
                              const double u[PENDRES_U_COUNT], pendres_orbit *out)
 {
   const pendres_orbit_guess guess = {.pendulum = attractor->pendulum,
-                                     .x = u[PENDRES_U_Y] + half_pi,
+                                     .x = u[PENDRES_U_Y] +
+                                          pendres_model_origin(&attractor->pendulum),
                                      .v = u[PENDRES_U_W] * attractor->pendulum.drive_frequency,
                                      .period = attractor->period,
                                      .winding = attractor->winding};
@@ -66,7 +67,7 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
                                   pendres_orbit *out)
 {
   if (attractor == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractor and out");
-  const char *no_orbit = pendres_orbit_refuses_others(attractor);
+  const char *no_orbit = pendres_orbit_refuses(attractor);
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: %s", no_orbit);
   pendres_status status = PENDRES_NOT_FOUND;
