@@ -141,6 +141,9 @@ static void symmetry_breaks_and_period_doubles(void **state)
   check_near(birth->value, at->value, birth->value_error + at->value_error);
   assert_int_equal(first->kind, PENDRES_PERIOD_DOUBLING);
   assert_int_equal(last->kind, PENDRES_PERIOD_DOUBLING);
+  /* What makes a doubling and a loss of symmetry, not what a map nearby has. */
+  check_near(first->orbit.multiplier_re[0], -1.0, 0.0);
+  check_near(birth->orbit.multiplier_re[0], 1.0, 0.0);
   /* Mirror images double together. */
   check_near(first->value, last->value, first->value_error + last->value_error);
   pendres_pendulum p = la.pendulum;

@@ -104,7 +104,9 @@ typedef struct pendres_bifurcation {
    */
   double curvature;
   double curvature_error;      /**< its error */
-  pendres_orbit orbit; /**< the orbit there, its pendulum with the value; slopes are NaN */
+  pendres_orbit orbit; /**< the orbit there, its pendulum with the value; slopes are NaN; its
+                            multipliers are those that make the bifurcation: one is +1 or -1, and
+                            the product of both follows from the damping */
 } pendres_bifurcation;
 
 /** A bifurcation that is a fold. */

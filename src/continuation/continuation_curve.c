@@ -97,7 +97,10 @@ static pendres_status finish_cusp(pendres_context *ctx, const int *unknown,
     out->value[i] = l->pair.fine[unknown[2 + i]];
     out->value_error[i] = l->error[2 + i];
   }
-  return pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
+  const pendres_status status = pendres_continuation_orbit_measure(ctx, 1, &l->pair, &out->orbit);
+  pendres_continuation_orbit_set_critical(PENDRES_FOLD, 2, out->parameter, out->value_error,
+                                          &out->orbit);
+  return status;
 }
 
 static pendres_status locate_cusp(pendres_context *ctx, const pendres_trail *t,
@@ -155,6 +158,8 @@ static void fill_point(const pendres_course *course, size_t k, pendres_curve *c)
     c->point[k].value[i] = pair->fine[kind->unknown[2 + i]];
     c->point[k].value_error[i] = s != NULL ? s->value_error[i] : course->error[p->i][i];
   }
+  pendres_continuation_orbit_set_critical(c->kind, 2, c->parameter, c->point[k].value_error,
+                                          &c->point[k].orbit);
 }
 
 static pendres_status fill(pendres_context *ctx, const pendres_course *course, pendres_curve *c)

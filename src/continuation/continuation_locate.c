@@ -1,6 +1,7 @@
 /* continuation_locate.c -- folds, flips and cusps with their errors; see continuation_locate.h. */
 #include "continuation/continuation_locate.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,26 +15,55 @@ static const double epsilon = 4e-16;
 
 static const int counts[] = {2, 3, 3, 4}; /* unknowns of the conditions */
 
-/*
- * How rounding of the map moves the unknowns: the sums of the rows of the inverse Jacobian. The
- * derivatives of the map are a few times less exact than the map.
- */
-static int rounding_of(const pendres_continuation_equations *e, const int *unknown, int steps,
-                       int period, double rounding[PENDRES_EQUATIONS_MOST])
+/* How the unknowns move where each equation is off by so much, whichever way. 0 if singular. */
+static int moved_by(const pendres_continuation_equations *e, const int *unknown,
+                    const double off[PENDRES_EQUATIONS_MOST],
+                    double moved[PENDRES_EQUATIONS_MOST])
 {
   const int n = e->equations;
-  const double unit = epsilon * fmax(1.0, hypot(e->j[0][0], e->j[1][1])) * sqrt(steps * period);
-  for (int i = 0; i < n; i++) rounding[i] = 0.0;
+  for (int i = 0; i < n; i++) moved[i] = 0.0;
   for (int column = 0; column < n; column++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
     for (int r = 0; r < n; r++)
       for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
-    /* The third derivative of a cusp comes from differences over a hundredth. */
-    b[column] = column < 2 ? unit : column == 2 ? 4.0 * unit : 400.0 * unit;
+    b[column] = off[column];
     if (!pendres_continuation_map_linear(n, a, b)) return 0;
-    for (int i = 0; i < n; i++) rounding[i] = hypot(rounding[i], b[i]);
+    for (int i = 0; i < n; i++) moved[i] = hypot(moved[i], b[i]);
   }
   return 1;
+}
+
+/* What rounding of the map leaves of each equation. The derivatives of the map are a few times less
+   exact than the map; the third one of a cusp comes from differences over a hundredth. */
+static void rounding_of(const pendres_continuation_equations *e, int steps, int period,
+                        double off[PENDRES_EQUATIONS_MOST])
+{
+  const double unit = epsilon * fmax(1.0, hypot(e->j[0][0], e->j[1][1])) * sqrt(steps * period);
+  off[0] = off[1] = unit;
+  off[2] = 4.0 * unit;
+  off[3] = 400.0 * unit;
+}
+
+/*
+ * What the map with more steps leaves of the equations where that with fewer has solved them. Both
+ * parts of the trace count by themselves: that they cancel may be chance, as it may be that what
+ * the equations are off by moves an unknown to and fro.
+ */
+static pendres_status apart_of(pendres_context *ctx, const pendres_continuation_pair *pair,
+                               double off[PENDRES_EQUATIONS_MOST])
+{
+  pendres_continuation_image image[2];
+  for (int fine = 0; fine < 2; fine++) {
+    const pendres_status status = pendres_continuation_map_states(
+      ctx, &pair->map, fine ? pair->fine_steps : pair->coarse_steps, 1,
+      (const double (*)[PENDRES_U_COUNT])pair->coarse, &image[fine]);
+    if (status != PENDRES_OK) return status;
+  }
+  off[0] = image[1].f[0] - image[0].f[0];
+  off[1] = image[1].f[1] - image[0].f[1];
+  off[2] = fabs(image[1].n[0][0] - image[0].n[0][0]) + fabs(image[1].n[1][1] - image[0].n[1][1]);
+  off[3] = 0.0;
+  return PENDRES_OK;
 }
 
 /*
@@ -82,9 +112,11 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   pendres_continuation_equations at;
   pendres_continuation_pair *pair = &out->pair;
   const int n = counts[condition];
-  double rounding[PENDRES_EQUATIONS_MOST];
+  double off[PENDRES_EQUATIONS_MOST];
+  double apart[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
 
   pair->map = *map;
+  pair->critical = 1;
   pair->coarse_steps = steps;
   pair->fine_steps = pendres_steps_rung((int)ceil(1.4 * steps));
   pair->fine_steps += pair->fine_steps % 2;
@@ -98,15 +130,18 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,
                                           pair->fine, &at);
   if (status != PENDRES_OK) return status;
-  if (!rounding_of(&at, unknown, pair->fine_steps, map->period, rounding))
-    return PENDRES_NOT_CONVERGED;
-  /* Where two values of a parameter agree by chance, it is not known better than its point. */
-  const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
-                             pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
-  for (int i = 0; i < n; i++)
+  rounding_of(&at, pair->fine_steps, map->period, off);
+  if (!moved_by(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
+  status = apart_of(ctx, pair, off);
+  if (status != PENDRES_OK) return status;
+  if (!moved_by(&at, unknown, off, apart)) return PENDRES_NOT_CONVERGED;
+  for (int i = 0; i < n; i++) {
+    const double a = pair->coarse[unknown[i]], b = pair->fine[unknown[i]];
     out->error[i] = pendres_continuation_orbit_error(
-      pair->coarse[unknown[i]], pair->fine[unknown[i]], rounding[i] + 0.005 * point);
+      a, b, rounding[i] + 0.12 * apart[i] + 0.5 * DBL_EPSILON * fabs(b));
+  }
   pair->rounding = hypot(rounding[0], rounding[1]);
+  pair->apart = hypot(apart[0], apart[1]);
   return PENDRES_OK;
 }
 
@@ -158,6 +193,7 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
               : p->map.mirror                     ? PENDRES_SYMMETRY_BREAKING
                                                   : PENDRES_PERIOD_DOUBLING;
   pendres_status status = pendres_continuation_orbit_measure(ctx, 1, p, &out->orbit);
+  pendres_continuation_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
   if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;
   /* Truncation h^2 and rounding 1e-15/h meet here; twice the width tells how large they are. */
   const double h = 1e-4;

@@ -29,6 +29,25 @@ double pendres_continuation_orbit_error(double coarse, double fine, double round
   return 0.25 * fabs(fine - coarse) + rounding;
 }
 
+void pendres_continuation_orbit_set_critical(pendres_special kind, int parameters,
+                                             const pendres_parameter *parameter,
+                                             const double *error, pendres_orbit *o)
+{
+  const double damping = o->pendulum.damping, omega = o->pendulum.drive_frequency;
+  const double time = two_pi * o->period / omega, product = exp(-damping * time);
+  const double critical = kind == PENDRES_PERIOD_DOUBLING ? -1.0 : 1.0;
+  double off = DBL_EPSILON * (1.0 + damping * time); /* of the product, relative */
+  for (int k = 0; k < parameters; k++) {
+    if (parameter[k] == PENDRES_DAMPING) off += time * error[k];
+    if (parameter[k] == PENDRES_DRIVE_FREQUENCY) off += damping * time * error[k] / omega;
+  }
+  o->multiplier_re[0] = critical;
+  o->multiplier_re[1] = critical * product;
+  o->multiplier_im[0] = o->multiplier_im[1] = 0.0;
+  o->multiplier_error = product * off;
+  o->stable = 0;
+}
+
 static int winding_of(const pendres_continuation_map *map)
 {
   return map->mirror ? 0 : map->winding;
@@ -123,14 +142,19 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
 {
   const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, pair->fine);
   const double omega = p.drive_frequency;
-  const double point = hypot(pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
-                             pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]);
-  /* Where an orbit is about to end, both computations feel their errors amplified, and the order
-     sets in late: three times the usual share. */
-  const pendres_orbit_doubt doubt = {
-    .apart = 3.0 * fmax(point, pendres_orbit_measures_apart(&a->measures, &b->measures,
-                                                            pair->map.period)),
-    .rounding = pair->rounding};
+  const double from[2] = {pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
+                          pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]};
+  const double along =
+    pendres_orbit_measures_apart(&a->measures, &b->measures, pair->map.period);
+  /* The equations of a bifurcation do not multiply errors by the inverse of I - M, which is
+     singular there, but by their own: a difference that is less than a third of what its parts make
+     together is taken for chance. */
+  const double beside =
+    pair->critical
+      ? pair->apart / 3.0
+      : pendres_orbit_apart_beside(a->m, b->m, a->m_by, from, b->measures.amplitude);
+  const pendres_orbit_doubt doubt = {.apart = fmax(fmax(hypot(from[0], from[1]), along), beside),
+                                     .rounding = pair->rounding};
 
   memset(o, 0, sizeof *o);
   o->pendulum = p;

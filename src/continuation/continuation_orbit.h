@@ -6,6 +6,8 @@
 #ifndef PENDRES_CONTINUATION_ORBIT_H
 #define PENDRES_CONTINUATION_ORBIT_H
 
+#include <pendres/continuation.h>
+
 #include "continuation/continuation_map.h"
 
 /* A fixed point as two computations of different steps a period found it. */
@@ -13,6 +15,8 @@ typedef struct pendres_continuation_pair {
   pendres_continuation_map map;
   double coarse[PENDRES_U_COUNT], fine[PENDRES_U_COUNT];
   int coarse_steps, fine_steps;
+  int critical;    /* at a bifurcation, not at given parameters */
+  double apart;    /* of the two at a bifurcation, in y and w, had no parts of it cancelled */
   double rounding; /* of y and w */
 } pendres_continuation_pair;
 
@@ -20,6 +24,15 @@ typedef struct pendres_continuation_pair {
 pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n,
                                                   const pendres_continuation_pair *pairs,
                                                   pendres_orbit *out);
+
+/*
+ * The multipliers of an orbit at a bifurcation that was found as the parameters changed, each known
+ * but for its error: one is +1 or -1, and the product of both is known (Liouville). What a map near
+ * the bifurcation has instead tells of its distance alone.
+ */
+void pendres_continuation_orbit_set_critical(pendres_special kind, int parameters,
+                                             const pendres_parameter *parameter,
+                                             const double *error, pendres_orbit *o);
 
 /* Error of the finer of two computations, with the rounding. */
 double pendres_continuation_orbit_error(double coarse, double fine, double rounding);

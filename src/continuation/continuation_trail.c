@@ -339,7 +339,8 @@ static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
     p->index[i] = i;
-    pairs[i] = (pendres_continuation_pair){.map = t->kind.map};
+    pairs[i] = (pendres_continuation_pair){
+      .map = t->kind.map, .critical = t->kind.condition != PENDRES_CONDITION_NONE};
     memcpy(pairs[i].coarse, t->point[i].u, sizeof pairs[i].coarse);
     status =
       pendres_continuation_map_steps(ctx, t->kind.map.force, t->point[i].u,

@@ -79,31 +79,6 @@ static double size_of(const double m[2][2])
   return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
 }
 
-/*
- * How far two computations would be apart a little beside the orbit, by what the derivatives of
- * their maps differ by. That the maps agree on the orbit, all along it, may be chance; that they
- * agree beside it as well is none. A little: a share of the orbit's size, and of the way on which
- * the derivative changes by itself.
- */
-static double apart_beside(const result *coarse, const result *fine)
-{
-  static const double little = 0.2;
-  const double from[2] = {fine->y - fine->off[0] - coarse->y + coarse->off[0],
-                          fine->w - fine->off[1] - coarse->w + coarse->off[1]};
-  double squares = 0.0;
-  for (int i = 0; i < 2; i++)
-    for (int j = 0; j < 2; j++) {
-      /* Not because they were taken at two points. */
-      const double moved = coarse->m_by[0][i][j] * from[0] + coarse->m_by[1][i][j] * from[1];
-      const double off = fmax(0.0, fabs(fine->m[i][j] - coarse->m[i][j]) - fabs(moved));
-      squares += off * off;
-    }
-  const double way =
-    size_of(fine->m) / hypot(size_of(coarse->m_by[0]), size_of(coarse->m_by[1]));
-  return little * fmin(fine->measures.amplitude, way) * sqrt(squares) *
-         pendres_newton_share(fine->m);
-}
-
 /* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order. */
 static void left_over(const result *coarse, const result *fine, double left[2])
 {
@@ -191,7 +166,11 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
   const double along = pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
                                                     c->guess->period);
-  const double apart = fmax(fmax(there, along), apart_beside(coarse, fine));
+  const double from[2] = {fine->y - fine->off[0] - coarse->y + coarse->off[0],
+                          fine->w - fine->off[1] - coarse->w + coarse->off[1]};
+  const double beside = pendres_orbit_apart_beside(coarse->m, fine->m, coarse->m_by, from,
+                                                   fine->measures.amplitude);
+  const double apart = fmax(fmax(there, along), beside);
   const pendres_orbit_doubt at_start = {apart, last_place * fine->noise.start};
   const pendres_orbit_doubt all_along = {apart, last_place * fine->noise.along};
 

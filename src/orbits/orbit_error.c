@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/passage.h"
+#include "orbits/orbit_newton.h"
 
 static const double root_two = 1.41421356237309504880;
 
@@ -83,6 +84,28 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
   return turns;
 }
 
+static double norm_of(const double m[2][2])
+{
+  return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
+}
+
+double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2][2],
+                                  const double by_point[2][2][2], const double from[2],
+                                  double amplitude)
+{
+  static const double little = 0.2;
+  double squares = 0.0;
+  for (int i = 0; i < 2; i++)
+    for (int j = 0; j < 2; j++) {
+      /* Not because they were taken at two points. */
+      const double moved = by_point[0][i][j] * from[0] + by_point[1][i][j] * from[1];
+      const double off = fmax(0.0, fabs(fine[i][j] - coarse[i][j]) - fabs(moved));
+      squares += off * off;
+    }
+  const double way = norm_of(fine) / hypot(norm_of(by_point[0]), norm_of(by_point[1]));
+  return little * fmin(amplitude, way) * sqrt(squares) * pendres_newton_share(fine);
+}
+
 /* Of the entries; of the two off the diagonal in units in which they are alike. */
 static double size_of(const double (*m)[2])
 {
@@ -123,6 +146,6 @@ void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_o
   const double size = hypot(o->multiplier_re[0], o->multiplier_im[0]);
   const double gap = hypot(o->multiplier_re[0] - o->multiplier_re[1],
                            o->multiplier_im[0] - o->multiplier_im[1]);
-  o->multiplier_error = fmin(trace_error * fmax(1.0, size / fmax(gap, 1e-300)),
-                             sqrt(trace_error) + trace_error);
+  o->multiplier_error =
+    fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error);
 }

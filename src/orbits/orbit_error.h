@@ -28,6 +28,17 @@ long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
                                 const pendres_orbit_measures *fine,
                                 const pendres_orbit_doubt *doubt, pendres_orbit *o);
 
+/*
+ * How far two computations would be apart a little beside the orbit, by what the derivatives of
+ * their maps differ by. That the maps agree on the orbit, all along it, may be chance; that they
+ * agree beside it as well is none. A little: a share of the orbit's size, and of the way on which
+ * the derivative changes by itself: by_point, as it changes with y and w. from: the way from the
+ * point at which the coarse derivative was taken to that of the fine one.
+ */
+double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2][2],
+                                  const double by_point[2][2][2], const double from[2],
+                                  double amplitude);
+
 /* A derivative of the map over the orbit's period, by (y, w), of two computations. */
 typedef struct pendres_orbit_spectrum {
   double coarse[2][2], fine[2][2];

@@ -23,6 +23,7 @@ typedef struct section {
 
 static const section sections[] = {
   {"orbits", accuracy_orbits},
+  {"branches", accuracy_branches},
   {"resonance", accuracy_resonance},
   {"search", accuracy_search},
   {"ensembles", accuracy_ensembles},

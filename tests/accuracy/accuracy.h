@@ -67,9 +67,18 @@ void accuracy_note_error(accuracy *a, const char *kind, double error, double cla
 /* Something that must not happen at all. */
 void accuracy_complain(accuracy *a, const char *what, const char *how);
 
+/* ---- orbits ---- */
+
+/* A point, with period and winding, of what a random start of the guess's pendulum settles on: 1 if
+   that closes within eight drive periods. */
+int accuracy_settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orbit_guess *g);
+/* Of the two pairs of multipliers, the farther: as they are ordered, or the other way round. */
+double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e);
+
 /* ---- sections ---- */
 
 void accuracy_orbits(accuracy *a);
+void accuracy_branches(accuracy *a);
 void accuracy_resonance(accuracy *a);
 void accuracy_search(accuracy *a);
 void accuracy_ensembles(accuracy *a);

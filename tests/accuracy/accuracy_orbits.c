@@ -38,8 +38,7 @@ static pendres_context *context_with(double tolerance)
   return pendres_context_create(&options, &ctx) == PENDRES_OK ? ctx : NULL;
 }
 
-/* The shortest return of a settled pendulum within LONGEST periods: 1 if it closes. */
-static int settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orbit_guess *g)
+int accuracy_settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orbit_guess *g)
 {
   const pendres_pendulum *p = &g->pendulum;
   const double wait = fmin(4000.0, 10.0 + 12.0 * p->drive_frequency / (two_pi * p->damping));
@@ -72,7 +71,7 @@ static void draw(accuracy_random *r, item *t)
     t->tolerance = accuracy_tolerance(r);
     t->want = accuracy_choice(r, 2) ? PENDRES_ORBIT_FREQUENCY_SLOPE : PENDRES_ORBIT_PLAIN;
     if (accuracy_choice(r, 3) < 2) {
-      t->closes = settled_guess(ctx, r, &t->guess);
+      t->closes = accuracy_settled_guess(ctx, r, &t->guess);
       if (!t->closes) t->guess.period = 0;
     } else {
       t->guess.x = accuracy_uniform(r, -3.0, 3.0);
@@ -118,8 +117,7 @@ static void compute(item *t, int settles)
   pendres_context_free(ctx);
 }
 
-/* Of the two pairs, the farther: as they are ordered, or the other way round. */
-static double multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e)
+double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e)
 {
   double apart[2] = {0.0, 0.0};
   for (int swap = 0; swap < 2; swap++)
@@ -195,12 +193,10 @@ static void note(accuracy *a, const item *t, long number)
   accuracy_note_error(a, "phase lag",
                       fabs(remainder((double)(o->phase_lag - e->phase_lag), two_pi)),
                       o->phase_lag_error, how);
-  if (t->want == PENDRES_ORBIT_PLAIN) {
-    accuracy_note_error(a, "multipliers", multipliers_apart(o, e), o->multiplier_error, how);
-    return;
-  }
-  accuracy_note_error(a, "multipliers, with slopes", multipliers_apart(o, e), o->multiplier_error,
-                      how);
+  const int plain = t->want == PENDRES_ORBIT_PLAIN;
+  accuracy_note_error(a, plain ? "multipliers" : "multipliers, with slopes",
+                      accuracy_multipliers_apart(o, e), o->multiplier_error, how);
+  if (plain) return;
   accuracy_note(a, "slope of the loop area", o->loop_area_slope, o->loop_area_slope_error,
                 e->loop_area_slope, how);
 }

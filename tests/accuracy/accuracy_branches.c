@@ -1,0 +1,279 @@
+/*
+ * accuracy_branches.c -- branches of orbits, their points and bifurcations, against the
+ * extended-precision reference.
+ *
+ * A branch starts from what a random start settles on and leads along one of three parameters. What
+ * is true of a point is the reference's orbit at the point's parameter; of a fold or a period
+ * doubling, where the reference's map has the multiplier, by Newton's method here; of a loss of
+ * symmetry, where the reference has it (period one, along the drive frequency).
+ */
+#include "accuracy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double two_pi = 6.28318530717958647693;
+static const double half_pi = 1.57079632679489661923;
+
+enum { BATCH = 64, POINTS = 6, BIFURCATIONS = 6, HOW = 400 };
+
+/* A point, or a bifurcation, and what is true of it. */
+typedef struct place {
+  int there;
+  pendres_branch_point point;
+  pendres_bifurcation bifurcation;
+  pendres_reference_cycle exact;
+} place;
+
+typedef struct item {
+  pendres_orbit_guess guess;
+  double tolerance, low, high;
+  pendres_parameter parameter;
+  place points[POINTS], bifurcations[BIFURCATIONS];
+} item;
+
+static pendres_context *context_with(double tolerance)
+{
+  pendres_context *ctx = NULL;
+  const pendres_options options = {.tolerance = tolerance, .block_lanes = 64};
+  return pendres_context_create(&options, &ctx) == PENDRES_OK ? ctx : NULL;
+}
+
+static int draw(accuracy_random *r, item *t)
+{
+  static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DRIVE_FREQUENCY,
+                                            PENDRES_DAMPING, PENDRES_DRIVE_AMPLITUDE};
+  pendres_context *ctx = context_with(1e-6);
+  int closes = 0;
+  for (int attempt = 0; attempt < 20 && ctx != NULL && !closes; attempt++) {
+    t->guess.pendulum = accuracy_pendulum(r);
+    closes = accuracy_settled_guess(ctx, r, &t->guess);
+  }
+  pendres_context_free(ctx);
+  t->tolerance = accuracy_tolerance(r);
+  t->parameter = along[accuracy_choice(r, 4)];
+  const double here = pendres_parameter_get(t->parameter, &t->guess.pendulum);
+  t->low = here * accuracy_uniform(r, 0.6, 1.0);
+  t->high = here * accuracy_uniform(r, 1.0, 1.6);
+  return closes;
+}
+
+/* ---- what is true ---- */
+
+/* The product of an orbit's multipliers (Liouville). */
+static long double product_at(const pendres_pendulum *p, long period)
+{
+  const long double time = 6.28318530717958647692528676655900577L * period / p->drive_frequency;
+  return expl(-p->damping * time);
+}
+
+/*
+ * y and v that do not come back, and the trace that is not that of the multiplier s, at a place
+ * (y, v, parameter); with derivatives by the place, those of the trace by differences.
+ */
+static int equations(const pendres_bifurcation *b, double s, const long double u[3],
+                     long double a[3][4])
+{
+  static const long double aside = 1e-6L;
+  const long q = b->orbit.period;
+  long double trace = 0.0L;
+  for (int k = 3; k-- > -1;) { /* last the place itself */
+    pendres_pendulum p = b->orbit.pendulum;
+    pendres_reference_image i;
+    const double value = (double)(u[2] + (k == 2 ? aside : 0.0L));
+    pendres_parameter_set(b->parameter, value, &p);
+    if (pendres_reference_map(&p, u[0] + (k == 0 ? aside : 0.0L), u[1] + (k == 1 ? aside : 0.0L), q,
+                              &i) != PENDRES_OK)
+      return 0;
+    const long double off =
+      i.monodromy[0][0] + i.monodromy[1][1] - s * (1.0L + product_at(&p, q));
+    if (k >= 0) {
+      a[2][k] = off;
+      continue;
+    }
+    trace = off;
+    const long double *by = b->parameter == PENDRES_DAMPING           ? i.by_damping
+                            : b->parameter == PENDRES_DRIVE_AMPLITUDE ? i.by_amplitude
+                                                                      : i.by_frequency;
+    for (int r = 0; r < 2; r++) {
+      for (int c = 0; c < 2; c++) a[r][c] = i.monodromy[r][c] - (r == c);
+      a[r][2] = by[r];
+    }
+    a[0][3] = -remainderl(i.y - u[0], 6.28318530717958647692528676655900577L);
+    a[1][3] = -(i.v - u[1]);
+    a[2][3] = -trace;
+  }
+  const long double apart = (long double)(double)(u[2] + aside) - u[2];
+  a[2][0] = (a[2][0] - trace) / aside;
+  a[2][1] = (a[2][1] - trace) / aside;
+  a[2][2] = (a[2][2] - trace) / apart;
+  return 1;
+}
+
+/* Gauss and Jordan; the solution is left in the last column. */
+static int solve(long double a[3][4])
+{
+  for (int i = 0; i < 3; i++) {
+    int best = i;
+    for (int k = i + 1; k < 3; k++)
+      if (fabsl(a[k][i]) > fabsl(a[best][i])) best = k;
+    for (int k = 0; k < 4; k++) {
+      const long double kept = a[i][k];
+      a[i][k] = a[best][k];
+      a[best][k] = kept;
+    }
+    if (!(fabsl(a[i][i]) > 0.0L)) return 0;
+    for (int r = 0; r < 3; r++)
+      for (int k = 3; k >= i && r != i; k--) a[r][k] -= a[i][k] * a[r][i] / a[i][i];
+  }
+  for (int i = 0; i < 3; i++) a[i][3] /= a[i][i];
+  return 1;
+}
+
+/* The fold or doubling next to one that was found: what of it is noted. Places are doubles, and
+   what is left of the last step is not. */
+static int exact_bifurcation(const pendres_bifurcation *b, pendres_reference_cycle *out)
+{
+  enum { STEPS = 5 };
+  const double s = b->kind == PENDRES_FOLD ? 1.0 : -1.0;
+  long double u[3] = {b->orbit.x - half_pi, b->orbit.v, b->value}, a[3][4], last = INFINITY;
+  for (int k = 0; k < STEPS; k++) {
+    if (!equations(b, s, u, a) || !solve(a)) return 0;
+    last = fmaxl(fmaxl(fabsl(a[0][3]), fabsl(a[1][3])), fabsl(a[2][3]));
+    if (k + 1 == STEPS) break;
+    u[0] += a[0][3];
+    u[1] += a[1][3];
+    u[2] = (double)(u[2] + a[2][3]);
+  }
+  if (!(last < 1e-14L)) return 0;
+  *out = (pendres_reference_cycle){.y = u[0] + a[0][3], .v = u[1] + a[1][3]};
+  const long double value = u[2] + a[2][3];
+  if (b->parameter == PENDRES_DRIVE_FREQUENCY) out->drive_frequency = value;
+  if (b->parameter == PENDRES_DAMPING) out->damping = value;
+  if (b->parameter == PENDRES_DRIVE_AMPLITUDE) out->drive_amplitude = value;
+  return 1;
+}
+
+static int exact_of(const pendres_bifurcation *b, pendres_reference_cycle *out)
+{
+  const pendres_orbit *o = &b->orbit;
+  if (b->kind != PENDRES_SYMMETRY_BREAKING) return exact_bifurcation(b, out);
+  return b->parameter == PENDRES_DRIVE_FREQUENCY && o->period == 1 && o->winding == 0 &&
+         pendres_reference_symmetry_breaking(&o->pendulum, b->value, o->x - half_pi, o->v, out) ==
+           PENDRES_OK;
+}
+
+/* ---- what is had ---- */
+
+static void look(accuracy_random *r, const pendres_branch *b, item *t)
+{
+  const size_t n = pendres_branch_count(b), met = pendres_branch_bifurcations(b);
+  for (int k = 0; k < POINTS && n > 0; k++) {
+    place *at = &t->points[k];
+    at->point = *pendres_branch_get(b, (size_t)accuracy_choice(r, (int)n));
+    const pendres_orbit *o = &at->point.orbit;
+    at->there = at->point.bifurcation < 0 &&
+                pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, o->period, o->winding,
+                                        &at->exact) == PENDRES_OK;
+  }
+  for (size_t k = 0; k < met && k < BIFURCATIONS; k++) {
+    place *at = &t->bifurcations[k];
+    at->bifurcation = *pendres_branch_bifurcation(b, k);
+    at->there = exact_of(&at->bifurcation, &at->exact);
+  }
+}
+
+static void compute(accuracy_random *r, item *t)
+{
+  pendres_context *ctx = context_with(t->tolerance);
+  pendres_status outcome = PENDRES_NOT_CONVERGED;
+  pendres_orbit start;
+  pendres_branch *b = NULL;
+  const pendres_branch_options options = {
+    .parameter = t->parameter, .low = t->low, .high = t->high, .most_points = 60};
+  if (ctx != NULL &&
+      pendres_orbit_refine(ctx, 1, &t->guess, PENDRES_ORBIT_PLAIN, &start, &outcome) ==
+        PENDRES_OK &&
+      outcome != PENDRES_NOT_CONVERGED &&
+      pendres_branch_follow(ctx, 1, &start, &options, &b) == PENDRES_OK)
+    look(r, b, t);
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
+static void note_point(accuracy *a, const place *at, const char *how)
+{
+  const pendres_orbit *o = &at->point.orbit;
+  const pendres_reference_cycle *e = &at->exact;
+  const double turn = rint((double)((o->x - half_pi) - e->y) / two_pi) * two_pi;
+  accuracy_note(a, "x of a point", o->x - turn, o->x_error, e->y + half_pi, how);
+  accuracy_note(a, "v of a point", o->v, o->v_error, e->v, how);
+  accuracy_note(a, "loop area of a point", o->loop_area, o->loop_area_error, e->loop_area, how);
+  accuracy_note(a, "amplitude of a point", o->amplitude, o->amplitude_error, e->amplitude, how);
+  accuracy_note_error(a, "phase lag of a point",
+                      fabs(remainder((double)(o->phase_lag - e->phase_lag), two_pi)),
+                      o->phase_lag_error, how);
+  accuracy_note_error(a, "multipliers of a point", accuracy_multipliers_apart(o, e),
+                      o->multiplier_error, how);
+}
+
+static void note_bifurcation(accuracy *a, const place *at, const char *how)
+{
+  const pendres_bifurcation *b = &at->bifurcation;
+  const pendres_orbit *o = &b->orbit;
+  const char *name = pendres_special_name(b->kind);
+  char kind[64];
+  pendres_pendulum p = o->pendulum;
+  pendres_reference_cycle e = at->exact;
+  const long double value = b->parameter == PENDRES_DAMPING           ? e.damping
+                            : b->parameter == PENDRES_DRIVE_AMPLITUDE ? e.drive_amplitude
+                                                                      : e.drive_frequency;
+  snprintf(kind, sizeof kind, "%s", name);
+  accuracy_note(a, kind, b->value, b->value_error, value, how);
+  const double turn = rint((double)((o->x - half_pi) - e.y) / two_pi) * two_pi;
+  snprintf(kind, sizeof kind, "x of a %s", name);
+  accuracy_note(a, kind, o->x - turn, o->x_error, e.y + half_pi, how);
+  pendres_parameter_set(b->parameter, (double)value, &p);
+  const long double s = b->kind == PENDRES_PERIOD_DOUBLING ? -1.0L : 1.0L;
+  e = (pendres_reference_cycle){
+    .multiplier_re = {s, s * product_at(&p, o->period)}};
+  snprintf(kind, sizeof kind, "multipliers of a %s", name);
+  accuracy_note_error(a, kind, accuracy_multipliers_apart(o, &e), o->multiplier_error, how);
+}
+
+static void note(accuracy *a, const item *t, long number)
+{
+  const pendres_pendulum *p = &t->guess.pendulum;
+  char how[HOW];
+  for (int k = 0; k < POINTS + BIFURCATIONS; k++) {
+    const place *at = k < POINTS ? &t->points[k] : &t->bifurcations[k - POINTS];
+    const pendres_orbit *o = k < POINTS ? &at->point.orbit : &at->bifurcation.orbit;
+    if (!at->there) continue;
+    snprintf(how, sizeof how,
+             "item %ld: F0 %.17g, damping %.17g, frequency %.17g, q %d, winding %d, along %s "
+             "%.17g to %.17g, at x %.17g, v %.17g, %.17g, tolerance %.17g", number,
+             p->drive_amplitude, p->damping, p->drive_frequency, t->guess.period, t->guess.winding,
+             pendres_parameter_name(t->parameter), t->low, t->high, o->x, o->v,
+             pendres_parameter_get(t->parameter, &o->pendulum), t->tolerance);
+    if (k < POINTS) note_point(a, at, how);
+    else note_bifurcation(a, at, how);
+  }
+}
+
+void accuracy_branches(accuracy *a)
+{
+  long first, last;
+  accuracy_range(a, 2 * accuracy_get_options(a)->points, &first, &last);
+  for (long base = first; base < last; base += BATCH) {
+    static item items[BATCH];
+    const long n = last - base < BATCH ? last - base : BATCH;
+#pragma omp parallel for schedule(dynamic)
+    for (long i = 0; i < n; i++) {
+      accuracy_random r = accuracy_item(a, base + i);
+      items[i] = (item){0};
+      if (draw(&r, &items[i])) compute(&r, &items[i]);
+    }
+    for (long i = 0; i < n; i++) note(a, &items[i], base + i);
+  }
+}
