@@ -189,6 +189,10 @@ static void basins(void **state)
   REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 999, distance, 1, &statistics));
   REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, NULL, 1, &statistics));
   REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, distance, 1, NULL));
+  REFUSED(pendres_basin_statistics_refine(f->ctx, NULL, &grid, &statistics, &index));
+  REFUSED(pendres_basin_statistics_refine(f->ctx, f->set, NULL, &statistics, &index));
+  REFUSED(pendres_basin_statistics_refine(f->ctx, f->set, &grid, NULL, &index));
+  REFUSED(pendres_basin_statistics_refine(f->ctx, f->set, &grid, &statistics, NULL));
   assert_null(out);
   assert_int_equal(f->wrong, 0);
 }
@@ -229,6 +233,7 @@ static void ensembles(void **state)
   pendres_ensemble bad[] = { some, some, some, some, some, some, some, area, area, area, area };
   pendres_response r;
   pendres_resonance peak;
+  pendres_resonance_turn turn;
   pendres_phase_point point;
   pendres_branches *all = NULL;
   pendres_phase_options line = {.ensemble = some};
@@ -252,6 +257,10 @@ static void ensembles(void **state)
   REFUSED(pendres_resonance_find_ensemble(f->ctx, NULL, 0.7, 0.9, &some, &peak));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, NULL, &peak));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, &some, NULL));
+  REFUSED(pendres_resonance_turn_find(f->ctx, NULL, 0.7, 0.9, &some, &turn));
+  REFUSED(pendres_resonance_turn_find(f->ctx, &good, 0.7, 0.9, NULL, &turn));
+  REFUSED(pendres_resonance_turn_find(f->ctx, &good, 0.7, 0.9, &some, NULL));
+  REFUSED(pendres_resonance_turn_find(f->ctx, &good, 0.7, NAN, &some, &turn));
   REFUSED(pendres_resonance_find(f->ctx, &good, 0.9, 0.7, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, -0.9, 0.7, &peak));
   REFUSED(pendres_resonance_find(f->ctx, &good, NAN, 0.7, &peak));
@@ -285,7 +294,10 @@ static void ensembles(void **state)
     REFUSED(pendres_response_compute(f->ctx, 1, &bad_pendulums[i], &some, &r));
     REFUSED(pendres_phase_line(f->ctx, 1, &bad_pendulums[i], &line, &point, &all));
     if (i < 5 || (i >= 9 && i < 13)) /* the drive frequency is not read */
+    {
       REFUSED(pendres_resonance_find(f->ctx, &bad_pendulums[i], 0.7, 0.9, &peak));
+      REFUSED(pendres_resonance_turn_find(f->ctx, &bad_pendulums[i], 0.7, 0.9, &some, &turn));
+    }
   }
   assert_null(all);
   assert_int_equal(f->wrong, 0);

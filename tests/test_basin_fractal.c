@@ -222,6 +222,31 @@ static void exponent_by_another_way(void **state)
   }
 }
 
+/*
+ * A grid whose boundary is at every distance that it has, of the first pendulum above, gets the
+ * exponent of random states, which is 0.145(8) there; a grid without a boundary keeps what it has.
+ */
+static void exponent_in_place_of_a_grid(void **state)
+{
+  static const double ends[2][2] = {{-0.5 * PENDRES_PI, 1.5 * PENDRES_PI}, {-4.0, 4.0}};
+  const pendres_basin_grid grid = {.nx = 2, .nv = 2, .x = ends[0], .v = ends[1]};
+  pendres_basin_statistics s = {.states = 4, .uncertainty_exponent = 7.0, .scales = 3};
+  const pendres_basin_statistics before = s;
+  pendres_attractors *set = NULL;
+  size_t states = 99;
+  check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
+  check_ok(pendres_basin_statistics_refine(*state, set, &grid, &s, &states));
+  assert_int_equal(states, 0);
+  assert_memory_equal(&s, &before, sizeof s);
+  s.boundary_boxes = 1.0;
+  s.uncertainty_exponent = s.uncertainty_exponent_error = NAN;
+  check_ok(pendres_basin_statistics_refine(*state, set, &grid, &s, &states));
+  assert_true(states > 1000 && s.scales > 3 && s.states == 4);
+  assert_true(s.uncertainty_exponent_error < 0.03);
+  check_near(s.uncertainty_exponent, 0.145, 3.0 * hypot(0.008, s.uncertainty_exponent_error));
+  pendres_attractors_free(set);
+}
+
 /* ---- strands that accumulate ---- */
 
 enum { PARTS = 16, MOST_CROSSINGS = 400 };
@@ -302,6 +327,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(uncertainty_exponent, setup, teardown),
     cmocka_unit_test_setup_teardown(fractal_labels, setup, teardown),
     cmocka_unit_test_setup_teardown(exponent_by_another_way, setup, teardown),
+    cmocka_unit_test_setup_teardown(exponent_in_place_of_a_grid, setup, teardown),
     cmocka_unit_test(strands_of_fig7),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

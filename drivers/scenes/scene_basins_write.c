@@ -183,58 +183,15 @@ static pendres_status write_attractors(basins *b, const double *fraction, const 
 
 /* ---- statistics ---------------------------------------------------------------------------- */
 
-/* Random states, and distances, which depend on the tolerance alone. */
-enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5 };
-
-static double random_distance(const basins *b, int k)
+static pendres_status look_closer(basins *b, pendres_basin_statistics *s)
 {
-  static const double apart = 6.0;
-  return fmin(1e3 * b->d->precision.tolerance, 1e-4) * pow(apart, k);
-}
-
-/*
- * Whether random states tell more of the exponent, which is a limit of small distances, than the
- * grid does. A fractal boundary fills a grid at every distance that the grid has, or is not yet
- * the power that it becomes; but random states meet it at distances far below the grid's step.
- * A smooth one they meet too rarely there. A grid whose v is not evenly spaced has no exponent.
- */
-static int random_states_tell_more(const basins *b, const pendres_basin_statistics *s)
-{
-  enum { MET = 50 /* twice what makes a share worth fitting */ };
-  if (!(s->boundary_boxes > 0.0)) return 0;
-  /* States that are uncertain have a boundary as near as rounding: shares are no power above. */
-  if (3 * s->uncertain_states > s->states) return 0;
-  if (!isfinite(s->uncertainty_exponent_error)) return 1;
-  const double nearer = random_distance(b, 0) / s->distance[0];
-  return nearer < 1.0 &&
-         RANDOM_STATES * s->uncertain[0] * pow(nearer, s->uncertainty_exponent) > MET;
-}
-
-static pendres_status sample_boundary(basins *b, pendres_basin_statistics *s)
-{
-  enum { SEED = 1 };
-  const pendres_basin_grid *g = &b->grid;
-  const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
-                                       .v_low = g->v[0], .v_high = g->v[g->nv - 1],
-                                       .by = g->by};
-  double distance[RANDOM_SCALES];
-  pendres_basin_statistics random;
-  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = random_distance(b, k);
   pendres_context *ctx = farm_context(b->run->farm);
   if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
   const pendres_status status =
-    pendres_basin_uncertainty(ctx, b->set, &window, RANDOM_STATES, RANDOM_SCALES, distance, SEED,
-                              &random);
-  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
-  if (status != PENDRES_OK) return scene_fail(b->run, status, "%s", pendres_context_message(ctx));
-  b->random_states = random.states;
-  s->uncertainty_exponent = random.uncertainty_exponent;
-  s->uncertainty_exponent_error = random.uncertainty_exponent_error;
-  s->scales = random.scales;
-  memcpy(s->distance, random.distance, sizeof s->distance);
-  memcpy(s->uncertain, random.uncertain, sizeof s->uncertain);
-  memcpy(s->uncertain_error, random.uncertain_error, sizeof s->uncertain_error);
-  return PENDRES_OK;
+    pendres_basin_statistics_refine(ctx, b->set, &b->grid, s, &b->random_states);
+  return status == PENDRES_OK
+           ? status
+           : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
 }
 
 #define STATISTIC(label, field, words)                                          \
@@ -427,8 +384,7 @@ pendres_status basins_write_results(basins *b)
   pendres_status status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
   if (status != PENDRES_OK) (void)scene_fail(b->run, status, "there are no states");
   b->uncertain = status == PENDRES_OK ? s.uncertain_states : 0;
-  if (status == PENDRES_OK && b->d->basins.statistics && random_states_tell_more(b, &s))
-    status = sample_boundary(b, &s);
+  if (status == PENDRES_OK && b->d->basins.statistics) status = look_closer(b, &s);
   if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
   if (status == PENDRES_OK) status = write_cut(b);
   if (status == PENDRES_OK) status = write_counts(b);

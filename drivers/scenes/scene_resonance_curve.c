@@ -136,64 +136,30 @@ static const struct {
   double drive_amplitude, top, break_off;
 } printed_turns[] = {{0.2, 0.38, 0.165}, {0.1, 0.28, 0.099}};
 
-/* Vertex of the parabola through three points; 0 if it does not open downwards. */
-static int vertex(const double x[3], const double y[3], double *at)
-{
-  const double left = (y[1] - y[0]) / (x[1] - x[0]), right = (y[2] - y[1]) / (x[2] - x[1]);
-  const double bend = (right - left) / (x[2] - x[0]);
-  if (!(bend < 0.0)) return 0;
-  *at = 0.5 * (x[0] + x[1]) - left / (2.0 * bend);
-  return 1;
-}
-
-/*
- * The vertex through three dampings around a middle one, computed for the purpose. *there: 0 where
- * one of them has no resonance, or the three no vertex; what ends the run is returned.
- */
-static pendres_status vertex_near(scene_run *run, const curve *c, double middle, double spacing,
-                                  double *at, int *there)
-{
-  double x[3], y[3];
-  pendres_context *ctx = farm_context(run->farm);
-  *there = 0;
-  if (ctx == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for the turning point");
-  for (int k = 0; k < 3; k++) {
-    pendres_resonance r;
-    x[k] = middle + (k - 1) * spacing;
-    const pendres_pendulum p = {.damping = x[k],
-                                .drive_amplitude = c->d->pendulum.drive_amplitude};
-    const pendres_status status = pendres_resonance_find_ensemble(
-      ctx, &p, c->d->search[0], c->d->search[1], &c->ensemble, &r);
-    if (status != PENDRES_OK && scene_failure_of(status) == SCENE_FAILURE_NONE)
-      return scene_fail(run, status, "%s", pendres_context_message(ctx));
-    if (status != PENDRES_OK) return PENDRES_OK;
-    y[k] = r.frequency;
-  }
-  *there = vertex(x, y, at);
-  return PENDRES_OK;
-}
-
-/*
- * Damping of the largest resonance frequency on the smooth part of the curve, from three dampings
- * ever closer together; the last change is a bound on the cubic term that is left.
- */
-static pendres_status turning_point(scene_run *run, const curve *c, double *damping, double *error,
+/* The damping of the largest resonance frequency, from the point of the smooth part of the curve
+   that has it; *there: 0 if there is none. */
+static pendres_status turning_point(scene_run *run, const curve *c, pendres_resonance_turn *turn,
                                     int *there)
 {
   const deck_axis *axis = &c->d->axis[DECK_AXIS_DAMPING];
   size_t top = 0;
-  double coarse;
   *there = 0;
   for (size_t i = 1; i + 1 < axis->count; i++)
     if (!c->no_peak[i] && (top == 0 || c->points[i].resonance_frequency >
                                          c->points[top].resonance_frequency))
       top = i;
   if (top == 0 || c->points[top].kind != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
-  pendres_status status = vertex_near(run, c, axis->value[top], 4e-3, &coarse, there);
-  if (status == PENDRES_OK && *there) status = vertex_near(run, c, coarse, 1e-3, damping, there);
-  if (status == PENDRES_OK && *there) *error = fabs(*damping - coarse) + 1e-7;
-  return status;
+  pendres_context *ctx = farm_context(run->farm);
+  if (ctx == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for the turning point");
+  const pendres_pendulum near = {.damping = axis->value[top],
+                                 .drive_amplitude = c->d->pendulum.drive_amplitude};
+  const pendres_status status = pendres_resonance_turn_find(
+    ctx, &near, c->d->search[0], c->d->search[1], &c->ensemble, turn);
+  *there = status == PENDRES_OK;
+  if (status != PENDRES_OK && scene_failure_of(status) == SCENE_FAILURE_NONE)
+    return scene_fail(run, status, "%s", pendres_context_message(ctx));
+  return PENDRES_OK;
 }
 
 /* Middle of the gap in damping where the peak turns from an edge to smooth. */
@@ -220,11 +186,12 @@ static pendres_status write_paper(scene_run *run, const curve *c)
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
     int there = 0;
-    const pendres_status status = turning_point(run, c, &damping, &error, &there);
+    pendres_resonance_turn turn;
+    const pendres_status status = turning_point(run, c, &turn, &there);
     if (status != PENDRES_OK) return status;
     if (there)
-      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top, damping,
-                                    error};
+      values[n++] = (scene_printed){"damping_of_largest_frequency", printed_turns[k].top,
+                                    turn.damping, turn.damping_error};
     if (break_off(c, &damping, &error))
       values[n++] = (scene_printed){"damping_of_break", printed_turns[k].break_off, damping, error};
   }

@@ -297,6 +297,28 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          int scales, const double *distance, uint64_t seed,
                                          pendres_basin_statistics *out);
 
+/**
+ * Have the uncertainty exponent of a grid's statistics from random states of its window, where
+ * these tell more of that limit than the grid does. A fractal boundary fills a grid at every
+ * distance that the grid has, or is not yet the power that it becomes, while random states meet it
+ * at distances far below the grid's step; a smooth one they meet too rarely there.
+ *
+ * @param ctx        belongs to one thread at a time; its tolerance sets the distances
+ * @param set        the attractors that the grid was settled on; read
+ * @param grid       the grid that the statistics are of: its first and last x and v, and `by`
+ * @param statistics those of pendres_basin_sums_result(); replaced are uncertainty_exponent,
+ *                   scales, distance and uncertain, with their errors, or nothing is
+ * @param states     written: how many random states these are from; 0: they are the grid's own
+ * @return PENDRES_OK also where random states tell nothing; PENDRES_INVALID_ARGUMENT (ctx, set,
+ *         grid, its values, statistics or states are NULL, or the grid spans no window), and
+ *         failures of the integration: the statistics are as they were. Bounded in work as
+ *         pendres_basin_uncertainty() is.
+ */
+pendres_status pendres_basin_statistics_refine(pendres_context *ctx, const pendres_attractors *set,
+                                               const pendres_basin_grid *grid,
+                                               pendres_basin_statistics *statistics,
+                                               size_t *states);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -77,6 +77,34 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out);
 
+/** Where the resonance frequency is largest over damping: the curve of resonance frequency against
+    amplitude turns there. */
+typedef struct pendres_resonance_turn {
+  double damping;         /**< gamma there */
+  double damping_error;   /**< its error */
+  double frequency;       /**< the resonance frequency there */
+  double frequency_error; /**< its error */
+} pendres_resonance_turn;
+
+/**
+ * The damping at which the resonance frequency is largest, from parabolas through resonances at
+ * three dampings, ever closer together. Errors are what the cubic term makes that a parabola lacks,
+ * which the last four resonances tell, and what the errors of the resonances make.
+ *
+ * @param ctx      belongs to one thread at a time
+ * @param near     a pendulum with a damping near it; its drive_frequency is not read
+ * @param lowest   lowest drive frequency to which resonances are looked for
+ * @param highest  highest drive frequency
+ * @param ensemble as in pendres_resonance_find_ensemble()
+ * @param out      written; on failure all numbers are NaN
+ * @return PENDRES_NOT_FOUND: there is no such damping near, or a resonance on the way is not a
+ *         smooth peak. Else as pendres_resonance_find_ensemble()
+ */
+pendres_status pendres_resonance_turn_find(pendres_context *ctx, const pendres_pendulum *near,
+                                           double lowest, double highest,
+                                           const pendres_ensemble *ensemble,
+                                           pendres_resonance_turn *out);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -69,6 +69,11 @@ double pendres_accuracy_of_jump(const pendres_context *ctx)
   return 0.25 * ctx->options.tolerance;
 }
 
+double pendres_accuracy_nearest_apart(const pendres_context *ctx)
+{
+  return fmin(1e3 * ctx->options.tolerance, 1e-4);
+}
+
 double pendres_accuracy_negligible(const pendres_context *ctx)
 {
   return 0.1 * ctx->options.tolerance;

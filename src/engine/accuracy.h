@@ -61,6 +61,10 @@ double pendres_accuracy_far_better(const pendres_context *ctx);
    below the tolerance. */
 double pendres_accuracy_of_jump(const pendres_context *ctx);
 
+/* The smallest distance of states whose ends tell whether a boundary lies between them: well above
+   what their ends are off by. */
+double pendres_accuracy_nearest_apart(const pendres_context *ctx);
+
 /* What a part may add to a result's error without being looked at: harmonics left out of a mean,
    the last step of a search. */
 double pendres_accuracy_negligible(const pendres_context *ctx);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/mix.h"
 #include "orbits/attractor_internal.h"
@@ -206,4 +207,61 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
   return PENDRES_CONTEXT_CALL(
     ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n, scales, distance, seed,
                                           out));
+}
+
+/* ---- in place of a grid's exponent ---- */
+
+/* Random states and distances, which depend on the tolerance alone. */
+enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5, RANDOM_SEED = 1 };
+
+static int random_states_tell_more(const pendres_basin_statistics *s, double nearest)
+{
+  enum { MET = 50 /* twice what makes a share worth fitting */ };
+  if (!(s->boundary_boxes > 0.0)) return 0;
+  /* States that are uncertain have a boundary as near as rounding: shares are no power above. */
+  if (3 * s->uncertain_states > s->states) return 0;
+  if (!isfinite(s->uncertainty_exponent_error)) return 1;
+  const double nearer = nearest / s->distance[0];
+  return nearer < 1.0 &&
+         RANDOM_STATES * s->uncertain[0] * pow(nearer, s->uncertainty_exponent) > MET;
+}
+
+static pendres_status statistics_refine(pendres_context *ctx, const pendres_attractors *set,
+                                        const pendres_basin_grid *g, pendres_basin_statistics *s,
+                                        size_t *states)
+{
+  static const double apart = 6.0; /* of distances, one to the next */
+  if (set == NULL || g == NULL || g->x == NULL || g->v == NULL || s == NULL || states == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, its x and v, statistics and states");
+  if (g->nx == 0 || g->nv == 0)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the grid has no states");
+  const double nearest = pendres_accuracy_nearest_apart(ctx);
+  const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
+                                       .v_low = g->v[0], .v_high = g->v[g->nv - 1],
+                                       .by = g->by};
+  double distance[RANDOM_SCALES];
+  pendres_basin_statistics random;
+  *states = 0;
+  if (!random_states_tell_more(s, nearest)) return PENDRES_OK;
+  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = nearest * pow(apart, k);
+  const pendres_status status = pendres_basin_uncertainty(
+    ctx, set, &window, RANDOM_STATES, RANDOM_SCALES, distance, RANDOM_SEED, &random);
+  if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
+  if (status != PENDRES_OK) return status;
+  *states = random.states;
+  s->uncertainty_exponent = random.uncertainty_exponent;
+  s->uncertainty_exponent_error = random.uncertainty_exponent_error;
+  s->scales = random.scales;
+  memcpy(s->distance, random.distance, sizeof s->distance);
+  memcpy(s->uncertain, random.uncertain, sizeof s->uncertain);
+  memcpy(s->uncertain_error, random.uncertain_error, sizeof s->uncertain_error);
+  return PENDRES_OK;
+}
+
+pendres_status pendres_basin_statistics_refine(pendres_context *ctx, const pendres_attractors *set,
+                                               const pendres_basin_grid *grid,
+                                               pendres_basin_statistics *statistics,
+                                               size_t *states)
+{
+  return PENDRES_CONTEXT_CALL(ctx, statistics_refine(ctx, set, grid, statistics, states));
 }
