@@ -6,12 +6,14 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from curves import bifurcation_curves, column_of
+from curves import draw_response as curve_response
 from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
                    colours_of, figure, frequency, parameter_axis, plt)
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
 MOST_PIXELS = 1500  # a side; finer grids are thinned
 MOST_NAMES = 20     # beside a bar of colours
+MOST_PLANES = 6     # of a volume
 
 
 def attractor_styles(h):
@@ -245,6 +247,44 @@ def draw_lyapunov_map(h, path):
         ax.set_xlabel(below)
     axes[0].set_ylabel(beside)
     return fig
+
+
+def draw_atlas(h):
+    """A response over three parameters: planes of amplitude, with the resonances as a curve."""
+    quantity = "mean_loop_amplitude"
+    slow, up, along = (h.axis_of(quantity, i) for i in range(3))
+    across, below = parameter_axis(h, h[along], along)
+    height, beside = parameter_axis(h, h[up], up)
+    symbol = parameter_axis(h, [], slow)[1].split()[-1].strip("$")
+    planes = np.unique(np.linspace(0, len(h[slow]) - 1, MOST_PLANES).round().astype(int))
+    columns = min(len(planes), 3)
+    rows = -(-len(planes) // columns)
+    fig, axes = figure(h, 3.1 * columns + 0.6, 2.5 * rows + 0.4, rows, columns, sharex=True,
+                       sharey=True, squeeze=False, layout="constrained")
+    most = np.nanmax(h[quantity])
+    for ax, i in zip(axes.flat, planes):
+        shown = ax.pcolormesh(across, height, h[quantity][i], cmap="viridis", vmin=0, vmax=most,
+                              shading="nearest", rasterized=True)
+        if "resonance_period" in h:
+            at = 2 * np.pi / h["resonance_period"][i] if along == "drive_frequency" else (
+                h["resonance_period"][i])
+            ax.plot(parameter_axis(h, at, along)[0], height, "w.-", lw=1, ms=4)
+        ax.set_title(f"${symbol} = {h[slow][i]:g}$", fontsize=9)
+        ax.set(xlim=around(across, 0.0))
+    for ax in axes.flat[len(planes):]:
+        ax.axis("off")
+    for k in range(columns):
+        axes[(len(planes) - 1 - k) // columns, k].tick_params(labelbottom=True)
+        axes[(len(planes) - 1 - k) // columns, k].set_xlabel(below)
+    for row in axes:
+        row[0].set_ylabel(beside)
+    fig.colorbar(shown, ax=axes, label=r"amplitude $\langle x_0\rangle$ (rad)", shrink=0.9)
+    return fig
+
+
+def draw_response(h, path):
+    volume = h["mean_loop_amplitude"].ndim == 3 and "temperature" not in h
+    return draw_atlas(h) if volume else curve_response(h, path)
 
 
 def draw_surface(h):

@@ -23,7 +23,7 @@ from style import Run, plt
 DRAWERS = {  # by the root attribute `scene`
     "free_oscillation": curves.draw_free_oscillation,
     "resonance_curve": curves.draw_resonance_curve,
-    "response": curves.draw_response,
+    "response": maps.draw_response,
     "orbit": curves.draw_orbit,
     "hysteresis": curves.draw_hysteresis,
     "bifurcation_diagram": curves.draw_bifurcation_diagram,

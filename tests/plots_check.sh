@@ -28,6 +28,8 @@ deck lines response "&pendulum damping = 0.3 /
   &sweep drive_amplitude = 0.1, 0.2, drive_period_range = 5, 9, 3 / $e"
 deck along response "&pendulum damping = 0.3 / &sweep drive_amplitude = 0.1, 0.2, drive_period = 7 / $e"
 deck noisy response "$p / &sweep damping = 0.5, drive_period = 6, 7, temperature = 0, 0.01 / $e"
+deck volume response "&sweep drive_amplitude_range = 0.1, 0.2, 2, damping = 0.3, 0.5,
+  drive_frequency_range = 0.7, 1.1, 3, resolution = 2 / $e"
 deck orbit orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v = 0.0 /"
 deck one orbit "$p, damping = 0.2, drive_frequency = 0.8 / &orbit x = 1.0, v = 0.0, samples = 1 /"
 deck basins basins "$p, damping = 0.12, drive_period = 8 /

@@ -157,6 +157,7 @@ static void axes(void **state)
     { "x_range=0,1,5", 5, { 0, 0.25, 0.5, 0.75, 1 } },
     { "x_range=0.1,0.7,2", 2, { 0.1, 0.7 } },
     { "x_range=2,2,1", 1, { 2 } },
+    { "x_range=0,1,3 resolution=2", 5, { 0, 0.25, 0.5, 0.75, 1 } },
     { "x=0.5,3 x_range=0,1,3", 4, { 0, 0.5, 1, 3 } },
     { "x=-1,0.6 x_range=0,1,3", 5, { -1, 0, 0.5, 0.6, 1 } },
   };
@@ -258,6 +259,7 @@ static void dump_is_complete(void **state)
                       "  damping = 0.165, 0.24, 0.32\n"
                       "  damping_range = 0.06, 1.0, 95\n"
                       "  drive_frequency_range = 0.5, 1.2\n"
+                      "  resolution = 1\n"
                       "/\n"
                       "&ensemble\n"
                       "  members = 200\n"

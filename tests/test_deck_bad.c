@@ -177,6 +177,8 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
     { "1:13 multiply to 1e+10 pendulums; at most 2^32 are possible without refine" } },
   { CURVE "&sweep damping_range=0.1,1,1000000 /\n&ensemble members=1000000 /",
     { "1:13 the axes and members multiply to 1e+12" } },
+  { CURVE "&sweep damping_range=0.1,1,1000 resolution=2000 /",
+    { "3:33 'resolution' makes more than 1000000 values of a range" } },
   { ORBIT "&orbit start='sa' periods=1000000 samples=1000 /", { "3:19 must not exceed 1e8" } },
   /* output */
   { "&scene kind='hard_cases' output='' /", { "1:26 must not be empty" } },

@@ -205,13 +205,62 @@ static void wrong_decks(void **state)
     {"&scene kind = 'response' /\n&pendulum damping = 0.1, drive_frequency = 1 /\n"
      "&sweep drive_amplitude = 0.7, 0.8, torque = 0, 1 /\n", "give 'drive_amplitude' or 'torque'"},
     {"&scene kind = 'response' /\n&pendulum drive_amplitude = 1 /\n"
-     "&sweep damping = 0.1, 0.2, drive_period = 7, 8, torque = 0, 1 /\n", "beside 'torque' give"},
+     "&sweep damping = 0.1, 0.2, drive_period = 7, 8, torque = 0, 1, temperature = 0.01 /\n",
+     "beside 'torque' give"},
     {"&scene kind = 'hysteresis' /\n&pendulum damping = 0.1 /\n"
      "&sweep drive_frequency = 0.7, 0.8 /\n&hysteresis x = 1 /\n", "needs 'drive_amplitude'"},
   };
   (void)state;
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
     scene_check_refused(wrong[i].text, wrong[i].message);
+}
+
+/* n values of two files from some place on, which must be the same bytes. */
+static void check_same_part(pendres_store *one, pendres_store *two, const char *name, size_t from,
+                            size_t n)
+{
+  size_t a = 0, b = 0;
+  double *x = scene_values(one, name, &a), *y = scene_values(two, name, &b);
+  assert_true(a >= from + n);
+  assert_int_equal(b, n);
+  assert_memory_equal(x + from, y, n * sizeof *x);
+  free(x);
+  free(y);
+}
+
+/* A response over three parameters: the plane of each drive amplitude is what a deck with this one
+   computes, resonances too. */
+static void volume(void **state)
+{
+  static const char rest[] = "damping = 0.3, 0.4, drive_frequency_range = 0.7, 1.1, 3,\n"
+                             "  resolution = 2 /\n&ensemble members = 8 /\n";
+  static const struct {
+    const char *name;
+    size_t n; /* of a plane */
+  } some[] = {{"mean_loop_area", 10}, {"phase_lag_error", 10}, {"la_fraction", 10}, {"failed", 10},
+              {"resonance_period", 2}, {"resonance_frequency_error", 2},
+              {"resonance_phase_lag", 2}, {"resonance_failed", 2}};
+  char text[400];
+  uint64_t sizes[PENDRES_STORE_RANK];
+  int rank = 0;
+  (void)state;
+  snprintf(text, sizeof text, "&scene kind = 'response' /\n&sweep drive_amplitude = 0.1, 0.2,\n"
+           "  %s", rest);
+  scene_run_deck(text, 2, "volume");
+  pendres_store *all = scene_open("volume");
+  check_ok(pendres_store_shape(all, "", "mean_loop_area", &rank, sizes));
+  assert_int_equal(rank, 3);
+  assert_true(sizes[0] == 2 && sizes[1] == 2 && sizes[2] == 5);
+  for (int i = 0; i < 2; i++) {
+    snprintf(text, sizeof text, "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.%d /\n"
+             "&sweep %s", i + 1, rest);
+    scene_run_deck(text, 1, "plane");
+    pendres_store *plane = scene_open("plane");
+    for (size_t k = 0; k < sizeof some / sizeof *some; k++)
+      check_same_part(all, plane, some[k].name, (size_t)i * some[k].n, some[k].n);
+    pendres_store_free(plane);
+  }
+  pendres_store_free(all);
 }
 
 int main(void)
@@ -222,6 +271,7 @@ int main(void)
     cmocka_unit_test(other_forces),
     cmocka_unit_test(torque_sweep),
     cmocka_unit_test(bifurcation_diagram),
+    cmocka_unit_test(volume),
     cmocka_unit_test(wrong_decks),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);

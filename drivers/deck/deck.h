@@ -134,6 +134,7 @@ typedef struct deck {
   } pendulum;
 
   deck_axis axis[DECK_AXIS_COUNT];
+  int64_t resolution;       /* each step of the ranges is divided into so many */
   double search[2];         /* bounds of drive frequency in the search of a resonance */
 
   struct {                  /* as in struct pendres_ensemble */
@@ -258,9 +259,9 @@ uint64_t deck_seed(const deck *d);
  *  written; how many there are. */
 int deck_moving(const deck *d, int room, deck_axis_id *axis);
 
-/** Where results have two axes: the parameter given in &sweep that takes the place of the damping
-    or the drive as one of them, drive amplitude, torque or parametric amplitude. 0 if there is
-    none. */
+/** The parameter given in &sweep that takes the place of the damping or the drive as one of two
+    axes of results, or of a response is a third one: drive amplitude, torque or parametric
+    amplitude. 0 if there is none. */
 int deck_extra_axis(const deck *d, deck_axis_id *axis);
 
 /** Does a scene of that deck search for resonances: a resonance curve, or a response over the

@@ -196,10 +196,17 @@ static void check_idle_keys(deck_builder *b)
 
 /* ---- axes ---------------------------------------------------------------------------------- */
 
-static int expand_axis(deck_axis *axis)
+/* Values of a range whose steps are divided. */
+static size_t count_of(const deck *d, const deck_axis *axis)
 {
-  const pendres_range range = { axis->range_first, axis->range_last, axis->range_count };
-  axis->value = malloc((axis->listed_count + axis->range_count) * sizeof *axis->value);
+  const size_t n = axis->range_count;
+  return n > 1 ? (n - 1) * (size_t)d->resolution + 1 : n;
+}
+
+static int expand_axis(const deck *d, deck_axis *axis)
+{
+  const pendres_range range = { axis->range_first, axis->range_last, count_of(d, axis) };
+  axis->value = malloc((axis->listed_count + range.count) * sizeof *axis->value);
   if (axis->value == NULL) return 0;
   /* Keys were checked one by one: nothing is left that could be refused here. */
   return pendres_sweep_values(axis->listed_count, axis->listed, NULL, axis->listed,
@@ -213,7 +220,10 @@ static void expand_axes(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++) {
     deck_axis *axis = &b->d->axis[i];
     if (axis->listed_count + axis->range_count == 0) continue;
-    if (!expand_axis(axis)) b->out_of_memory = 1;
+    if (count_of(b->d, axis) > DECK_MAX_COUNT)
+      complain(b, given(b, "sweep", "resolution"), "resolution",
+               "'resolution' makes more than 1000000 values of a range");
+    else if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
   }
 }
 
@@ -344,7 +354,7 @@ static void check_curve(deck_builder *b)
 }
 
 /* Results have two axes: where drive amplitude, torque or parametric amplitude is one, another has
-   one value. */
+   one value; but for a response without noise, which has three then. */
 static void check_plane(deck_builder *b)
 {
   static const deck_axis_id extras[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
@@ -367,6 +377,7 @@ static void check_plane(deck_builder *b)
       return;
     }
   if (d->axis[DECK_AXIS_DAMPING].count < 2 || (frequency->count < 2 && period->count < 2)) return;
+  if (d->kind == DECK_RESPONSE && d->axis[DECK_AXIS_TEMPERATURE].count == 0) return;
   snprintf(message, sizeof message,
            "results have two axes: beside '%s' give either 'damping' or the "
            "drive one value", name);

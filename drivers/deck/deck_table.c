@@ -196,6 +196,10 @@ const deck_key deck_table[] = {
   { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE },
   { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE,
     EXAMPLE("0.0125, 0.02, 3") },
+  { INTEGER("sweep", "resolution", resolution), IN(ALL & ~(HARD | WORK)), RANGE(1, DECK_MAX_COUNT),
+    .number = 1,
+    SAYS(NULL, "parts into which each step of the ranges of axes is divided: one key for a finer "
+         "grid over all of them") },
   { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2),
     EXAMPLE("1e-4, 1e-6, 1e-8"), SAYS("1", "tolerances that each method is asked for") },
   { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared,
@@ -431,9 +435,8 @@ int deck_searches(const deck *d)
                              : &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
   deck_axis_id extra;
   if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
-  /* Where another parameter is an axis, lines are along the drive if damping has one value. */
-  return deck_is_plain(d) && (!deck_extra_axis(d, &extra) ||
-                              (d->axis[DECK_AXIS_DAMPING].count == 1 && along->count > 1));
+  /* Where another parameter is an axis, lines are along the drive if it has several values. */
+  return deck_is_plain(d) && (!deck_extra_axis(d, &extra) || along->count > 1);
 }
 
 int deck_is_plain(const deck *d)

@@ -109,17 +109,45 @@ void scene_plane(const deck *d, deck_axis_id axis[2])
   axis[1] = has_extra && !tongue ? extra : drive;
 }
 
-double scene_fixed(const deck *d, deck_axis_id axis)
+int scene_axes(const deck *d, deck_axis_id axis[SCENE_AXES])
 {
   deck_axis_id plane[2], extra;
   scene_plane(d, plane);
+  const size_t drives =
+    d->axis[DECK_AXIS_DRIVE_PERIOD].count + d->axis[DECK_AXIS_DRIVE_FREQUENCY].count;
+  if (d->kind != DECK_RESPONSE || !deck_extra_axis(d, &extra) ||
+      d->axis[DECK_AXIS_DAMPING].count < 2 || drives < 2) {
+    axis[0] = plane[0];
+    axis[1] = plane[1];
+    return 2;
+  }
+  axis[0] = extra;
+  axis[1] = DECK_AXIS_DAMPING;
+  axis[2] = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0 ? DECK_AXIS_DRIVE_PERIOD
+                                                      : DECK_AXIS_DRIVE_FREQUENCY;
+  return 3;
+}
+
+/* Is it one of the scene's axes? */
+static int is_axis(const deck *d, deck_axis_id axis)
+{
+  deck_axis_id axes[SCENE_AXES];
+  const int n = scene_axes(d, axes);
+  for (int i = 0; i < n; i++)
+    if (axes[i] == axis) return 1;
+  return 0;
+}
+
+double scene_fixed(const deck *d, deck_axis_id axis)
+{
+  deck_axis_id extra;
   if (d->axis[axis].count > 0) {
     /* A scene of which some parameters move has the others as axes of one value. */
     const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
                       d->kind == DECK_LYAPUNOV_MAP;
     const int curve = d->kind == DECK_RESONANCE_CURVE; /* has one axis */
-    const int left_out = deck_extra_axis(d, &extra) && axis != (curve ? extra : plane[0]) &&
-                         axis != (curve ? extra : plane[1]);
+    const int left_out =
+      deck_extra_axis(d, &extra) && (curve ? axis != extra : !is_axis(d, axis));
     return d->axis[axis].count == 1 && (moves || left_out) ? d->axis[axis].value[0] : NAN;
   }
   switch (axis) {

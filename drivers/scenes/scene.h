@@ -78,6 +78,12 @@ pendres_status scene_define(scene_run *run);
    where the drive amplitude is an axis it takes the place of the one that has one value. */
 void scene_plane(const deck *d, deck_axis_id axis[2]);
 
+/* The axes of a scene's points, slowest first, and how many: those of the plane; of a response
+   whose damping and drive have several values each beside another parameter's, that parameter is a
+   third one, before them. */
+enum { SCENE_AXES = 3 };
+int scene_axes(const deck *d, deck_axis_id axis[SCENE_AXES]);
+
 /* The value of a parameter that the scene holds fixed; NaN if it is an axis, or unknown. */
 double scene_fixed(const deck *d, deck_axis_id axis);
 

@@ -90,9 +90,8 @@ pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const
   return PENDRES_OK;
 }
 
-/* "damping 0.12, drive_period 8" */
-static void name_point(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
-                       size_t size)
+void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
+                      size_t size)
 {
   size_t block = 1, used = 0;
   text[0] = '\0';
@@ -111,7 +110,7 @@ void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t 
                        const deck_axis_id *axis)
 {
   char name[120], more[40] = "";
-  name_point(d, first, axes, axis, name, sizeof name);
+  scene_point_name(d, first, axes, axis, name, sizeof name);
   if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
   farm_point(record, n, "%s%s", name, more);
 }
@@ -185,7 +184,7 @@ pendres_status scene_failures_write(scene_run *run, const scene_failures *f, con
   for (size_t i = 0; i < f->n; i++) {
     if (f->reason[i] == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
-    name_point(run->deck, i, axes, axis, where, sizeof where);
+    scene_point_name(run->deck, i, axes, axis, where, sizeof where);
     scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
   }
   return PENDRES_OK;

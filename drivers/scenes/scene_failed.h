@@ -61,8 +61,12 @@ void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *word
    it is. words: the message of the context that failed. */
 pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words);
 
-/* Begin n points of a task next to each other in the deck's grid of `axes` axes, slowest first, the
-   first of which has the number `first`: farm_point() with their names. */
+/* "damping 0.12, drive_period 8": a point of the deck's grid of `axes` axes, slowest first. */
+void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
+                      size_t size);
+
+/* Begin n points of a task next to each other in such a grid, the first of which has the number
+   `first`: farm_point() with their names. */
 void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
                        const deck_axis_id *axis);
 

@@ -9,7 +9,8 @@
 #include "scenes/scene_columns.h"
 
 typedef struct scene_peak {
-  double at; /* the line's parameter */
+  double at;     /* the line's parameter, */
+  double beside; /* and another one, where lines differ in two */
   double resonance_frequency, resonance_frequency_error, resonance_period, resonance_period_error;
   double mean_loop_area, mean_loop_area_error, mean_loop_amplitude, mean_loop_amplitude_error;
   double mean_amplitude, mean_amplitude_error, phase_lag, phase_lag_error;

@@ -3,8 +3,9 @@
  *
  * The paper's Figs. 3 and 4: a line a damping, along the drive period or frequency. One task a
  * handful of its points, and one for its resonance. A line may be one of a drive amplitude, torque
- * or parametric amplitude instead, or go along one of these: then it has no resonance. With
- * temperatures in the deck the results have one more dimension: see scene_response_noise.c.
+ * or parametric amplitude instead, or of such a parameter and a damping, which makes a volume; or
+ * it may go along one of these: then it has no resonance. With temperatures in the deck the results
+ * have one more dimension: see scene_response_noise.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -20,8 +21,9 @@ typedef struct grid {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  deck_axis_id axis[2];       /* from line to line, and along them */
-  size_t lines, values;       /* sizes of the axes */
+  deck_axis_id axis[SCENE_AXES]; /* from line to line, and along them */
+  int axes;
+  size_t lines, values;       /* and points of a line */
   size_t chunks;              /* tasks a line */
   int peaked;                 /* whether lines have resonances: along the drive's frequency */
   pendres_response *points;   /* [line][value] */
@@ -33,16 +35,31 @@ typedef struct grid {
 
 static void plan(const deck *d, FILE *out)
 {
-  deck_axis_id axis[2];
-  scene_plane(d, axis);
-  const deck_axis *along = &d->axis[axis[1]];
-  fprintf(out, "mean response of %lld members at %zu values of %s and %zu values of %s, %g to %g",
-          (long long)d->ensemble.members, d->axis[axis[0]].count, deck_axis_name(axis[0]),
-          along->count, deck_axis_name(axis[1]), along->value[0], along->value[along->count - 1]);
+  deck_axis_id axis[SCENE_AXES];
+  const int axes = scene_axes(d, axis);
+  const deck_axis *along = &d->axis[axis[axes - 1]];
+  fprintf(out, "mean response of %lld members at ", (long long)d->ensemble.members);
+  for (int i = 0; i + 1 < axes; i++)
+    fprintf(out, "%zu values of %s%s", d->axis[axis[i]].count, deck_axis_name(axis[i]),
+            axes == 3 && i == 0 ? ", " : " and ");
+  fprintf(out, "%zu values of %s, %g to %g", along->count, deck_axis_name(axis[axes - 1]),
+          along->value[0], along->value[along->count - 1]);
   if (deck_searches(d))
     fprintf(out, ";\nand the resonance of each %s, looked for at frequencies %g to %g",
-            deck_axis_name(axis[0]), d->search[0], d->search[1]);
+            axes == 3 ? "line" : deck_axis_name(axis[0]), d->search[0], d->search[1]);
   fprintf(out, "\n");
+}
+
+/* The axes of a sweep in the order of the results'; others, of one value each, after them. */
+static void order_sweep(const deck *d, int axes, const deck_axis_id *axis, pendres_sweep *s)
+{
+  for (int k = axes - 1; k >= 0; k--)
+    for (size_t i = 1; i < s->axes; i++) {
+      const pendres_axis one = s->axis[i];
+      if (one.value != d->axis[axis[k]].value) continue;
+      memmove(&s->axis[1], &s->axis[0], i * sizeof one);
+      s->axis[0] = one;
+    }
 }
 
 static pendres_pendulum pendulum_at(const grid *g, size_t line, size_t k)
@@ -74,8 +91,8 @@ static pendres_status compute_peak(const grid *g, size_t i, pendres_context *ctx
     r->outcome = PENDRES_NOT_CONVERGED;
     return PENDRES_OK;
   }
-  farm_point(out, 1, "resonance at %s %.10g", deck_axis_name(g->axis[0]),
-             g->d->axis[g->axis[0]].value[i]);
+  scene_point_name(g->d, i, g->axes - 1, g->axis, words, sizeof words);
+  farm_point(out, 1, "resonance at %s", words);
   r->outcome = pendres_resonance_find_ensemble(ctx, &p, g->d->search[0], g->d->search[1],
                                                &g->ensemble, &r->peak);
   if (r->outcome == PENDRES_OK && !r->peak.complete)
@@ -104,7 +121,7 @@ static pendres_status compute_points(const grid *g, size_t first, size_t n,
   for (size_t i = 0; i < n; i++)
     too_long |= scene_failure_too_long(&pendulums[i], 1.0, words, sizeof words);
   if (!too_long) {
-    scene_point_begin(out, g->d, first, n, 2, g->axis);
+    scene_point_begin(out, g->d, first, n, g->axes, g->axis);
     status = pendres_response_compute(ctx, n, pendulums, &g->ensemble, r->point);
     if (scene_failure_of(status) == SCENE_FAILURE_NONE && !farm_gave_up(out, status))
       return status;
@@ -116,7 +133,7 @@ static pendres_status compute_points(const grid *g, size_t first, size_t n,
       scene_verdict_mark(&r->verdict[i], SCENE_FAILURE_TOO_LONG, words);
       continue;
     }
-    scene_point_begin(out, g->d, first + i, 1, 2, g->axis);
+    scene_point_begin(out, g->d, first + i, 1, g->axes, g->axis);
     status = pendres_response_compute(ctx, 1, &pendulums[i], &g->ensemble, &r->point[i]);
     if (status == PENDRES_OK) continue;
     r->point[i] = no_response(&pendulums[i], g->ensemble.members);
@@ -173,6 +190,15 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   return status;
 }
 
+/* Of a line, whose parameters are the axes but the last. */
+static scene_peak peak_of(const grid *g, size_t line, const peak_record *r)
+{
+  const deck_axis *last = &g->d->axis[g->axis[g->axes - 2]], *first = &g->d->axis[g->axis[0]];
+  scene_peak p = scene_peak_of(last->value[line % last->count], r->outcome, &r->peak);
+  p.beside = first->value[line / (g->lines / first->count)];
+  return p;
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
@@ -180,7 +206,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   if (task >= g->lines * g->chunks) {
     const peak_record *r = in->data;
     const size_t i = task - g->lines * g->chunks;
-    g->peaks[i] = scene_peak_of(g->d->axis[g->axis[0]].value[i], r->outcome, &r->peak);
+    g->peaks[i] = peak_of(g, i, r);
     g->no_peak[i] = r->outcome != PENDRES_OK;
     scene_failures_take(&g->peak_failed, i, &r->verdict);
     return PENDRES_OK;
@@ -227,9 +253,8 @@ static const scene_column uncertain = SCENE_UNCERTAIN(pendres_response, uncertai
 static pendres_status write_points(scene_run *run, const grid *g, size_t count,
                                    const scene_column *some)
 {
-  const scene_table table = {
-    .dimensions = {deck_axis_name(g->axis[0]), deck_axis_name(g->axis[1])},
-    .n = g->lines * g->values, .stride = sizeof *g->points, .rows = g->points};
+  scene_table table = {.n = g->lines * g->values, .stride = sizeof *g->points, .rows = g->points};
+  for (int i = 0; i < g->axes; i++) table.dimensions[i] = deck_axis_name(g->axis[i]);
   return scene_columns_write(run, &table, count, some);
 }
 
@@ -252,8 +277,10 @@ static const scene_column of_peaks[] = {
 
 static scene_table table_of_peaks(const grid *g)
 {
-  return (scene_table){.dimensions = {deck_axis_name(g->axis[0])}, .n = g->lines,
-                       .stride = sizeof *g->peaks, .rows = g->peaks, .missing = g->no_peak};
+  scene_table table = {.n = g->lines, .stride = sizeof *g->peaks, .rows = g->peaks,
+                       .missing = g->no_peak};
+  for (int i = 0; i + 1 < g->axes; i++) table.dimensions[i] = deck_axis_name(g->axis[i]);
+  return table;
 }
 
 static pendres_status write_peaks(scene_run *run, const grid *g)
@@ -261,7 +288,7 @@ static pendres_status write_peaks(scene_run *run, const grid *g)
   const scene_table table = table_of_peaks(g);
   pendres_status status = scene_columns_write(run, &table, 1, &by_period);
   /* Who asked for frequencies gets the frequency too. */
-  if (status == PENDRES_OK && g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+  if (status == PENDRES_OK && g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY)
     status = scene_columns_write(run, &table, 1, &by_frequency);
   return status == PENDRES_OK
            ? scene_columns_write(run, &table, sizeof of_peaks / sizeof *of_peaks, of_peaks)
@@ -271,9 +298,10 @@ static pendres_status write_peaks(scene_run *run, const grid *g)
 static pendres_status write_failures(scene_run *run, const grid *g)
 {
   const pendres_status status =
-    scene_failures_write(run, &g->failed, "failed", "response", 2, g->axis);
+    scene_failures_write(run, &g->failed, "failed", "response", g->axes, g->axis);
   if (status != PENDRES_OK || !g->peaked) return status;
-  return scene_failures_write(run, &g->peak_failed, "resonance_failed", "resonance", 1, g->axis);
+  return scene_failures_write(run, &g->peak_failed, "resonance_failed", "resonance", g->axes - 1,
+                              g->axis);
 }
 
 static pendres_status write_axis(scene_run *run, deck_axis_id axis)
@@ -294,8 +322,8 @@ static pendres_status write_results(scene_run *run, const grid *g)
   const scene_response_grid noisy = {
     .dampings = g->lines, .drives = g->values, .damping = deck_axis_name(g->axis[0]),
     .drive = deck_axis_name(g->axis[1]), .points = g->points};
-  pendres_status status = write_axis(run, g->axis[0]);
-  if (status == PENDRES_OK) status = write_axis(run, g->axis[1]);
+  pendres_status status = PENDRES_OK;
+  for (int i = 0; i < g->axes && status == PENDRES_OK; i++) status = write_axis(run, g->axis[i]);
   if (status == PENDRES_OK)
     status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0
                  ? scene_response_write_noise(run, &noisy)
@@ -315,9 +343,12 @@ static pendres_status write_paper(scene_run *run, const grid *g)
 
 static void print_table(FILE *out, const grid *g)
 {
-  const int frequencies = g->axis[1] == DECK_AXIS_DRIVE_FREQUENCY;
+  enum { MOST_LINES = 40 };
+  const int frequencies = g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY;
+  const int damping = g->axis[g->axes - 2] == DECK_AXIS_DAMPING, both = g->axes == 3;
   const scene_cell cells[] = {
-    {.heading = g->axis[0] == DECK_AXIS_DAMPING ? "damping   " : "drive     ", .format = "%-9.4g ",
+    SCENE_CELL(scene_peak, beside, "drive     ", "%-9.4g "),
+    {.heading = damping ? "damping   " : "drive     ", .format = "%-9.4g ",
      .value = offsetof(scene_peak, at)},
     {.heading = frequencies ? "resonant freq.   " : "resonant period  ", .format = "%.9f      ",
      .value = frequencies ? offsetof(scene_peak, resonance_frequency)
@@ -328,7 +359,8 @@ static void print_table(FILE *out, const grid *g)
   };
   const scene_table table = table_of_peaks(g);
   if (g->peaked)
-    scene_columns_print(out, &table, g->lines, sizeof cells / sizeof *cells, cells,
+    scene_columns_print(out, &table, both ? MOST_LINES : g->lines,
+                        sizeof cells / sizeof *cells - (both ? 0 : 1), both ? cells : cells + 1,
                         scene_peak_instead);
 }
 
@@ -338,11 +370,12 @@ static pendres_status run_scene(scene_run *run)
   grid g = {.d = d,
             .sweep = scene_sweep(d),
             .ensemble = scene_ensemble(d),
-            .axis = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY}};
+            .axis = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY}, .lines = 1};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  scene_plane(d, g.axis);
-  g.lines = d->axis[g.axis[0]].count;
-  g.values = d->axis[g.axis[1]].count;
+  g.axes = scene_axes(d, g.axis);
+  order_sweep(d, g.axes, g.axis, &g.sweep);
+  for (int i = 0; i + 1 < g.axes; i++) g.lines *= d->axis[g.axis[i]].count;
+  g.values = d->axis[g.axis[g.axes - 1]].count;
   g.peaked = deck_searches(d);
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
   g.points = calloc(g.lines * g.values, sizeof *g.points);
