@@ -8,16 +8,14 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
 #include "orbits/orbit_error.h"
-#include "orbits/orbit_newton.h"
+#include "orbits/orbit_reading.h"
 
 /* Of an entry of M, at random in every step: see strobe_noise.c. */
 static const double matrix_rounding = 7e-16;
 
 /* What one computation of an orbit found. */
 typedef struct reading {
-  double u[PENDRES_U_COUNT];
   double m[2][2], m_by[2][2][2];
   pendres_orbit_measures measures;
 } reading;
@@ -53,51 +51,37 @@ static int winding_of(const pendres_continuation_map *map)
   return map->mirror ? 0 : map->winding;
 }
 
-/* Read one candidate off the tape. */
-static pendres_status read_candidate(const pendres_newton_candidate *c,
-                                     const pendres_newton_tape *tape, pendres_orbit_tables *tables,
-                                     double *work, reading *out)
+/* The samples of one candidate as they are: its point solves the equations already. */
+static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
+                                    const pendres_newton_tape *tape, double *y, double *w)
 {
-  const size_t n = tape->samples;
-  double *y = work, *w = work + n;
+  reading *out = (reading *)arg + c->index;
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
-  for (size_t k = 0; k < n; k++) {
+  for (size_t k = 0; k < tape->samples; k++) {
     const double *row = pendres_newton_sample(tape, k, c->lane);
     y[k] = row[0];
     w[k] = row[1];
   }
-  const pendres_orbit_samples samples = {
-    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
-    .tables = tables};
-  return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
-}
-
-/* Equal steps and periods side by side, so that they share blocks. */
-static int in_order(const void *a, const void *b)
-{
-  const pendres_newton_candidate *p = a, *q = b;
-  if (p->steps != q->steps) return p->steps < q->steps ? -1 : 1;
-  if (p->guess->period != q->guess->period) return p->guess->period < q->guess->period ? -1 : 1;
-  return p->index < q->index ? -1 : p->index > q->index;
+  return &out->measures;
 }
 
 /* Integrate all pairs at their coarse or their fine steps. */
 static pendres_status read_all(pendres_context *ctx, size_t n,
                                const pendres_continuation_pair *pairs, int fine, reading *out)
 {
-  pendres_newton_tape tape = {.bends = !fine};
-  pendres_orbit_tables tables = {0};
-  double *work = NULL;
-  size_t work_size = 0;
-  pendres_status status = PENDRES_OK;
+  const pendres_orbit_reader reader = {
+    .want = PENDRES_ORBIT_PLAIN, .bends = !fine, .take = take, .arg = out};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_newton_candidate *c = calloc(n + 1, sizeof *c);
   pendres_orbit_guess *guess = calloc(n + 1, sizeof *guess);
-  if (c == NULL || guess == NULL) goto no_memory;
+  if (c == NULL || guess == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", n);
+    goto done;
+  }
   for (size_t i = 0; i < n; i++) {
     const pendres_continuation_pair *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
-    memcpy(out[i].u, u, sizeof out[i].u);
     guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(p->map.force, u),
                                      .period = p->map.period,
                                      .winding = winding_of(&p->map)};
@@ -105,33 +89,11 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
                                       .index = i,
                                       .y = u[PENDRES_U_Y],
                                       .w = u[PENDRES_U_W],
-                                      .steps = fine ? p->fine_steps : p->coarse_steps};
+                                      .steps = fine ? p->fine_steps : p->coarse_steps,
+                                      .state = PENDRES_NEWTON_CONVERGED};
   }
-  qsort(c, n, sizeof *c, in_order);
-  for (size_t first = 0, last; first < n; first = last) {
-    status = pendres_newton_pass(ctx, n, c, first, PENDRES_ORBIT_PLAIN, &tape, &last);
-    if (status != PENDRES_OK) goto done;
-    const size_t need = 2 * tape.samples + pendres_orbit_measure_work(tape.samples);
-    if (need > work_size) {
-      work_size = need;
-      double *grown = realloc(work, work_size * sizeof *work);
-      if (grown == NULL) goto no_memory;
-      work = grown;
-    }
-    for (size_t i = first; i < last && status == PENDRES_OK; i++)
-      status = read_candidate(&c[i], &tape, &tables, work, &out[c[i].index]);
-    if (status != PENDRES_OK) {
-      status = pendres_context_fail(ctx, status, "the samples of an orbit could not be measured");
-      goto done;
-    }
-  }
-  goto done;
-no_memory:
-  status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  status = pendres_orbit_read(ctx, &reader, n, c);
 done:
-  pendres_newton_tape_free(&tape);
-  pendres_orbit_tables_free(&tables);
-  free(work);
   free(c);
   free(guess);
   return status;
@@ -140,8 +102,6 @@ done:
 static void fill(const pendres_continuation_pair *pair, const reading *a, const reading *b,
                  pendres_orbit *o)
 {
-  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, pair->fine);
-  const double omega = p.drive_frequency;
   const double from[2] = {pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                           pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]};
   const double along =
@@ -156,29 +116,24 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   const pendres_orbit_doubt doubt = {.apart = fmax(fmax(hypot(from[0], from[1]), along), beside),
                                      .rounding = pair->rounding};
 
-  memset(o, 0, sizeof *o);
-  o->pendulum = p;
-  o->period = pair->map.period;
-  o->winding = winding_of(&pair->map);
-  o->steps = pair->fine_steps;
-  const long turns = pendres_orbit_set_measures(&a->measures, &b->measures, &doubt, o);
-  const pendres_place s = {
-    .y = pair->fine[PENDRES_U_Y], .w = pair->fine[PENDRES_U_W], .turns = -turns};
-  pendres_passage_out(&o->pendulum, &s, &o->x, &o->v);
-  o->x_error =
-    pendres_orbit_error(pair->coarse[PENDRES_U_Y], pair->fine[PENDRES_U_Y], 1.0, &doubt) +
-    0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
-  o->v_error =
-    pendres_orbit_error(pair->coarse[PENDRES_U_OMEGA] * pair->coarse[PENDRES_U_W], o->v, omega,
-                        &doubt) +
-    fmax(0.0, 1.0 - omega) * doubt.rounding;
-  pendres_orbit_spectrum spectrum = {.left = matrix_rounding * sqrt(o->steps * o->period)};
-  memcpy(spectrum.by_point, a->m_by, sizeof spectrum.by_point);
-  memcpy(spectrum.coarse, a->m, sizeof spectrum.coarse);
-  memcpy(spectrum.fine, b->m, sizeof spectrum.fine);
-  pendres_orbit_set_spectrum(&spectrum, &doubt, o);
-  o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;
-  o->loop_area_slope = o->loop_area_slope_error = NAN;
+  /* A velocity: the two computations may differ in the drive frequency. */
+  const double clocks = pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
+  pendres_orbit_twice two = {
+    .pendulum = pendres_continuation_map_pendulum(pair->map.force, pair->fine),
+    .period = pair->map.period,
+    .winding = winding_of(&pair->map),
+    .steps = pair->fine_steps,
+    .coarse = {pair->coarse[PENDRES_U_Y], clocks * pair->coarse[PENDRES_U_W]},
+    .fine = {pair->fine[PENDRES_U_Y], pair->fine[PENDRES_U_W]},
+    .coarse_measures = &a->measures,
+    .fine_measures = &b->measures,
+    .at_start = doubt,
+    .along = doubt,
+    .spectrum.left = matrix_rounding * sqrt(pair->fine_steps * pair->map.period)};
+  memcpy(two.spectrum.by_point, a->m_by, sizeof two.spectrum.by_point);
+  memcpy(two.spectrum.coarse, a->m, sizeof two.spectrum.coarse);
+  memcpy(two.spectrum.fine, b->m, sizeof two.spectrum.fine);
+  pendres_orbit_set(&two, o);
 }
 
 pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n,

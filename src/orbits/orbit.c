@@ -11,8 +11,8 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
-#include "orbits/orbit_newton.h"
 #include "orbits/orbit_pair.h"
+#include "orbits/orbit_reading.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
 
@@ -31,47 +31,55 @@ typedef struct result {
   pendres_orbit_measures measures;
 } result;
 
-/* The samples of one candidate in the tape, moved to the corrected point by the linearised flow. */
-static pendres_status evaluate(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
-                               pendres_orbit_want want, pendres_orbit_tables *tables, double *work,
-                               result *out)
+/* What runs of one number of steps are read for, and where their results go, by index. */
+typedef struct reading {
+  pendres_orbit_want want;
+  result *results;
+} reading;
+
+/* The loop area's slope, and the same from an integral by parts; 0 if that cannot be told. */
+static int take_slope(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+                      result *out)
 {
   const size_t n = tape->samples;
-  double shift[2] = {0.0, 0.0}, by_omega[2] = {NAN, NAN};
-  double *y = work, *w = work + n;
+  double sum = 0.0, parts = 0.0, squares = 0.0, by_omega[2];
+  if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return 0;
+  for (size_t k = 0; k < n; k++) {
+    const double *row = pendres_newton_sample(tape, k, c->lane);
+    const double theta = two_pi * c->guess->period * (double)k / (double)n;
+    const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
+    sum += cos(theta) * derivative;
+    parts += sin(theta) * (row[6] + row[2] * by_omega[0] + row[4] * by_omega[1]);
+    squares += derivative * derivative;
+  }
+  const double cycle = c->guess->pendulum.drive_amplitude * two_pi;
+  out->dy = by_omega[0];
+  out->dw = by_omega[1];
+  out->derivative = sqrt(squares / (double)n);
+  out->slope = cycle * sum / (double)n;
+  /* Harmonics next to the number of samples pass for the first: in slopes they count as often as
+     they swing, in angles once. */
+  out->slope_apart = cycle * (sum - parts) / (double)n;
+  return 1;
+}
 
-  if (!pendres_newton_closed(c, tape, y, w, shift)) return PENDRES_NOT_CONVERGED;
+/* The samples of one candidate, moved to the corrected point by the linearised flow. */
+static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
+                                    const pendres_newton_tape *tape, double *y, double *w)
+{
+  const reading *r = arg;
+  result *out = &r->results[c->index];
+  double shift[2] = {0.0, 0.0};
+  if (!pendres_newton_closed(c, tape, y, w, shift)) return NULL;
   out->y = c->y + shift[0];
   out->w = c->w + shift[1];
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
   memcpy(out->off, shift, sizeof out->off);
-  out->slope = out->slope_apart = out->derivative = NAN;
-  if (want == PENDRES_ORBIT_FREQUENCY_SLOPE) {
-    if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return PENDRES_NOT_CONVERGED;
-    double sum = 0.0, parts = 0.0, squares = 0.0;
-    for (size_t k = 0; k < n; k++) {
-      const double *row = pendres_newton_sample(tape, k, c->lane);
-      const double theta = two_pi * c->guess->period * (double)k / (double)n;
-      const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
-      sum += cos(theta) * derivative;
-      parts += sin(theta) * (row[6] + row[2] * by_omega[0] + row[4] * by_omega[1]);
-      squares += derivative * derivative;
-    }
-    const double cycle = c->guess->pendulum.drive_amplitude * two_pi;
-    out->derivative = sqrt(squares / (double)n);
-    out->slope = cycle * sum / (double)n;
-    /* Harmonics next to the number of samples pass for the first: in slopes they count as often as
-       they swing, in angles once. */
-    out->slope_apart = cycle * (sum - parts) / (double)n;
-  }
-  out->dy = by_omega[0];
-  out->dw = by_omega[1];
+  out->dy = out->dw = out->slope = out->slope_apart = out->derivative = NAN;
+  if (r->want == PENDRES_ORBIT_FREQUENCY_SLOPE && !take_slope(c, tape, out)) return NULL;
   if (!tape->bends) out->noise = pendres_newton_noise_of(c, tape);
-  const pendres_orbit_samples samples = {
-    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
-    .tables = tables};
-  return pendres_orbit_measure(&c->guess->pendulum, &samples, work + 2 * n, &out->measures);
+  return &out->measures;
 }
 
 static double size_of(const double m[2][2])
@@ -79,9 +87,11 @@ static double size_of(const double m[2][2])
   return hypot(hypot(m[0][0], m[0][1]), hypot(m[1][0], m[1][1]));
 }
 
-/* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order. */
+/* What Newton's last step, a linear one, leaves of the orbit's start: terms of second order, and
+   half as much again, since terms of third order follow. */
 static void left_over(const result *coarse, const result *fine, double left[2])
 {
+  static const double rest = 1.5;
   double bent[2] = {0.0, 0.0};
   left[0] = left[1] = 0.0;
   for (int k = 0; k < 2; k++)
@@ -89,26 +99,7 @@ static void left_over(const result *coarse, const result *fine, double left[2])
       for (int j = 0; j < 2; j++)
         bent[i] += 0.5 * coarse->m_by[k][i][j] * fine->off[k] * fine->off[j];
   (void)pendres_newton_solve(fine->m, bent, left, NULL);
-}
-
-/* The Poincaré point and its errors; turns: of the orbit's mean. */
-static void set_point(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
-                      long turns, pendres_orbit *o)
-{
-  /* Half more, since terms of third order follow. */
-  static const double rest = 1.5;
-  const pendres_pendulum *p = &o->pendulum;
-  const double omega = p->drive_frequency;
-  const pendres_place s = {.y = fine->y, .w = fine->w, .turns = -turns};
-  double left[2];
-  left_over(coarse, fine, left);
-  pendres_passage_out(p, &s, &o->x, &o->v);
-  /* x itself is a double, and half of pi is none. */
-  o->x_error = pendres_orbit_error(coarse->y, fine->y, 1.0, doubt) + rest * fabs(left[0]) +
-               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
-  /* Rounding swings to and fro between y and v. */
-  const double w_error = pendres_orbit_error(coarse->w, fine->w, 1.0, doubt) + rest * fabs(left[1]);
-  o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * doubt->rounding;
+  for (int i = 0; i < 2; i++) left[i] = rest * fabs(left[i]);
 }
 
 static void set_slope(const result *coarse, const result *fine, const pendres_orbit_doubt *doubt,
@@ -135,8 +126,8 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
 }
 
 /* rounding: of a step along the whole orbit, of an angle of order one. */
-static void set_spectrum(const result *coarse, const result *fine,
-                         const pendres_orbit_doubt *doubt, double rounding, pendres_orbit *o)
+static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fine,
+                                          double rounding)
 {
   pendres_orbit_spectrum spectrum = {.left = 6.0 * rounding};
   memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
@@ -152,7 +143,7 @@ static void set_spectrum(const result *coarse, const result *fine,
   const double size = fmax(size_of(fine->m), DBL_MIN);
   const double change = (by_y * fabs(fine->off[0]) + by_w * fabs(fine->off[1])) / size;
   spectrum.left += 0.5 * change * (change + pendres_newton_aside * hypot(by_y, by_w) / size);
-  pendres_orbit_set_spectrum(&spectrum, doubt, o);
+  return spectrum;
 }
 
 /* rounding: of a step, of an angle of order one. */
@@ -171,20 +162,20 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double beside = pendres_orbit_apart_beside(coarse->m, fine->m, coarse->m_by, from,
                                                    fine->measures.amplitude);
   const double apart = fmax(fmax(there, along), beside);
-  const pendres_orbit_doubt at_start = {apart, last_place * fine->noise.start};
-  const pendres_orbit_doubt all_along = {apart, last_place * fine->noise.along};
-
-  memset(o, 0, sizeof *o);
-  o->pendulum = c->guess->pendulum;
-  o->period = c->guess->period;
-  o->winding = c->guess->winding;
-  o->steps = c->steps;
-  /* The mean angle belongs into well 0. */
-  const long turns =
-    pendres_orbit_set_measures(&coarse->measures, &fine->measures, &all_along, o);
-  set_point(coarse, fine, &at_start, turns, o);
-  set_spectrum(coarse, fine, &at_start, rounding * noise, o);
-  set_slope(coarse, fine, &all_along, rounding * noise, o, rounded);
+  pendres_orbit_twice two = {.pendulum = c->guess->pendulum,
+                             .period = c->guess->period,
+                             .winding = c->guess->winding,
+                             .steps = c->steps,
+                             .coarse = {coarse->y, coarse->w},
+                             .fine = {fine->y, fine->w},
+                             .coarse_measures = &coarse->measures,
+                             .fine_measures = &fine->measures,
+                             .at_start = {apart, last_place * fine->noise.start},
+                             .along = {apart, last_place * fine->noise.along},
+                             .spectrum = spectrum_of(coarse, fine, rounding * noise)};
+  left_over(coarse, fine, two.left);
+  pendres_orbit_set(&two, o);
+  set_slope(coarse, fine, &two.along, rounding * noise, o, rounded);
 }
 
 static int accurate(const pendres_orbit *o, double tolerance)
@@ -199,39 +190,9 @@ static int accurate(const pendres_orbit *o, double tolerance)
 static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                   pendres_orbit_want want, int bends, result *results)
 {
-  pendres_newton_tape tape = {.bends = bends};
-  pendres_orbit_tables tables = {0};
-  double *work = NULL;
-  size_t work_size = 0;
-  pendres_status status = PENDRES_OK;
-
-  for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
-    status = pendres_newton_pass(ctx, n, c, first, want, &tape, &last);
-    if (status != PENDRES_OK) break;
-    const size_t need = 2 * tape.samples + pendres_orbit_measure_work(tape.samples);
-    if (need > work_size) {
-      work_size = need;
-      double *grown = realloc(work, work_size * sizeof *work);
-      if (grown == NULL) {
-        status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for samples");
-        break;
-      }
-      work = grown;
-    }
-    for (size_t i = first; i < last; i++) {
-      if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
-      const pendres_status one = evaluate(&c[i], &tape, want, &tables, work,
-                                          &results[c[i].index]);
-      if (one == PENDRES_NOT_CONVERGED)
-        c[i].state = PENDRES_NEWTON_FAILED;
-      else if (one != PENDRES_OK)
-        status = pendres_context_fail(ctx, one, "the samples of an orbit could not be measured");
-    }
-  }
-  pendres_newton_tape_free(&tape);
-  pendres_orbit_tables_free(&tables);
-  free(work);
-  return status;
+  reading r = {.want = want, .results = results};
+  const pendres_orbit_reader reader = {.want = want, .bends = bends, .take = take, .arg = &r};
+  return pendres_orbit_read(ctx, &reader, n, c);
 }
 
 static double singularity(const double m[2][2])

@@ -35,12 +35,12 @@ static long turns_of_mean(const pendres_pendulum *p, double mean)
   return inside <= tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
 }
 
-long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
-                                const pendres_orbit_measures *fine,
-                                const pendres_orbit_doubt *doubt, pendres_orbit *o)
+/* Everything but the point, the multipliers and the slopes. Returns the whole turns by which the
+   orbit's mean lies outside of well 0. */
+static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
+                         const pendres_orbit_doubt *doubt, pendres_orbit *o)
 {
   const pendres_pendulum *p = &o->pendulum;
-  const pendres_orbit_measures *a = coarse, *b = fine;
   const double omega = p->drive_frequency, drive = fabs(p->drive_amplitude);
   const long turns = turns_of_mean(p, b->mean_angle);
 
@@ -122,8 +122,9 @@ static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbi
          bend * (0.1 * doubt->apart + doubt->rounding) + s->left * size_of(s->fine);
 }
 
-void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,
-                                pendres_orbit *o)
+/* Monodromy matrix, multipliers and their error. */
+static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,
+                         pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
   const double modulus = exp(-o->pendulum.damping * o->period * pi / omega);
@@ -148,4 +149,35 @@ void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_o
                            o->multiplier_im[0] - o->multiplier_im[1]);
   o->multiplier_error =
     fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error);
+}
+
+/* The Poincaré point and its errors; turns: of the orbit's mean. */
+static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit *o)
+{
+  const double omega = o->pendulum.drive_frequency;
+  const pendres_orbit_doubt *doubt = &two->at_start;
+  const pendres_place s = {.y = two->fine[0], .w = two->fine[1], .turns = -turns};
+  pendres_passage_out(&o->pendulum, &s, &o->x, &o->v);
+  /* x itself is a double, and half of pi is none. */
+  o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, doubt) + two->left[0] +
+               0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
+  /* Rounding swings to and fro between y and v. */
+  const double w_error =
+    pendres_orbit_error(two->coarse[1], two->fine[1], 1.0, doubt) + two->left[1];
+  o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * doubt->rounding;
+}
+
+void pendres_orbit_set(const pendres_orbit_twice *two, pendres_orbit *o)
+{
+  memset(o, 0, sizeof *o);
+  o->pendulum = two->pendulum;
+  o->period = two->period;
+  o->winding = two->winding;
+  o->steps = two->steps;
+  /* The mean angle belongs into well 0. */
+  const long turns = set_measures(two->coarse_measures, two->fine_measures, &two->along, o);
+  set_point(two, turns, o);
+  set_spectrum(&two->spectrum, &two->at_start, o);
+  o->frequency_derivative[0] = o->frequency_derivative[1] = NAN;
+  o->loop_area_slope = o->loop_area_slope_error = NAN;
 }

@@ -21,14 +21,6 @@ double pendres_orbit_error(double coarse, double fine, double sensitivity,
                            const pendres_orbit_doubt *doubt);
 
 /*
- * Everything of o but the point, the multipliers and the slopes, with errors; o->pendulum, period
- * and winding are read. Returns the whole turns by which the orbit's mean lies outside of well 0.
- */
-long pendres_orbit_set_measures(const pendres_orbit_measures *coarse,
-                                const pendres_orbit_measures *fine,
-                                const pendres_orbit_doubt *doubt, pendres_orbit *o);
-
-/*
  * How far two computations would be apart a little beside the orbit, by what the derivatives of
  * their maps differ by. That the maps agree on the orbit, all along it, may be chance; that they
  * agree beside it as well is none. A little: a share of the orbit's size, and of the way on which
@@ -47,8 +39,18 @@ typedef struct pendres_orbit_spectrum {
                                them */
 } pendres_orbit_spectrum;
 
-/* Monodromy matrix, multipliers and their error; o->pendulum and period are read. */
-void pendres_orbit_set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt,
-                                pendres_orbit *o);
+/* Two computations of an orbit. */
+typedef struct pendres_orbit_twice {
+  pendres_pendulum pendulum;
+  int period, winding, steps; /* steps of the finer one */
+  double coarse[2], fine[2];  /* y and w at phase 0 */
+  double left[2];             /* what the finer one is off by besides, in y and w */
+  const pendres_orbit_measures *coarse_measures, *fine_measures;
+  pendres_orbit_doubt at_start, along; /* at phase 0, and anywhere */
+  pendres_orbit_spectrum spectrum;
+} pendres_orbit_twice;
+
+/* All of the orbit, with errors, but the slopes, which become NaN. */
+void pendres_orbit_set(const pendres_orbit_twice *two, pendres_orbit *o);
 
 #endif

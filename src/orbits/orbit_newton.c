@@ -271,6 +271,11 @@ static int in_order(const void *a, const void *b)
   return p->index < q->index ? -1 : p->index > q->index;
 }
 
+void pendres_newton_order(size_t n, pendres_newton_candidate *c)
+{
+  qsort(c, n, sizeof *c, in_order);
+}
+
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_newton_candidate *c)
 {
   size_t active = n;
@@ -280,7 +285,7 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
     c[i].last_step = INFINITY;
   }
   while (active > 0) {
-    qsort(c, n, sizeof *c, in_order);
+    pendres_newton_order(n, c);
     for (size_t first = 0, last; first < active; first = last) {
       const pendres_status status =
         pendres_newton_pass(ctx, active, c, first, PENDRES_ORBIT_PLAIN, NULL, &last);
@@ -291,7 +296,5 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
     for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;
     active = still;
   }
-  /* For what follows: equal steps and periods side by side. */
-  qsort(c, n, sizeof *c, in_order);
   return PENDRES_OK;
 }

@@ -50,7 +50,6 @@ static inline const double *pendres_newton_sample(const pendres_newton_tape *t, 
 /* NULL, or why a caller's orbit is none that could be followed: a static sentence. */
 const char *pendres_orbit_refuses(const pendres_orbit *o);
 
-
 void pendres_newton_tape_free(pendres_newton_tape *tape);
 
 /*
@@ -61,6 +60,9 @@ void pendres_newton_tape_free(pendres_newton_tape *tape);
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    size_t first, pendres_orbit_want want,
                                    pendres_newton_tape *tape, size_t *last);
+
+/* Put candidates that may share a block side by side; those still active come first. */
+void pendres_newton_order(size_t n, pendres_newton_candidate *c);
 
 /* Iterate all active candidates; c is reordered. Each ends converged or failed. */
 pendres_status pendres_newton_converge(pendres_context *ctx, size_t n,

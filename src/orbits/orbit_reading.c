@@ -1,0 +1,65 @@
+/* orbit_reading.c -- runs of orbits, measured; see orbit_reading.h. */
+#include "orbits/orbit_reading.h"
+
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+/* Memory for samples and what measuring them takes. */
+typedef struct room {
+  pendres_orbit_tables tables;
+  double *work;
+  size_t size;
+} room;
+
+static pendres_status read_one(const pendres_orbit_reader *reader, const pendres_newton_tape *tape,
+                               room *r, pendres_newton_candidate *c)
+{
+  const size_t n = tape->samples;
+  double *y = r->work, *w = r->work + n;
+  pendres_orbit_measures *out = reader->take(reader->arg, c, tape, y, w);
+  if (out == NULL) {
+    c->state = PENDRES_NEWTON_FAILED;
+    return PENDRES_OK;
+  }
+  const pendres_orbit_samples samples = {
+    .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
+    .tables = &r->tables};
+  return pendres_orbit_measure(&c->guess->pendulum, &samples, r->work + 2 * n, out);
+}
+
+static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
+{
+  const size_t need = 2 * samples + pendres_orbit_measure_work(samples);
+  if (need <= r->size) return PENDRES_OK;
+  double *grown = realloc(r->work, need * sizeof *grown);
+  if (grown == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for samples");
+  r->work = grown;
+  r->size = need;
+  return PENDRES_OK;
+}
+
+pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
+                                  size_t n, pendres_newton_candidate *c)
+{
+  pendres_newton_tape tape = {.bends = reader->bends};
+  room r = {.work = NULL};
+  pendres_status status = PENDRES_OK;
+  pendres_newton_order(n, c);
+  for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
+    status = pendres_newton_pass(ctx, n, c, first, reader->want, &tape, &last);
+    if (status == PENDRES_OK) status = provide(ctx, tape.samples, &r);
+    if (status != PENDRES_OK) break;
+    for (size_t i = first; i < last && status == PENDRES_OK; i++) {
+      if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
+      status = read_one(reader, &tape, &r, &c[i]);
+      if (status != PENDRES_OK)
+        (void)pendres_context_fail(ctx, status, "the samples of an orbit could not be measured");
+    }
+  }
+  pendres_newton_tape_free(&tape);
+  pendres_orbit_tables_free(&r.tables);
+  free(r.work);
+  return status;
+}

@@ -1,0 +1,32 @@
+/*
+ * orbit_reading.h -- many orbits run once over their periods and measured, side by side.
+ *
+ * Owns: the order of the runs, and the memory for samples.
+ */
+#ifndef PENDRES_ORBIT_READING_H
+#define PENDRES_ORBIT_READING_H
+
+#include "orbits/orbit_measure.h"
+#include "orbits/orbit_newton.h"
+
+/*
+ * What a caller takes from a run of one candidate: its samples on the tape, as many y and w, and
+ * whatever else it wants. It returns where the measures of the samples go; NULL: this is no orbit,
+ * and the candidate's state becomes PENDRES_NEWTON_FAILED.
+ */
+typedef pendres_orbit_measures *pendres_orbit_taker(void *arg, const pendres_newton_candidate *c,
+                                                    const pendres_newton_tape *tape, double *y,
+                                                    double *w);
+
+typedef struct pendres_orbit_reader {
+  pendres_orbit_want want;
+  int bends; /* whether candidates get m_by as well */
+  pendres_orbit_taker *take;
+  void *arg;
+} pendres_orbit_reader;
+
+/* Run and measure the converged ones of n candidates, which are reordered. */
+pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
+                                  size_t n, pendres_newton_candidate *c);
+
+#endif
