@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "engine/kernels_sine.h"
+#include "base/sine.h"
 
 #define BARE_JOIN_(a, b) a##_##b
 #define BARE_JOIN(a, b) BARE_JOIN_(a, b)

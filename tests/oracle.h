@@ -19,17 +19,18 @@
 enum { ORACLE_SIZE = 6 };
 
 /* y'' + gamma y' + f(y) (1 + b cos omega t) = torque + drive cos omega t; f is sin y, or where
-   `polynomial` is set the sum of a[k - 1] y^k. */
+   `polynomial` is set the sum of a[k - 1] y^k, or where `ring` is set sin y + a[0] y. */
 typedef struct oracle {
   long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_COEFFICIENTS];
-  int polynomial;
+  int polynomial, ring;
 } oracle;
 
 static inline oracle oracle_of(const pendres_pendulum *p)
 {
   oracle o = {.gamma = p->damping, .drive = p->drive_amplitude, .omega = p->drive_frequency,
               .torque = p->torque, .b = p->parametric_amplitude,
-              .polynomial = p->force == PENDRES_FORCE_POLYNOMIAL};
+              .polynomial = p->force == PENDRES_FORCE_POLYNOMIAL,
+              .ring = p->force == PENDRES_FORCE_SQUID};
   for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) o.a[k] = p->force_coefficients[k];
   return o;
 }
@@ -46,6 +47,7 @@ static inline void oracle_slope(const oracle *p, long double t, const long doubl
     f += p->a[k - 1] * power;
   }
   if (!p->polynomial) f = sinl(y), by = cosl(y);
+  if (p->ring) f += p->a[0] * y, by += p->a[0];
   const long double strength = 1.0L + p->b * drive;
   for (int k = 0; k < ORACLE_SIZE; k += 2) {
     d[k] = s[k + 1];

@@ -47,7 +47,7 @@ static void check_bifurcation(const pendres_bifurcation *f)
 {
   oracle o = oracle_of(&f->orbit.pendulum);
   long double *const parameter = field_of(&o, f->parameter);
-  const double origin = o.polynomial ? 0.0 : half_pi;
+  const double origin = pendres_model_of(f->orbit.pendulum.force)->origin;
   const int sign = f->kind == PENDRES_PERIOD_DOUBLING ? -1 : 1;
   double left = NAN;
   *parameter += 1e-6L;
@@ -96,6 +96,11 @@ static void oscillators(void **state)
 #define HELMHOLTZ                                                          \
   {.damping = 0.1, .drive_amplitude = 0.06, .drive_frequency = 0.8,        \
    .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}}
+#define RING                                                               \
+  {.damping = 0.1, .drive_amplitude = 0.3, .drive_frequency = 0.8,         \
+   .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.1}}
+    {RING, PENDRES_DRIVE_FREQUENCY, 0.5, 1.2, 1},
+    {RING, PENDRES_FORCE_COEFFICIENT_1, 0.02, 0.8, 2},
     {DUFFING, PENDRES_DRIVE_FREQUENCY, 1.3, 2.22, 2},
     {DUFFING, PENDRES_DRIVE_AMPLITUDE, 0.05, 0.6, 2},
     {DUFFING, PENDRES_PARAMETRIC_AMPLITUDE, 0.0, 0.8, 1},

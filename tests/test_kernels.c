@@ -125,19 +125,15 @@ typedef struct equation {
   pendres_model_terms model;
 } equation;
 
-static const equation equations[] = {
-  {PENDRES_ROWS_STATE, PENDRES_MODEL_PLAIN},
-  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_PLAIN},
-  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_PLAIN},
-  {PENDRES_ROWS_STATE, PENDRES_MODEL_PENDULUM},
-  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_PENDULUM},
-  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_PENDULUM},
-  {PENDRES_ROWS_DRIVES, PENDRES_MODEL_PENDULUM},
-  {PENDRES_ROWS_STATE, PENDRES_MODEL_POLYNOMIAL},
-  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_POLYNOMIAL},
-  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_POLYNOMIAL},
-  {PENDRES_ROWS_DRIVES, PENDRES_MODEL_POLYNOMIAL},
-  {PENDRES_ROWS_ALL, PENDRES_MODEL_POLYNOMIAL}};
+/* All that there are, model after model. */
+#define OF_ALL(CODE, name) {PENDRES_ROWS_STATE, PENDRES_MODEL_##CODE}, \
+  {PENDRES_ROWS_VARIATIONAL, PENDRES_MODEL_##CODE}, \
+  {PENDRES_ROWS_SENSITIVITY, PENDRES_MODEL_##CODE},
+#define OF_OWN(CODE, name) OF_ALL(CODE, name) {PENDRES_ROWS_DRIVES, PENDRES_MODEL_##CODE}, \
+  {PENDRES_ROWS_ALL, PENDRES_MODEL_##CODE},
+static const equation equations[] = {OF_ALL(PLAIN, ) OF_ALL(PENDULUM, ) OF_OWN(POLYNOMIAL, )
+                                     PENDRES_FORCE_LIST(OF_OWN)
+                                     {PENDRES_ROWS_DRIVES, PENDRES_MODEL_PENDULUM}};
 enum { EQUATIONS = sizeof equations / sizeof *equations };
 static const equation plain = {PENDRES_ROWS_STATE, PENDRES_MODEL_PLAIN};
 
@@ -301,7 +297,7 @@ static void sines(const pendres_kernels *k, const double *y, double *sine, size_
 }
 
 /*
- * Two units in the last place or 2e-29, as kernels_sine.h promises below 1e4. The reference is the
+ * Two units in the last place or 2e-29, as sine.h promises below 1e4. The reference is the
  * C library's long double sine, right to a unit of its own 64 bits: 1/2048 of a unit here; near
  * the zeros of the sine it is right to relative precision, too.
  */
@@ -387,6 +383,7 @@ typedef struct physics {
 static long double force_of(const physics *p, long double y, int derivative)
 {
   long double f = derivative ? cosl(y) : sinl(y);
+  if (p->model == PENDRES_MODEL_SQUID) f += p->power[0] * (derivative ? 1.0L : y);
   if (p->model == PENDRES_MODEL_POLYNOMIAL) f = 0.0L;
   for (int k = 0; p->model == PENDRES_MODEL_POLYNOMIAL && k < PENDRES_FORCE_COEFFICIENTS; k++)
     f += p->power[k] * (derivative ? (k + 1) * powl(y, k) : powl(y, k + 1));
@@ -433,8 +430,8 @@ static void check_lane(const bench *b, equation e, size_t lanes, size_t i, doubl
   const physics p = physics_of(b, e.model, i, cos_theta);
   const long double y = x[0], w = x[lanes], square = p.omega * p.omega;
   const long double to_y = -force_of(&p, y, 1) / square, to_w = -p.damping / p.omega;
-  /* At |y| <= 4 a polynomial's force is below 5, and its slope below 2. */
-  const long double force = e.model == PENDRES_MODEL_POLYNOMIAL ? 6.0L : 2.0L;
+  /* At |y| <= 4 the force of the others is below 5, and its slope below 2. */
+  const long double force = e.model >= PENDRES_MODEL_POLYNOMIAL ? 6.0L : 2.0L;
   const long double push = force * (1.0L + fabsl(p.modulation)) + p.amplitude + fabsl(p.torque);
   const double size = (double)(push / square + 4.0L * p.damping);
 

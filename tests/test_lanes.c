@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "engine/compat.h"
-#include "engine/kernels_sine.h"
+#include "base/sine.h"
 #include "engine/lanes.h"
 
 enum { MOST = 208, ROWS = PENDRES_ROWS_STATE };

@@ -103,16 +103,20 @@ static void boltzmann(const pendres_pendulum *p, double *mean, double *variance)
   *variance = sum[2] / sum[0] - *mean * *mean;
 }
 
-/* Duffing's double well, and a lopsided force with all powers and a torque, without drive. */
+/* Duffing's double well, a lopsided force with all powers and a torque, and a ring with a junction,
+   whose force has a header of its own; without drive. */
 static void forces_have_boltzmanns_distribution(void **state)
 {
-  const pendres_pendulum cases[2] = {
+  enum { CASES = 3 };
+  const pendres_pendulum cases[CASES] = {
     {.damping = 0.5, .drive_frequency = 2.0, .temperature = 0.4,
      .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0, 0.0, 1.0}},
     {.damping = 0.7, .drive_frequency = 2.0, .temperature = 0.5, .torque = 0.4,
-     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {0.5, 0.6, 1.0, 0.3, 0.4}}};
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {0.5, 0.6, 1.0, 0.3, 0.4}},
+    {.damping = 0.7, .drive_frequency = 2.0, .temperature = 0.5, .torque = 0.3,
+     .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.6}}};
   (void)state;
-  for (int i = 0; i < 2; i++) {
+  for (int i = 0; i < CASES; i++) {
     pendres_context *ctx = make(32, 0, 192);
     pendres_langevin_bias bias;
     double mean, variance;

@@ -269,8 +269,10 @@ static void balance(void **state)
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.3, .torque = 0.2,
      .parametric_amplitude = 0.5},
     {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.3, .parametric_amplitude = 0.5,
-     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.2, 0.5}}};
-  const double guess[][2] = {{1.4, 1.6}, {1.7, 0.2}, {0.3, 0.1}};
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.2, 0.5}},
+    {.damping = 0.2, .drive_amplitude = 0.4, .drive_frequency = 1.3, .parametric_amplitude = 0.5,
+     .torque = 0.1, .force = PENDRES_FORCE_SQUID, .force_coefficients = {0.2}}};
+  const double guess[][2] = {{1.4, 1.6}, {1.7, 0.2}, {0.3, 0.1}, {0.3, 0.1}};
   pendres_context *ctx = context(1e-11);
   (void)state;
   for (size_t i = 0; i < COUNT(cases); i++) {

@@ -97,7 +97,13 @@ static const char *const cases[] = {
   NULL
 };
 static const char *const shapes[] = { "line", "rectangle", "random", NULL }; /* as in sweep.h */
-static const char *const forces[] = { "pendulum", "polynomial", NULL };
+static const char *const forces[] = { /* as in pendulum.h */
+  "pendulum", "polynomial",
+#define FORCE_NAME(code, name) #name,
+  PENDRES_FORCE_LIST(FORCE_NAME)
+#undef FORCE_NAME
+  NULL
+};
 static const char *const ends[] = { "attractor", "well", NULL }; /* as pendres_basin_end */
 static const char *const units[] = { "ensemble", "sweep", NULL };
 
@@ -148,10 +154,12 @@ const deck_key deck_table[] = {
   { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RANGE(-BIG, BIG) },
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
-    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, or a polynomial of force_coefficients") },
+    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
+         "another of theirs (docs/models.md)") },
   { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients), IN(MODELS),
     RANGE(-BIG, BIG),
-    SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5") },
+    SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "
+         "'squid' a1") },
   { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE,
     SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
   { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },

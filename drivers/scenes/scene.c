@@ -162,7 +162,7 @@ double scene_fixed(const deck *d, deck_axis_id axis)
   }
 }
 
-/* The coefficients of a polynomial force; their names are added to those of coordinates. */
+/* The coefficients of a force; their names are added to those of coordinates. */
 static pendres_status write_coefficients(scene_run *run, char *coordinates)
 {
   const pendres_pendulum p = scene_pendulum(run->deck);
@@ -170,7 +170,9 @@ static pendres_status write_coefficients(scene_run *run, char *coordinates)
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < model->coefficients && status == PENDRES_OK; i++) {
     const pendres_store_spec spec = { .name = model->coefficient_names[i],
-                                      .long_name = "coefficient of the polynomial force" };
+                                      .long_name = p.force == PENDRES_FORCE_POLYNOMIAL
+                                                     ? "coefficient of the polynomial force"
+                                                     : "coefficient of the force" };
     status = pendres_store_put(run->store, &spec, &p.force_coefficients[i], 1);
     if (coordinates[0] != '\0') strcat(coordinates, " ");
     strcat(coordinates, spec.name);

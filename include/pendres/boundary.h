@@ -10,9 +10,9 @@
  * in a mirror: time -> -time turns (damping, v) into (-damping, -v) and leaves the drive, which
  * is even in time, alone. Going back, errors across the manifold shrink.
  *
- * Serves all pendulums and forces. With a polynomial force a state that has left may come back from
- * any distance, so the curve is followed as far as twice the window's size around it, and is never
- * said to be complete.
+ * Serves all pendulums and forces. With another force than the pendulum's a state that has left may
+ * come back from any distance, so the curve is followed as far as twice the window's size around
+ * it, and is never said to be complete.
  *
  * Source: You, Kostelich and Yorke, Int. J. Bifurcation Chaos 1 (1991) 605; Hobson,
  * J. Comput. Phys. 104 (1993) 14, for the refinement by distance and angle.

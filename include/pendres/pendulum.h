@@ -16,9 +16,9 @@
  *     x'' + damping x' + f(x) (1 + parametric_amplitude cos(drive_frequency t))
  *       = torque + drive_amplitude cos(drive_frequency t)
  *
- * where f is -cos x or a polynomial a1 x + a2 x^2 + ... + a5 x^5. Fields that are zero leave these
- * terms out. What serves which model is said by each function that does not serve all; which
- * equations of the literature these are, in docs/models.md.
+ * where f is -cos x, a polynomial a1 x + a2 x^2 + ... + a5 x^5, or one of PENDRES_FORCE_LIST.
+ * Fields that are zero leave these terms out. What serves which model is said by each function that
+ * does not serve all; which equations of the literature these are, in docs/models.md.
  *
  * All quantities are dimensionless: time in units of 1/omega_0 of small
  * oscillations, energy in units of the depth m omega_0^2 of the potential
@@ -38,10 +38,21 @@
 extern "C" {
 #endif
 
-/** The force of a pendulum, -f(x) without drive. */
+/** Forces that have a header of their own: X(code, name). src/model/forces.h tells how another is
+    added. */
+#define PENDRES_FORCE_LIST(X) \
+  X(SQUID, squid)
+
+/**
+ * The force of a pendulum, -f(x) without drive. PENDRES_FORCE_SQUID: f = sin x + a1 x, a Josephson
+ * junction in a superconducting ring.
+ */
 typedef enum pendres_force {
   PENDRES_FORCE_PENDULUM = 0,   /**< f = -cos x, with the period 2 pi */
   PENDRES_FORCE_POLYNOMIAL = 1, /**< f = a1 x + ... + a5 x^5, a_k = force_coefficients[k - 1] */
+#define PENDRES_FORCE_CODE(code, name) PENDRES_FORCE_##code,
+  PENDRES_FORCE_LIST(PENDRES_FORCE_CODE)
+#undef PENDRES_FORCE_CODE
   PENDRES_FORCE_COUNT           /**< how many there are; not a force */
 } pendres_force;
 
@@ -52,7 +63,7 @@ enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
 
 /** What is true of all pendulums of a force. Static. */
 typedef struct pendres_model {
-  const char *name;  /**< in decks and messages: "pendulum", "polynomial" */
+  const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
   double period;     /**< of the coordinate: 2 pi; 0 where x and no x + period are the same */
   double origin;     /**< of the pendulum's angle y = x - origin: pi/2; of a polynomial 0 */
   int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
@@ -71,7 +82,7 @@ typedef struct pendres_pendulum {
   pendres_force force;    /**< f */
   int unused;             /**< 0; fills the place before the next field, so that pendulums that are
                                alike are the same bytes */
-  double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< of a polynomial; else zero */
+  double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< as many as the force has; else zero */
 } pendres_pendulum;
 
 /** What is true of a force; NULL if out of range. */
@@ -99,7 +110,7 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v,
 double pendres_pendulum_energy(double x, double v);
 
 /** Potential of p without drives, the integral of f - torque: -sin x - torque x, or
-    a1 x^2/2 + ... + a5 x^6/6 - torque x. NaN if p is NULL. */
+    a1 x^2/2 + ... + a5 x^6/6 - torque x, or that of another force. NaN if p is NULL. */
 double pendres_pendulum_potential(const pendres_pendulum *p, double x);
 
 /** Number of the well that x lies in: n for -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and

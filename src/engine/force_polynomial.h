@@ -2,7 +2,7 @@
  * force_polynomial.h -- the force f = a1 y + a2 y^2 + ... + a5 y^5 of lanes, and its derivatives.
  *
  * By Horner's rule; every operation is one IEEE operation, so that any width of a vector gives the
- * same bytes. (The pendulum's force is the sine of kernels_sine.h.)
+ * same bytes. (The pendulum's force is the sine of sine.h.)
  */
 #ifndef PENDRES_FORCE_POLYNOMIAL_H
 #define PENDRES_FORCE_POLYNOMIAL_H

@@ -12,6 +12,7 @@
 
 #include "engine/force_polynomial.h"
 #include "engine/kernels_vector.h"
+#include "model/forces.h"
 
 #ifndef PENDRES_KERNELS
 #define PENDRES_KERNELS base
@@ -61,12 +62,36 @@ static void sum(const pendres_sum *q, size_t at, size_t n)
   for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
 }
 
+/* f of a lane by a force's own header, and its derivative. */
+PENDRES_VECTOR_INLINE void own_force(pendres_model_terms model, const pendres_coefficients *k,
+                                     size_t i, double y, double *f, double *slope)
+{
+  double a[PENDRES_FORCE_COEFFICIENTS];
+  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) a[c] = k->power[c][i];
+  pendres_forces_at(PENDRES_MODEL_FORCE(model), a, y, f, slope);
+}
+
+PENDRES_VECTOR_INLINE void own_forces(pendres_model_terms model, int count,
+                                      const pendres_coefficients *k, size_t lane, vec *y)
+{
+  double f[GROUP * LANES];
+  PENDRES_VECTOR_EACH pendres_vector_store(f + v * LANES, y[v]);
+#pragma omp simd
+  for (int i = 0; i < count * LANES; i++) {
+    double slope;
+    own_force(model, k, lane + (size_t)i, f[i], &f[i], &slope);
+  }
+  PENDRES_VECTOR_EACH y[v] = pendres_vector_load(f + v * LANES);
+}
+
 /* y[v] = f(y[v]) of a model; lane: where the vectors' coefficients begin. */
 PENDRES_VECTOR_INLINE void forces(pendres_model_terms model, int count,
                                   const pendres_coefficients *k, size_t lane, vec *y)
 {
   if (model == PENDRES_MODEL_POLYNOMIAL)
     pendres_polynomial_forces(count, k->power, lane, y);
+  else if (model > PENDRES_MODEL_POLYNOMIAL)
+    own_forces(model, count, k, lane, y);
   else
     pendres_vector_sines(count, y);
 }
@@ -77,6 +102,8 @@ PENDRES_VECTOR_INLINE void force_of(pendres_model_terms model, const pendres_coe
 {
   if (model == PENDRES_MODEL_POLYNOMIAL)
     pendres_polynomial_force(k->power, i, y, f, slope);
+  else if (model > PENDRES_MODEL_POLYNOMIAL)
+    own_force(model, k, i, y, f, slope);
   else
     pendres_kernels_sincos(y, f, slope);
 }
@@ -254,9 +281,12 @@ PENDRES_VECTOR_INLINE void rhs_terms(pendres_model_terms model, size_t rows, siz
     derive(&a, drag, -k.stiffness[i] * a.bare * cos_theta, PENDRES_ROW_BY_MODULATION, stride, i,
            s, d);
     if (rows < PENDRES_ROWS_ALL) continue;
-    double by = strength * y;
+    double by = strength * y, own[PENDRES_FORCE_COEFFICIENTS];
+    for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) own[p] = k.power[p][i];
 #pragma GCC unroll 8
     for (int p = 0; p < PENDRES_FORCE_COEFFICIENTS; p++) {
+      if (model > PENDRES_MODEL_POLYNOMIAL)
+        by = strength * pendres_forces_by(PENDRES_MODEL_FORCE(model), own, y, p);
       derive(&a, drag, by, PENDRES_ROW_BY_POWERS + 2 * p, stride, i, s, d);
       by *= y;
     }
@@ -278,9 +308,9 @@ PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip 
 #pragma omp simd
   for (size_t i = 0; i < s->lanes; i++) {
     double by_y;
-    if (model == PENDRES_MODEL_POLYNOMIAL) {
+    if (model >= PENDRES_MODEL_POLYNOMIAL) {
       double unused;
-      pendres_polynomial_force(k.power, i, y[i], &unused, &by_y);
+      force_of(model, &k, i, y[i], &unused, &by_y);
     } else {
       by_y = pendres_kernels_cos_roughly(y[i]);
     }
@@ -363,6 +393,8 @@ RUN_STATE(PLAIN, 10)
 RUN_STATE(PLAIN, 4)
 RUN_STATE(PENDULUM, 4)
 RUN_STATE(POLYNOMIAL, 4)
+#define RUN_STATE_4(CODE, name) RUN_STATE(CODE, 4)
+PENDRES_FORCE_LIST(RUN_STATE_4)
 
 /* The same for the other equations. */
 PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, const pendres_strip *s,
@@ -382,7 +414,7 @@ PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, cons
     if (rows == PENDRES_ROWS_DRIVES)
       rhs_terms(model, PENDRES_ROWS_DRIVES, s->lanes, &s->k, o->cos_theta, from + s->at,
                 o->slope + s->at);
-    else if (model == PENDRES_MODEL_POLYNOMIAL && rows == PENDRES_ROWS_ALL)
+    else if (model >= PENDRES_MODEL_POLYNOMIAL && rows == PENDRES_ROWS_ALL)
       rhs_terms(model, PENDRES_ROWS_ALL, s->lanes, &s->k, o->cos_theta, from + s->at,
                 o->slope + s->at);
   }
@@ -397,11 +429,23 @@ PENDRES_VECTOR_INLINE void run_rows(pendres_model_terms model, size_t rows, cons
 RUN_ROWS(PLAIN)
 RUN_ROWS(PENDULUM)
 RUN_ROWS(POLYNOMIAL)
+#define RUN_ROWS_OWN(CODE, name) RUN_ROWS(CODE)
+PENDRES_FORCE_LIST(RUN_ROWS_OWN)
+
+/* Of forces beyond the pendulum's. */
+#define OF_STATE(CODE, name) [PENDRES_MODEL_##CODE] = run_state_##CODE##_4,
+#define OF_ROWS(CODE, name) [PENDRES_MODEL_##CODE] = run_rows_##CODE,
+static void (*const states_of[PENDRES_MODEL_COUNT])(const pendres_strip *,
+                                                    const pendres_operation *, size_t) = {
+  OF_STATE(POLYNOMIAL, polynomial) PENDRES_FORCE_LIST(OF_STATE)};
+static void (*const rows_of[PENDRES_MODEL_COUNT])(size_t, const pendres_strip *,
+                                                  const pendres_operation *, size_t) = {
+  OF_ROWS(POLYNOMIAL, polynomial) PENDRES_FORCE_LIST(OF_ROWS)};
 
 static void run_states(const pendres_strip *s, const pendres_operation *o, size_t n)
 {
-  if (s->model == PENDRES_MODEL_POLYNOMIAL) {
-    run_state_POLYNOMIAL_4(s, o, n);
+  if (s->model >= PENDRES_MODEL_POLYNOMIAL) {
+    states_of[s->model](s, o, n);
     return;
   }
   if (s->model == PENDRES_MODEL_PENDULUM) {
@@ -424,8 +468,8 @@ static void run(size_t rows, const pendres_strip *s, const pendres_operation *o,
 {
   if (rows == PENDRES_ROWS_STATE)
     run_states(s, o, n);
-  else if (s->model == PENDRES_MODEL_POLYNOMIAL)
-    run_rows_POLYNOMIAL(rows, s, o, n);
+  else if (s->model >= PENDRES_MODEL_POLYNOMIAL)
+    rows_of[s->model](rows, s, o, n);
   else if (s->model == PENDRES_MODEL_PENDULUM || rows > PENDRES_ROWS_SENSITIVITY)
     run_rows_PENDULUM(rows, s, o, n);
   else

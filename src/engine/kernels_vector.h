@@ -13,7 +13,7 @@
 #include <immintrin.h>
 #endif
 
-#include "engine/kernels_sine.h"
+#include "base/sine.h"
 
 /* Elements of a vector, and how many vectors of y and of w fit the registers at once. */
 #if defined(__AVX512F__)

@@ -95,15 +95,11 @@ static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *s
   *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
 }
 
-/* ---- the scale of a polynomial force ---- */
+/* ---- the scale of a force whose coordinate has no period ---- */
 
-/* What V(x) would be if all its terms added up. */
-static double heap(const pendres_pendulum *p, double x)
+static int open_ended(const pendres_pendulum *p)
 {
-  double sum = 0.0;
-  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
-    sum = fma(sum, fabs(x), fabs(p->force_coefficients[i]) / (i + 2));
-  return sum * x * x;
+  return !(pendres_model_of(p->force)->period > 0.0);
 }
 
 /* How far out a speed leads, at most where the force is that of its terms added up. */
@@ -111,10 +107,10 @@ static double reach_of(const pendres_pendulum *p, double speed)
 {
   const double energy = 0.5 * speed * speed;
   double low = 0.0, high = 1.0;
-  while (heap(p, high) < energy && high < 1e15) high *= 2.0;
+  while (pendres_model_climb(p, high) < energy && high < 1e15) high *= 2.0;
   for (int i = 0; i < 60; i++) {
     const double middle = 0.5 * (low + high);
-    if (heap(p, middle) < energy) low = middle;
+    if (pendres_model_climb(p, middle) < energy) low = middle;
     else high = middle;
   }
   return high;
@@ -126,20 +122,18 @@ static double pace_of(const pendres_pendulum *p, double speed)
 {
   const double modulation = 1.0 + fabs(p->parametric_amplitude);
   if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / 4.0);
-  const double reach = reach_of(p, speed);
-  double spring = 0.0;
-  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
-    spring = fma(spring, reach, (i + 1) * fabs(p->force_coefficients[i]));
-  return sqrt(modulation * spring);
+  const double reach = open_ended(p) ? reach_of(p, speed) : PENDRES_PI;
+  const double stiffest = pendres_model_stiffest(p, reach);
+  return sqrt(modulation * stiffest) * (open_ended(p) ? 1.0 : fmax(1.0, speed / 4.0));
 }
 
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
 {
-  if (p->force == PENDRES_FORCE_PENDULUM) return fabs(v);
+  if (!open_ended(p)) return fabs(v);
   /* A drive may in time lead as fast as friction lets it at resonance; beyond some speed it rather
      is the oscillation that gets out of step. */
   const double most = 4.0, driven = fmin(most, fabs(p->drive_amplitude) / p->damping);
-  return fmax(driven, sqrt(fma(v, v, 2.0 * heap(p, x))));
+  return fmax(driven, sqrt(fma(v, v, 2.0 * pendres_model_climb(p, x - pendres_model_origin(p)))));
 }
 
 /* ---- probes ---- */
@@ -149,7 +143,7 @@ static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendu
 {
   /* Half start at rest over the well, half at the largest speed either way. */
   const int half = PROBES / 2, k = i % half;
-  const double reach = p->force == PENDRES_FORCE_PENDULUM ? 2.75 : reach_of(p, speed);
+  const double reach = open_ended(p) ? reach_of(p, speed) : 2.75;
   const double y = -reach + 2.0 * reach * k / (half - 1);
   const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
   pendres_block_load(b, lane, p, y, v / p->drive_frequency);
@@ -172,7 +166,7 @@ typedef struct sight {
 static sight sight_of(const pendres_pendulum *p, int steps, int stride, int growing)
 {
   sight s = {.steps = steps, .stride = stride, .growing = growing,
-             .unbound = p->force != PENDRES_FORCE_PENDULUM, .omega = p->drive_frequency};
+             .unbound = open_ended(p), .omega = p->drive_frequency};
   s.dense = steps / stride < POINTS - 1 ? steps / stride : POINTS - 1;
   s.points = s.dense + (s.dense * stride < steps);
   return s;
@@ -182,7 +176,7 @@ static sight sight_of(const pendres_pendulum *p, int steps, int stride, int grow
 static int stride_of(const pendres_pendulum *p, double speed, int steps)
 {
   double period = two_pi / p->drive_frequency;
-  if (p->force != PENDRES_FORCE_PENDULUM) period *= pace_of(p, speed);
+  if (open_ended(p)) period *= pace_of(p, speed);
   return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
 }
 

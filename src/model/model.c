@@ -5,23 +5,31 @@
 #include <stddef.h>
 
 #include "base/angles.h"
+#include "model/forces.h"
 
-static const pendres_model models[PENDRES_FORCE_COUNT] = {
-  [PENDRES_FORCE_PENDULUM] = {.name = "pendulum",
-                              .period = 2.0 * PENDRES_PI,
-                              .origin = 0.5 * PENDRES_PI},
-  [PENDRES_FORCE_POLYNOMIAL] = {.name = "polynomial",
-                                .coefficients = PENDRES_FORCE_COEFFICIENTS,
-                                .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}}};
+static const pendres_model pendulum = {
+  .name = "pendulum", .period = 2.0 * PENDRES_PI, .origin = 0.5 * PENDRES_PI};
+static const pendres_model polynomial = {.name = "polynomial",
+                                         .coefficients = PENDRES_FORCE_COEFFICIENTS,
+                                         .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}};
+
+static const pendres_model *const models[PENDRES_FORCE_COUNT] = {
+  [PENDRES_FORCE_PENDULUM] = &pendulum, [PENDRES_FORCE_POLYNOMIAL] = &polynomial,
+#define MODEL_OF(code, name) [PENDRES_FORCE_##code] = &pendres_force_##name##_model,
+  PENDRES_FORCE_LIST(MODEL_OF)
+#undef MODEL_OF
+};
 
 const pendres_model *pendres_model_of(pendres_force force)
 {
-  return (unsigned)force < PENDRES_FORCE_COUNT ? &models[force] : NULL;
+  return (unsigned)force < PENDRES_FORCE_COUNT ? models[force] : NULL;
 }
 
 pendres_model_terms pendres_model_kind(const pendres_pendulum *p)
 {
-  if (p->force == PENDRES_FORCE_POLYNOMIAL) return PENDRES_MODEL_POLYNOMIAL;
+  if (p->force != PENDRES_FORCE_PENDULUM)
+    return (pendres_model_terms)((int)p->force - (int)PENDRES_FORCE_POLYNOMIAL +
+                                 (int)PENDRES_MODEL_POLYNOMIAL);
   return p->torque != 0.0 || p->parametric_amplitude != 0.0 ? PENDRES_MODEL_PENDULUM
                                                             : PENDRES_MODEL_PLAIN;
 }
@@ -31,7 +39,7 @@ const char *pendres_model_check(const pendres_pendulum *p)
   if (!isfinite(p->torque)) return "the torque must be finite";
   if (!isfinite(p->parametric_amplitude)) return "the parametric amplitude must be finite";
   if ((unsigned)p->force >= PENDRES_FORCE_COUNT) return "the force is of no kind that there is";
-  const int used = models[p->force].coefficients;
+  const int used = models[p->force]->coefficients;
   int any = 0;
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) {
     const double a = p->force_coefficients[i];
@@ -39,15 +47,23 @@ const char *pendres_model_check(const pendres_pendulum *p)
     if (i >= used && a != 0.0) return "this force has no such coefficients: leave them at zero";
     any |= a != 0.0;
   }
-  if (used > 0 && !any) return "a polynomial force needs a coefficient that is not zero";
+  if (p->force == PENDRES_FORCE_POLYNOMIAL && !any)
+    return "a polynomial force needs a coefficient that is not zero";
   return NULL;
 }
 
 int pendres_pendulum_symmetric(const pendres_pendulum *p)
 {
   if (p == NULL || p->torque != 0.0 || p->parametric_amplitude != 0.0) return 0;
-  return p->force == PENDRES_FORCE_PENDULUM ||
-         (p->force_coefficients[1] == 0.0 && p->force_coefficients[3] == 0.0);
+  const double *a = p->force_coefficients;
+  switch (p->force) {
+  case PENDRES_FORCE_PENDULUM: return 1;
+  case PENDRES_FORCE_POLYNOMIAL: return a[1] == 0.0 && a[3] == 0.0;
+#define ODD_OF(code, name) case PENDRES_FORCE_##code: return pendres_force_##name##_odd(a);
+    PENDRES_FORCE_LIST(ODD_OF)
+#undef ODD_OF
+  default: return 0;
+  }
 }
 
 void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope)
@@ -55,6 +71,10 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
   if (p->force == PENDRES_FORCE_PENDULUM) {
     *force = sin(y);
     *slope = cos(y);
+    return;
+  }
+  if (p->force != PENDRES_FORCE_POLYNOMIAL) {
+    pendres_forces_at(p->force, p->force_coefficients, y, force, slope);
     return;
   }
   const double *a = p->force_coefficients;
@@ -67,30 +87,86 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
   *slope = fma(by, y, sum);
 }
 
+static double polynomial_potential(const double *a, double x)
+{
+  double sum = 0.0;
+  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--) sum = fma(sum, x, a[i] / (i + 2));
+  return sum;
+}
+
 double pendres_pendulum_potential(const pendres_pendulum *p, double x)
 {
   if (p == NULL) return NAN;
-  if (p->force == PENDRES_FORCE_PENDULUM) return -sin(x) - p->torque * x;
-  double sum = 0.0;
-  for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
-    sum = fma(sum, x, p->force_coefficients[i] / (i + 2));
-  return x * fma(sum, x, -p->torque);
+  switch (p->force) {
+  case PENDRES_FORCE_PENDULUM: return -sin(x) - p->torque * x;
+  case PENDRES_FORCE_POLYNOMIAL:
+    return x * fma(polynomial_potential(p->force_coefficients, x), x, -p->torque);
+#define POTENTIAL_OF(code, name)                                                           \
+  case PENDRES_FORCE_##code:                                                               \
+    return pendres_force_##name##_potential(p->force_coefficients,                         \
+                                            x - pendres_force_##name##_model.origin) -     \
+           p->torque * x;
+    PENDRES_FORCE_LIST(POTENTIAL_OF)
+#undef POTENTIAL_OF
+  default: return NAN;
+  }
 }
 
 double pendres_model_turn(const pendres_pendulum *p)
 {
-  return p->force == PENDRES_FORCE_PENDULUM ? two_pi : 0x1p1000;
+  const double period = models[p->force]->period;
+  return period > 0.0 ? period : 0x1p1000;
 }
 
 double pendres_model_origin(const pendres_pendulum *p)
 {
-  return p->force == PENDRES_FORCE_PENDULUM ? half_pi : 0.0;
+  return models[p->force]->origin;
+}
+
+/* ---- the scale of a force ---- */
+
+enum { SAMPLES = 64 /* of a force that is not a sum of powers, to each side */ };
+
+/* Of a polynomial, as if all its terms added up; of others the larger side, by Simpson's rule. */
+double pendres_model_climb(const pendres_pendulum *p, double reach)
+{
+  double sum = 0.0, side[2] = {0.0, 0.0};
+  if (p->force == PENDRES_FORCE_POLYNOMIAL) {
+    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+      sum = fma(sum, fabs(reach), fabs(p->force_coefficients[i]) / (i + 2));
+    return sum * reach * reach;
+  }
+  const double h = fabs(reach) / SAMPLES;
+  for (int i = 0; i <= SAMPLES; i++)
+    for (int k = 0; k < 2; k++) {
+      double force, slope;
+      pendres_model_force(p, k == 0 ? i * h : -i * h, &force, &slope);
+      const double weight = i == 0 || i == SAMPLES ? 1.0 : i % 2 != 0 ? 4.0 : 2.0;
+      side[k] += weight * h / 3.0 * fabs(force);
+    }
+  return fmax(side[0], side[1]);
+}
+
+double pendres_model_stiffest(const pendres_pendulum *p, double reach)
+{
+  double most = 0.0;
+  if (p->force == PENDRES_FORCE_POLYNOMIAL) {
+    for (int i = PENDRES_FORCE_COEFFICIENTS - 1; i >= 0; i--)
+      most = fma(most, reach, (i + 1) * fabs(p->force_coefficients[i]));
+    return most;
+  }
+  for (int i = -SAMPLES; i <= SAMPLES; i++) {
+    double force, slope;
+    pendres_model_force(p, reach * i / SAMPLES, &force, &slope);
+    most = fmax(most, fabs(slope));
+  }
+  return most;
 }
 
 double pendres_model_scale(const pendres_pendulum *p)
 {
   double scale = 0.0;
-  if (p->force == PENDRES_FORCE_PENDULUM) return 1.0;
+  if (p->force != PENDRES_FORCE_POLYNOMIAL) return 1.0;
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
     for (int j = i + 1; j < PENDRES_FORCE_COEFFICIENTS; j++) {
       const double low = fabs(p->force_coefficients[i]), high = fabs(p->force_coefficients[j]);

@@ -13,8 +13,16 @@
 typedef enum pendres_model_terms {
   PENDRES_MODEL_PLAIN,     /* the pendulum without torque or parametric drive */
   PENDRES_MODEL_PENDULUM,  /* with one of them */
-  PENDRES_MODEL_POLYNOMIAL /* a polynomial force, with or without */
+  PENDRES_MODEL_POLYNOMIAL, /* a polynomial force, with or without */
+#define PENDRES_MODEL_CODE(code, name) PENDRES_MODEL_##code, /* another force, likewise */
+  PENDRES_FORCE_LIST(PENDRES_MODEL_CODE)
+#undef PENDRES_MODEL_CODE
+  PENDRES_MODEL_COUNT
 } pendres_model_terms;
+
+/* The force of terms beyond PENDRES_MODEL_POLYNOMIAL: both follow the same list. */
+#define PENDRES_MODEL_FORCE(terms) \
+  ((pendres_force)((int)(terms) - (int)PENDRES_MODEL_POLYNOMIAL + (int)PENDRES_FORCE_POLYNOMIAL))
 
 pendres_model_terms pendres_model_kind(const pendres_pendulum *p);
 
@@ -33,8 +41,13 @@ double pendres_model_turn(const pendres_pendulum *p);
 /* Where y is counted from. */
 double pendres_model_origin(const pendres_pendulum *p);
 
+/* What steps are chosen by: upper estimates of the energy that it takes to come from y = 0 to
+   `reach` to either side, and of the spring's stiffness on the way. */
+double pendres_model_climb(const pendres_pendulum *p, double reach);
+double pendres_model_stiffest(const pendres_pendulum *p, double reach);
+
 /* A length of the force: half the distance of the barriers over pi; of a polynomial the largest
-   length at which two of its terms are alike, 1 if it has one alone. */
+   length at which two of its terms are alike, 1 if it has one alone; of other forces 1. */
 double pendres_model_scale(const pendres_pendulum *p);
 
 /* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says

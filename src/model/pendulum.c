@@ -43,9 +43,9 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, do
                                double *dv)
 {
   (void)v;
-  if (dx != NULL && p != NULL && p->force == PENDRES_FORCE_POLYNOMIAL) {
+  if (dx != NULL && p != NULL && p->force != PENDRES_FORCE_PENDULUM) {
     double force;
-    pendres_model_force(p, x, &force, dx);
+    pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, dx);
     *dx = -*dx;
   } else if (dx != NULL) {
     *dx = -sin(x);

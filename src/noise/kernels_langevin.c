@@ -11,7 +11,8 @@
 
 #include <Random123/philox.h>
 
-#include "engine/kernels_sine.h"
+#include "base/sine.h"
+#include "model/forces.h"
 
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -171,6 +172,10 @@ force(pendres_model_terms terms, const pendres_langevin_rows *rows, size_t i, do
     }
     *stiffness = FMA(by, y, sum);
     *pull = sum * y;
+  } else if (terms > PENDRES_MODEL_POLYNOMIAL) {
+    double a[PENDRES_FORCE_COEFFICIENTS];
+    for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) a[k] = rows->coefficient[k][i];
+    pendres_forces_at(PENDRES_MODEL_FORCE(terms), a, y, pull, stiffness);
   } else {
     pendres_kernels_sincos(y, pull, stiffness);
   }
@@ -214,7 +219,11 @@ kick_by(pendres_model_terms terms, size_t stride, const pendres_langevin_rows *r
 KICK(kick_plain, PENDRES_MODEL_PLAIN)
 KICK(kick_pendulum, PENDRES_MODEL_PENDULUM)
 KICK(kick_polynomial, PENDRES_MODEL_POLYNOMIAL)
+#define KICK_OWN(code, name) KICK(kick_##name, PENDRES_MODEL_##code)
+PENDRES_FORCE_LIST(KICK_OWN)
+#undef KICK_OWN
 #undef KICK
+#define KICK_OF(code, name) [PENDRES_MODEL_##code] = kick_##name,
 
 static void sample(size_t stride, const pendres_langevin_rows *rows,
                    const double *restrict reach, double cosine, double sine,
@@ -238,5 +247,6 @@ const pendres_kernels_langevin JOIN(pendres_kernels_langevin, PENDRES_KERNELS) =
   .gauss = gauss,
   .drift = drift,
   .kick = {[PENDRES_MODEL_PLAIN] = kick_plain, [PENDRES_MODEL_PENDULUM] = kick_pendulum,
-           [PENDRES_MODEL_POLYNOMIAL] = kick_polynomial},
+           [PENDRES_MODEL_POLYNOMIAL] = kick_polynomial,
+           PENDRES_FORCE_LIST(KICK_OF)},
   .sample = sample};

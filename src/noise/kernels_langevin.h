@@ -20,7 +20,7 @@
 enum { PENDRES_LANGEVIN_WORDS = 4 };
 
 /* How many kinds of forces there are, and kicks by them. */
-enum { PENDRES_LANGEVIN_FORCES = PENDRES_MODEL_POLYNOMIAL + 1 };
+enum { PENDRES_LANGEVIN_FORCES = PENDRES_MODEL_COUNT };
 
 /*
  * A block in the frame of a free particle that the drive shakes: y = u + pivot, where

@@ -35,7 +35,7 @@
 
 #include "base/angles.h"
 #include "base/instructions.h"
-#include "engine/kernels_sine.h"
+#include "base/sine.h"
 
 static const double root_third = 0.57735026918962576451; /* 1/sqrt 3 */
 

@@ -262,7 +262,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     if (pendres_settle_ended(&l->outcome[i])) continue;
     if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
     covers |= c->covers > 0;
-    open |= c->pendulum.force == PENDRES_FORCE_POLYNOMIAL;
+    open |= !(pendres_model_of(c->pendulum.force)->period > 0.0);
     origin[left] = i;
     rest[left++] = lanes[i];
   }

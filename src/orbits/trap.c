@@ -319,7 +319,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
       pendres_trap_ring *r = rings[count++] = &s[i].ring[k];
       r->pendulum = &orbits[s[i].orbit].pendulum;
       const pendres_trap *t = r->trap;
-      const double speed = r->pendulum->force == PENDRES_FORCE_PENDULUM
+      const double speed = pendres_model_of(r->pendulum->force)->period > 0.0
                              ? 0.0
                              : pendres_steps_speed(r->pendulum, t->y,
                                                    t->w * r->pendulum->drive_frequency);

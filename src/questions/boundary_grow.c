@@ -239,8 +239,8 @@ done:
 typedef struct front {
   const pendres_boundary_seed *seed;
   const pendres_boundary_options *options;
-  /* Beyond this speed a state never comes back, going back in time; with a polynomial force states
-     are given up beyond these bounds, and may come back. */
+  /* Beyond this speed a state never comes back, going back in time; with another force states are
+     given up beyond these bounds, and may come back. */
   double out_v, out_low, out_high;
   size_t count, capacity;
   pendres_boundary_node *node; /* of one side and generation, s ascending */
@@ -462,14 +462,14 @@ static pendres_status grow_side(pendres_context *ctx, front *f, int side,
 /*
  * Going back in time, d(energy)/dt = damping v^2 -+ push v >= 0 while |v| >= push/damping, and the
  * potential of a pendulum varies by 2: faster than out_v, |v| never falls below `speed` again. The
- * push is what drive, torque and parametric drive can do at most. That of a polynomial varies
- * without bound, and its states are followed to twice the window's size around it.
+ * push is what drive, torque and parametric drive can do at most. Other potentials vary by more, or
+ * without bound, and their states are followed to twice the window's size around it.
  */
 static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_options *o)
 {
   const pendres_pendulum *p = &seed->backward;
   const double most = fmax(fabs(o->v_low), fabs(o->v_high));
-  if (p->force == PENDRES_FORCE_POLYNOMIAL) {
+  if (p->force != PENDRES_FORCE_PENDULUM) {
     const double width = o->x_high - o->x_low;
     return (front){.seed = seed, .options = o, .out_v = 2.0 * most,
                    .out_low = o->x_low - 0.5 * width, .out_high = o->x_high + 0.5 * width};
@@ -486,7 +486,7 @@ pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundar
                                      pendres_boundary_curve *curve)
 {
   front f = front_of(seed, o);
-  if (seed->backward.force == PENDRES_FORCE_POLYNOMIAL) curve->complete = 0;
+  if (seed->backward.force != PENDRES_FORCE_PENDULUM) curve->complete = 0;
   pendres_status status = grow_side(ctx, &f, 1, curve);
   if (status == PENDRES_OK) status = grow_side(ctx, &f, -1, curve);
   free(f.node);

@@ -164,9 +164,10 @@ static const char *refused(size_t n, const pendres_pendulum *p, const pendres_ph
   if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
   if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
   if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
+  const int coefficient = (int)o->parameter - PENDRES_FORCE_COEFFICIENT_1;
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
-    if (o->parameter >= PENDRES_FORCE_COEFFICIENT_1 && p[i].force == PENDRES_FORCE_PENDULUM)
+    if (coefficient >= pendres_model_of(p[i].force)->coefficients)
       return "this force has no such coefficient";
     why = pendres_response_refuses(&p[i], e);
     if (why != NULL) return why;

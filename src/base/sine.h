@@ -1,5 +1,5 @@
 /*
- * kernels_sine.h -- sine and cosine that the compiler can vectorise.
+ * sine.h -- sine and cosine that the compiler can vectorise.
  *
  * Owns: the one sine of all inner loops. Every operation is a single IEEE operation (each
  * fused multiply-add is written out) and nothing branches, so any instruction set and any
@@ -15,8 +15,8 @@
  * zeros it is not accurate to relative precision. Beyond, the error of the sine grows as
  * |y| 1e-33 until |y| = 1e9; above 1e15 results are meaningless. NaN and infinity give NaN.
  */
-#ifndef PENDRES_KERNELS_SINE_H
-#define PENDRES_KERNELS_SINE_H
+#ifndef PENDRES_SINE_H
+#define PENDRES_SINE_H
 
 #include <stdint.h>
 #include <string.h>

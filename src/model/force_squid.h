@@ -1,0 +1,49 @@
+/*
+ * force_squid.h -- f = sin y + a1 y: a Josephson junction in a superconducting ring (rf SQUID).
+ *
+ * With y the junction's phase, the ring's screening parameter beta_L = 1/a1 and the external flux
+ * phi_e (2 pi a flux quantum), y'' + gamma y' + sin y + (y - phi_e)/beta_L = 0: the constant part
+ * of the flux is a torque I = phi_e/beta_L, an oscillating one is a drive. It is the example of a
+ * force of one's own: forces.h tells what each of these is for.
+ *
+ * Source: K. K. Likharev, Dynamics of Josephson Junctions and Circuits (1986), chapter 6.
+ */
+#ifndef PENDRES_FORCE_SQUID_H
+#define PENDRES_FORCE_SQUID_H
+
+#include <math.h>
+
+#include "base/sine.h"
+#include "model/force.h"
+
+/* The ring's spring pulls y back however often it has turned over: y has no period. */
+static const pendres_model pendres_force_squid_model = {
+  .name = "squid", .coefficients = 1, .coefficient_names = {"a1"}};
+
+PENDRES_FORCE_INLINE void pendres_force_squid(const double *a, double y, double *force,
+                                              double *slope)
+{
+  double sine, cosine;
+  pendres_kernels_sincos(y, &sine, &cosine);
+  *force = __builtin_fma(a[0], y, sine);
+  *slope = cosine + a[0];
+}
+
+PENDRES_FORCE_INLINE double pendres_force_squid_by(const double *a, double y, int k)
+{
+  (void)a;
+  return k == 0 ? y : 0.0;
+}
+
+static inline double pendres_force_squid_potential(const double *a, double y)
+{
+  return 0.5 * a[0] * y * y - cos(y);
+}
+
+static inline int pendres_force_squid_odd(const double *a)
+{
+  (void)a;
+  return 1;
+}
+
+#endif
