@@ -442,7 +442,9 @@ endif
 
 # ---- What is needed --------------------------------------------------------------------------
 
-PACKAGES := gcc make pkg-config libc6-dev libsundials-dev libhdf5-dev libgsl-dev libcmocka-dev \
+# Without what is in folders of its own.
+PACKAGES := gcc make pkg-config libc6-dev $(if $(SUNDIALS_DIR),,libsundials-dev) \
+            $(if $(HDF5_DIR),,libhdf5-dev) $(if $(GSL_DIR),,libgsl-dev) libcmocka-dev \
             librandom123-dev zlib1g-dev
 MPI_PACKAGES := openmpi-bin libopenmpi-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib

@@ -24,6 +24,7 @@ quiet()
   }
 }
 
+top=$PWD
 stage=$scratch/stage
 # The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
@@ -90,9 +91,12 @@ for other in hdf5 sundials gsl; do
   readelf -d shared | grep -q "NEEDED.*$other" && fail "shared: must not name $other itself"
 done
 
-# The README's own program, as it stands there.
-quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) -o readme
-quiet ./readme
+# The README's own program, as it stands there, by the README's own command.
+cp readme.c example.c
+command=$(sed -n 's/^    cc \(example\.c .*\)/\1/p' "$top/README.md")
+[ -n "$command" ] || fail "the README does not say how to compile its program"
+quiet sh -c "$CC $strict $command"
+grep -q '^after 50 drive periods: x = ' log || fail "the README's program says nothing"
 
 # The examples, as they were installed: each compiles, in its language, runs and says something.
 for example in "$prefix"/share/pendres/examples/*.c "$prefix"/share/pendres/examples/*.cc; do

@@ -17,6 +17,7 @@ class Pendres(MakefilePackage):
     depends_on("sundials@6.4: +ARKODE +CVODE ~mpi")
     depends_on("hdf5@1.10: ~mpi +hl")
     depends_on("gsl@2:")
+    depends_on("zlib-api")  # in the folders that Spack's compiler looks through by itself
     depends_on("random123", type="build")
 
     def settings(self, spec, prefix):
