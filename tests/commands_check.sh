@@ -57,11 +57,12 @@ run()
   (PATH=$scratch/shims:$scratch:$PATH && eval "$2") >log 2>&1 || fail "$1: failed: $2"
 }
 
-# The commands that a page prints as indented lines, without its equations and decks.
+# The commands that a page prints as indented lines, without its equations and decks, and what the
+# program answers.
 commands_of()
 {
   sed -e '/^```/,/^```/d' -e '/^    &/,/^    \/$/d' "$1" | sed -n 's/^    \([a-zA-Z.]\)/\1/p' |
-    grep -v -e '^x' -e '^dw/d'
+    grep -v -e '^x' -e '^dw/d' -e '^resonance: '
 }
 
 try()
