@@ -307,6 +307,7 @@ $(TEST_NAMES:%=run/%): run/%: $(BUILD)/tests/% $(PROGRAM)
 	@$(RUN_ENVIRONMENT) tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) $(RUN) $<
 
 run/accuracy_check: $(ACCURACY_PROGRAM)
+run/bench_check: $(BENCH_PROGRAMS)
 $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 
