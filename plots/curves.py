@@ -290,26 +290,32 @@ def draw_ramp(h, name):
 
 
 def draw_hysteresis(h, path):
+    """Amplitudes both ways; of a torque, the current of a junction, the mean velocity, its
+    voltage."""
     name = h.axis_of("amplitude", 1)
     if "ramp_parameter" in h:
         return draw_ramp(h, name)
     x, label = parameter_axis(h, h[name], name)
+    velocity = h["mean_velocity"]
+    runs = np.nanmax(np.abs(velocity), initial=0) > 0
+    steps = runs and name == "torque"
+    shown = velocity / h["drive_frequency"] if steps else h["amplitude"]
     fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
+    small = 4 if len(x) < 150 else 2
     for way, marker in enumerate("^v"):
-        top.plot(x, h["amplitude"][way], marker, ms=4, mfc="none", color=f"C{way}",
+        top.plot(x, shown[way], marker, ms=small, mfc="none", color=f"C{way}",
                  label=f"{words(name)} goes {('up', 'down')[way]}")
-        below.plot(x, h["lyapunov"][way], marker, ms=4, mfc="none", color=f"C{way}")
+        below.plot(x, h["lyapunov"][way], marker, ms=small, mfc="none", color=f"C{way}")
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
     for value, way, slow in zip(h["jump_parameter"], h["jump_direction"], gradual):
         for ax in (top, below):
             ax.axvline(parameter_axis(h, value, name)[0], color=f"C{way}", lw=0.8,
                        ls=":" if slow else "-")
-    velocity = h["mean_velocity"]
-    if np.nanmax(np.abs(velocity), initial=0) > 0:
+    if runs and not steps:
         right = top.twinx()
         right.plot(x, velocity.T, lw=0.8)
         right.set_ylabel("mean velocity")
-    top.set_ylabel("amplitude (rad)")
+    top.set_ylabel("mean velocity / drive frequency" if steps else "amplitude (rad)")
     top.legend()
     below.axhline(0, color="0.7", lw=0.8)
     below.set(ylabel="Lyapunov\nexponent", xlabel=label)

@@ -238,11 +238,15 @@ def draw_lyapunov_map(h, path):
     closed = np.isfinite(period)
     kind = np.where(closed, 1 + (h["winding"] != 0) + 2 * (period > 1), 0)
     kind = np.where(h["label"] == NAMED.index("unresolved"), 5, kind)
-    names = ["chaotic", "period 1", "period 1, running", "longer", "longer, running", "unresolved"]
-    colours = ListedColormap(["black", SINGLE, MORE[4], SA, LA, UNRESOLVED])
-    shown = axes[1].pcolormesh(across, up, kind, cmap=colours, vmin=-0.5, vmax=5.5,
+    rotates = h["label"] == NAMED.index("quasi_periodic")
+    kind = np.where(rotates, 6, kind)
+    count = 7 if rotates.any() else 6
+    names = ["chaotic", "period 1", "period 1, running", "longer", "longer, running", "unresolved",
+             "quasi-periodic"][:count]
+    colours = ListedColormap(["black", SINGLE, MORE[4], SA, LA, UNRESOLVED, MORE[0]][:count])
+    shown = axes[1].pcolormesh(across, up, kind, cmap=colours, vmin=-0.5, vmax=count - 0.5,
                                shading="nearest", rasterized=True)
-    fig.colorbar(shown, ax=axes[1], ticks=range(6)).ax.set_yticklabels(names)
+    fig.colorbar(shown, ax=axes[1], ticks=range(count)).ax.set_yticklabels(names)
     for ax in axes:
         ax.set_xlabel(below)
     axes[0].set_ylabel(beside)

@@ -14,7 +14,8 @@ COEXISTENCE, OTHER, SINGLE, UNRESOLVED = "#F0E442", "#009E73", "#D9D9D9", "#9999
 MORE = ["#009E73", "#F0E442", "#CC79A7", "#56B4E9", "#E69F00", "#332288", "#117733"]
 ESCAPE = "#FFFFFF"
 FREE, EXACT = "0.45", "black"
-NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape"]
+NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape",
+         "quasi_periodic"]
 
 plt.rcParams.update({
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,

@@ -43,6 +43,8 @@ deck section orbit '&pendulum drive_amplitude = 0.2, damping = 0.0, drive_freque
   &orbit x = 1.0, transient = .true., periods = 300, samples = 4, spectrum = .true. /'
 deck sweep hysteresis "$p, damping = 0.15 / &sweep drive_frequency_range = 0.75, 0.85, 5 /
   &hysteresis start = 'sa' /"
+deck junction hysteresis "&pendulum drive_amplitude = 9, damping = 0.3, drive_frequency = 3 /
+  &sweep torque_range = 1.88, 1.94, 4 / &hysteresis x = 1.6 /"
 deck doubling bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /
   &sweep drive_amplitude_range = 1.04, 1.07, 4 / &bifurcation_diagram x = 1.6, strobes = 5 /'
 deck map lyapunov_map '&pendulum damping = 0.5 / &precision tolerance = 1e-4 /

@@ -365,7 +365,7 @@ static void names(void **state)
 {
   static const char *const expected[] = {"sa",      "la",      "periodic",
                                          "running", "chaotic", "unresolved",
-                                         "escape"};
+                                         "escape",  "quasi_periodic"};
   (void)state;
   for (int i = 0; i < PENDRES_LABEL_COUNT; i++)
     assert_string_equal(pendres_label_name((pendres_label)i), expected[i]);

@@ -187,8 +187,7 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
 
 int scene_along_closed(const pendres_hysteresis_point *point)
 {
-  return point->attractor.label != PENDRES_LABEL_CHAOTIC &&
-         point->attractor.label != PENDRES_LABEL_UNRESOLVED;
+  return point->attractor.orbit.period > 0;
 }
 
 scene_along_row *scene_along_rows(const scene_along_path *path)
@@ -231,7 +230,7 @@ scene_along_jump *scene_along_jumps(const scene_along_path *path)
 
 const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
   { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
-    .value = offsetof(scene_along_row, label), .names = scene_label_names },
+    .value = offsetof(scene_along_row, label), .names = scene_motion_names },
   { .name = "failed", .long_name = "why there is no attractor", .type = SCENE_FLAG,
     .value = offsetof(scene_along_row, failed), .names = scene_failure_names },
 };

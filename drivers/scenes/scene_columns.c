@@ -16,12 +16,19 @@ typedef struct buffers {
 
 #define NAMES(function, call) \
   const char *function(int value) { return call; }
-NAMES(scene_fate_names, pendres_label_name((pendres_label)value))
+NAMES(scene_motion_names, pendres_label_name((pendres_label)value))
 NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
 NAMES(scene_special_names, pendres_special_name((pendres_special)value))
 NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
 NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
 NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
+
+/* Only sweeps and maps tell rotations without a lock, and a plain pendulum has none: files about it
+   list the names of attractors. */
+const char *scene_fate_names(int value)
+{
+  return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;
+}
 
 /* What escapes is on no attractor. */
 const char *scene_label_names(int value)
@@ -124,7 +131,9 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
   int k = 0;
   for (; k < 3 && t->dimensions[k] != NULL; k++) spec.dimensions[k] = t->dimensions[k];
   if (c->pairs) spec.dimensions[k] = t->inner;
-  if (c->names != NULL) spec.flag_count = scene_meanings(c->names, meanings);
+  const int plain = c->names == scene_motion_names && deck_is_plain(run->deck);
+  if (c->names != NULL)
+    spec.flag_count = scene_meanings(plain ? scene_label_names : c->names, meanings);
   return put(run, t, c, b, &spec);
 }
 

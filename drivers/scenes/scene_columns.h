@@ -66,7 +66,8 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *table, siz
 
 /* Names of values of the library's enums, as columns take them. */
 const char *scene_label_names(int value); /* of attractors */
-const char *scene_fate_names(int value);  /* of pendulums, which may escape */
+const char *scene_fate_names(int value);  /* of pendulums, which may escape, ... */
+const char *scene_motion_names(int value); /* ... or rotate without a lock to the drive */
 const char *scene_regime_names(int value);
 const char *scene_special_names(int value);
 const char *scene_jump_names(int value);

@@ -87,8 +87,8 @@ static const scene_column of_jumps[] = {
   SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state", "1"),
   CODE(direction, direction_names, "way in which the parameter goes"),
   CODE(kind, scene_jump_names, "bifurcation that ends the state"),
-  CODE(from, scene_label_names, "state that ends"),
-  CODE(to, scene_label_names, "state that the pendulum goes to"),
+  CODE(from, scene_motion_names, "state that ends"),
+  CODE(to, scene_motion_names, "state that the pendulum goes to"),
   CODE(gradual, gradual_names, "whether the new state grows out of the old one"),
   CODE(certain, certain_names, "whether all trials went to the same state"),
 };

@@ -59,10 +59,13 @@ typedef enum pendres_label {
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
   PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a polynomial force that
                                      drives outwards does not let it return: no attractor */
+  PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation under a drive that is not locked to it; told by
+                                         lyapunov.h and hysteresis.h alone */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
 } pendres_label;
 
-/** "sa", "la", "periodic", "running", "chaotic", "unresolved", "escape"; NULL if out of range. */
+/** "sa", "la", "periodic", "running", "chaotic", "unresolved", "escape", "quasi_periodic"; NULL if
+    out of range. */
 const char *pendres_label_name(pendres_label label);
 
 /** An attractor of one parameter set. */

@@ -19,6 +19,12 @@
  *
  * While the state is chaotic, the pendulum is settled anew at each value, from where it was.
  *
+ * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive:
+ * its states off the stretches are told by averages, as in lyapunov.h, with its words on what is
+ * quasi-periodic and what is chaos. A trial that averages cannot tell, as where a rotation slips
+ * once in thousands of periods, goes on with the parameter ten times as far beyond the
+ * bifurcation, up to three times.
+ *
  * Source: Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; Thompson and Soliman,
  * Proceedings of the Royal Society A 432 (1991) 101, for jumps whose outcome is uncertain.
  */
@@ -48,8 +54,9 @@ typedef struct pendres_hysteresis_point {
                                     there, on its attractor as far as that is reached, ... */
   double v;                    /**< ... and the velocity */
   double mean_velocity;        /**< of x, in rad a unit time */
-  double mean_velocity_error;  /**< its error: 0 of closed orbits, whose mean is exact; else it
-                                    holds with a confidence of 99.9 % */
+  double mean_velocity_error;  /**< its error: rounding of closed orbits, whose mean is exact; of
+                                    quasi-periodic rotations a bound; else it holds with a
+                                    confidence of 99.9 % */
 } pendres_hysteresis_point;
 
 /** How a state ends. */

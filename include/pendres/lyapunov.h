@@ -15,6 +15,23 @@
  * by five standard errors. What is neither, as next to a bifurcation, is followed for longer, and
  * at last unresolved.
  *
+ * A rotation that is not locked to the drive has the exponents 0 and -gamma, and closes an
+ * invariant curve around the cylinder of states. The pendulum is called quasi-periodic on three
+ * pieces of evidence: its strobe points do not come back to an orbit of up to 128 periods;
+ * weighted Birkhoff averages of its turns, and of the growth of a neighbour's distance, over the
+ * first and the second half of its periods agree to 1e-5 a period; and that growth is 0 to 1e-5
+ * a period. With weights exp(-1/(t(1 - t))) such averages converge faster than any power of the
+ * number of periods (Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111), those of chaos
+ * no faster than its root. What this does not tell apart is a lock to more than 128 periods that
+ * draws neighbours together by less than 1e-5 a period. The mean velocity's error is what the
+ * halves differ by, and the errors of single periods, times what the invariant curve makes of
+ * them: the mean length of the tangent vector along it, times that of the vector's reciprocal.
+ * Close to where a lock has ended a rotation is slow for long, and a neighbour's distance grows
+ * for as long: where rotations may be, chaos is called so once it has grown by e^30. There is
+ * one such curve at most, since the area between two would be invariant and has to shrink; with
+ * a mirror symmetry it is its own image and does not rotate. So rotations are looked for under a
+ * torque and a drive, or under both drives.
+ *
  * Chaos that lasts for longer than it is watched, and then ends, is not told from chaos that lasts.
  */
 #ifndef PENDRES_LYAPUNOV_H
@@ -36,13 +53,14 @@ typedef struct pendres_lyapunov_options {
 
 /** What a pendulum does in the long run. Plain data. */
 typedef struct pendres_lyapunov {
-  pendres_label label;   /**< PERIODIC, RUNNING, CHAOTIC or UNRESOLVED; SA and LA are not told
-                              apart */
+  pendres_label label;   /**< PERIODIC, RUNNING, QUASI_PERIODIC, CHAOTIC or UNRESOLVED; SA and LA
+                              are not told apart */
   double exponent;       /**< largest Lyapunov exponent a unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
-                              the exponent is the mean so far */
+                              the exponent is the mean so far; of quasi-periodic rotations, whose
+                              exponent is 0, what was found instead */
   double rotation;       /**< mean whole turns a drive period */
-  double rotation_error; /**< its error, likewise */
+  double rotation_error; /**< its error, likewise; of quasi-periodic rotations a bound */
   int period;            /**< q, drive periods until an orbit closes; 0 of others */
   int winding;           /**< p, whole turns in them; 0 of others */
 } pendres_lyapunov;

@@ -15,7 +15,7 @@ const char *pendres_label_name(pendres_label label)
 {
   static const char *const names[PENDRES_LABEL_COUNT] = {"sa",      "la",      "periodic",
                                                          "running", "chaotic", "unresolved",
-                                                         "escape"};
+                                                         "escape",  "quasi_periodic"};
   return (unsigned)label < PENDRES_LABEL_COUNT ? names[label] : NULL;
 }
 

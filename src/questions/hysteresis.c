@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "questions/hysteresis_jump.h"
@@ -16,6 +15,10 @@ enum {
   MOST_JUMPS = 256, /* between two values of the path */
   HALVINGS = 8      /* of the distance of two values between which chaos ends */
 };
+
+/* Rotations without a lock are looked for side by side at values this close, in the parameter's
+   scale. */
+static const double close_by = 0.1;
 
 const char *pendres_jump_kind_name(pendres_jump_kind kind)
 {
@@ -73,18 +76,6 @@ static pendres_pendulum pendulum_at(const path *w, double value)
   pendres_pendulum p = w->pendulum;
   pendres_parameter_set(w->parameter, value, &p);
   return p;
-}
-
-static pendres_attractor closed_one(const pendres_orbit *o)
-{
-  pendres_attractor a = pendres_settled_nothing(&o->pendulum);
-  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
-  const double time = two_pi * o->period / o->pendulum.drive_frequency;
-  a.orbit = *o;
-  a.label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC;
-  a.lyapunov = log(modulus) / time;
-  a.lyapunov_error = o->multiplier_error / (modulus * time);
-  return a;
 }
 
 static void put(path *w, size_t i, const pendres_attractor *a)
@@ -180,7 +171,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   pendres_stretch next = pendres_stretch_none;
   pendres_status status = go_over(w, &end, limit, &next);
   if (status == PENDRES_OK) {
-    w->state.attractor = closed_one(&pendres_stretch_last(&next)->orbit);
+    w->state.attractor = pendres_settled_orbit(&pendres_stretch_last(&next)->orbit);
     w->at = end.value;
     j.gradual = j.certain = 1;
     j.share = 1.0;
@@ -228,7 +219,8 @@ static pendres_status put_stretch(path *w, size_t first, size_t last)
     status = pendres_stretch_orbits(w->ctx, &w->stretch, n, w->value + first, orbit, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum p = pendulum_at(w, w->value[first + i]);
-    const pendres_attractor a = found[i] ? closed_one(&orbit[i]) : pendres_settled_nothing(&p);
+    const pendres_attractor a =
+      found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
     put(w, first + i, &a);
     if (!found[i]) continue;
     w->state = (pendres_settled){
@@ -248,6 +240,12 @@ static double turning_point(const path *w, size_t i)
          (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i]))
     i++;
   return w->value[i];
+}
+
+/* Whether an attractor is an orbit that is followed. */
+static int is_short(const pendres_attractor *a)
+{
+  return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
 }
 
 /* A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. */
@@ -271,7 +269,7 @@ static pendres_status follow_closed(path *w, size_t *i)
     } else {
       status = end_stretch(w, *i, limit);
     }
-    if (status != PENDRES_OK || !pendres_settled_closed(&w->state.attractor)) return status;
+    if (status != PENDRES_OK || !is_short(&w->state.attractor)) return status;
   }
   return PENDRES_OK;
 }
@@ -345,13 +343,40 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
   return status == PENDRES_OK ? note_jump(w, &j) : status;
 }
 
+/*
+ * A pendulum on a rotation that is not locked to the drive: the values from number *i on, as many
+ * as are close by, side by side, as long as it stays on such a rotation. There is one of them at
+ * most at each value, so that a start on one leads to the next.
+ */
+static pendres_status follow_rotation(path *w, size_t *i)
+{
+  const double most = close_by * pendres_parameter_scale(w->parameter);
+  pendres_settled s[PENDRES_HYSTERESIS_TRIALS];
+  size_t n = 0;
+  for (; n < PENDRES_HYSTERESIS_TRIALS && *i + n < w->n; n++) {
+    if (n > 0 && fabs(w->value[*i + n] - w->at) > most) break;
+    const pendres_pendulum p = pendulum_at(w, w->value[*i + n]);
+    s[n] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  }
+  const pendres_status status = pendres_settled_all(w->ctx, n, s);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++, (*i)++) {
+    if (s[k].attractor.label != PENDRES_LABEL_QUASI_PERIODIC) break;
+    w->state = s[k];
+    w->at = w->value[*i];
+    put(w, *i, &s[k].attractor);
+  }
+  return status;
+}
+
 /* What the pendulum settles on at a value, from where it is. */
 static pendres_status settle_at(path *w, size_t i)
 {
   const pendres_pendulum p = pendulum_at(w, w->value[i]);
   const pendres_settled old = w->state;
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
-  if (status == PENDRES_OK && i > 0 && pendres_settled_closed(&w->state.attractor)) {
+  const int same = pendres_settled_closed(&old.attractor) &&
+                   pendres_settled_alike(&old.attractor, &w->state.attractor);
+  if (status == PENDRES_OK && i > 0 && pendres_settled_closed(&w->state.attractor) && !same) {
     status = end_chaos(w, i, &old);
     leave_stretch(w);
   }
@@ -372,7 +397,9 @@ static pendres_status walk(path *w)
       i++;
       continue;
     }
-    if (pendres_settled_closed(&w->state.attractor)) status = follow_closed(w, &i);
+    if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
+    else if (w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC)
+      status = follow_rotation(w, &i);
     if (status == PENDRES_OK && i == before) status = settle_at(w, i++);
   }
   pendres_stretch_free(&w->stretch);

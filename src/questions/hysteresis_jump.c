@@ -6,13 +6,16 @@
 
 #include <pendres/strobe.h>
 
+#include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/catalogue.h"
+#include "questions/lyapunov_move.h"
 
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS,
+  ROUNDS = 3,      /* in which trials that cannot be told go further */
   ON_THE_WAY = 500 /* periods after which what does not close is taken to be on its attractor */
 };
 
@@ -20,14 +23,18 @@ enum {
    Within each half the last one is half as far again as the first: so the times that they take to
    pass the fold, as the root of one over the distance, differ by a fifth, which is many periods. */
 static const double beyond[2] = {1e-4, 1e-5};
+static const double further = 10.0;
 /* An orbit that has become unstable is left this far away, where its own growth is not slow. */
 static const double away = 0.03;
 /* Amplitudes of one state at parameters so close differ by less. */
 static const double same_amplitude = 0.02;
+/* Student's t for sixteen batches, at 99.9 %. */
+static const double batches_sure = 4.073;
 
 int pendres_settled_closed(const pendres_attractor *a)
 {
-  return a->label != PENDRES_LABEL_CHAOTIC && a->label != PENDRES_LABEL_UNRESOLVED;
+  return a->label != PENDRES_LABEL_CHAOTIC && a->label != PENDRES_LABEL_UNRESOLVED &&
+         a->label != PENDRES_LABEL_ESCAPE && a->label != PENDRES_LABEL_QUASI_PERIODIC;
 }
 
 int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b)
@@ -48,19 +55,94 @@ pendres_attractor pendres_settled_nothing(const pendres_pendulum *p)
   return a;
 }
 
-static pendres_status settle_all(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                 const double *x, const double *v, pendres_settled *out)
+pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, double v)
 {
+  return (pendres_settled){
+    .pendulum = *p, .attractor = pendres_settled_nothing(p), .x = x, .v = v};
+}
+
+pendres_attractor pendres_settled_orbit(const pendres_orbit *o)
+{
+  pendres_attractor a = pendres_settled_nothing(&o->pendulum);
+  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  a.orbit = *o;
+  a.label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC;
+  a.lyapunov = log(modulus) / time;
+  a.lyapunov_error = o->multiplier_error / (modulus * time);
+  return a;
+}
+
+/* What a pendulum is on, now that its averages are known. */
+static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, pendres_settled *s)
+{
+  if (orbit->period > 0) {
+    s->attractor = pendres_settled_orbit(orbit);
+    s->x = orbit->x;
+    s->v = orbit->v;
+  }
+  if (l->label != PENDRES_LABEL_QUASI_PERIODIC && l->label != PENDRES_LABEL_CHAOTIC) return;
+  s->attractor.label = l->label;
+  s->attractor.lyapunov = l->exponent;
+  s->attractor.lyapunov_error = l->exponent_error;
+  s->attractor.drift = l->rotation;
+  s->attractor.drift_error =
+    l->label == PENDRES_LABEL_CHAOTIC ? batches_sure * l->rotation_error : l->rotation_error;
+}
+
+static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
+                                         pendres_settled *s)
+{
+  pendres_pendulum p[TRIALS] = {{0}};
+  pendres_lyapunov l[TRIALS];
+  pendres_orbit orbit[TRIALS];
+  double x[TRIALS] = {0.0}, v[TRIALS] = {0.0};
+  for (size_t k = 0; k < n; k++) {
+    p[k] = s[which[k]].pendulum;
+    x[k] = s[which[k]].x;
+    v[k] = s[which[k]].v;
+  }
+  const pendres_status status = pendres_lyapunov_move(ctx, n, p, x, v, l, orbit);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    s[which[k]].x = x[k];
+    s[which[k]].v = v[k];
+    take_verdict(&l[k], &orbit[k], &s[which[k]]);
+  }
+  return status;
+}
+
+static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const size_t *which,
+                                         pendres_settled *s)
+{
+  pendres_pendulum p[TRIALS] = {{0}};
   pendres_outcome outcome[TRIALS];
+  double x[TRIALS] = {0.0}, v[TRIALS] = {0.0};
   pendres_attractors *found = NULL;
+  for (size_t k = 0; k < n; k++) {
+    p[k] = s[which[k]].pendulum;
+    x[k] = s[which[k]].x;
+    v[k] = s[which[k]].v;
+  }
   const pendres_status status = pendres_settle(ctx, n, p, x, v, outcome, &found);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const size_t which = outcome[i].attractor >= 0 ? (size_t)outcome[i].attractor : (size_t)-1;
-    const pendres_attractor *a = pendres_attractors_get(found, which);
-    out[i] = (pendres_settled){.pendulum = p[i], .x = x[i], .v = v[i]};
-    out[i].attractor = a != NULL ? *a : pendres_settled_nothing(&p[i]);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    const size_t number = outcome[k].attractor >= 0 ? (size_t)outcome[k].attractor : (size_t)-1;
+    const pendres_attractor *a = pendres_attractors_get(found, number);
+    if (a != NULL) s[which[k]].attractor = *a;
   }
   pendres_attractors_free(found);
+  return status;
+}
+
+pendres_status pendres_settled_all(pendres_context *ctx, size_t n, pendres_settled *s)
+{
+  size_t averaged[TRIALS], trapped[TRIALS], a = 0, t = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (pendres_lyapunov_may_rotate(&s[i].pendulum)) averaged[a++] = i;
+    else trapped[t++] = i;
+  }
+  pendres_status status = PENDRES_OK;
+  if (a > 0) status = settle_by_averages(ctx, a, averaged, s);
+  if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
   return status;
 }
 
@@ -72,6 +154,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
     s->v = s->attractor.orbit.v;
     return PENDRES_OK;
   }
+  if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
   /* Whole turns are of no consequence, and chaos that drifts would go far. */
@@ -82,27 +165,62 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
                                     double v, pendres_settled *out)
 {
-  const pendres_status status = settle_all(ctx, 1, p, &x, &v, out);
+  *out = pendres_settled_nothing_at(p, x, v);
+  const pendres_status status = pendres_settled_all(ctx, 1, out);
   return status == PENDRES_OK ? arrive(ctx, out) : status;
+}
+
+/* The trials of a jump, each so far beyond the end of the state. */
+static void begin(const pendres_bifurcation *at, int direction, double distance[TRIALS],
+                  pendres_settled went[TRIALS])
+{
+  for (int i = 0; i < TRIALS; i++) {
+    const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
+    pendres_pendulum p = at->orbit.pendulum;
+    distance[i] = pendres_parameter_scale(at->parameter) * beyond[i % 2] * (1.0 + 0.5 * part);
+    pendres_parameter_set(at->parameter, at->value + direction * distance[i], &p);
+    const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
+    went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
+                                         at->orbit.v + off * sin(angle));
+  }
+}
+
+/*
+ * Next to the end of a lock a rotation slips once in many periods, and averages cannot tell it: the
+ * parameter goes on, ten times as far each time, until they do.
+ */
+static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at, int direction,
+                            double distance[TRIALS], pendres_settled went[TRIALS])
+{
+  pendres_settled some[TRIALS];
+  int which[TRIALS];
+  pendres_status status = PENDRES_OK;
+  for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++) {
+    size_t n = 0;
+    for (int i = 0; i < TRIALS; i++) {
+      pendres_settled *s = &went[i];
+      if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
+      if (!pendres_lyapunov_may_rotate(&s->pendulum)) continue;
+      distance[i] *= further;
+      pendres_parameter_set(at->parameter, at->value + direction * distance[i], &s->pendulum);
+      some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);
+      which[n++] = i;
+    }
+    if (n == 0) break;
+    status = pendres_settled_all(ctx, n, some);
+    for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
+  }
+  return status;
 }
 
 pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                                 pendres_settled *to, pendres_jump *jump)
 {
-  pendres_pendulum p[TRIALS];
   pendres_settled went[TRIALS];
-  double x[TRIALS], v[TRIALS];
-  const double scale = pendres_parameter_scale(at->parameter);
-  for (int i = 0; i < TRIALS; i++) {
-    const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
-    p[i] = at->orbit.pendulum;
-    const double distance = scale * beyond[i % 2] * (1.0 + 0.5 * part);
-    pendres_parameter_set(at->parameter, at->value + direction * distance, &p[i]);
-    const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
-    x[i] = at->orbit.x + off * cos(angle);
-    v[i] = at->orbit.v + off * sin(angle);
-  }
-  const pendres_status status = settle_all(ctx, TRIALS, p, x, v, went);
+  double distance[TRIALS];
+  begin(at, direction, distance, went);
+  pendres_status status = pendres_settled_all(ctx, TRIALS, went);
+  if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
   if (status != PENDRES_OK) return status;
 
   int best = 0, most = 0;

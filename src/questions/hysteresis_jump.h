@@ -24,6 +24,16 @@ int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b
 /* An attractor of which nothing is known. */
 pendres_attractor pendres_settled_nothing(const pendres_pendulum *p);
 
+/* A pendulum in a state, of whose attractor nothing is known. */
+pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, double v);
+
+/* The attractor that a stable orbit is; its trap is not determined. */
+pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
+
+/* Settle n pendulums, PENDRES_HYSTERESIS_TRIALS at most, from where they are. Those that may rotate
+   without a lock to the drive, which no hunt for orbits finds, are judged as in lyapunov.h. */
+pendres_status pendres_settled_all(pendres_context *ctx, size_t n, pendres_settled *s);
+
 /* Settle one pendulum. What does not close is taken some way along, so that it is on its
    attractor. */
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,

@@ -14,6 +14,8 @@
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
+#include "orbits/catalogue.h"
+#include "questions/lyapunov_move.h"
 
 enum {
   BATCHES = 16,
@@ -34,6 +36,15 @@ static const double same_orbit = 0.02;
 static const double apart = 1e-8;
 /* Standard errors above zero that an exponent of chaos is, and its least growth a period. */
 static const double significance = 5.0, least_growth = 1e-3;
+/* Next to where a lock has ended a rotation is slow, and stretches a tangent vector by as much as
+   it will shrink it again, up to this logarithm: chaos goes beyond. */
+static const double passing = 30.0;
+/* Quasi-periodic: averages over the halves agree to this, a period, and neighbours' distances grow
+   and shrink by less. */
+static const double same_mean = 1e-5;
+
+/* Of smooth averages: all periods, and either half of them. */
+enum { WHOLE, FIRST_HALF, SECOND_HALF, SPANS };
 
 typedef enum state { MOVING, CAUGHT, DONE } state;
 
@@ -46,13 +57,24 @@ typedef struct runner {
   long ref_turns, ref_period, next;
   int period, winding;   /* of the orbit that it seems to be near */
   double growth[BATCHES], turned[BATCHES]; /* sums over the periods of each batch */
+  /* Of rotations: sums with smooth weights, the logarithm of the tangent vector's length, and sums
+     of that length and of its reciprocal. */
+  double smooth_growth[SPANS], smooth_turned[SPANS], length, lengths, reciprocals;
 } runner;
 
 typedef struct job {
   size_t n;
   runner *runner;
+  pendres_orbit *orbit; /* that runners are on; NULL where nobody asks */
   long transient, periods;
 } job;
+
+int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
+{
+  const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
+  const int pushed = p->torque != 0.0 || p->drive_amplitude != 0.0;
+  return pendres_model_kind(p) == PENDRES_MODEL_PENDULUM && driven && pushed;
+}
 
 /* ---- coming back --------------------------------------------------------------------------- */
 
@@ -161,6 +183,7 @@ static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapun
     r->state = good ? DONE : MOVING;
     r->near = very_close_by;
     if (good) take_orbit(o, &out[i]);
+    if (good && j->orbit != NULL) j->orbit[i] = *o;
   }
 done:
   free(guess);
@@ -170,6 +193,29 @@ done:
 }
 
 /* ---- averages ------------------------------------------------------------------------------ */
+
+/* Weights of period k of n. */
+static void smooth_weights(long k, long n, double weight[SPANS])
+{
+  const double t = ((double)k + 0.5) / (double)n;
+  const double at[SPANS] = {[WHOLE] = t, [FIRST_HALF] = 2.0 * t, [SECOND_HALF] = 2.0 * t - 1.0};
+  for (int s = 0; s < SPANS; s++) {
+    const double product = at[s] * (1.0 - at[s]);
+    weight[s] = product > 0.0 ? exp(-1.0 / product) : 0.0;
+  }
+}
+
+/* What the averages of rotations take from a period. */
+static void add_smooth(runner *r, const double weight[SPANS], double growth, double turned)
+{
+  for (int s = 0; s < SPANS; s++) {
+    r->smooth_growth[s] += weight[s] * growth;
+    r->smooth_turned[s] += weight[s] * turned;
+  }
+  r->length += growth;
+  r->lengths += exp(r->length);
+  r->reciprocals += exp(-r->length);
+}
 
 static void arrive(const pendres_rows *rows, size_t lane, long step, long batch, runner *r)
 {
@@ -188,6 +234,11 @@ static void arrive(const pendres_rows *rows, size_t lane, long step, long batch,
   if (step >= 0) {
     r->growth[step / batch] += log(length);
     r->turned[step / batch] += turned;
+    if (pendres_lyapunov_may_rotate(l->pendulum)) {
+      double weight[SPANS];
+      smooth_weights(step, batch * BATCHES, weight);
+      add_smooth(r, weight, log(length), turned);
+    }
   }
   if (r->state == MOVING && comes_back(r, l)) r->state = CAUGHT;
 }
@@ -202,6 +253,8 @@ static pendres_status average_block(pendres_block *block, size_t n, const pendre
   for (size_t i = 0; i < n; i++) {
     runner *r = &runners[rank[i].index];
     for (int b = 0; b < BATCHES; b++) r->growth[b] = r->turned[b] = 0.0;
+    for (int s = 0; s < SPANS; s++) r->smooth_growth[s] = r->smooth_turned[s] = 0.0;
+    r->length = r->lengths = r->reciprocals = 0.0;
   }
   for (long k = -WARM_UP; k < batch * BATCHES && status == PENDRES_OK; k++) {
     for (size_t i = 0; i < n; i++) {
@@ -258,8 +311,43 @@ static double mean_of(const double sum[BATCHES], long batch, double *error)
   return mean;
 }
 
-/* What averages say; chaos is done with. */
-static void judge(job *j, long batch, pendres_lyapunov *out)
+/*
+ * Whether a runner is on a rotation that is not locked to the drive, and then its mean. A period's
+ * error moves y by as much, and by omega/gamma times as much what its velocity is wrong by, which
+ * friction forgets. What that does to the mean velocity depends on where on the invariant curve it
+ * happens: in the coordinate h in which the motion is even, it is h' times as much, and the tangent
+ * vector's length is as 1/h'.
+ */
+static int quasi_periodic(const runner *r, long periods, double accuracy, pendres_lyapunov *out)
+{
+  const pendres_pendulum *p = r->lane.pendulum;
+  double norm[SPANS] = {0.0}, growth[SPANS], turned[SPANS];
+  if (!pendres_lyapunov_may_rotate(p)) return 0;
+  for (long k = 0; k < periods; k++) {
+    double weight[SPANS];
+    smooth_weights(k, periods, weight);
+    for (int s = 0; s < SPANS; s++) norm[s] += weight[s];
+  }
+  for (int s = 0; s < SPANS; s++) {
+    growth[s] = r->smooth_growth[s] / norm[s];
+    turned[s] = r->smooth_turned[s] / norm[s];
+  }
+  const double growth_apart = fabs(growth[FIRST_HALF] - growth[SECOND_HALF]);
+  const double turned_apart = fabs(turned[FIRST_HALF] - turned[SECOND_HALF]);
+  if (!(growth_apart < same_mean && turned_apart < same_mean && fabs(growth[WHOLE]) < same_mean))
+    return 0;
+  const double n = (double)periods, rate = p->drive_frequency / two_pi;
+  const double uneven = r->lengths / n * (r->reciprocals / n);
+  const double period_error = accuracy * (1.0 + p->drive_frequency / p->damping) / two_pi;
+  *out = (pendres_lyapunov){
+    .label = PENDRES_LABEL_QUASI_PERIODIC,
+    .exponent_error = (fabs(growth[WHOLE]) + growth_apart) * rate,
+    .rotation = turned[WHOLE], .rotation_error = turned_apart + uneven * period_error};
+  return 1;
+}
+
+/* What averages say; chaos and rotations that are not locked are done with. */
+static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
 {
   for (size_t i = 0; i < j->n; i++) {
     runner *r = &j->runner[i];
@@ -268,12 +356,15 @@ static void judge(job *j, long batch, pendres_lyapunov *out)
     const double rate = r->lane.pendulum->drive_frequency / two_pi;
     const double growth = mean_of(r->growth, batch, &error);
     const double turned = mean_of(r->turned, batch, &turned_error);
-    const int chaotic = growth > significance * error && growth > least_growth;
+    double least = least_growth;
+    if (pendres_lyapunov_may_rotate(r->lane.pendulum))
+      least = fmax(least, passing / (double)(batch * BATCHES));
+    const int chaotic = growth > significance * error && growth > least;
     out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = error * rate,
       .rotation = turned, .rotation_error = turned_error};
-    if (chaotic) r->state = DONE;
+    if (chaotic || quasi_periodic(r, batch * BATCHES, accuracy, &out[i])) r->state = DONE;
   }
 }
 
@@ -327,7 +418,7 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
     status = average(ctx, j, batch);
     if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
     /* Those that were let go have averages of this round, and no result yet. */
-    if (status == PENDRES_OK) judge(j, batch, out);
+    if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx), out);
   }
   return status;
 }
@@ -338,6 +429,22 @@ static const char *refuses(const pendres_pendulum *p, double x, double v)
   if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
   if (p->damping == 0.0) return "without damping nothing settles";
   return pendres_passage_refuses(p, x, v);
+}
+
+pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                     double *x, double *v, pendres_lyapunov *out,
+                                     pendres_orbit *orbit)
+{
+  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner), .orbit = orbit,
+           .periods = PERIODS};
+  if (j.runner == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  for (size_t i = 0; i < n; i++) orbit[i] = pendres_orbit_none(&p[i]);
+  const pendres_status status = find_all(ctx, &j, p, x, v, out);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    pendres_strobe_lane_out(&j.runner[i].lane, &x[i], &v[i]);
+  free(j.runner);
+  return status;
 }
 
 static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendres_pendulum *p,

@@ -7,6 +7,7 @@
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
+#include "questions/lyapunov_move.h"
 
 /* Where errors grow by more than this in a map, an orbit has long been unstable. */
 static const double wildest = 3000.0;
@@ -14,6 +15,11 @@ static const double wildest = 3000.0;
 static const double margin = 0.003;
 /* Points of orbits of period one; those of a doubling cascade reach less far each time. */
 static const double spacing = 0.05;
+
+/* Points each way; of pendulums whose rotations lock to the drive few at first, then four times as
+   many until they are enough: a lock of q periods lies on an isola that comes by all its q points,
+   of which the stretch is one stable part. */
+enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
 
 /* Values that differ by less, in the parameter's scale, are those of one place. */
 static const double same_value = 1e-8;
@@ -78,17 +84,18 @@ static double ahead(const pendres_stretch *s, double value, double of)
   return (double)s->direction * (value - of);
 }
 
-/* From the place on as long as orbits are stable: sets points and the end. */
-static void walk_along(pendres_stretch *s, double limit)
+/* From the place on as long as orbits are stable: sets points and the end. The number of the point
+   that told it. */
+static size_t walk_along(pendres_stretch *s, double limit)
 {
   const pendres_branch_point *p = NULL;
   const pendres_bifurcation *met = NULL; /* the latest, where it is not known yet what follows */
   const double same = same_value * pendres_parameter_scale(s->parameter);
-  size_t met_at = 0;
+  size_t met_at = 0, k = 1;
   int turned = 0;
   s->end = PENDRES_STRETCH_LOST;
   s->points = 1;
-  for (size_t k = 1; (p = point_of(s, k)) != NULL; k++) {
+  for (; (p = point_of(s, k)) != NULL; k++) {
     if (p->bifurcation >= 0) {
       met = pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
       met_at = k;
@@ -108,17 +115,26 @@ static void walk_along(pendres_stretch *s, double limit)
       s->end = PENDRES_STRETCH_LIMIT;
       s->end_value = limit;
       s->end_error = 0.0;
-      return;
+      return k;
     }
   }
   s->end_value = value_of(s, s->points - 1);
   s->end_error = margin * pendres_parameter_scale(s->parameter);
-  if (met == NULL) return;
+  if (met == NULL) return k;
   s->end = turned ? PENDRES_STRETCH_BIRTH : PENDRES_STRETCH_BIFURCATION;
   s->bifurcation = *met;
   s->end_value = met->value;
   s->end_error = met->value_error;
   s->points = met_at + 1;
+  return k;
+}
+
+/* Whether the branch goes on for long enough beyond a point of it, or ends by itself. */
+static int is_enough(const pendres_stretch *s, size_t k)
+{
+  const pendres_branch_end end = pendres_branch_end_of(s->branch, s->step > 0);
+  return s->end == PENDRES_STRETCH_LIMIT || end != PENDRES_END_POINTS ||
+         point_of(s, k + ENOUGH) != NULL;
 }
 
 /* Which way along the branch the parameter goes in the direction, from the first point to the next
@@ -138,7 +154,7 @@ static int choose_way(pendres_stretch *s)
 
 static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
                              pendres_parameter parameter, double from, double limit,
-                             pendres_branch **out)
+                             size_t points, pendres_branch **out)
 {
   const double room = margin * pendres_parameter_scale(parameter);
   const double here = pendres_parameter_get(parameter, &orbit->pendulum);
@@ -147,8 +163,19 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
   if (parameter == PENDRES_DAMPING) low = fmax(low, 0.0);
   const pendres_branch_options options = {.parameter = parameter, .low = low, .high = high,
                                           .spacing = spacing / orbit->period,
-                                          .wildest = wildest};
+                                          .wildest = wildest,
+                                          .most_points = points};
   return pendres_branch_follow(ctx, 1, orbit, &options, out);
+}
+
+static size_t points_for(const pendres_orbit *orbit)
+{
+  return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
+}
+
+static size_t more(size_t points)
+{
+  return 4 * points < MOST_POINTS ? 4 * points : MOST_POINTS;
 }
 
 pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *orbit,
@@ -157,21 +184,25 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
 {
   const double from = pendres_parameter_get(parameter, &orbit->pendulum);
   pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
-  double off = 0.0;
-  s.period = orbit->period;
-  s.winding = orbit->winding;
   *out = pendres_stretch_none;
-  const pendres_status status = follow(ctx, orbit, parameter, from, limit, &s.branch);
-  if (status != PENDRES_OK) return status;
-  s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
-  if (choose_way(&s)) {
-    walk_along(&s, limit);
-  } else {
-    /* Right at its end, or nothing could be followed. */
-    s.points = 1;
-    s.end = PENDRES_STRETCH_LOST;
-    s.end_value = from;
-    s.end_error = margin * pendres_parameter_scale(parameter);
+  for (size_t most = points_for(orbit);; most = more(most)) {
+    double off = 0.0;
+    s.period = orbit->period;
+    s.winding = orbit->winding;
+    const pendres_status status = follow(ctx, orbit, parameter, from, limit, most, &s.branch);
+    if (status != PENDRES_OK) return status;
+    s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
+    if (choose_way(&s)) {
+      if (is_enough(&s, walk_along(&s, limit)) || most == MOST_POINTS) break;
+    } else {
+      /* Right at its end, or nothing could be followed. */
+      s.points = 1;
+      s.end = PENDRES_STRETCH_LOST;
+      s.end_value = from;
+      s.end_error = margin * pendres_parameter_scale(parameter);
+      break;
+    }
+    pendres_branch_free(s.branch);
   }
   *out = s;
   return PENDRES_OK;
@@ -183,18 +214,23 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   static const double near_birth = 1e-5;
   pendres_stretch s = {.parameter = at->parameter, .direction = limit >= at->value ? 1 : -1};
   pendres_orbit child;
-  double off = INFINITY;
   *out = pendres_stretch_none;
   pendres_status status = pendres_branch_switch(ctx, at, &child);
   if (status == PENDRES_NOT_FOUND || status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
   if (status != PENDRES_OK) return status;
   const double there = pendres_parameter_get(at->parameter, &child.pendulum);
   if (!(ahead(&s, there, at->value) > 0.0)) return PENDRES_NOT_FOUND;
-  status = follow(ctx, &child, at->parameter, at->value, limit, &s.branch);
-  if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
-  if (status != PENDRES_OK) return status;
-  s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
-  if (off < near_birth && choose_way(&s)) walk_along(&s, limit);
+  for (size_t most = points_for(&child);; most = more(most)) {
+    double off = INFINITY;
+    status = follow(ctx, &child, at->parameter, at->value, limit, most, &s.branch);
+    if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
+    if (status != PENDRES_OK) return status;
+    s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
+    if (!(off < near_birth && choose_way(&s)) || is_enough(&s, walk_along(&s, limit)) ||
+        most == MOST_POINTS)
+      break;
+    pendres_branch_free(s.branch);
+  }
   if (pendres_stretch_last(&s) == NULL) {
     pendres_branch_free(s.branch);
     return PENDRES_NOT_FOUND;

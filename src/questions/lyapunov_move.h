@@ -1,0 +1,22 @@
+/*
+ * lyapunov_move.h -- verdicts on many pendulums, and where they have come meanwhile.
+ *
+ * Owns: what a slow sweep needs of lyapunov.h.
+ */
+#ifndef PENDRES_LYAPUNOV_MOVE_H
+#define PENDRES_LYAPUNOV_MOVE_H
+
+#include <pendres/lyapunov.h>
+
+/* Whether a pendulum may have a rotation that is not locked to the drive: lyapunov.h says which do
+   not. */
+int pendres_lyapunov_may_rotate(const pendres_pendulum *p);
+
+/* As pendres_lyapunov_find with its defaults, of pendulums that are known to be good; x[n] and v[n]
+   become states at drive phase 0 that the pendulums are in at the end, less whole turns, and
+   orbit[n] the orbits that they have come to: of period 0 where there is none. */
+pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
+                                     double *x, double *v, pendres_lyapunov *out,
+                                     pendres_orbit *orbit);
+
+#endif

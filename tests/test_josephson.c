@@ -1,0 +1,203 @@
+/*
+ * test_josephson.c -- rotations under a torque and a drive: Shapiro steps, on which the mean
+ * velocity is a rational multiple of the drive's frequency, and what lies between them.
+ *
+ * Ends of steps are compared with folds that are sought from elsewhere, mean velocities off the
+ * steps with an integration that is written here, and with what is known of an overdamped junction.
+ */
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/hysteresis.h>
+#include <pendres/lyapunov.h>
+
+#include "check.h"
+
+static const double two_pi = 6.28318530717958647693;
+
+static int create(void **state)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  *state = ctx;
+  return 0;
+}
+
+static int destroy(void **state)
+{
+  pendres_context_free(*state);
+  return 0;
+}
+
+/* That of input/josephson.nml. */
+static const pendres_pendulum junction = {
+  .damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0};
+
+/* Up and down; the caller frees. */
+static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, size_t n)
+{
+  enum { MOST = 32 };
+  pendres_hysteresis *h = NULL;
+  double value[2 * MOST];
+  assert_true(n <= MOST);
+  for (size_t i = 0; i < n; i++)
+    value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
+  check_ok(pendres_hysteresis_follow(ctx, &junction, PENDRES_TORQUE, 1.6, 0.0, 2 * n, value, &h));
+  return h;
+}
+
+/* Over the end of the second step, both ways: up there is a jump, from a fold to a rotation that is
+   not locked; down the rotation ends elsewhere. */
+static void step_and_rotation(void **state)
+{
+  pendres_hysteresis *h = sweep(*state, 1.88, 1.95, 15);
+  int steps = 0, rotations = 0;
+  for (size_t i = 0; i < pendres_hysteresis_count(h); i++) {
+    const pendres_hysteresis_point *p = pendres_hysteresis_get(h, i);
+    if (p->attractor.label == PENDRES_LABEL_RUNNING) {
+      const pendres_orbit *o = &p->attractor.orbit;
+      steps++;
+      assert_true(o->stable);
+      check_near(p->mean_velocity * o->period, junction.drive_frequency * o->winding,
+                 p->mean_velocity_error * o->period);
+      assert_true(p->mean_velocity_error < 1e-14);
+    } else if (p->attractor.label == PENDRES_LABEL_QUASI_PERIODIC) {
+      rotations++;
+      assert_int_equal(p->attractor.orbit.period, 0);
+      assert_true(p->mean_velocity_error > 0.0 && p->mean_velocity_error < 1e-5);
+      assert_true(p->attractor.lyapunov == 0.0 && p->attractor.lyapunov_error < 1e-5);
+    }
+  }
+  assert_true(steps >= 10 && rotations >= 10);
+  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  pendres_fold fold;
+  assert_non_null(j);
+  assert_true(j->direction == 1 && j->kind == PENDRES_JUMP_FOLD && j->certain && !j->gradual);
+  assert_int_equal(j->from, PENDRES_LABEL_RUNNING);
+  assert_int_equal(j->to, PENDRES_LABEL_QUASI_PERIODIC);
+  assert_int_equal(j->to_period, 0);
+  /* Sought from the step's orbit at the first value, with another predictor and another way. */
+  check_ok(pendres_fold_find_along(*state, &pendres_hysteresis_get(h, 0)->attractor.orbit,
+                                   PENDRES_TORQUE, &fold));
+  check_near(j->value, fold.value, j->value_error + fold.value_error);
+  assert_true(j->value_error < 1e-8);
+  pendres_hysteresis_free(h);
+}
+
+/* Mean turns a period by Runge and Kutta's method of fourth order with so many steps: with the
+   weights of smooth averages, which leave 1e-12 after so many periods where no lock is near. */
+static double by_hand(const pendres_pendulum *p, int steps, int periods)
+{
+  const double h = two_pi / p->drive_frequency / steps;
+  double y = 0.0, v = p->torque / p->damping, sum = 0.0, weights = 0.0;
+  for (int k = -60; k < periods; k++) {
+    const double from = y;
+    for (int i = 0; i < steps; i++) {
+      double dy[4], dv[4];
+      for (int s = 0; s < 4; s++) {
+        const double part = s == 0 ? 0.0 : s == 3 ? h : 0.5 * h;
+        const double at = y + (s > 0 ? part * dy[s - 1] : 0.0);
+        dy[s] = v + (s > 0 ? part * dv[s - 1] : 0.0);
+        dv[s] = p->torque + p->drive_amplitude * cos(p->drive_frequency * (i * h + part)) -
+                (1.0 + p->parametric_amplitude * cos(p->drive_frequency * (i * h + part))) *
+                  sin(at) - p->damping * dy[s];
+      }
+      y += h / 6.0 * (dy[0] + 2.0 * (dy[1] + dy[2]) + dy[3]);
+      v += h / 6.0 * (dv[0] + 2.0 * (dv[1] + dv[2]) + dv[3]);
+    }
+    if (k < 0) continue;
+    const double t = (k + 0.5) / periods, weight = exp(-1.0 / (t * (1.0 - t)));
+    sum += weight * (y - from) / two_pi;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+/* Between steps the mean velocity is that of an independent integration, within its error. */
+static void mean_velocity(void **state)
+{
+  static const pendres_pendulum p[] = {
+    {.damping = 0.5, .drive_amplitude = 0.8, .drive_frequency = 0.9, .torque = 1.2},
+    {.damping = 0.5, .drive_amplitude = 0.8, .drive_frequency = 0.9, .torque = -1.6},
+    {.damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0, .torque = 2.4},
+    {.damping = 0.4, .parametric_amplitude = 0.6, .drive_frequency = 1.3, .torque = 1.7},
+  };
+  enum { N = sizeof p / sizeof *p };
+  const double x[N] = {1.6, 1.6, 1.6, 1.6}, v[N] = {3.0, -3.0, 8.0, 4.0};
+  pendres_lyapunov l[N];
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) {
+    assert_int_equal(l[i].label, PENDRES_LABEL_QUASI_PERIODIC);
+    assert_true(l[i].period == 0 && l[i].winding == 0 && l[i].exponent == 0.0);
+    /* Richardson's extrapolation leaves a few hundredths of what the two differ by. */
+    const double coarse = by_hand(&p[i], 160, 1500), fine = by_hand(&p[i], 320, 1500);
+    const double want = fine + (fine - coarse) / 15.0;
+    check_near(l[i].rotation, want, l[i].rotation_error + 0.05 * fabs(fine - coarse));
+    assert_true(0.05 * fabs(fine - coarse) < 0.3 * l[i].rotation_error);
+    assert_true(l[i].rotation_error < 1e-6);
+  }
+}
+
+/*
+ * With much friction y' = (I - sin y)(1 + cos y / gamma^2) / gamma up to a relative gamma^-4, and
+ * so the mean velocity is sqrt(I^2 - 1) / gamma up to that: the cosine's mean over 1/(I - sin y) is
+ * zero. A drive of 1e-5 changes it by its square.
+ */
+static void overdamped(void **state)
+{
+  enum { N = 3 };
+  static const double torque[N] = {1.2, 1.7, 4.3};
+  for (int k = 0; k < 2; k++) {
+    const double gamma = k == 0 ? 10.0 : 20.0;
+    pendres_pendulum p[N];
+    const double x[N] = {0.0}, v[N] = {0.0};
+    pendres_lyapunov l[N];
+    for (int i = 0; i < N; i++)
+      p[i] = (pendres_pendulum){.damping = gamma, .drive_amplitude = 1e-5, .drive_frequency = 0.83,
+                                .torque = torque[i]};
+    check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+    for (int i = 0; i < N; i++) {
+      const double want = sqrt(torque[i] * torque[i] - 1.0) / gamma / p[i].drive_frequency;
+      assert_int_equal(l[i].label, PENDRES_LABEL_QUASI_PERIODIC);
+      check_near(l[i].rotation, want,
+                 l[i].rotation_error + 3.0 * torque[i] * torque[i] * want * pow(gamma, -4.0));
+    }
+  }
+}
+
+/* What is not such a rotation is not called so: a lock, chaos with a torque, and all that a mirror
+   symmetry keeps from rotating. */
+static void others(void **state)
+{
+  static const struct {
+    pendres_pendulum p;
+    pendres_label label;
+  } known[] = {
+    {{.damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0, .torque = 1.8},
+     PENDRES_LABEL_RUNNING},
+    {{.damping = 0.5, .drive_amplitude = 0.8, .drive_frequency = 0.9, .torque = 0.8},
+     PENDRES_LABEL_CHAOTIC},
+    {{.damping = 0.5, .drive_amplitude = 1.15, .drive_frequency = 2.0 / 3.0},
+     PENDRES_LABEL_CHAOTIC},
+    {{.damping = 0.1, .parametric_amplitude = 0.1, .drive_frequency = 2.0},
+     PENDRES_LABEL_PERIODIC},
+  };
+  enum { N = sizeof known / sizeof *known };
+  pendres_pendulum p[N];
+  const double x[N] = {1.6, 1.6, 1.8, 1.6}, v[N] = {6.0, 0.0, 0.1, 0.0};
+  pendres_lyapunov l[N];
+  for (int i = 0; i < N; i++) p[i] = known[i].p;
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) assert_int_equal(l[i].label, known[i].label);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(step_and_rotation, create, destroy),
+    cmocka_unit_test_setup_teardown(mean_velocity, create, destroy),
+    cmocka_unit_test_setup_teardown(overdamped, create, destroy),
+    cmocka_unit_test_setup_teardown(others, create, destroy),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
