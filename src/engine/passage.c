@@ -109,6 +109,25 @@ void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p
   pendres_flow_set_lane(b->flow, lane, p, y, w);
 }
 
+pendres_status pendres_block_carry(pendres_block *b, int on)
+{
+  const pendres_status status = pendres_flow_carry(b->flow, on);
+  if (status == PENDRES_OK) return status;
+  return pendres_context_fail(b->ctx, status, "out of memory for the errors of %zu lanes",
+                              pendres_flow_capacity(b->flow));
+}
+
+void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_error *error,
+                             double added)
+{
+  pendres_flow_set_error(b->flow, lane, error, added);
+}
+
+pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane)
+{
+  return pendres_flow_get_error(b->flow, lane);
+}
+
 /* What comes after a run of this many periods. */
 static pendres_status ran(pendres_block *b, double periods, pendres_status status)
 {

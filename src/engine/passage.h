@@ -75,6 +75,15 @@ void pendres_block_resize(pendres_block *b, size_t lanes);
 void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p, double y,
                         double w);
 
+/*
+ * Carry the errors of the block's lanes along, or no longer: see flow.h. The block holds states
+ * alone; a lane's error is set when it has been loaded.
+ */
+pendres_status pendres_block_carry(pendres_block *b, int on);
+void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_error *error,
+                             double added);
+pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane);
+
 /* One drive period, or its first half, of all lanes: asks whether to go on, and counts the cost. */
 pendres_status pendres_block_period(pendres_block *b);
 pendres_status pendres_block_half_period(pendres_block *b);

@@ -89,13 +89,17 @@ static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pe
                                 const double *x, const double *v, long periods,
                                 pendres_strobe_lane *finer, double *noise)
 {
-  const pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
+  pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
   if (status != PENDRES_OK) return status;
-  if (pendres_method_of(ctx)->fixed_steps)
-    return pendres_strobe_noise_run(ctx, n, finer, periods, noise);
-  for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, &p[i], periods);
-  return pendres_strobe_run_within(ctx, pendres_accuracy_second(ctx), n, finer, after_all_periods,
-                                   &periods);
+  const int fixed = pendres_method_of(ctx)->fixed_steps;
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
+  for (size_t i = 0; i < n && fixed; i++) finer[i].added = rounding * rounding;
+  status = pendres_strobe_run_within(ctx, pendres_accuracy_second(ctx), n, finer,
+                                     after_all_periods, &periods);
+  for (size_t i = 0; i < n; i++)
+    noise[i] = fixed ? pendres_strobe_noise_of(p[i].drive_frequency, &finer[i].off)
+                     : clock_noise(ctx, &p[i], periods);
+  return status;
 }
 
 /* |a - b| of two final states, in x and v. */

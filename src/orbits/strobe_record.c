@@ -24,11 +24,10 @@ enum { MOST_SAMPLES = 1000000 };
 typedef struct recorder {
   double *x, *v;             /* the period's first point */
   double *x_noise, *v_noise; /* NULL in the first run */
-  double noise[3];           /* C_yy, C_yw, C_ww at the period's start */
+  const pendres_block *block;
   int stretch;               /* steps between two points */
   const pendres_pendulum *p;
   long turns;                /* of the period's start */
-  double rounding;           /* of a step */
 } recorder;
 
 static void keep(void *arg, int step, const pendres_rows *rows)
@@ -41,10 +40,9 @@ static void keep(void *arg, int step, const pendres_rows *rows)
                            .turns = r->turns};
   pendres_passage_out(r->p, &s, &r->x[k], &r->v[k]);
   if (r->x_noise != NULL) {
-    double noise[3];
-    pendres_strobe_noise_carry(r->noise, r->rounding, step, rows, 0, noise);
-    r->x_noise[k] = sqrt(noise[0]);
-    r->v_noise[k] = r->p->drive_frequency * sqrt(noise[2]);
+    const pendres_flow_error off = pendres_block_get_error(r->block, 0);
+    r->x_noise[k] = sqrt(off.yy);
+    r->v_noise[k] = r->p->drive_frequency * sqrt(off.ww);
   }
 }
 
@@ -57,43 +55,49 @@ typedef struct piece {
   double *x, *v;
 } piece;
 
-static pendres_status run(pendres_context *ctx, const piece *what, double noise[3],
+/* One period of a piece's lane, from s on, errors carried along or not. */
+static pendres_status turn(pendres_block *b, const pendres_flow_error *off, recorder *r,
+                           pendres_place *s)
+{
+  const double rounding = pendres_strobe_noise_of_step(b->ctx->options.table);
+  r->turns = s->turns;
+  pendres_block_load(b, 0, r->p, s->y, s->w);
+  if (r->x_noise != NULL) pendres_block_set_error(b, 0, off, rounding * rounding);
+  const pendres_status status = pendres_block_period_sampled(b, keep, r);
+  const pendres_rows rows = pendres_block_rows(b);
+  s->y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
+  s->w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
+  pendres_passage_arrive(r->p, &s->y, &s->w, &s->turns);
+  return status;
+}
+
+/* *off (NULL in the first run): what the run has carried, moved on. */
+static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_error *off,
                           double *x_noise, double *v_noise)
 {
   pendres_block b;
   const pendres_pendulum *p = &what->of->pendulum;
   const size_t samples = (size_t)what->of->samples;
-  const int steps = what->of->samples * what->stretch;
   pendres_place s = { .y = what->at->y, .w = what->at->w, .turns = what->at->turns };
-  recorder r = { .stretch = what->stretch, .p = p,
-                 .rounding = pendres_strobe_noise_of_step(ctx->options.table) };
-  pendres_status status = pendres_block_open(
-    ctx, x_noise != NULL ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, steps, &b);
+  recorder r = { .stretch = what->stretch, .p = p, .block = &b };
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE,
+                                             what->of->samples * what->stretch, &b);
+  if (status == PENDRES_OK && off != NULL) status = pendres_block_carry(&b, 1);
   if (status != PENDRES_OK) return status;
   pendres_block_resize(&b, 1);
-  for (int i = 0; i < 3 && x_noise != NULL; i++) r.noise[i] = noise[i];
   for (long k = 0; k < what->periods && status == PENDRES_OK; k++) {
     const size_t first = (size_t)k * samples;
     r.x = what->x + first;
     r.v = what->v + first;
-    r.x_noise = x_noise != NULL ? x_noise + first : NULL;
-    r.v_noise = v_noise != NULL ? v_noise + first : NULL;
-    r.turns = s.turns;
-    pendres_block_load(&b, 0, p, s.y, s.w);
-    status = pendres_block_period_sampled(&b, keep, &r);
-    const pendres_rows rows = pendres_block_rows(&b);
-    double carried[3] = { 0.0 };
-    if (x_noise != NULL)
-      pendres_strobe_noise_carry(r.noise, r.rounding, steps, &rows, 0, carried);
-    for (int i = 0; i < 3; i++) r.noise[i] = carried[i];
-    s.y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
-    s.w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
-    pendres_passage_arrive(p, &s.y, &s.w, &s.turns);
+    r.x_noise = off != NULL ? x_noise + first : NULL;
+    r.v_noise = off != NULL ? v_noise + first : NULL;
+    status = turn(&b, off, &r, &s);
+    if (off != NULL) *off = pendres_block_get_error(&b, 0);
     if (status == PENDRES_OK && !(isfinite(s.y) && isfinite(s.w)))
-      return pendres_strobe_lost(ctx, p, what->of->periods + k + 1);
+      status = pendres_strobe_lost(ctx, p, what->of->periods + k + 1);
   }
+  if (off != NULL) (void)pendres_block_carry(&b, 0);
   *what->at = (pendres_recording_place){ .y = s.y, .w = s.w, .turns = s.turns };
-  for (int i = 0; i < 3 && x_noise != NULL; i++) noise[i] = r.noise[i];
   return status;
 }
 
@@ -111,7 +115,11 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
   const piece second = { .of = first->of, .at = &next->finer, .periods = first->periods,
                          .stretch = (14 * next->stretch + 9) / 10, .x = finer, .v = finer + n };
-  const pendres_status status = run(ctx, &second, next->noise, x_error, v_error);
+  pendres_flow_error off = { next->noise[0], next->noise[1], next->noise[2] };
+  const pendres_status status = run(ctx, &second, &off, x_error, v_error);
+  next->noise[0] = off.yy;
+  next->noise[1] = off.yw;
+  next->noise[2] = off.ww;
   for (size_t k = 1; k < n && status == PENDRES_OK; k++) {
     const double dx = fabs(first->x[k] - finer[k]), dv = fabs(first->v[k] - finer[n + k]);
     /* Not smaller where one of them happens to change its sign. */
