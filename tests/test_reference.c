@@ -201,12 +201,12 @@ static void test_derivatives(void **state)
 static long double fixed_end(int order, int steps)
 {
   const pendres_reference_model model = { 0.125L, 0.25L, 0.8125L };
-  pendres_reference_walk walk;
-  pendres_reference_taylor_init(&walk, &model, 0.7L, -0.4L);
-  if (order > 0) walk.order = order;
-  walk.steps = steps;
-  check_ok(pendres_reference_taylor_advance(&walk, 1));
-  return walk.y.hi;
+  pendres_reference_run run;
+  pendres_reference_taylor_init(&run, &model, 0.7L, -0.4L);
+  if (order > 0) run.order = order;
+  run.steps = steps;
+  check_ok(pendres_reference_taylor_advance(&run, 1));
+  return run.y.hi;
 }
 
 static void test_order(void **state)
@@ -224,7 +224,7 @@ static void test_order(void **state)
   check_long(fixed_end(PENDRES_REFERENCE_ORDER, 100), exact, 20.0L * epsilon());
   check_long(fixed_end(PENDRES_REFERENCE_ORDER * 2 / 3, 150), exact, 20.0L * epsilon());
   /* Sums in two words do not mind many steps; in one, 200000 roundings of up to half a unit
-     make a walk of some tens (22 when it was tried). */
+     make a run of some tens (22 when it was tried). */
   check_long(fixed_end(PENDRES_REFERENCE_ORDER / 2, 200000), exact, 4.0L * epsilon());
 }
 
@@ -244,11 +244,11 @@ static void test_mirror(void **state)
      image of the equation takes over. */
   const pendres_reference_cycle *c = &golden_orbits[7];
   const pendres_reference_model model = { c->damping, c->drive_amplitude, c->drive_frequency };
-  pendres_reference_walk walk;
-  pendres_reference_taylor_init(&walk, &model, c->y, c->v);
-  check_ok(pendres_reference_taylor_advance_half(&walk));
-  check_long(walk.y.hi, -c->y, 20.0L * golden_epsilon());
-  check_long(walk.v.hi, -c->v, 20.0L * golden_epsilon());
+  pendres_reference_run run;
+  pendres_reference_taylor_init(&run, &model, c->y, c->v);
+  check_ok(pendres_reference_taylor_advance_half(&run));
+  check_long(run.y.hi, -c->y, 20.0L * golden_epsilon());
+  check_long(run.v.hi, -c->v, 20.0L * golden_epsilon());
 }
 
 static void test_wrap(void **state)

@@ -117,15 +117,15 @@ static void test_extremes(void **state)
 {
   (void)state;
   const pendres_reference_model model = { 0.0L, 0.0L, 0.3L };
-  pendres_reference_walk walk;
-  pendres_reference_taylor_init(&walk, &model, 0.4L, 1.2L);
-  walk.measures = 1;
-  check_ok(pendres_reference_taylor_advance(&walk, 1));
+  pendres_reference_run run;
+  pendres_reference_taylor_init(&run, &model, 0.4L, 1.2L);
+  run.measures = 1;
+  check_ok(pendres_reference_taylor_advance(&run, 1));
   /* The turning points of the free pendulum of this energy. */
   const long double s = sinl(0.2L);
   const long double turning = 2.0L * asinl(sqrtl(0.36L + s * s));
-  check_long(walk.highest, turning, 10.0L * epsilon());
-  check_long(walk.lowest, -turning, 10.0L * epsilon());
+  check_long(run.highest, turning, 10.0L * epsilon());
+  check_long(run.lowest, -turning, 10.0L * epsilon());
 }
 
 /* ---- Resonances, folds, cusps --------------------------------------------------------------- */

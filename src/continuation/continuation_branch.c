@@ -53,12 +53,12 @@ pendres_branch_end pendres_branch_end_of(const pendres_branch *b, int which)
 
 /* ---- bifurcations on the way ---- */
 
-static double test_fold(const pendres_walk_point *p)
+static double test_fold(const pendres_arc_point *p)
 {
   return pendres_continuation_map_fold(&p->image);
 }
 
-static double test_flip(const pendres_walk_point *p)
+static double test_flip(const pendres_arc_point *p)
 {
   return pendres_continuation_map_flip(&p->image);
 }
@@ -195,8 +195,8 @@ static void begin(const void *call, size_t i, pendres_trail_start *start)
 {
   const branch_call *b = call;
   start->kind =
-    pendres_walk_of(&b->starts[i], PENDRES_CONDITION_NONE, &b->options->parameter,
-                    b->options->spacing > 0.0 ? b->options->spacing : 0.05, start->u);
+    pendres_arc_of(&b->starts[i], PENDRES_CONDITION_NONE, &b->options->parameter,
+                   b->options->spacing > 0.0 ? b->options->spacing : 0.05, start->u);
 }
 
 static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_trail *t)

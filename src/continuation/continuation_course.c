@@ -34,7 +34,7 @@ void pendres_course_free(pendres_course *c)
 
 /* ---- special points ---- */
 
-static int same_place(const pendres_walk *w, const pendres_course_special *a,
+static int same_place(const pendres_arc *w, const pendres_course_special *a,
                       const pendres_course_special *b)
 {
   double sum = 0.0;

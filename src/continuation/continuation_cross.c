@@ -98,8 +98,8 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;
-  pendres_walk one =
-    pendres_walk_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+  pendres_arc one =
+    pendres_arc_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
   if (at->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&one.map);
   pendres_status status =
     pendres_continuation_map_steps(ctx, one.map.force, u, pendres_accuracy_first(ctx), &steps);
@@ -124,7 +124,7 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
   static const double tries[] = {1.0, 0.25, 0.0625, 2.0, 4.0, 8.0, 16.0};
   for (size_t k = 0; k < sizeof tries / sizeof *tries && reach * tries[k] < 0.5; k++) {
     const double away = reach * tries[k];
-    pendres_walk_point point = {.tangent = {v[0], v[1], 0.0, 0.0}};
+    pendres_arc_point point = {.tangent = {v[0], v[1], 0.0, 0.0}};
     pendres_continuation_pair pair;
     double error[1][2];
     memcpy(point.u, u, sizeof point.u);

@@ -71,11 +71,11 @@ static int place_of(pendres_parameter parameter)
 }
 
 /* The curve through a bifurcation, and the place of that on it. */
-static pendres_walk kind_of(const pendres_bifurcation *b, pendres_parameter second, double spacing,
-                            double u[PENDRES_U_COUNT])
+static pendres_arc kind_of(const pendres_bifurcation *b, pendres_parameter second, double spacing,
+                           double u[PENDRES_U_COUNT])
 {
   const pendres_parameter parameter[2] = {b->parameter, second};
-  pendres_walk w = pendres_walk_of(
+  pendres_arc w = pendres_arc_of(
     &b->orbit, b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP, parameter,
     spacing, u);
   if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&w.map);
@@ -84,7 +84,7 @@ static pendres_walk kind_of(const pendres_bifurcation *b, pendres_parameter seco
 
 /* ---- cusps ---- */
 
-static double test_cusp(const pendres_walk_point *p)
+static double test_cusp(const pendres_arc_point *p)
 {
   return p->bending;
 }
@@ -124,10 +124,10 @@ static pendres_status locate_cusps(pendres_context *ctx, pendres_course *c)
 
 /*
  * Second derivative of the first parameter by arclength in (x, v), see pendres_bifurcation, from
- * what the walk knows: with A = N - I and its null vectors l and v,
+ * what the arc knows: with A = N - I and its null vectors l and v,
  * d det A (v) = trace A / (l . v) * l . D2F(v, v).
  */
-static double curvature_of(const pendres_walk *kind, const pendres_walk_point *p)
+static double curvature_of(const pendres_arc *kind, const pendres_arc_point *p)
 {
   if (kind->condition != PENDRES_CONDITION_FOLD) return NAN;
   const double (*j)[PENDRES_U_COUNT] = (const double (*)[PENDRES_U_COUNT])p->image.j;
@@ -144,7 +144,7 @@ static double curvature_of(const pendres_walk *kind, const pendres_walk_point *p
 static void fill_point(const pendres_course *course, size_t k, pendres_curve *c)
 {
   const pendres_course_point *p = &course->point[k];
-  const pendres_walk *kind = &course->trail->kind;
+  const pendres_arc *kind = &course->trail->kind;
   const pendres_cusp *s = p->special >= 0 ? &c->cusp[p->special] : NULL;
   const pendres_continuation_pair *pair =
     s != NULL ? &course->special[p->special].located.pair : &course->pair[p->i];
@@ -311,8 +311,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       if (!pendres_located_found(status)) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
       const int again = *found > 0 &&
-                        pendres_walk_distance(located.pair.fine, last) <
-                          0.1 * pendres_walk_distance(guess, last_guess);
+                        pendres_arc_distance(located.pair.fine, last) <
+                          0.1 * pendres_arc_distance(guess, last_guess);
       memcpy(last_guess, guess, sizeof last_guess);
       memcpy(last, located.pair.fine, sizeof last);
       if (again) continue;
@@ -335,16 +335,16 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
 
 /* ---- the cusp next to a fold ---- */
 
-/* Walk until the quadratic term changes its sign. */
-static pendres_status walk_to_cusp(pendres_context *ctx, pendres_walk *w, pendres_located *out)
+/* Go along it until the quadratic term changes its sign. */
+static pendres_status follow_to_cusp(pendres_context *ctx, pendres_arc *w, pendres_located *out)
 {
-  pendres_walk_point last = w->here;
+  pendres_arc_point last = w->here;
   for (int i = 0; i < MOST_ADVANCES; i++) {
-    pendres_status status = pendres_walk_advance(ctx, 1, w);
+    pendres_status status = pendres_arc_advance(ctx, 1, w);
     if (status != PENDRES_OK) return status;
     if (w->stuck || w->here.growth > wildest) return PENDRES_NOT_FOUND;
     for (int k = 0; k < w->found; k++) {
-      const pendres_walk_point *p = &w->ahead[k];
+      const pendres_arc_point *p = &w->ahead[k];
       if (last.bending * p->bending <= 0.0) {
         const double part = last.bending / (last.bending - p->bending);
         double u[PENDRES_U_COUNT];
@@ -373,32 +373,32 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "cusp: the second parameter must be another one than the fold's");
   double u[PENDRES_U_COUNT], approach[2];
-  pendres_walk walk[2], ahead[2];
+  pendres_arc arc[2], ahead[2];
   pendres_located located;
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2; i++) {
-    walk[i] = kind_of(near, second, 0.05, u);
-    status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
+    arc[i] = kind_of(near, second, 0.05, u);
+    status = pendres_arc_begin(ctx, &arc[i], u, i == 0 ? 1.0 : -1.0);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(ctx, status, "no fold to start from at drive frequency %g",
                                   near->orbit.pendulum.drive_frequency);
     if (status != PENDRES_OK) return status;
-    ahead[i] = walk[i];
+    ahead[i] = arc[i];
   }
-  status = pendres_walk_advance(ctx, 2, ahead);
+  status = pendres_arc_advance(ctx, 2, ahead);
   if (status != PENDRES_OK) return status;
   for (int i = 0; i < 2; i++)
     approach[i] = ahead[i].found > 0
-                    ? fabs(walk[i].here.bending) - fabs(ahead[i].ahead[0].bending)
+                    ? fabs(arc[i].here.bending) - fabs(ahead[i].ahead[0].bending)
                     : -INFINITY;
   const int first = approach[0] >= approach[1] ? 0 : 1;
-  status = walk_to_cusp(ctx, &walk[first], &located);
-  if (status == PENDRES_NOT_FOUND) status = walk_to_cusp(ctx, &walk[1 - first], &located);
+  status = follow_to_cusp(ctx, &arc[first], &located);
+  if (status == PENDRES_NOT_FOUND) status = follow_to_cusp(ctx, &arc[1 - first], &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status, "the curve of folds through %g leads to no cusp",
                                 near->value);
   if (!pendres_located_found(status)) return status;
-  const pendres_status measured = finish_cusp(ctx, walk[0].unknown, &located, out);
+  const pendres_status measured = finish_cusp(ctx, arc[0].unknown, &located, out);
   if (measured != PENDRES_OK) return measured;
   if (status == PENDRES_TOLERANCE_UNREACHABLE)
     return pendres_context_fail(ctx, status, "the cusp is known to %.1e and %.1e only",

@@ -6,15 +6,15 @@
 #include "engine/context_internal.h"
 #include "continuation/continuation_locate.h"
 #include "continuation/continuation_parameter.h"
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 
 enum { MOST_ADVANCES = 200 };
 static const double widest_range = 3.0; /* of the parameter, as a ratio */
 static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
 
 /* Locate the fold between two points of opposite determinants. */
-static pendres_status between(pendres_context *ctx, const pendres_walk *w,
-                              const pendres_walk_point *a, const pendres_walk_point *b,
+static pendres_status between(pendres_context *ctx, const pendres_arc *w,
+                              const pendres_arc_point *a, const pendres_arc_point *b,
                               pendres_located *out)
 {
   const double ga = pendres_continuation_map_fold(&a->image);
@@ -34,18 +34,18 @@ static int is_far(int place, double start, double value)
   return fabs(value - start) > (widest_range - 1.0) * fabs(start) + 1.0;
 }
 
-/* Walk until the determinant changes its sign. */
-static pendres_status walk_to_fold(pendres_context *ctx, pendres_walk *w, pendres_located *out)
+/* Go along it until the determinant changes its sign. */
+static pendres_status follow_to_fold(pendres_context *ctx, pendres_arc *w, pendres_located *out)
 {
   const int place = w->unknown[2];
   const double start = w->here.u[place];
-  pendres_walk_point last = w->here;
+  pendres_arc_point last = w->here;
   for (int i = 0; i < MOST_ADVANCES; i++) {
-    pendres_status status = pendres_walk_advance(ctx, 1, w);
+    pendres_status status = pendres_arc_advance(ctx, 1, w);
     if (status != PENDRES_OK) return status;
     if (w->stuck) return PENDRES_NOT_FOUND;
     for (int k = 0; k < w->found; k++) {
-      const pendres_walk_point *p = &w->ahead[k];
+      const pendres_arc_point *p = &w->ahead[k];
       const double before = pendres_continuation_map_fold(&last.image);
       if (before != 0.0 && before * pendres_continuation_map_fold(&p->image) <= 0.0) {
         status = between(ctx, w, &last, p, out);
@@ -68,29 +68,29 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
   const double from = pendres_parameter_get(parameter, &near->pendulum);
   double u[PENDRES_U_COUNT], approach[2];
   pendres_located located;
-  pendres_walk walk[2], ahead[2];
+  pendres_arc arc[2], ahead[2];
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2; i++) {
-    walk[i] = pendres_walk_of(near, PENDRES_CONDITION_NONE, &parameter, 0.1, u);
-    status = pendres_walk_begin(ctx, &walk[i], u, i == 0 ? 1.0 : -1.0);
+    arc[i] = pendres_arc_of(near, PENDRES_CONDITION_NONE, &parameter, 0.1, u);
+    status = pendres_arc_begin(ctx, &arc[i], u, i == 0 ? 1.0 : -1.0);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(ctx, status, "no orbit to start from at %s %g",
                                   pendres_parameter_name(parameter), from);
     if (status != PENDRES_OK) return status;
-    ahead[i] = walk[i];
+    ahead[i] = arc[i];
   }
   /* Which way does the leading multiplier go to +1? */
-  status = pendres_walk_advance(ctx, 2, ahead);
+  status = pendres_arc_advance(ctx, 2, ahead);
   if (status != PENDRES_OK) return status;
   for (int i = 0; i < 2; i++) {
-    const double here = fabs(pendres_continuation_map_fold(&walk[i].here.image));
+    const double here = fabs(pendres_continuation_map_fold(&arc[i].here.image));
     approach[i] = ahead[i].found > 0
                     ? here - fabs(pendres_continuation_map_fold(&ahead[i].ahead[0].image))
                     : -INFINITY;
   }
   const int first = approach[0] >= approach[1] ? 0 : 1;
-  status = walk_to_fold(ctx, &walk[first], &located);
-  if (status == PENDRES_NOT_FOUND) status = walk_to_fold(ctx, &walk[1 - first], &located);
+  status = follow_to_fold(ctx, &arc[first], &located);
+  if (status == PENDRES_NOT_FOUND) status = follow_to_fold(ctx, &arc[1 - first], &located);
   if (status == PENDRES_NOT_FOUND)
     return pendres_context_fail(ctx, status,
                                 "the branch through %s %g has no fold near",

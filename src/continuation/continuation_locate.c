@@ -7,7 +7,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 #include "engine/steps.h"
 
 /* Rounding of a step, three times its usual size: errors claim to be bounds. */
@@ -123,7 +123,7 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
   memcpy(pair->coarse, u, sizeof pair->coarse);
   pendres_status status = pendres_continuation_map_solve(
     ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
-  if (status == PENDRES_OK && !(pendres_walk_distance(u, pair->coarse) <= reach))
+  if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);

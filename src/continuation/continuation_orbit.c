@@ -53,13 +53,13 @@ static int winding_of(const pendres_continuation_map *map)
 
 /* The samples of one candidate as they are: its point solves the equations already. */
 static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
-                                    const pendres_newton_tape *tape, double *y, double *w)
+                                    const pendres_newton_samples *taken, double *y, double *w)
 {
   reading *out = (reading *)arg + c->index;
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
-  for (size_t k = 0; k < tape->samples; k++) {
-    const double *row = pendres_newton_sample(tape, k, c->lane);
+  for (size_t k = 0; k < taken->count; k++) {
+    const double *row = pendres_newton_sample(taken, k, c->lane);
     y[k] = row[0];
     w[k] = row[1];
   }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 #include "orbits/orbit_newton.h"
 
 static const char *const names[PENDRES_PARAMETER_COUNT] = {
@@ -44,7 +44,7 @@ void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pe
 
 double pendres_parameter_scale(pendres_parameter parameter)
 {
-  return pendres_walk_scale[PENDRES_U_OMEGA + (int)parameter];
+  return pendres_arc_scale[PENDRES_U_OMEGA + (int)parameter];
 }
 
 const char *pendres_continuation_refuses(const pendres_orbit *o, pendres_parameter parameter)

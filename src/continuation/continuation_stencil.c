@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 
 enum { PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 
@@ -31,7 +31,7 @@ static void add_beyond(pendres_continuation_stencil *s, const pendres_continuati
     at = (at + p->count + (size_t)(side < 0 ? p->count - 1 : 1)) % p->count;
     if (at == other) return;
     next_to(p, at, here, beyond);
-    away += pendres_walk_distance(here, beyond);
+    away += pendres_arc_distance(here, beyond);
     memcpy(here, beyond, sizeof here);
   }
   memcpy(s->u[s->nodes], here, sizeof here);
@@ -44,7 +44,7 @@ void pendres_continuation_stencil_init(pendres_continuation_stencil *s,
   const size_t k = (i + 1) % p->count;
   memcpy(s->u[0], p->u[i], sizeof s->u[0]);
   next_to(p, k, s->u[0], s->u[1]);
-  s->length = pendres_walk_distance(s->u[0], s->u[1]);
+  s->length = pendres_arc_distance(s->u[0], s->u[1]);
   s->nodes = 2;
   s->t[0] = 0.0;
   s->t[1] = s->length;

@@ -11,19 +11,19 @@
 
 /* ---- one way of a start ---- */
 
-/* The walks under way: two for each start, and what they have found. */
+/* The arcs under way: two for each start, and what they have found. */
 typedef struct way {
   size_t count, capacity;
-  pendres_walk_point *point; /* without the start */
+  pendres_arc_point *point; /* without the start */
   pendres_branch_end end;
   int going;
 } way;
 
-static int add(way *w, const pendres_walk_point *point)
+static int add(way *w, const pendres_arc_point *point)
 {
   if (w->count == w->capacity) {
     const size_t capacity = 2 * w->capacity + 64;
-    pendres_walk_point *grown = realloc(w->point, capacity * sizeof *grown);
+    pendres_arc_point *grown = realloc(w->point, capacity * sizeof *grown);
     if (grown == NULL) return -1;
     w->point = grown;
     w->capacity = capacity;
@@ -33,7 +33,7 @@ static int add(way *w, const pendres_walk_point *point)
 }
 
 /* The parameter among the unknowns that is out of its bounds, -1 if none; its bound. */
-static int out_of_bounds(const pendres_walk *w, const pendres_trail_bounds *b,
+static int out_of_bounds(const pendres_arc *w, const pendres_trail_bounds *b,
                          const double u[PENDRES_U_COUNT], double *bound)
 {
   for (int k = 2; k < w->unknowns; k++) {
@@ -47,9 +47,9 @@ static int out_of_bounds(const pendres_walk *w, const pendres_trail_bounds *b,
 }
 
 /* The point of the curve on a bound, between the last point inside and the first outside. */
-static pendres_status land(pendres_context *ctx, const pendres_walk *w,
-                           const pendres_walk_point *inside, const pendres_walk_point *outside,
-                           int k, double bound, pendres_walk_point *point, int *landed)
+static pendres_status land(pendres_context *ctx, const pendres_arc *w,
+                           const pendres_arc_point *inside, const pendres_arc_point *outside,
+                           int k, double bound, pendres_arc_point *point, int *landed)
 {
   const int place = w->unknown[k];
   const double way_out = outside->u[place] - inside->u[place];
@@ -67,16 +67,16 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
   pendres_status status =
     pendres_continuation_map_steps(ctx, w->map.force, u[0], w->tolerance, &steps);
   if (status == PENDRES_OK)
-    status = pendres_walk_correct(ctx, w, 1, point, &steps, u, &rounding);
-  const double chord = pendres_walk_distance(inside->u, outside->u);
+    status = pendres_arc_correct(ctx, w, 1, point, &steps, u, &rounding);
+  const double chord = pendres_arc_distance(inside->u, outside->u);
   if (status != PENDRES_OK || isnan(rounding) ||
-      pendres_walk_distance(inside->u, u[0]) > chord ||
+      pendres_arc_distance(inside->u, u[0]) > chord ||
       fabs(u[0][place] - bound) > 1e-12)
     return status;
   memcpy(point->u, u[0], sizeof point->u);
   point->u[place] = bound;
   point->held = k + 1;
-  point->arclength = inside->arclength + pendres_walk_distance(inside->u, u[0]);
+  point->arclength = inside->arclength + pendres_arc_distance(inside->u, u[0]);
   point->bending = inside->bending + part * (outside->bending - inside->bending);
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
@@ -89,7 +89,7 @@ static pendres_status land(pendres_context *ctx, const pendres_walk *w,
 
 /* By what y of a point is larger than that of another in whole turns: of a half map, whose mirror
    stands in one place, and without a period of the coordinate nothing. */
-static double turns_between(const pendres_walk *w, const double from[PENDRES_U_COUNT],
+static double turns_between(const pendres_arc *w, const double from[PENDRES_U_COUNT],
                             const double to[PENDRES_U_COUNT])
 {
   const double turn = pendres_model_of(w->map.force)->period;
@@ -99,8 +99,8 @@ static double turns_between(const pendres_walk *w, const double from[PENDRES_U_C
 
 /* Whether the chord from a to b passes the start in the start's own direction, whole turns away
    perhaps. */
-static int passes(const pendres_walk *w, const pendres_walk_point *start,
-                  const pendres_walk_point *a, const pendres_walk_point *b)
+static int passes(const pendres_arc *w, const pendres_arc_point *start,
+                  const pendres_arc_point *a, const pendres_arc_point *b)
 {
   double before = 0.0, behind = 0.0, along = 0.0, here[PENDRES_U_COUNT];
   memcpy(here, start->u, sizeof here);
@@ -108,19 +108,19 @@ static int passes(const pendres_walk *w, const pendres_walk_point *start,
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
     const double t = start->tangent[k];
-    before += t * (a->u[i] - here[i]) / pendres_walk_scale[i];
-    behind += t * (b->u[i] - here[i]) / pendres_walk_scale[i];
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale[i];
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale[i];
     along += t * b->tangent[k];
   }
-  const double chord = pendres_walk_distance(a->u, b->u);
+  const double chord = pendres_arc_distance(a->u, b->u);
   return before < 0.0 && behind >= 0.0 && along > 0.9 &&
-         pendres_walk_distance(a->u, here) <= chord &&
-         pendres_walk_distance(b->u, here) <= chord;
+         pendres_arc_distance(a->u, here) <= chord &&
+         pendres_arc_distance(b->u, here) <= chord;
 }
 
-/* Take over what a walk has found ahead of it. */
-static pendres_status take(pendres_context *ctx, const pendres_walk *w,
-                           const pendres_trail_bounds *b, const pendres_walk_point *start, way *to)
+/* Take over what an arc has found ahead of it. */
+static pendres_status take(pendres_context *ctx, const pendres_arc *w,
+                           const pendres_trail_bounds *b, const pendres_arc_point *start, way *to)
 {
   pendres_status status = PENDRES_OK;
   if (w->stuck) {
@@ -128,9 +128,9 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
     to->end = PENDRES_END_STUCK;
   }
   for (int i = 0; i < w->found && to->going; i++) {
-    const pendres_walk_point *p = &w->ahead[i];
-    const pendres_walk_point *last = to->count > 0 ? &to->point[to->count - 1] : start;
-    pendres_walk_point landing;
+    const pendres_arc_point *p = &w->ahead[i];
+    const pendres_arc_point *last = to->count > 0 ? &to->point[to->count - 1] : start;
+    pendres_arc_point landing;
     double bound = 0.0;
     int landed = 0;
     const int k = out_of_bounds(w, b, p->u, &bound);
@@ -142,7 +142,7 @@ static pendres_status take(pendres_context *ctx, const pendres_walk *w,
       if (landed && add(to, &landing) != 0) goto no_memory;
       break;
     }
-    if (p->arclength > 4.0 * pendres_walk_distance(last->u, p->u) &&
+    if (p->arclength > 4.0 * pendres_arc_distance(last->u, p->u) &&
         passes(w, start, last, p)) {
       to->going = 0;
       to->end = PENDRES_END_CLOSED;
@@ -171,8 +171,8 @@ void pendres_trail_free(pendres_trail *trail)
 }
 
 /* One curve of the way back, the start, and the way forth. */
-static pendres_status join(pendres_context *ctx, const pendres_walk *kind,
-                           const pendres_walk_point *start, way ways[2], pendres_trail *t)
+static pendres_status join(pendres_context *ctx, const pendres_arc *kind,
+                           const pendres_arc_point *start, way ways[2], pendres_trail *t)
 {
   *t = (pendres_trail){.kind = *kind, .closed = ways[0].end == PENDRES_END_CLOSED};
   if (t->closed) ways[1].count = 0; /* it is the same curve the other way round */
@@ -208,14 +208,14 @@ static pendres_status join(pendres_context *ctx, const pendres_walk *kind,
   return PENDRES_OK;
 }
 
-/* Advance the walks that still go until none does. */
-static pendres_status run(pendres_context *ctx, size_t n, pendres_walk *walks,
-                          const pendres_walk_point *starts, const pendres_trail_bounds *bounds,
+/* Advance the arcs that still go until none does. */
+static pendres_status run(pendres_context *ctx, size_t n, pendres_arc *arcs,
+                          const pendres_arc_point *starts, const pendres_trail_bounds *bounds,
                           way *ways)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   size_t *index = malloc((n + 1) * sizeof *index);
-  pendres_walk *some = malloc((n + 1) * sizeof *some);
+  pendres_arc *some = malloc((n + 1) * sizeof *some);
   if (index == NULL || some == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for a branch");
     goto done;
@@ -226,14 +226,14 @@ static pendres_status run(pendres_context *ctx, size_t n, pendres_walk *walks,
     for (size_t i = 0; i < n; i++)
       if (ways[i].going) {
         index[count] = i;
-        some[count++] = walks[i];
+        some[count++] = arcs[i];
       }
     if (count == 0) break;
-    status = pendres_walk_advance(ctx, count, some);
+    status = pendres_arc_advance(ctx, count, some);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++) {
       const size_t k = index[i];
-      walks[k] = some[i];
-      status = take(ctx, &walks[k], bounds, &starts[k], &ways[k]);
+      arcs[k] = some[i];
+      status = take(ctx, &arcs[k], bounds, &starts[k], &ways[k]);
       /* The other way of a closed curve is the same curve. */
       if (ways[k].end == PENDRES_END_CLOSED && !ways[k].going && k % 2 == 0) ways[k + 1].going = 0;
     }
@@ -251,30 +251,30 @@ pendres_status pendres_trail_follow(pendres_context *ctx, size_t n,
                                     size_t *which)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_walk *walks = calloc(2 * n + 1, sizeof *walks);
-  pendres_walk_point *begin = calloc(2 * n + 1, sizeof *begin);
+  pendres_arc *arcs = calloc(2 * n + 1, sizeof *arcs);
+  pendres_arc_point *begin = calloc(2 * n + 1, sizeof *begin);
   way *ways = calloc(2 * n + 1, sizeof *ways);
   memset(trails, 0, n * sizeof *trails);
-  if (walks == NULL || begin == NULL || ways == NULL) {
+  if (arcs == NULL || begin == NULL || ways == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for a branch");
     goto done;
   }
   status = PENDRES_OK;
   for (size_t i = 0; i < 2 * n && status == PENDRES_OK; i++) {
-    walks[i] = starts[i / 2].kind;
+    arcs[i] = starts[i / 2].kind;
     if (which != NULL) *which = i / 2;
-    status = pendres_walk_begin(ctx, &walks[i], starts[i / 2].u, i % 2 == 0 ? 1.0 : -1.0);
-    begin[i] = walks[i].here;
+    status = pendres_arc_begin(ctx, &arcs[i], starts[i / 2].u, i % 2 == 0 ? 1.0 : -1.0);
+    begin[i] = arcs[i].here;
     ways[i].going = 1;
   }
-  if (status == PENDRES_OK) status = run(ctx, 2 * n, walks, begin, bounds, ways);
+  if (status == PENDRES_OK) status = run(ctx, 2 * n, arcs, begin, bounds, ways);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     begin[2 * i + 1].arclength = 0.0;
-    status = join(ctx, &walks[2 * i], &begin[2 * i], &ways[2 * i], &trails[i]);
+    status = join(ctx, &arcs[2 * i], &begin[2 * i], &ways[2 * i], &trails[i]);
   }
 done:
   for (size_t i = 0; i < 2 * n && ways != NULL; i++) free(ways[i].point);
-  free(walks);
+  free(arcs);
   free(begin);
   free(ways);
   if (status != PENDRES_OK)
@@ -290,19 +290,19 @@ done:
  * fold that would lead around it: there a parameter that is off by so much moves the orbit by the
  * root of it.
  */
-static void to_one_parameter(const pendres_walk *w, const pendres_walk_point *at,
+static void to_one_parameter(const pendres_arc *w, const pendres_arc_point *at,
                              pendres_continuation_pair *pair)
 {
   const int place = w->unknown[2];
   const double along = at->tangent[2];
-  const double off = (pair->fine[place] - pair->coarse[place]) / pendres_walk_scale[place];
+  const double off = (pair->fine[place] - pair->coarse[place]) / pendres_arc_scale[place];
   if (!(fabs(off) < 0.05 * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
     return;
   }
   for (int k = 0; k < w->unknowns; k++)
     pair->coarse[w->unknown[k]] +=
-      pendres_walk_scale[w->unknown[k]] * at->tangent[k] * off / along;
+      pendres_arc_scale[w->unknown[k]] * at->tangent[k] * off / along;
   pair->coarse[place] = pair->fine[place];
   pair->rounding /= fmax(fabs(along), 1e-3);
 }
@@ -312,7 +312,7 @@ typedef struct polish {
   const pendres_trail *trail;
   pendres_continuation_pair *pairs;
   size_t left, *index; /* of the points left */
-  pendres_walk_point *point;
+  pendres_arc_point *point;
   double (*u)[PENDRES_U_COUNT], *rounding;
   int *steps;
 } polish;
@@ -353,7 +353,7 @@ static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
 static pendres_status correct(pendres_context *ctx, polish *w, int fine)
 {
   enum { CHUNK = 1024 };
-  const pendres_walk *kind = &w->trail->kind;
+  const pendres_arc *kind = &w->trail->kind;
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < w->left; i++) {
     pendres_continuation_pair *p = &w->pairs[w->index[i]];
@@ -370,12 +370,12 @@ static pendres_status correct(pendres_context *ctx, polish *w, int fine)
     memcpy(w->u[i], p->coarse, sizeof w->u[i]);
   }
   for (size_t first = 0; first < w->left && status == PENDRES_OK; first += CHUNK)
-    status = pendres_walk_correct(ctx, kind, w->left - first < CHUNK ? w->left - first : CHUNK,
-                                  w->point + first, w->steps + first, w->u + first,
-                                  w->rounding + first);
+    status = pendres_arc_correct(ctx, kind, w->left - first < CHUNK ? w->left - first : CHUNK,
+                                 w->point + first, w->steps + first, w->u + first,
+                                 w->rounding + first);
   for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
     pendres_continuation_pair *p = &w->pairs[w->index[i]];
-    /* What cannot be corrected stays where the walk left it, with an error that says so. */
+    /* What cannot be corrected stays where the arc left it, with an error that says so. */
     memcpy(fine ? p->fine : p->coarse, w->u[i], sizeof w->u[i]);
     p->rounding = isnan(w->rounding[i]) ? kind->tolerance : w->rounding[i];
   }
@@ -386,7 +386,7 @@ static pendres_status correct(pendres_context *ctx, polish *w, int fine)
 static double errors_at(const pendres_trail *t, size_t i, const pendres_continuation_pair *p,
                         double error[2])
 {
-  const pendres_walk *w = &t->kind;
+  const pendres_arc *w = &t->kind;
   const double point = hypot(p->fine[PENDRES_U_Y] - p->coarse[PENDRES_U_Y],
                              p->fine[PENDRES_U_W] - p->coarse[PENDRES_U_W]);
   /* Next to a fold the orbit at the parameter moves the more for it, see to_one_parameter(). */
@@ -398,7 +398,7 @@ static double errors_at(const pendres_trail *t, size_t i, const pendres_continua
     /* Where two values of a parameter agree by chance it is not known better than its point. */
     const double e = pendres_continuation_orbit_error(
       p->coarse[place], p->fine[place],
-      pendres_walk_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
+      pendres_arc_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
     if (k >= 2) error[k - 2] = e;
     worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
   }

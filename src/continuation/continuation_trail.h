@@ -1,7 +1,7 @@
 /*
  * continuation_trail.h -- whole curves: both ways from a start, within bounds, with their zeros.
  *
- * Owns: running walks to their ends, putting the two ways of a start together, correcting all
+ * Owns: running arcs to their ends, putting the two ways of a start together, correcting all
  * points at two numbers of steps, and finding where test functions change their sign.
  */
 #ifndef PENDRES_CONTINUATION_TRAIL_H
@@ -10,19 +10,19 @@
 #include <pendres/continuation.h>
 
 #include "continuation/continuation_orbit.h"
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 
 typedef struct pendres_trail {
-  pendres_walk kind; /* map, condition and unknowns; its place is not meaningful */
+  pendres_arc kind; /* map, condition and unknowns; its place is not meaningful */
   size_t count, capacity;
-  pendres_walk_point *point; /* in order, arclength ascending from 0 */
+  pendres_arc_point *point; /* in order, arclength ascending from 0 */
   pendres_branch_end end[2];
   int closed; /* the last point is followed by the first, */
   double round; /* whose y is meant to be so much larger: whole turns, where the way round leads
                    from well to well */
 } pendres_trail;
 
-/* Bounds of the parameters among the unknowns, in their order, and of the walk. */
+/* Bounds of the parameters among the unknowns, in their order, and of the arc. */
 typedef struct pendres_trail_bounds {
   double low[2], high[2];
   double wildest;
@@ -31,7 +31,7 @@ typedef struct pendres_trail_bounds {
 
 /* A solution to start from, and the curve that it lies on. */
 typedef struct pendres_trail_start {
-  pendres_walk kind;
+  pendres_arc kind;
   double u[PENDRES_U_COUNT];
 } pendres_trail_start;
 
@@ -51,7 +51,7 @@ pendres_status pendres_trail_polish(pendres_context *ctx, const pendres_trail *t
                                     pendres_continuation_pair *pairs, double (*error)[2]);
 
 /* A function of a point of a trail. */
-typedef double pendres_trail_test(const pendres_walk_point *point);
+typedef double pendres_trail_test(const pendres_arc_point *point);
 
 /* Where a test function is thought to vanish: between points i and i + 1 (or the first, if closed),
    this share of the way. */

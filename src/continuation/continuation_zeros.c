@@ -18,12 +18,12 @@ enum { MOST_TRIALS = 24 };
 double pendres_trail_between(const pendres_trail *t, const pendres_trail_zero *z,
                              double u[PENDRES_U_COUNT])
 {
-  const pendres_walk_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
+  const pendres_arc_point *a = &t->point[z->i], *b = &t->point[(z->i + 1) % t->count];
   double end[PENDRES_U_COUNT];
   memcpy(end, b->u, sizeof end);
   if (z->i + 1 == t->count) end[PENDRES_U_Y] += t->round;
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + z->part * (end[i] - a->u[i]);
-  return pendres_walk_distance(a->u, end);
+  return pendres_arc_distance(a->u, end);
 }
 
 /* ---- parabolas through three points ---- */
@@ -164,8 +164,8 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
 
 /* The point of the curve near the place s between two points: linear, then corrected. */
 static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
-                               const pendres_walk_point *a, const pendres_walk_point *b, double s,
-                               pendres_walk_point *out, int *good)
+                               const pendres_arc_point *a, const pendres_arc_point *b, double s,
+                               pendres_arc_point *out, int *good)
 {
   const double part = (s - a->arclength) / (b->arclength - a->arclength);
   double u[1][PENDRES_U_COUNT], rounding = NAN;
@@ -176,20 +176,20 @@ static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
     pendres_continuation_map_steps(ctx, t->kind.map.force, u[0], pendres_accuracy_first(ctx),
                                    &steps);
   if (status == PENDRES_OK)
-    status = pendres_walk_correct(ctx, &t->kind, 1, out, &steps, u, &rounding);
+    status = pendres_arc_correct(ctx, &t->kind, 1, out, &steps, u, &rounding);
   *good = status == PENDRES_OK && !isnan(rounding);
   if (!*good) return status;
   memcpy(out->u, u[0], sizeof out->u);
   out->held = 0;
   out->arclength = s;
-  return pendres_walk_describe(ctx, &t->kind, steps, out);
+  return pendres_arc_describe(ctx, &t->kind, steps, out);
 }
 
-static int insert(pendres_trail *t, size_t at, const pendres_walk_point *p)
+static int insert(pendres_trail *t, size_t at, const pendres_arc_point *p)
 {
   if (t->count == t->capacity) {
     const size_t capacity = t->count + t->count / 2 + 16;
-    pendres_walk_point *grown = realloc(t->point, capacity * sizeof *grown);
+    pendres_arc_point *grown = realloc(t->point, capacity * sizeof *grown);
     if (grown == NULL) return -1;
     t->point = grown;
     t->capacity = capacity;
@@ -205,8 +205,8 @@ static int insert(pendres_trail *t, size_t at, const pendres_walk_point *p)
  * *found: a point of the other sign was met; it is then *beyond, and points are its neighbours.
  */
 static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
-                              pendres_trail_test *test, pendres_walk_point points[3],
-                              pendres_walk_point *beyond, int *found)
+                              pendres_trail_test *test, pendres_arc_point points[3],
+                              pendres_arc_point *beyond, int *found)
 {
   *found = 0;
   for (int trial = 0; trial < MOST_TRIALS; trial++) {
@@ -225,7 +225,7 @@ static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
     if (!(next > s[0] && next < s[2]) || fabs(next - s[1]) < 0.02 * width || trial % 4 == 3)
       next = s[2] - s[1] > s[1] - s[0] ? 0.5 * (s[1] + s[2]) : 0.5 * (s[0] + s[1]);
     const int side = next < s[1] ? 0 : 1;
-    pendres_walk_point here;
+    pendres_arc_point here;
     const pendres_status status =
       point_at(ctx, t, &points[side], &points[side + 1], next, &here, &good);
     if (status != PENDRES_OK) return status;
@@ -250,7 +250,7 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *t,
                                     pendres_trail_test *test)
 {
   for (size_t i = 1; i + 1 < t->count; i++) {
-    pendres_walk_point points[3], beyond;
+    pendres_arc_point points[3], beyond;
     int found = 0;
     double g[3];
     for (size_t m = 0; m < 3; m++) {
@@ -262,7 +262,7 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *t,
     if (status != PENDRES_OK) return status;
     if (!found) continue;
     /* The least one, and the one of the other sign, in order; what was there is kept. */
-    pendres_walk_point more[2] = {found == 1 ? beyond : points[1], found == 1 ? points[1] : beyond};
+    pendres_arc_point more[2] = {found == 1 ? beyond : points[1], found == 1 ? points[1] : beyond};
     for (int m = 0; m < 2; m++) {
       size_t at = i - 1;
       while (at < t->count && t->point[at].arclength < more[m].arclength) at++;

@@ -44,7 +44,7 @@ double pendres_accuracy_with_noise(const pendres_context *ctx)
   return fmax(1e-6, ctx->options.tolerance);
 }
 
-double pendres_accuracy_to_walk(void)
+double pendres_accuracy_of_arcs(void)
 {
   return 1e-7;
 }

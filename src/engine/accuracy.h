@@ -36,14 +36,14 @@ double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing);
 double pendres_accuracy_to_sample(const pendres_context *ctx);
 
 /* Of trajectories that are averaged over long times, as for exponents: they forget their errors
-   (chaos_walk.c). */
+   (chaos_walkers.c). */
 double pendres_accuracy_to_average(const pendres_context *ctx);
 
 /* Of noisy trajectories, whose scatter hides errors far larger than rounding. */
 double pendres_accuracy_with_noise(const pendres_context *ctx);
 
-/* Of walks along branches: a walk's points are corrected anew when it is over. */
-double pendres_accuracy_to_walk(void);
+/* Of arcs along branches: an arc's points are corrected anew when it is over. */
+double pendres_accuracy_of_arcs(void);
 
 /* ---- tolerances of methods that choose their own steps (strobe_run.h) ---- */
 

@@ -8,7 +8,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "noise/noise_plan.h"
+#include "noise/noise_common.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
 

@@ -9,7 +9,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
-#include "noise/noise_plan.h"
+#include "noise/noise_common.h"
 
 enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
-#include "noise/noise_plan.h"
+#include "noise/noise_common.h"
 
 const char *pendres_switching_way_name(pendres_switching_way way)
 {

@@ -7,7 +7,7 @@
 
 #include "base/angles.h"
 #include "base/student.h"
-#include "orbits/chaos_walk.h"
+#include "orbits/chaos_walkers.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/recurrence.h"
@@ -49,8 +49,8 @@ typedef struct vigil {
   pendres_walker a[WALKERS];
   int batches; /* whole ones so far */
   long length; /* periods of each */
-  double batch[WALKERS][BATCHES][PENDRES_WALK_MEASURES];
-  pendres_walk_trace trace;
+  double batch[WALKERS][BATCHES][PENDRES_WALKER_MEASURES];
+  pendres_walker_trace trace;
   double y[WALKERS * KEPT], w[WALKERS * KEPT];
 } vigil;
 
@@ -104,10 +104,10 @@ static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue
     const pendres_strobe_lane *l = lanes[i * n / asked];
     a[i] = pendres_walker_at(l->y, l->w);
   }
-  const pendres_status status = pendres_walk(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
+  const pendres_status status = pendres_walkers_advance(ctx, c, asked, a, SUSPECT_PERIODS, NULL);
   *any = 0;
   for (size_t i = 0; i < asked && !*any && status == PENDRES_OK; i++)
-    if (a[i].trapped == 0 && a[i].sum[PENDRES_WALK_GROWTH] > suspicious) {
+    if (a[i].trapped == 0 && a[i].sum[PENDRES_WALKER_GROWTH] > suspicious) {
       *suspect = a[i];
       *any = 1;
     }
@@ -117,10 +117,10 @@ static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue
 /* Chaos that ends: how long it lasts, from the walkers that have left by now. */
 static void note_lifetime(pendres_catalogue *c, const vigil *v, size_t left)
 {
-  double walked = 0.0;
+  double lived = 0.0;
   for (size_t i = 0; i < WALKERS; i++)
-    walked += (double)(v->a[i].trapped > 0 ? v->a[i].trapped : v->a[i].periods);
-  if (left > 0) c->transient = fmax(c->transient, walked / (double)left);
+    lived += (double)(v->a[i].trapped > 0 ? v->a[i].trapped : v->a[i].periods);
+  if (left > 0) c->transient = fmax(c->transient, lived / (double)left);
 }
 
 static size_t trapped_walkers(const vigil *v)
@@ -147,7 +147,7 @@ static pendres_status send_out(pendres_context *ctx, pendres_catalogue *c,
       const double angle = 2.39996322972865332 * (double)i;
       v->a[i] = pendres_walker_at(from.y + radius * cos(angle), from.w + radius * sin(angle));
     }
-    const pendres_status status = pendres_walk(ctx, c, WALKERS, v->a, WARM_UP, NULL);
+    const pendres_status status = pendres_walkers_advance(ctx, c, WALKERS, v->a, WARM_UP, NULL);
     if (status != PENDRES_OK) return status;
     const size_t left = trapped_walkers(v);
     note_lifetime(c, v, left);
@@ -164,7 +164,7 @@ static void merge_batches(vigil *v)
 {
   for (size_t i = 0; i < WALKERS; i++)
     for (int b = 0; b < BATCHES / 2; b++)
-      for (int m = 0; m < PENDRES_WALK_MEASURES; m++)
+      for (int m = 0; m < PENDRES_WALKER_MEASURES; m++)
         v->batch[i][b][m] = v->batch[i][2 * b][m] + v->batch[i][2 * b + 1][m];
   v->batches = BATCHES / 2;
   v->length *= 2;
@@ -173,7 +173,8 @@ static void merge_batches(vigil *v)
 static pendres_status next_batch(pendres_context *ctx, const pendres_catalogue *c, vigil *v)
 {
   for (size_t i = 0; i < WALKERS; i++) memset(v->a[i].sum, 0, sizeof v->a[i].sum);
-  const pendres_status status = pendres_walk(ctx, c, WALKERS, v->a, v->length, &v->trace);
+  const pendres_status status =
+    pendres_walkers_advance(ctx, c, WALKERS, v->a, v->length, &v->trace);
   for (size_t i = 0; i < WALKERS && status == PENDRES_OK; i++)
     memcpy(v->batch[i][v->batches], v->a[i].sum, sizeof v->a[i].sum);
   v->batches += status == PENDRES_OK;
@@ -195,7 +196,7 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, co
   for (size_t i = 0; i < WALKERS; i++) {
     double y[PENDRES_RECURRENCE_POINTS], w[PENDRES_RECURRENCE_POINTS];
     pendres_recurrence r;
-    if (!(v->batch[i][v->batches - 1][PENDRES_WALK_GROWTH] < 0.0)) continue;
+    if (!(v->batch[i][v->batches - 1][PENDRES_WALKER_GROWTH] < 0.0)) continue;
     for (long k = 0; k < points; k++) {
       const size_t at = i * KEPT + (size_t)((v->trace.filled - points + k) % KEPT);
       y[k] = v->y[at];
@@ -212,7 +213,7 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, co
 /* ---- statistics ---- */
 
 /* Mean a period of what walkers have, and its standard error. */
-static pendres_chaos_mean mean_of(const vigil *v, pendres_walk_measure m, double *ratio)
+static pendres_chaos_mean mean_of(const vigil *v, pendres_walker_measure m, double *ratio)
 {
   const double periods = (double)v->length, batches = v->batches;
   double mean[WALKERS], sum = 0.0, between = 0.0, within = 0.0;
@@ -247,7 +248,7 @@ static size_t calm_walkers(const vigil *v)
   for (size_t i = 0; i < WALKERS; i++) {
     double growth = 0.0;
     for (int b = v->batches / 2; b < v->batches; b++)
-      growth += v->batch[i][b][PENDRES_WALK_GROWTH];
+      growth += v->batch[i][b][PENDRES_WALKER_GROWTH];
     calm += !(growth > 0.0);
   }
   return calm;
@@ -256,8 +257,8 @@ static size_t calm_walkers(const vigil *v)
 /* Whether walkers differ by no more than chance has them: they are on one attractor then. */
 static int alike(const vigil *v)
 {
-  static const pendres_walk_measure telling[] = {PENDRES_WALK_GROWTH, PENDRES_WALK_TURNS,
-                                                 PENDRES_WALK_SPEED};
+  static const pendres_walker_measure telling[] = {PENDRES_WALKER_GROWTH, PENDRES_WALKER_TURNS,
+                                                   PENDRES_WALKER_SPEED};
   for (size_t k = 0; k < sizeof telling / sizeof telling[0]; k++) {
     double ratio = 0.0;
     (void)mean_of(v, telling[k], &ratio);
@@ -274,11 +275,11 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
   const double late = fmin((double)pendres_settle_first_budget(&c->pendulum), 0.5 * each);
   const double watched = WALKERS * (each - late);
   pendres_chaos_measures m = {
-    .growth = mean_of(v, PENDRES_WALK_GROWTH, &ratio),
-    .work = confident(mean_of(v, PENDRES_WALK_WORK, &ratio)),
-    .loss = confident(mean_of(v, PENDRES_WALK_LOSS, &ratio)),
-    .amplitude = confident(mean_of(v, PENDRES_WALK_AMPLITUDE, &ratio)),
-    .turns = confident(mean_of(v, PENDRES_WALK_TURNS, &ratio)),
+    .growth = mean_of(v, PENDRES_WALKER_GROWTH, &ratio),
+    .work = confident(mean_of(v, PENDRES_WALKER_WORK, &ratio)),
+    .loss = confident(mean_of(v, PENDRES_WALKER_LOSS, &ratio)),
+    .amplitude = confident(mean_of(v, PENDRES_WALKER_AMPLITUDE, &ratio)),
+    .turns = confident(mean_of(v, PENDRES_WALKER_TURNS, &ratio)),
     .watched_periods = watched,
     .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
   /* In the long run friction takes what the drive gives. */
@@ -363,7 +364,7 @@ pendres_status pendres_chaos_find(pendres_context *ctx, pendres_catalogue *c, si
   vigil *v = calloc(1, sizeof *v);
   if (v == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for chaotic motion");
-  v->trace = (pendres_walk_trace){.length = KEPT, .y = v->y, .w = v->w};
+  v->trace = (pendres_walker_trace){.length = KEPT, .y = v->y, .w = v->w};
   status = send_out(ctx, c, &suspect, v, &together);
   if (status == PENDRES_OK && !together) *verdict = PENDRES_CHAOS_TRANSIENT;
   if (status == PENDRES_OK && together) status = watch(ctx, c, v, verdict);

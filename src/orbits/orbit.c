@@ -38,14 +38,14 @@ typedef struct reading {
 } reading;
 
 /* The loop area's slope, and the same from an integral by parts; 0 if that cannot be told. */
-static int take_slope(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+static int take_slope(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                       result *out)
 {
-  const size_t n = tape->samples;
+  const size_t n = taken->count;
   double sum = 0.0, parts = 0.0, squares = 0.0, by_omega[2];
   if (!pendres_newton_solve(c->m, c->by_omega, by_omega, NULL)) return 0;
   for (size_t k = 0; k < n; k++) {
-    const double *row = pendres_newton_sample(tape, k, c->lane);
+    const double *row = pendres_newton_sample(taken, k, c->lane);
     const double theta = two_pi * c->guess->period * (double)k / (double)n;
     const double derivative = row[7] + row[3] * by_omega[0] + row[5] * by_omega[1];
     sum += cos(theta) * derivative;
@@ -65,20 +65,20 @@ static int take_slope(const pendres_newton_candidate *c, const pendres_newton_ta
 
 /* The samples of one candidate, moved to the corrected point by the linearised flow. */
 static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
-                                    const pendres_newton_tape *tape, double *y, double *w)
+                                    const pendres_newton_samples *taken, double *y, double *w)
 {
   const reading *r = arg;
   result *out = &r->results[c->index];
   double shift[2] = {0.0, 0.0};
-  if (!pendres_newton_closed(c, tape, y, w, shift)) return NULL;
+  if (!pendres_newton_closed(c, taken, y, w, shift)) return NULL;
   out->y = c->y + shift[0];
   out->w = c->w + shift[1];
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
   memcpy(out->off, shift, sizeof out->off);
   out->dy = out->dw = out->slope = out->slope_apart = out->derivative = NAN;
-  if (r->want == PENDRES_ORBIT_FREQUENCY_SLOPE && !take_slope(c, tape, out)) return NULL;
-  if (!tape->bends) out->noise = pendres_newton_noise_of(c, tape);
+  if (r->want == PENDRES_ORBIT_FREQUENCY_SLOPE && !take_slope(c, taken, out)) return NULL;
+  if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
   return &out->measures;
 }
 

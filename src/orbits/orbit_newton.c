@@ -26,13 +26,13 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   return pendres_passage_refuses(&o->pendulum, o->x, o->v);
 }
 
-void pendres_newton_tape_free(pendres_newton_tape *tape)
+void pendres_newton_samples_free(pendres_newton_samples *taken)
 {
-  free(tape->data);
-  *tape = (pendres_newton_tape){0};
+  free(taken->data);
+  *taken = (pendres_newton_samples){0};
 }
 
-static int tape_prepare(pendres_newton_tape *t, size_t samples, size_t lanes, size_t rows)
+static int prepare_samples(pendres_newton_samples *t, size_t samples, size_t lanes, size_t rows)
 {
   const size_t wanted = samples * lanes * rows;
   if (wanted > t->size) {
@@ -41,14 +41,14 @@ static int tape_prepare(pendres_newton_tape *t, size_t samples, size_t lanes, si
     t->data = data;
     t->size = wanted;
   }
-  t->samples = samples;
+  t->count = samples;
   t->lanes = lanes;
   t->rows = rows;
   return 0;
 }
 
 typedef struct recorder {
-  pendres_newton_tape *tape;
+  pendres_newton_samples *taken;
   size_t offset;
 } recorder;
 
@@ -56,10 +56,10 @@ static void record(void *arg, int step, const pendres_rows *rows)
 {
   const recorder *r = arg;
   const size_t sample = r->offset + (size_t)step;
-  if (sample >= r->tape->samples) return; /* the end of the orbit is its beginning */
-  double *to = r->tape->data + sample * r->tape->lanes * r->tape->rows;
-  for (size_t lane = 0; lane < r->tape->lanes; lane++)
-    for (size_t row = 0; row < r->tape->rows; row++)
+  if (sample >= r->taken->count) return; /* the end of the orbit is its beginning */
+  double *to = r->taken->data + sample * r->taken->lanes * r->taken->rows;
+  for (size_t lane = 0; lane < r->taken->lanes; lane++)
+    for (size_t row = 0; row < r->taken->rows; row++)
       *to++ = pendres_rows_get(rows, (int)row, lane);
 }
 
@@ -101,7 +101,7 @@ static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_ca
 
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    size_t first, pendres_orbit_want want,
-                                   pendres_newton_tape *tape, size_t *last)
+                                   pendres_newton_samples *taken, size_t *last)
 {
   pendres_block b;
   const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
@@ -111,7 +111,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   if (status != PENDRES_OK) return status;
 
   const pendres_model_terms model = pendres_model_kind(&c[first].guess->pendulum);
-  const int companions = tape != NULL && tape->bends ? 2 : 0;
+  const int companions = taken != NULL && taken->bends ? 2 : 0;
   const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
   size_t lanes = 0;
   while (first + lanes < n && lanes < most &&
@@ -121,15 +121,16 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   *last = first + lanes;
 
   const size_t kept = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
-  if (tape != NULL && tape_prepare(tape, (size_t)steps * (size_t)q, lanes, kept) != 0)
+  if (taken != NULL && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
   load_lanes(&b, lanes, companions, c + first);
-  recorder r = {.tape = tape};
+  recorder r = {.taken = taken};
   const pendres_rows rows = pendres_block_rows(&b);
-  if (tape != NULL) record(&r, 0, &rows);
+  if (taken != NULL) record(&r, 0, &rows);
   for (int k = 0; k < q && status == PENDRES_OK; k++) {
     r.offset = (size_t)k * (size_t)steps;
-    status = tape != NULL ? pendres_block_period_sampled(&b, record, &r) : pendres_block_period(&b);
+    status = taken != NULL ? pendres_block_period_sampled(&b, record, &r)
+                           : pendres_block_period(&b);
   }
   if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)lanes;
@@ -152,12 +153,12 @@ int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], d
   return 1;
 }
 
-int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                           double *y, double *w, double shift[2])
 {
   if (!pendres_newton_solve(c->m, c->residual, shift, NULL)) return 0;
-  for (size_t k = 0; k < tape->samples; k++) {
-    const double *row = pendres_newton_sample(tape, k, c->lane);
+  for (size_t k = 0; k < taken->count; k++) {
+    const double *row = pendres_newton_sample(taken, k, c->lane);
     y[k] = row[0] + row[2] * shift[0] + row[4] * shift[1];
     w[k] = row[1] + row[3] * shift[0] + row[5] * shift[1];
   }
@@ -165,10 +166,10 @@ int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newto
 }
 
 /* The square of the size of the tangent at a sample. */
-static double tangent_at(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+static double tangent_at(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                          size_t sample)
 {
-  const double *row = pendres_newton_sample(tape, sample, c->lane);
+  const double *row = pendres_newton_sample(taken, sample, c->lane);
   return row[2] * row[2] + row[3] * row[3] + row[4] * row[4] + row[5] * row[5];
 }
 
@@ -177,22 +178,22 @@ static double tangent_at(const pendres_newton_candidate *c, const pendres_newton
  * grow much lie in one direction. For a step behind k it is once more around, by the multiplier.
  * Squares of the growth from all steps: to the end, and to anywhere on the average.
  */
-static void growth(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+static void growth(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                    double *to_end, double *to_any)
 {
-  const size_t n = tape->samples;
+  const size_t n = taken->count;
   const double first_row = hypot(c->m[0][0], c->m[0][1]);
   const double last_row = hypot(c->m[1][0], c->m[1][1]);
   const double last = first_row * first_row + last_row * last_row;
-  const double around = last / tangent_at(c, tape, 0);
+  const double around = last / tangent_at(c, taken, 0);
   double before = 0.0, after = 0.0, sum = 0.0, back = 1.0 / last;
   for (size_t k = 1; k < n; k++) {
-    const double here = tangent_at(c, tape, k);
+    const double here = tangent_at(c, taken, k);
     before += 1.0 / here;
     sum += here * before;
   }
   for (size_t k = n; k-- > 0;) {
-    const double here = tangent_at(c, tape, k);
+    const double here = tangent_at(c, taken, k);
     after += back;
     back = 1.0 / here;
     sum += here * around * after;
@@ -212,15 +213,15 @@ double pendres_newton_share(const double m[2][2])
 }
 
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
-                                             const pendres_newton_tape *tape)
+                                             const pendres_newton_samples *taken)
 {
   const double unit[2] = {1.0, 1.0};
   double z[2], stretch = 1.0, to_end, to_any;
 
   (void)pendres_newton_solve(c->m, unit, z, &stretch);
-  growth(c, tape, &to_end, &to_any);
+  growth(c, taken, &to_end, &to_any);
   const double share = pendres_newton_share(c->m);
-  const double plain = sqrt((double)tape->samples) * fmax(1.0, stretch);
+  const double plain = sqrt((double)taken->count) * fmax(1.0, stretch);
   const double start = share * sqrt(to_end), along = share * sqrt(to_any);
   /* A tangent that has faded beyond what a double holds tells nothing. */
   return (pendres_newton_noise){.start = isfinite(start) ? fmax(plain, start) : plain,

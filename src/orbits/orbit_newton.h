@@ -35,13 +35,13 @@ typedef struct pendres_newton_candidate {
 extern const double pendres_newton_aside;
 
 /* Samples 0 .. samples-1 of a pass, all lanes. */
-typedef struct pendres_newton_tape {
+typedef struct pendres_newton_samples {
   int bends; /* set by the caller: find m_by as well, from two more lanes a candidate */
-  size_t samples, lanes, rows, size;
+  size_t count, lanes, rows, size;
   double *data; /* [sample][lane][row] */
-} pendres_newton_tape;
+} pendres_newton_samples;
 
-static inline const double *pendres_newton_sample(const pendres_newton_tape *t, size_t sample,
+static inline const double *pendres_newton_sample(const pendres_newton_samples *t, size_t sample,
                                                   size_t lane)
 {
   return t->data + (sample * t->lanes + lane) * t->rows;
@@ -50,16 +50,16 @@ static inline const double *pendres_newton_sample(const pendres_newton_tape *t, 
 /* NULL, or why a caller's orbit is none that could be followed: a static sentence. */
 const char *pendres_orbit_refuses(const pendres_orbit *o);
 
-void pendres_newton_tape_free(pendres_newton_tape *tape);
+void pendres_newton_samples_free(pendres_newton_samples *taken);
 
 /*
  * Integrate c[first ..) once over their period, up to the first candidate whose steps or period
- * differ, the end, or the block's capacity; *last is the one after. tape may be NULL.
+ * differ, the end, or the block's capacity; *last is the one after. `taken` may be NULL.
  * Candidates that have failed are carried along and not to be read.
  */
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    size_t first, pendres_orbit_want want,
-                                   pendres_newton_tape *tape, size_t *last);
+                                   pendres_newton_samples *taken, size_t *last);
 
 /* Put candidates that may share a block side by side; those still active come first. */
 void pendres_newton_order(size_t n, pendres_newton_candidate *c);
@@ -75,10 +75,10 @@ int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], d
 double pendres_newton_share(const double m[2][2]);
 
 /*
- * The samples of a candidate on the tape, moved by the linearised flow to the orbit that closes:
- * by *shift at its start. y and w have as many places as the tape has samples. 0 if singular.
+ * The samples taken of a candidate, moved by the linearised flow to the orbit that closes:
+ * by *shift at its start. y and w have as many places as there are samples. 0 if singular.
  */
-int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_tape *tape,
+int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                           double *y, double *w, double shift[2]);
 
 /*
@@ -91,8 +91,8 @@ typedef struct pendres_newton_noise {
   double start, along;
 } pendres_newton_noise;
 
-/* Of a candidate whose samples are on the tape with their tangents. */
+/* Of a candidate whose samples were taken with their tangents. */
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
-                                             const pendres_newton_tape *tape);
+                                             const pendres_newton_samples *taken);
 
 #endif

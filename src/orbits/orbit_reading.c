@@ -12,12 +12,13 @@ typedef struct room {
   size_t size;
 } room;
 
-static pendres_status read_one(const pendres_orbit_reader *reader, const pendres_newton_tape *tape,
-                               room *r, pendres_newton_candidate *c)
+static pendres_status read_one(const pendres_orbit_reader *reader,
+                               const pendres_newton_samples *taken, room *r,
+                               pendres_newton_candidate *c)
 {
-  const size_t n = tape->samples;
+  const size_t n = taken->count;
   double *y = r->work, *w = r->work + n;
-  pendres_orbit_measures *out = reader->take(reader->arg, c, tape, y, w);
+  pendres_orbit_measures *out = reader->take(reader->arg, c, taken, y, w);
   if (out == NULL) {
     c->state = PENDRES_NEWTON_FAILED;
     return PENDRES_OK;
@@ -43,22 +44,22 @@ static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
 pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_reader *reader,
                                   size_t n, pendres_newton_candidate *c)
 {
-  pendres_newton_tape tape = {.bends = reader->bends};
+  pendres_newton_samples taken = {.bends = reader->bends};
   room r = {.work = NULL};
   pendres_status status = PENDRES_OK;
   pendres_newton_order(n, c);
   for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
-    status = pendres_newton_pass(ctx, n, c, first, reader->want, &tape, &last);
-    if (status == PENDRES_OK) status = provide(ctx, tape.samples, &r);
+    status = pendres_newton_pass(ctx, n, c, first, reader->want, &taken, &last);
+    if (status == PENDRES_OK) status = provide(ctx, taken.count, &r);
     if (status != PENDRES_OK) break;
     for (size_t i = first; i < last && status == PENDRES_OK; i++) {
       if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
-      status = read_one(reader, &tape, &r, &c[i]);
+      status = read_one(reader, &taken, &r, &c[i]);
       if (status != PENDRES_OK)
         (void)pendres_context_fail(ctx, status, "the samples of an orbit could not be measured");
     }
   }
-  pendres_newton_tape_free(&tape);
+  pendres_newton_samples_free(&taken);
   pendres_orbit_tables_free(&r.tables);
   free(r.work);
   return status;

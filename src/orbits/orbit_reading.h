@@ -10,12 +10,12 @@
 #include "orbits/orbit_newton.h"
 
 /*
- * What a caller takes from a run of one candidate: its samples on the tape, as many y and w, and
+ * What a caller takes from a run of one candidate: the samples of it, as many y and w, and
  * whatever else it wants. It returns where the measures of the samples go; NULL: this is no orbit,
  * and the candidate's state becomes PENDRES_NEWTON_FAILED.
  */
 typedef pendres_orbit_measures *pendres_orbit_taker(void *arg, const pendres_newton_candidate *c,
-                                                    const pendres_newton_tape *tape, double *y,
+                                                    const pendres_newton_samples *taken, double *y,
                                                     double *w);
 
 typedef struct pendres_orbit_reader {

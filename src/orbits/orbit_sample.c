@@ -27,14 +27,14 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
                                      .period = o->period, .winding = o->winding};
   const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
   pendres_newton_candidate c = {.guess = &guess, .y = s.y, .w = s.w, .steps = steps};
-  pendres_newton_tape tape = {0};
+  pendres_newton_samples taken = {0};
   pendres_orbit_tables tables = {0};
   size_t last = 0;
   double shift[2];
   pendres_status status =
-    pendres_newton_pass(ctx, 1, &c, 0, PENDRES_ORBIT_PLAIN, &tape, &last);
+    pendres_newton_pass(ctx, 1, &c, 0, PENDRES_ORBIT_PLAIN, &taken, &last);
   if (status != PENDRES_OK) goto done;
-  const size_t n = tape.samples;
+  const size_t n = taken.count;
   double *memory = malloc((2 * n + pendres_orbit_measure_work(n)) * sizeof *memory);
   if (memory == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
@@ -42,7 +42,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   }
   free(out->memory);
   out->memory = memory;
-  if (!pendres_newton_closed(&c, &tape, memory, memory + n, shift)) {
+  if (!pendres_newton_closed(&c, &taken, memory, memory + n, shift)) {
     status = pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "an orbit at a fold has no samples");
     goto done;
   }
@@ -52,10 +52,10 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   if (status != PENDRES_OK)
     status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
   out->rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table) *
-                  fmax(o->amplitude, fabs(c.w)) * pendres_newton_noise_of(&c, &tape).along;
+                  fmax(o->amplitude, fabs(c.w)) * pendres_newton_noise_of(&c, &taken).along;
 done:
   pendres_orbit_tables_free(&tables);
-  pendres_newton_tape_free(&tape);
+  pendres_newton_samples_free(&taken);
   return status;
 }
 

@@ -222,8 +222,8 @@ static int patience(const pendres_orbit *o, pendres_trap_effort effort)
   return (int)fmin(FEW_LOOKS, 2.0 + ceil(way / rate));
 }
 
-static void plan_ring(search *s, const pendres_trap *t, double radius, double home, int points,
-                      int looks)
+static void choose_ring(search *s, const pendres_trap *t, double radius, double home, int points,
+                        int looks)
 {
   s->ring[s->rings++] = (pendres_trap_ring){
     .trap = t,
@@ -235,19 +235,19 @@ static void plan_ring(search *s, const pendres_trap *t, double radius, double ho
     .looks = looks};
 }
 
-static void plan(search *s, const pendres_trap *t)
+static void choose_rings(search *s, const pendres_trap *t)
 {
   s->rings = 0;
   if (s->stage == STAGE_BASE) {
-    plan_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
+    choose_ring(s, t, s->base, 0.0, BASE_POINTS, s->base_looks);
   } else if (s->stage == STAGE_CLIMB) {
     const double radius =
       s->failed > 0.0 ? sqrt(s->proven * s->failed) : fmin(s->proven * climb_ratio, widest);
-    plan_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
+    choose_ring(s, t, radius, home_share * s->proven, FEW_POINTS, s->looks);
   } else {
     for (int k = 1; k <= RINGS; k++)
-      plan_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
-                home_share * s->proven, MANY_POINTS, MANY_LOOKS);
+      choose_ring(s, t, s->proven * pow(s->failed / s->proven, k / (RINGS + 1.0)),
+                  home_share * s->proven, MANY_POINTS, MANY_LOOKS);
   }
 }
 
@@ -363,7 +363,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
   if (points == NULL || lanes == NULL) goto no_memory;
 
   while (left > 0 && status == PENDRES_OK) {
-    for (size_t i = 0; i < left; i++) plan(&s[i], &traps[s[i].orbit]);
+    for (size_t i = 0; i < left; i++) choose_rings(&s[i], &traps[s[i].orbit]);
     status = run_rings(ctx, left, s, orbits, effort, points, lanes);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {

@@ -7,23 +7,23 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
-#include "continuation/continuation_walk.h"
+#include "continuation/continuation_arc.h"
 
 enum { MOST_ADVANCES = 300 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
 static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
 
-/* Walk until the drive frequency is back where it was; *u is near the orbit there. */
-static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[PENDRES_U_COUNT])
+/* Go along it until the drive frequency is back where it was; *u is near the orbit there. */
+static pendres_status follow_back(pendres_context *ctx, pendres_arc *w, double u[PENDRES_U_COUNT])
 {
   const double start = w->here.u[PENDRES_U_OMEGA];
-  pendres_walk_point last = w->here;
+  pendres_arc_point last = w->here;
   for (int i = 0; i < MOST_ADVANCES; i++) {
-    const pendres_status status = pendres_walk_advance(ctx, 1, w);
+    const pendres_status status = pendres_arc_advance(ctx, 1, w);
     if (status != PENDRES_OK) return status;
     if (w->stuck) return PENDRES_NOT_FOUND;
     for (int k = 0; k < w->found; k++) {
-      const pendres_walk_point *p = &w->ahead[k];
+      const pendres_arc_point *p = &w->ahead[k];
       const double before = last.u[PENDRES_U_OMEGA] - start, now = p->u[PENDRES_U_OMEGA] - start;
       if (before * now < 0.0) {
         const double part = before / (before - now);
@@ -41,7 +41,7 @@ static pendres_status walk_back(pendres_context *ctx, pendres_walk *w, double u[
   return PENDRES_NOT_FOUND;
 }
 
-/* Refine what a walk came back to. */
+/* Refine what an arc came back to. */
 static pendres_status refine(pendres_context *ctx, const pendres_orbit *attractor,
                              const double u[PENDRES_U_COUNT], pendres_orbit *out)
 {
@@ -76,9 +76,9 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
     const double up = attractor->phase_lag < 1.0 ? 1.0 : -1.0;
     double u[PENDRES_U_COUNT];
     const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
-    pendres_walk walk = pendres_walk_of(attractor, PENDRES_CONDITION_NONE, &along, 0.1, u);
-    status = pendres_walk_begin(ctx, &walk, u, i == 0 ? up : -up);
-    if (status == PENDRES_OK) status = walk_back(ctx, &walk, u);
+    pendres_arc arc = pendres_arc_of(attractor, PENDRES_CONDITION_NONE, &along, 0.1, u);
+    status = pendres_arc_begin(ctx, &arc, u, i == 0 ? up : -up);
+    if (status == PENDRES_OK) status = follow_back(ctx, &arc, u);
     if (status == PENDRES_OK) status = refine(ctx, attractor, u, out);
     if (status == PENDRES_NOT_CONVERGED)
       return pendres_context_fail(ctx, status, "no orbit to start from at drive frequency %g",

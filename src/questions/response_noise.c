@@ -5,7 +5,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "noise/noise_plan.h"
+#include "noise/noise_common.h"
 
 /* Of the loop area, and of the first harmonic's amplitude. */
 static const double bias_wanted = 1e-4;

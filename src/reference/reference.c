@@ -30,13 +30,13 @@ pendres_status pendres_reference_advance(const pendres_pendulum *p, long double 
   pendres_status status = check_start(p, *y, *v, periods);
   if (status != PENDRES_OK) return status;
   const pendres_reference_model model = model_of(p);
-  pendres_reference_walk walk;
-  const long start = pendres_reference_taylor_init(&walk, &model, *y, *v);
-  status = pendres_reference_taylor_advance(&walk, periods);
+  pendres_reference_run run;
+  const long start = pendres_reference_taylor_init(&run, &model, *y, *v);
+  status = pendres_reference_taylor_advance(&run, periods);
   if (status != PENDRES_OK) return status;
-  *y = walk.y.hi;
-  *v = walk.v.hi;
-  if (turns != NULL) *turns += start + walk.turns;
+  *y = run.y.hi;
+  *v = run.v.hi;
+  if (turns != NULL) *turns += start + run.turns;
   return PENDRES_OK;
 }
 
@@ -47,16 +47,16 @@ pendres_status pendres_reference_map(const pendres_pendulum *p, long double y, l
   pendres_status status = check_start(p, y, v, periods);
   if (status != PENDRES_OK) return status;
   const pendres_reference_model model = model_of(p);
-  pendres_reference_walk walk;
-  const long start = pendres_reference_taylor_init(&walk, &model, y, v);
-  walk.columns = PENDRES_REFERENCE_COLUMNS;
-  status = pendres_reference_taylor_advance(&walk, periods);
+  pendres_reference_run run;
+  const long start = pendres_reference_taylor_init(&run, &model, y, v);
+  run.columns = PENDRES_REFERENCE_COLUMNS;
+  status = pendres_reference_taylor_advance(&run, periods);
   if (status != PENDRES_OK) return status;
-  out->y = walk.y.hi;
-  out->v = walk.v.hi;
-  out->turns = start + walk.turns;
+  out->y = run.y.hi;
+  out->v = run.v.hi;
+  out->turns = start + run.turns;
   for (int i = 0; i < 2; i++) {
-    const pendres_reference_pair *row = i == 0 ? walk.u : walk.w;
+    const pendres_reference_pair *row = i == 0 ? run.u : run.w;
     out->monodromy[i][0] = row[PENDRES_REFERENCE_BY_Y].hi;
     out->monodromy[i][1] = row[PENDRES_REFERENCE_BY_V].hi;
     out->by_frequency[i] = row[PENDRES_REFERENCE_BY_FREQUENCY].hi;

@@ -31,22 +31,22 @@ static long double *unknown(pendres_reference_target *target, int i)
   }
 }
 
-/* g of a finished walk. */
-static long double walk_determinant(const pendres_reference_target *target,
-                                    const pendres_reference_walk *walk)
+/* g of a finished run. */
+static long double run_determinant(const pendres_reference_target *target,
+                                   const pendres_reference_run *run)
 {
   const long double phase = pendres_reference_taylor_two_pi().hi * (target->mirror ? 0.5L : 1.0L);
   const long double time = phase / target->model.drive_frequency;
-  return (1.0L - walk->u[0].hi) - walk->w[1].hi + expl(-target->model.damping * time);
+  return (1.0L - run->u[0].hi) - run->w[1].hi + expl(-target->model.damping * time);
 }
 
 static pendres_status determinant(const pendres_reference_target *target, long double *g)
 {
-  pendres_reference_walk walk;
+  pendres_reference_run run;
   long double defect[2];
   const pendres_status status =
-      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &walk, defect);
-  if (status == PENDRES_OK) *g = walk_determinant(target, &walk);
+      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, defect);
+  if (status == PENDRES_OK) *g = run_determinant(target, &run);
   return status;
 }
 
@@ -55,12 +55,12 @@ static pendres_status determinant_slope(const pendres_reference_target *target, 
 {
   /* Truncation step^6 and rounding epsilon/step are both below 1e-15 here. */
   static const long double step = 2e-3L, weight[3] = { 45.0L, -9.0L, 1.0L };
-  pendres_reference_walk walk;
+  pendres_reference_run run;
   long double defect[2];
   pendres_status status =
-      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &walk, defect);
+      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, defect);
   if (status != PENDRES_OK) return status;
-  const long double along[2] = { -walk.u[1].hi, walk.u[0].hi - 1.0L };
+  const long double along[2] = { -run.u[1].hi, run.u[0].hi - 1.0L };
   const long double length = hypotl(along[0], along[1]);
   long double sum = 0.0L;
   for (int i = 1; i <= 3; i++) {
@@ -103,15 +103,15 @@ static pendres_status gradient(scalar *f, const pendres_reference_target *target
 static pendres_status correction(const pendres_reference_target *target, int n,
                                  long double change[4])
 {
-  pendres_reference_walk walk;
+  pendres_reference_run run;
   long double a[4][4];
   pendres_status status =
-      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_COLUMNS, &walk, change);
+      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_COLUMNS, &run, change);
   if (status != PENDRES_OK) return status;
   const long double start = target->mirror ? 1.0L : -1.0L; /* its sign in the defect */
-  change[2] = walk_determinant(target, &walk);
+  change[2] = run_determinant(target, &run);
   for (int i = 0; i < n; i++) {
-    const pendres_reference_pair *u = walk.u, *w = walk.w;
+    const pendres_reference_pair *u = run.u, *w = run.w;
     a[0][i] = u[i].hi + (i == BY_Y ? start : 0.0L);
     a[1][i] = w[i].hi + (i == BY_V ? start : 0.0L);
   }

@@ -3,7 +3,7 @@
  *
  * An orbit is a fixed point z of the strobe map P taken `period` times, up to whole turns:
  * Newton's method with the exact derivative M - I. Along its branch
- * dz/domega = (I - M)^-1 dP/domega, and with the loop area A(z, omega) of one walk
+ * dz/domega = (I - M)^-1 dP/domega, and with the loop area A(z, omega) of one run
  * dA/domega = A_z dz/domega + A_omega; the resonance is its zero, found by secants.
  * Definitions of the measures: reference.h.
  */
@@ -43,43 +43,43 @@ int pendres_reference_orbit_solve(int n, long double a[][4], long double b[])
   return 0;
 }
 
-/* M - I of a walk. */
-static void shifted_monodromy(const pendres_reference_walk *walk, long double a[][4])
+/* M - I of a run. */
+static void shifted_monodromy(const pendres_reference_run *run, long double a[][4])
 {
-  a[0][0] = walk->u[0].hi - 1.0L + walk->u[0].lo;
-  a[0][1] = walk->u[1].hi;
-  a[1][0] = walk->w[0].hi;
-  a[1][1] = walk->w[1].hi - 1.0L + walk->w[1].lo;
+  a[0][0] = run->u[0].hi - 1.0L + run->u[0].lo;
+  a[0][1] = run->u[1].hi;
+  a[1][0] = run->w[0].hi;
+  a[1][1] = run->w[1].hi - 1.0L + run->w[1].lo;
 }
 
-static pendres_status mirror_defect(pendres_reference_walk *walk, long double start_v,
+static pendres_status mirror_defect(pendres_reference_run *run, long double start_v,
                                     long double defect[2])
 {
   const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  const long double start_y = walk->y.hi;
-  const pendres_status status = pendres_reference_taylor_advance_half(walk);
+  const long double start_y = run->y.hi;
+  const pendres_status status = pendres_reference_taylor_advance_half(run);
   if (status != PENDRES_OK) return status;
-  const long double off = -rintl((start_y + walk->y.hi) / two_pi.hi);
-  defect[0] = (walk->y.hi + (start_y + off * two_pi.hi)) + walk->y.lo + off * two_pi.lo;
-  defect[1] = (walk->v.hi + start_v) + walk->v.lo;
+  const long double off = -rintl((start_y + run->y.hi) / two_pi.hi);
+  defect[0] = (run->y.hi + (start_y + off * two_pi.hi)) + run->y.lo + off * two_pi.lo;
+  defect[1] = (run->v.hi + start_v) + run->v.lo;
   return PENDRES_OK;
 }
 
 pendres_status pendres_reference_orbit_defect(const pendres_reference_target *target,
-                                              int columns, pendres_reference_walk *walk,
+                                              int columns, pendres_reference_run *run,
                                               long double defect[2])
 {
   const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  pendres_reference_taylor_init(walk, &target->model, target->y, target->v);
-  const long double start = walk->y.hi; /* target->y, wrapped */
-  walk->columns = columns;
-  if (target->mirror) return mirror_defect(walk, target->v, defect);
-  const pendres_status status = pendres_reference_taylor_advance(walk, target->period);
+  pendres_reference_taylor_init(run, &target->model, target->y, target->v);
+  const long double start = run->y.hi; /* target->y, wrapped */
+  run->columns = columns;
+  if (target->mirror) return mirror_defect(run, target->v, defect);
+  const pendres_status status = pendres_reference_taylor_advance(run, target->period);
   if (status != PENDRES_OK) return status;
-  const long double off = (long double)(walk->turns - target->winding);
-  defect[0] = (walk->y.hi - start) + off * two_pi.hi;
-  defect[0] += walk->y.lo + off * two_pi.lo;
-  defect[1] = (walk->v.hi - target->v) + walk->v.lo;
+  const long double off = (long double)(run->turns - target->winding);
+  defect[0] = (run->y.hi - start) + off * two_pi.hi;
+  defect[0] += run->y.lo + off * two_pi.lo;
+  defect[1] = (run->v.hi - target->v) + run->v.lo;
   return PENDRES_OK;
 }
 
@@ -91,13 +91,13 @@ static long double norm(const long double d[2])
 /* One step from target along -(M - I)^-1 defect, halved until the defect shrinks. */
 static pendres_status newton_step(pendres_reference_target *target, long double *moved)
 {
-  pendres_reference_walk walk;
+  pendres_reference_run run;
   long double d[2], a[2][4];
   pendres_status status =
-      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &walk, d);
+      pendres_reference_orbit_defect(target, PENDRES_REFERENCE_BY_FREQUENCY, &run, d);
   if (status != PENDRES_OK) return status;
   const long double before = norm(d);
-  shifted_monodromy(&walk, a);
+  shifted_monodromy(&run, a);
   if (pendres_reference_orbit_solve(2, a, d)) return PENDRES_NOT_CONVERGED;
   if (!isfinite(norm(d))) return PENDRES_NOT_CONVERGED;
   const pendres_reference_target from = *target;
@@ -110,7 +110,7 @@ static pendres_status newton_step(pendres_reference_target *target, long double 
     *moved = part * norm(d);
     /* Below this only rounding is left to shrink. */
     if (*moved < 1e-9L) return PENDRES_OK;
-    status = pendres_reference_orbit_defect(target, 0, &walk, after);
+    status = pendres_reference_orbit_defect(target, 0, &run, after);
     if (status == PENDRES_OK && norm(after) < before) return PENDRES_OK;
   }
   return PENDRES_NOT_CONVERGED;
@@ -157,29 +157,29 @@ static void fill_multipliers(pendres_reference_cycle *out)
   }
 }
 
-static void fill_slopes(const pendres_reference_walk *walk, pendres_reference_cycle *out)
+static void fill_slopes(const pendres_reference_run *run, pendres_reference_cycle *out)
 {
   const int by = PENDRES_REFERENCE_BY_FREQUENCY;
-  long double a[2][4], slope[2] = { -walk->u[by].hi, -walk->w[by].hi };
-  shifted_monodromy(walk, a);
+  long double a[2][4], slope[2] = { -run->u[by].hi, -run->w[by].hi };
+  shifted_monodromy(run, a);
   if (pendres_reference_orbit_solve(2, a, slope)) slope[0] = slope[1] = NAN;
   out->state_slope[0] = slope[0];
   out->state_slope[1] = slope[1];
-  out->loop_area_slope = (walk->area_by[PENDRES_REFERENCE_BY_Y].hi * slope[0] +
-                          walk->area_by[PENDRES_REFERENCE_BY_V].hi * slope[1] +
-                          walk->area_by[by].hi) / (long double)out->period;
+  out->loop_area_slope = (run->area_by[PENDRES_REFERENCE_BY_Y].hi * slope[0] +
+                          run->area_by[PENDRES_REFERENCE_BY_V].hi * slope[1] +
+                          run->area_by[by].hi) / (long double)out->period;
 }
 
-static void fill_measures(const pendres_reference_walk *walk, pendres_reference_cycle *out)
+static void fill_measures(const pendres_reference_run *run, pendres_reference_cycle *out)
 {
   const long double pi = pendres_reference_taylor_two_pi().hi / 2.0L;
   const long double cycles = (long double)out->period, omega = out->drive_frequency;
-  const long double a = omega * walk->cosine.hi / (pi * cycles);
-  const long double b = omega * walk->sine.hi / (pi * cycles);
-  out->loop_area = walk->area.hi / cycles;
-  out->dissipation = out->damping * walk->square.hi / cycles;
+  const long double a = omega * run->cosine.hi / (pi * cycles);
+  const long double b = omega * run->sine.hi / (pi * cycles);
+  out->loop_area = run->area.hi / cycles;
+  out->dissipation = out->damping * run->square.hi / cycles;
   out->energy_residual = fabsl(out->loop_area - out->dissipation);
-  out->amplitude = 0.5L * (walk->highest - walk->lowest);
+  out->amplitude = 0.5L * (run->highest - run->lowest);
   out->first_harmonic_amplitude = hypotl(a, b);
   /* Behind the force: with a drive of negative sign, of minus the angle. */
   const long double sign = out->drive_amplitude < 0.0L ? -1.0L : 1.0L;
@@ -197,24 +197,24 @@ pendres_status pendres_reference_orbit_measure(const pendres_reference_target *t
                                     .drive_frequency = target->model.drive_frequency,
                                     .y = target->y, .v = target->v,
                                     .period = target->period, .winding = target->winding };
-  pendres_reference_walk walk;
-  pendres_reference_taylor_init(&walk, &target->model, target->y, target->v);
-  cycle.y = walk.y.hi;
-  walk.columns = PENDRES_REFERENCE_BY_FREQUENCY + 1;
-  walk.measures = 1;
-  walk.drift = (long double)target->winding / (long double)target->period;
-  const pendres_status status = pendres_reference_taylor_advance(&walk, target->period);
+  pendres_reference_run run;
+  pendres_reference_taylor_init(&run, &target->model, target->y, target->v);
+  cycle.y = run.y.hi;
+  run.columns = PENDRES_REFERENCE_BY_FREQUENCY + 1;
+  run.measures = 1;
+  run.drift = (long double)target->winding / (long double)target->period;
+  const pendres_status status = pendres_reference_taylor_advance(&run, target->period);
   if (status != PENDRES_OK) return status;
-  const long double off = (long double)(walk.turns - target->winding);
-  const long double dy = (walk.y.hi - cycle.y) + off * two_pi.hi + walk.y.lo + off * two_pi.lo;
-  cycle.closure = fmaxl(fabsl(dy), fabsl((walk.v.hi - cycle.v) + walk.v.lo));
+  const long double off = (long double)(run.turns - target->winding);
+  const long double dy = (run.y.hi - cycle.y) + off * two_pi.hi + run.y.lo + off * two_pi.lo;
+  cycle.closure = fmaxl(fabsl(dy), fabsl((run.v.hi - cycle.v) + run.v.lo));
   for (int i = 0; i < 2; i++) {
-    cycle.monodromy[0][i] = walk.u[i].hi;
-    cycle.monodromy[1][i] = walk.w[i].hi;
+    cycle.monodromy[0][i] = run.u[i].hi;
+    cycle.monodromy[1][i] = run.w[i].hi;
   }
   fill_multipliers(&cycle);
-  fill_measures(&walk, &cycle);
-  fill_slopes(&walk, &cycle);
+  fill_measures(&run, &cycle);
+  fill_slopes(&run, &cycle);
   *out = cycle;
   return PENDRES_OK;
 }

@@ -17,9 +17,9 @@ typedef struct pendres_reference_target {
 } pendres_reference_target;
 
 /* End minus start over the period, or the sum of both over half a period for a mirror orbit
-   (whose own centre may be any well), and the walk with `columns` columns that gave it. */
+   (whose own centre may be any well), and the run with `columns` columns that gave it. */
 pendres_status pendres_reference_orbit_defect(const pendres_reference_target *target,
-                                              int columns, pendres_reference_walk *walk,
+                                              int columns, pendres_reference_run *run,
                                               long double defect[2]);
 
 /* Newton on the defect: moves target->y, v. */

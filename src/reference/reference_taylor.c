@@ -64,38 +64,38 @@ pendres_reference_pair pendres_reference_taylor_two_pi(void)
 }
 
 /* Take whole turns off y until it is in (-pi, pi], and count them. */
-static void wrap(pendres_reference_walk *walk)
+static void wrap(pendres_reference_run *run)
 {
   const long double two_pi = pendres_reference_taylor_two_pi().hi;
   const long double half = two_pi / 2.0L;
-  while (walk->y.hi > half || walk->y.hi <= -half) {
-    long double n = rintl(walk->y.hi / two_pi);
-    if (n == 0.0L) n = walk->y.hi > 0.0L ? 1.0L : -1.0L;
+  while (run->y.hi > half || run->y.hi <= -half) {
+    long double n = rintl(run->y.hi / two_pi);
+    if (n == 0.0L) n = run->y.hi > 0.0L ? 1.0L : -1.0L;
     for (int i = 0; i < 3; i++) {
       const pendres_reference_pair part = two_product(-n, two_pi_part[i]);
-      pair_add(&walk->y, part.hi);
-      pair_add(&walk->y, part.lo);
+      pair_add(&run->y, part.hi);
+      pair_add(&run->y, part.lo);
     }
-    walk->turns += (long)n;
+    run->turns += (long)n;
   }
 }
 
-long pendres_reference_taylor_init(pendres_reference_walk *walk,
+long pendres_reference_taylor_init(pendres_reference_run *run,
                                    const pendres_reference_model *model, long double y,
                                    long double v)
 {
-  memset(walk, 0, sizeof *walk);
-  walk->model = *model;
-  walk->order = PENDRES_REFERENCE_ORDER;
-  walk->y.hi = y;
-  walk->v.hi = v;
-  walk->u[PENDRES_REFERENCE_BY_Y].hi = 1.0L;
-  walk->w[PENDRES_REFERENCE_BY_V].hi = 1.0L;
-  walk->highest = -HUGE_VALL;
-  walk->lowest = HUGE_VALL;
-  wrap(walk);
-  const long taken = walk->turns;
-  walk->turns = 0;
+  memset(run, 0, sizeof *run);
+  run->model = *model;
+  run->order = PENDRES_REFERENCE_ORDER;
+  run->y.hi = y;
+  run->v.hi = v;
+  run->u[PENDRES_REFERENCE_BY_Y].hi = 1.0L;
+  run->w[PENDRES_REFERENCE_BY_V].hi = 1.0L;
+  run->highest = -HUGE_VALL;
+  run->lowest = HUGE_VALL;
+  wrap(run);
+  const long taken = run->turns;
+  run->turns = 0;
   return taken;
 }
 
@@ -129,20 +129,20 @@ static long double slope(const long double *c, int order, long double h)
   return sum;
 }
 
-static void expand_state(pendres_reference_walk *walk)
+static void expand_state(pendres_reference_run *run)
 {
-  const long double damping = walk->model.damping, omega = walk->model.drive_frequency;
-  const long double force = walk->model.drive_amplitude;
-  long double *y = walk->sy, *v = walk->sv, *s = walk->ssin, *c = walk->scos;
-  long double *d = walk->sdrive, *e = walk->squad;
-  const long double sine = sinl(walk->y.hi), cosine = cosl(walk->y.hi);
-  y[0] = walk->y.hi;
-  v[0] = walk->v.hi;
-  s[0] = sine + cosine * walk->y.lo;
-  c[0] = cosine - sine * walk->y.lo;
-  d[0] = cosl(walk->theta);
-  e[0] = sinl(walk->theta);
-  for (int k = 0; k < walk->order; k++) {
+  const long double damping = run->model.damping, omega = run->model.drive_frequency;
+  const long double force = run->model.drive_amplitude;
+  long double *y = run->sy, *v = run->sv, *s = run->ssin, *c = run->scos;
+  long double *d = run->sdrive, *e = run->squad;
+  const long double sine = sinl(run->y.hi), cosine = cosl(run->y.hi);
+  y[0] = run->y.hi;
+  v[0] = run->v.hi;
+  s[0] = sine + cosine * run->y.lo;
+  c[0] = cosine - sine * run->y.lo;
+  d[0] = cosl(run->theta);
+  e[0] = sinl(run->theta);
+  for (int k = 0; k < run->order; k++) {
     const long double n = k + 1;
     y[k + 1] = v[k] / n;
     v[k + 1] = (force * d[k] - s[k] - damping * v[k]) / n;
@@ -153,52 +153,52 @@ static void expand_state(pendres_reference_walk *walk)
   }
 }
 
-static void expand_column(pendres_reference_walk *walk, int column)
+static void expand_column(pendres_reference_run *run, int column)
 {
-  const long double damping = walk->model.damping, omega = walk->model.drive_frequency;
-  long double *u = walk->su[column], *w = walk->sw[column];
-  u[0] = walk->u[column].hi;
-  w[0] = walk->w[column].hi;
-  for (int k = 0; k < walk->order; k++) {
+  const long double damping = run->model.damping, omega = run->model.drive_frequency;
+  long double *u = run->su[column], *w = run->sw[column];
+  u[0] = run->u[column].hi;
+  w[0] = run->w[column].hi;
+  for (int k = 0; k < run->order; k++) {
     const long double n = k + 1;
     long double a = 0.0L, b = 0.0L;
     if (column == PENDRES_REFERENCE_BY_FREQUENCY) {
-      a = -walk->sv[k] / omega;
-      b = -walk->sv[k + 1] * n / omega;
+      a = -run->sv[k] / omega;
+      b = -run->sv[k + 1] * n / omega;
     } else if (column == PENDRES_REFERENCE_BY_DAMPING) {
-      b = -walk->sv[k];
+      b = -run->sv[k];
     } else if (column == PENDRES_REFERENCE_BY_AMPLITUDE) {
-      b = walk->sdrive[k];
+      b = run->sdrive[k];
     }
     u[k + 1] = (w[k] + a) / n;
-    w[k + 1] = (b - cauchy(walk->scos, u, k) - damping * w[k]) / n;
+    w[k + 1] = (b - cauchy(run->scos, u, k) - damping * w[k]) / n;
   }
 }
 
 /* Size of the k-th coefficients of everything integrated, each beside its own scale. */
-static long double relative_term(const pendres_reference_walk *walk, int k)
+static long double relative_term(const pendres_reference_run *run, int k)
 {
-  const long double scale = fabsl(walk->sy[0]) + fabsl(walk->sv[0]) +
-                            fabsl(walk->model.drive_amplitude);
+  const long double scale = fabsl(run->sy[0]) + fabsl(run->sv[0]) +
+                            fabsl(run->model.drive_amplitude);
   if (scale == 0.0L) return 0.0L;
-  long double largest = fmaxl(fabsl(walk->sy[k]), fabsl(walk->sv[k])) / scale;
-  for (int i = 0; i < walk->columns; i++) {
+  long double largest = fmaxl(fabsl(run->sy[k]), fabsl(run->sv[k])) / scale;
+  for (int i = 0; i < run->columns; i++) {
     const int small = i == PENDRES_REFERENCE_BY_FREQUENCY || i == PENDRES_REFERENCE_BY_DAMPING;
-    const long double own = fabsl(walk->su[i][0]) + fabsl(walk->sw[i][0]) + (small ? scale : 1.0L);
-    largest = fmaxl(largest, fmaxl(fabsl(walk->su[i][k]), fabsl(walk->sw[i][k])) / own);
+    const long double own = fabsl(run->su[i][0]) + fabsl(run->sw[i][0]) + (small ? scale : 1.0L);
+    largest = fmaxl(largest, fmaxl(fabsl(run->su[i][k]), fabsl(run->sw[i][k])) / own);
   }
   return largest;
 }
 
 /* The step in theta that the series allows: its last two terms fall below the rounding. */
-static long double allowed_step(const pendres_reference_walk *walk)
+static long double allowed_step(const pendres_reference_run *run)
 {
-  const long double omega = walk->model.drive_frequency;
+  const long double omega = run->model.drive_frequency;
   /* Longer than a decay time, terms of a series would cancel; longer than a radian, those
      of the drive. */
-  double longest = (double)(1.0L / fmaxl(fmaxl(1.0L, walk->model.damping), omega));
-  for (int k = walk->order - 1; k <= walk->order; k++) {
-    const double term = (double)relative_term(walk, k);
+  double longest = (double)(1.0L / fmaxl(fmaxl(1.0L, run->model.damping), omega));
+  for (int k = run->order - 1; k <= run->order; k++) {
+    const double term = (double)relative_term(run, k);
     if (term > 0.0)
       longest = fmin(longest, exp((log((double)LDBL_EPSILON / 256.0) - log(term)) / k));
   }
@@ -206,26 +206,26 @@ static long double allowed_step(const pendres_reference_walk *walk)
 }
 
 /* Largest and smallest y - drift theta within the step: ends and zeros of its velocity. */
-static void note_extremes(pendres_reference_walk *walk, const long double *series, long double h)
+static void note_extremes(pendres_reference_run *run, const long double *series, long double h)
 {
   enum { PIECES = 8 };
   long double before = series[1];
   for (int i = 0; i <= PIECES; i++) {
     long double at = h * (long double)i / PIECES;
-    const long double here = slope(series, walk->order, at);
+    const long double here = slope(series, run->order, at);
     if ((before < 0.0L && here > 0.0L) || (before > 0.0L && here < 0.0L)) {
       long double from = at - h / PIECES, to = at;
       /* Bisection is enough: an extreme forgives half of the digits of its place. */
       for (int j = 0; j < LDBL_MANT_DIG * 2 / 3; j++) {
         at = 0.5L * (from + to);
-        const long double middle = slope(series, walk->order, at);
+        const long double middle = slope(series, run->order, at);
         if ((middle < 0.0L) == (before < 0.0L)) from = at;
         else to = at;
       }
     }
-    const long double value = series[0] + increment(series, walk->order, at);
-    walk->highest = fmaxl(walk->highest, value);
-    walk->lowest = fminl(walk->lowest, value);
+    const long double value = series[0] + increment(series, run->order, at);
+    run->highest = fmaxl(run->highest, value);
+    run->lowest = fminl(run->lowest, value);
     before = here;
   }
 }
@@ -238,96 +238,96 @@ static long double advance_series(const long double *c, int order, pendres_refer
 }
 
 /* Integral over the step of the product of two series. */
-static void integrate(const pendres_reference_walk *walk, const long double *a,
+static void integrate(const pendres_reference_run *run, const long double *a,
                       const long double *b, long double factor, pendres_reference_pair t,
                       pendres_reference_pair *sum)
 {
   pendres_reference_series product = { 0.0L };
-  for (int k = 0; k < walk->order; k++)
+  for (int k = 0; k < run->order; k++)
     product[k + 1] = cauchy(a, b, k) / (long double)(k + 1);
-  pair_add(sum, factor * advance_series(product, walk->order, t));
+  pair_add(sum, factor * advance_series(product, run->order, t));
 }
 
-static void measure(pendres_reference_walk *walk, pendres_reference_pair t)
+static void measure(pendres_reference_run *run, pendres_reference_pair t)
 {
   const long double two_pi = pendres_reference_taylor_two_pi().hi;
-  const long double omega = walk->model.drive_frequency, force = walk->model.drive_amplitude;
+  const long double omega = run->model.drive_frequency, force = run->model.drive_amplitude;
   pendres_reference_series steady;
-  memcpy(steady, walk->sy, sizeof steady);
-  steady[0] += two_pi * ((long double)walk->turns - walk->drift * (long double)walk->periods) -
-               walk->drift * walk->theta;
-  steady[1] -= walk->drift * omega;
-  note_extremes(walk, steady, t.hi);
-  integrate(walk, steady, walk->sdrive, 1.0L, t, &walk->cosine);
-  integrate(walk, steady, walk->squad, 1.0L, t, &walk->sine);
-  integrate(walk, walk->sv, walk->sv, 1.0L, t, &walk->square);
-  integrate(walk, walk->sv, walk->sdrive, force, t, &walk->area);
-  for (int i = 0; i < walk->columns; i++)
-    integrate(walk, walk->sw[i], walk->sdrive, force, t, &walk->area_by[i]);
-  if (walk->columns > PENDRES_REFERENCE_BY_FREQUENCY)
-    integrate(walk, walk->sv, walk->sdrive, -force / omega, t,
-              &walk->area_by[PENDRES_REFERENCE_BY_FREQUENCY]);
-  if (walk->columns > PENDRES_REFERENCE_BY_AMPLITUDE)
-    integrate(walk, walk->sv, walk->sdrive, 1.0L, t,
-              &walk->area_by[PENDRES_REFERENCE_BY_AMPLITUDE]);
+  memcpy(steady, run->sy, sizeof steady);
+  steady[0] += two_pi * ((long double)run->turns - run->drift * (long double)run->periods) -
+               run->drift * run->theta;
+  steady[1] -= run->drift * omega;
+  note_extremes(run, steady, t.hi);
+  integrate(run, steady, run->sdrive, 1.0L, t, &run->cosine);
+  integrate(run, steady, run->squad, 1.0L, t, &run->sine);
+  integrate(run, run->sv, run->sv, 1.0L, t, &run->square);
+  integrate(run, run->sv, run->sdrive, force, t, &run->area);
+  for (int i = 0; i < run->columns; i++)
+    integrate(run, run->sw[i], run->sdrive, force, t, &run->area_by[i]);
+  if (run->columns > PENDRES_REFERENCE_BY_FREQUENCY)
+    integrate(run, run->sv, run->sdrive, -force / omega, t,
+              &run->area_by[PENDRES_REFERENCE_BY_FREQUENCY]);
+  if (run->columns > PENDRES_REFERENCE_BY_AMPLITUDE)
+    integrate(run, run->sv, run->sdrive, 1.0L, t,
+              &run->area_by[PENDRES_REFERENCE_BY_AMPLITUDE]);
 }
 
 /* One step of h + tail in theta; h is on the grid or ends the period. */
-static void step(pendres_reference_walk *walk, long double h, long double tail)
+static void step(pendres_reference_run *run, long double h, long double tail)
 {
-  const int order = walk->order;
-  const long double omega = walk->model.drive_frequency;
+  const int order = run->order;
+  const long double omega = run->model.drive_frequency;
   pendres_reference_pair t = { h / omega, 0.0L };
   const pendres_reference_pair back = two_product(t.hi, omega);
   t.lo = (((h - back.hi) - back.lo) + tail) / omega;
-  if (walk->measures) measure(walk, t);
+  if (run->measures) measure(run, t);
   /* The second word of y is in the series, that of v acts to first order. */
-  const long double more = t.hi * walk->v.lo;
-  pair_add(&walk->y, advance_series(walk->sy, order, t) + more);
-  pair_add(&walk->v, advance_series(walk->sv, order, t) - walk->model.damping * more);
-  for (int i = 0; i < walk->columns; i++) {
-    pair_add(&walk->u[i], advance_series(walk->su[i], order, t));
-    pair_add(&walk->w[i], advance_series(walk->sw[i], order, t));
+  const long double more = t.hi * run->v.lo;
+  pair_add(&run->y, advance_series(run->sy, order, t) + more);
+  pair_add(&run->v, advance_series(run->sv, order, t) - run->model.damping * more);
+  for (int i = 0; i < run->columns; i++) {
+    pair_add(&run->u[i], advance_series(run->su[i], order, t));
+    pair_add(&run->w[i], advance_series(run->sw[i], order, t));
   }
-  walk->theta += h;
-  wrap(walk);
+  run->theta += h;
+  wrap(run);
 }
 
 /* From drive phase 0 to `end`, at which the phase is left. */
-static pendres_status advance_to(pendres_reference_walk *walk, pendres_reference_pair end)
+static pendres_status advance_to(pendres_reference_run *run, pendres_reference_pair end)
 {
-  walk->theta = 0.0L;
+  run->theta = 0.0L;
   for (;;) {
-    expand_state(walk);
-    for (int i = 0; i < walk->columns; i++) expand_column(walk, i);
-    const long double h = walk->steps > 0
-                            ? floorl(two_pi_part[0] / walk->steps / grid + 1.0L) * grid
-                            : allowed_step(walk);
-    const long double left = end.hi - walk->theta;
+    expand_state(run);
+    for (int i = 0; i < run->columns; i++) expand_column(run, i);
+    const long double h = run->steps > 0
+                            ? floorl(two_pi_part[0] / run->steps / grid + 1.0L) * grid
+                            : allowed_step(run);
+    const long double left = end.hi - run->theta;
     /* NaN and infinities end here, too. A million steps a period are far more than
        anything physical asks for. */
-    if (!(h > 1e-6L) || !isfinite(walk->y.hi) || !isfinite(walk->v.hi))
+    if (!(h > 1e-6L) || !isfinite(run->y.hi) || !isfinite(run->v.hi))
       return PENDRES_INTEGRATION_FAILED;
     if (h >= left) {
-      step(walk, left, end.lo);
+      step(run, left, end.lo);
       return PENDRES_OK;
     }
-    step(walk, h, 0.0L);
+    step(run, h, 0.0L);
   }
 }
 
-pendres_status pendres_reference_taylor_advance(pendres_reference_walk *walk, long periods)
+pendres_status pendres_reference_taylor_advance(pendres_reference_run *run, long periods)
 {
   for (long i = 0; i < periods; i++) {
-    const pendres_status status = advance_to(walk, pendres_reference_taylor_two_pi());
+    const pendres_status status = advance_to(run, pendres_reference_taylor_two_pi());
     if (status != PENDRES_OK) return status;
-    walk->periods++;
+    run->periods++;
   }
   return PENDRES_OK;
 }
 
-pendres_status pendres_reference_taylor_advance_half(pendres_reference_walk *walk)
+pendres_status pendres_reference_taylor_advance_half(pendres_reference_run *run)
 {
   const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
-  return advance_to(walk, (pendres_reference_pair){ 0.5L * two_pi.hi, 0.5L * two_pi.lo });
+  return advance_to(run, (pendres_reference_pair){ 0.5L * two_pi.hi, 0.5L * two_pi.lo });
 }

@@ -1,7 +1,7 @@
 /*
  * reference_taylor.h -- the Taylor-series integrator behind reference.h.
  *
- * Owns: the walk of one pendulum over whole drive periods, with columns of the variational
+ * Owns: the run of one pendulum over whole drive periods, with columns of the variational
  * equation and the integrals over a cycle on request. Units and equation: reference.h.
  */
 #ifndef PENDRES_REFERENCE_TAYLOR_H
@@ -39,15 +39,15 @@ enum {
 /* Power series in t around the beginning of a step. */
 typedef long double pendres_reference_series[PENDRES_REFERENCE_ORDER + 1];
 
-typedef struct pendres_reference_walk {
-  /* What to do; set by init, then free to change before the walk. */
+typedef struct pendres_reference_run {
+  /* What to do; set by init, then free to change before the run. */
   pendres_reference_model model;
   int order;         /* at most PENDRES_REFERENCE_ORDER */
   int steps;         /* a drive period; 0: from the series */
   int columns;       /* how many, in the order above */
   int measures;      /* nonzero: integrals and extremes as well */
   long double drift; /* turns a drive cycle, taken off y in the measures */
-  /* The state, at drive phase 0 before and after a walk. */
+  /* The state, at drive phase 0 before and after a run. */
   pendres_reference_pair y, v;
   long turns;
   pendres_reference_pair u[PENDRES_REFERENCE_COLUMNS]; /* of y */
@@ -60,25 +60,25 @@ typedef struct pendres_reference_walk {
   pendres_reference_pair area_by[PENDRES_REFERENCE_COLUMNS];
   long double highest, lowest;    /* of y - drift theta */
   /* Workspace. */
-  long periods; /* walked so far */
+  long periods; /* run so far */
   long double theta;
   pendres_reference_series sy, sv, ssin, scos, sdrive, squad; /* squad: sine of the phase */
   pendres_reference_series su[PENDRES_REFERENCE_COLUMNS], sw[PENDRES_REFERENCE_COLUMNS];
-} pendres_reference_walk;
+} pendres_reference_run;
 
 /* 2 pi in two words. */
 pendres_reference_pair pendres_reference_taylor_two_pi(void);
 
-/* A walk from (y, v), |y| <= 1e9, with the columns at their start. Returns the whole turns
-   taken off y; the walk's own count begins at 0. */
-long pendres_reference_taylor_init(pendres_reference_walk *walk,
+/* A run from (y, v), |y| <= 1e9, with the columns at their start. Returns the whole turns
+   taken off y; the run's own count begins at 0. */
+long pendres_reference_taylor_init(pendres_reference_run *run,
                                    const pendres_reference_model *model, long double y,
                                    long double v);
 
 /* Walk on. PENDRES_INTEGRATION_FAILED if steps become too small. */
-pendres_status pendres_reference_taylor_advance(pendres_reference_walk *walk, long periods);
+pendres_status pendres_reference_taylor_advance(pendres_reference_run *run, long periods);
 
-/* From drive phase 0 half a period on, once; the walk ends there. */
-pendres_status pendres_reference_taylor_advance_half(pendres_reference_walk *walk);
+/* From drive phase 0 half a period on, once; the run ends there. */
+pendres_status pendres_reference_taylor_advance_half(pendres_reference_run *run);
 
 #endif

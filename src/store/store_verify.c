@@ -1,7 +1,7 @@
 /*
  * store_verify.c -- reading all of a file, to know whether it can be read.
  *
- * Owns: the walk through groups, datasets and attributes. HDF5 itself looks at its checksums when
+ * Owns: the way through groups, datasets and attributes. HDF5 itself looks at its checksums when
  * it reads: those of chunks (Fletcher32) and of headers.
  */
 #include "store/store_internal.h"
@@ -117,19 +117,19 @@ static pendres_status unreadable(pendres_store *store, hid_t object)
   return pendres_store_fail_hdf5(store, "'%s' cannot be read", path);
 }
 
-/* The walk. */
-typedef struct walk {
+/* What is read on the way. */
+typedef struct reading {
   pendres_store *store;
   int depth;
   uint64_t count; /* of datasets */
   pendres_status status;
-} walk;
+} reading;
 
-static pendres_status read_object(walk *w, hid_t object);
+static pendres_status read_object(reading *w, hid_t object);
 
 static herr_t read_member(hid_t group, const char *name, const H5L_info_t *info, void *arg)
 {
-  walk *w = arg;
+  reading *w = arg;
   const hid_t member = H5Oopen(group, name, H5P_DEFAULT);
 
   (void)info;
@@ -140,7 +140,7 @@ static herr_t read_member(hid_t group, const char *name, const H5L_info_t *info,
 
 /* A group lists its members twice: in the order in which they were made, where that is kept, and by
  * name, as each of them is opened. */
-static pendres_status read_group(walk *w, hid_t group)
+static pendres_status read_group(reading *w, hid_t group)
 {
   const hid_t creation = H5Gget_create_plist(group);
   unsigned order = 0;
@@ -175,7 +175,7 @@ static herr_t read_indices(hid_t object)
 }
 
 /* An object with all that is in it. */
-static pendres_status read_object(walk *w, hid_t object)
+static pendres_status read_object(reading *w, hid_t object)
 {
   const H5I_type_t kind = H5Iget_type(object);
 
@@ -192,7 +192,7 @@ pendres_status pendres_store_verify(pendres_store *store, uint64_t *datasets)
 {
   pendres_store_quiet quiet;
   hid_t root = H5I_INVALID_HID;
-  walk w = { .store = store };
+  reading w = { .store = store };
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
   if (!status && (root = H5Gopen2(store->h5, "/", H5P_DEFAULT)) < 0)

@@ -1,5 +1,5 @@
-/* continuation_walk.c -- following a curve of solutions by pseudo-arclength. */
-#include "continuation/continuation_walk.h"
+/* continuation_arc.c -- following a curve of solutions by pseudo-arclength. */
+#include "continuation/continuation_arc.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,26 +8,26 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
-const double pendres_walk_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1, 0.1,
-                                                    0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+const double pendres_arc_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1, 0.1,
+                                                   0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
 
-double pendres_walk_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
+double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / pendres_walk_scale[i]);
+    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale[i]);
   return sum;
 }
 
-pendres_walk pendres_walk_of(const pendres_orbit *orbit, pendres_continuation_condition condition,
-                             const pendres_parameter *parameter, double spacing,
-                             double u[PENDRES_U_COUNT])
+pendres_arc pendres_arc_of(const pendres_orbit *orbit, pendres_continuation_condition condition,
+                           const pendres_parameter *parameter, double spacing,
+                           double u[PENDRES_U_COUNT])
 {
-  pendres_walk w = {.condition = condition,
-                    .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
-                    .unknown = {PENDRES_U_Y, PENDRES_U_W},
-                    .tolerance = pendres_accuracy_to_walk(),
-                    .longest = spacing};
+  pendres_arc w = {.condition = condition,
+                   .unknowns = condition == PENDRES_CONDITION_NONE ? 3 : 4,
+                   .unknown = {PENDRES_U_Y, PENDRES_U_W},
+                   .tolerance = pendres_accuracy_of_arcs(),
+                   .longest = spacing};
   for (int k = 2; k < w.unknowns; k++) w.unknown[k] = PENDRES_U_OMEGA + (int)parameter[k - 2];
   w.map = pendres_continuation_map_of(orbit, w.unknowns, w.unknown, u);
   return w;
@@ -53,14 +53,14 @@ static const int widest_gap = 3; /* from one point to the next, in steps */
 static const double too_close = 1e-6;
 
 /* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
-static int tangent_of(const pendres_walk *w, const pendres_continuation_equations *e,
+static int tangent_of(const pendres_arc *w, const pendres_continuation_equations *e,
                       const double *along, double *tangent)
 {
   const int n = w->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   for (int k = 0; k < n; k++) {
     for (int r = 0; r < n - 1; r++)
-      a[r][k] = e->j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
+      a[r][k] = e->j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]];
     a[n - 1][k] = along[k];
   }
   t[n - 1] = 1.0;
@@ -71,14 +71,14 @@ static int tangent_of(const pendres_walk *w, const pendres_continuation_equation
 }
 
 /* What a point is beside its place; `like` (or NULL) decides the sign of the null vector. */
-static void describe(const pendres_walk *w, const pendres_continuation_equations *e,
-                    const double *like, pendres_walk_point *point)
+static void describe(const pendres_arc *w, const pendres_continuation_equations *e,
+                    const double *like, pendres_arc_point *point)
 {
   double slope = 0.0;
   point->image = e->image;
   for (int r = 2; r < e->equations; r++)
     for (int k = 0; k < w->unknowns; k++)
-      slope = hypot(slope, e->j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]]);
+      slope = hypot(slope, e->j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]]);
   /* The determinant has two factors that grow as errors do, and its slope three or more. */
   point->growth = fmax(pendres_continuation_map_growth(&e->image), sqrt(slope));
   if (w->condition != PENDRES_CONDITION_FOLD) return;
@@ -95,7 +95,7 @@ static void describe(const pendres_walk *w, const pendres_continuation_equations
 
 /* A point on its way to the curve, within the plane across a tangent. */
 typedef struct candidate {
-  const pendres_walk *walk;
+  const pendres_arc *arc;
   const double *tangent;
   int steps, rank, waiting;
   enum { ACTIVE, CONVERGED, FAILED } state;
@@ -105,12 +105,12 @@ typedef struct candidate {
 
 static void predict(candidate *c)
 {
-  const pendres_walk *w = c->walk;
+  const pendres_arc *w = c->arc;
   const double s = w->step * (c->rank + 1);
   memcpy(c->u, w->here.u, sizeof c->u);
   for (int k = 0; k < w->unknowns; k++)
     c->u[w->unknown[k]] +=
-      pendres_walk_scale[w->unknown[k]] * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
+      pendres_arc_scale[w->unknown[k]] * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
   memcpy(c->predicted, c->u, sizeof c->u);
   const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   c->state = pendres_pendulum_check(&p, NULL) == PENDRES_OK ? ACTIVE : FAILED;
@@ -119,11 +119,11 @@ static void predict(candidate *c)
 /* The equations and the plane, linearised. */
 static void linearise(const candidate *c, double a[][PENDRES_U_COUNT])
 {
-  const pendres_walk *w = c->walk;
+  const pendres_arc *w = c->arc;
   const int n = w->unknowns;
   for (int k = 0; k < n; k++) {
     for (int r = 0; r < n - 1; r++)
-      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_walk_scale[w->unknown[k]];
+      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]];
     a[n - 1][k] = c->tangent[k];
   }
 }
@@ -131,7 +131,7 @@ static void linearise(const candidate *c, double a[][PENDRES_U_COUNT])
 /* One Newton step within the plane. */
 static void correct(candidate *c)
 {
-  const pendres_walk *w = c->walk;
+  const pendres_arc *w = c->arc;
   const int n = w->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   linearise(c, a);
@@ -140,7 +140,7 @@ static void correct(candidate *c)
   if (!pendres_continuation_map_linear(n, a, d)) return;
   for (int k = 0; k < n; k++) length = hypot(length, d[k]);
   if (!(length < 1.0)) return;
-  for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_walk_scale[w->unknown[k]] * d[k];
+  for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_arc_scale[w->unknown[k]] * d[k];
   const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return;
   c->state = length < last_step ? CONVERGED : ACTIVE;
@@ -149,9 +149,9 @@ static void correct(candidate *c)
 /* How rounding moves a corrected point: the inverse of the linearised equations, by columns. */
 static double rounding_of(const candidate *c)
 {
-  const int n = c->walk->unknowns;
+  const int n = c->arc->unknowns;
   const double unit = 4e-16 * fmax(1.0, hypot(c->at.image.n[0][0], c->at.image.n[1][1])) *
-                      sqrt(c->steps * c->walk->map.period);
+                      sqrt(c->steps * c->arc->map.period);
   double sum = 0.0;
   for (int column = 0; column + 1 < n; column++) {
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
@@ -165,13 +165,13 @@ static double rounding_of(const candidate *c)
 
 static int same_block(const candidate *a, const candidate *b)
 {
-  return a->steps == b->steps && a->walk->condition == b->walk->condition &&
-         a->walk->map.force == b->walk->map.force &&
-         a->walk->map.mirror == b->walk->map.mirror &&
-         a->walk->map.period == b->walk->map.period &&
-         a->walk->map.winding == b->walk->map.winding && a->walk->unknowns == b->walk->unknowns &&
-         memcmp(a->walk->unknown, b->walk->unknown,
-                (size_t)a->walk->unknowns * sizeof *a->walk->unknown) == 0;
+  return a->steps == b->steps && a->arc->condition == b->arc->condition &&
+         a->arc->map.force == b->arc->map.force &&
+         a->arc->map.mirror == b->arc->map.mirror &&
+         a->arc->map.period == b->arc->map.period &&
+         a->arc->map.winding == b->arc->map.winding && a->arc->unknowns == b->arc->unknowns &&
+         memcmp(a->arc->unknown, b->arc->unknown,
+                (size_t)a->arc->unknowns * sizeof *a->arc->unknown) == 0;
 }
 
 /* Those that wait and are of one map and steps with the first; returns their number. */
@@ -197,7 +197,7 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
-    const pendres_walk *w = c[first].walk;
+    const pendres_arc *w = c[first].arc;
     status = pendres_continuation_map_equations(ctx, &w->map, w->condition, c[first].steps,
                                                 w->unknowns, w->unknown, count,
                                                 (const double (*)[PENDRES_U_COUNT])u, at);
@@ -217,11 +217,11 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
   double(*miss)[2] = malloc((n + 1) * sizeof *miss);
   if (miss == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == CONVERGED && c[i].walk->apart;
+  for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == CONVERGED && c[i].arc->apart;
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
-    status = pendres_continuation_map_closes(ctx, &c[first].walk->half, c[first].steps, count,
+    status = pendres_continuation_map_closes(ctx, &c[first].arc->half, c[first].steps, count,
                                              (const double (*)[PENDRES_U_COUNT])u, miss, NULL);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
       if (!(hypot(miss[i][0], miss[i][1]) > too_close)) c[index[i]].state = FAILED;
@@ -231,29 +231,29 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
 }
 
 /* How far the chord from `last` is from the mean of both tangents, in its length. */
-static double off_chord(const pendres_walk *w, const pendres_walk_point *last, const candidate *c,
-                        const pendres_walk_point *point, double way)
+static double off_chord(const pendres_arc *w, const pendres_arc_point *last, const candidate *c,
+                        const pendres_arc_point *point, double way)
 {
   double off = 0.0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
-    const double chord = (c->u[i] - last->u[i]) / (pendres_walk_scale[i] * way);
+    const double chord = (c->u[i] - last->u[i]) / (pendres_arc_scale[i] * way);
     off = hypot(off, chord - 0.5 * (last->tangent[k] + point->tangent[k]));
   }
   return off;
 }
 
 /* Whether a point follows upon `last`, `gap` steps before it; its tangent and arclength are set. */
-static int follows(const pendres_walk *w, const pendres_walk_point *last, int gap,
-                   const candidate *c, pendres_walk_point *point)
+static int follows(const pendres_arc *w, const pendres_arc_point *last, int gap,
+                   const candidate *c, pendres_arc_point *point)
 {
   double way = 0.0, miss = 0.0, turn = 0.0;
   if (c->state != CONVERGED) return 0;
   if (!tangent_of(w, &c->at, last->tangent, point->tangent)) return 0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
-    way = hypot(way, (c->u[i] - last->u[i]) / pendres_walk_scale[i]);
-    miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_walk_scale[i]);
+    way = hypot(way, (c->u[i] - last->u[i]) / pendres_arc_scale[i]);
+    miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_arc_scale[i]);
     turn += last->tangent[k] * point->tangent[k];
   }
   if (turn < sharpest_turn || way > 2.0 * gap * w->step ||
@@ -295,15 +295,15 @@ done:
   return status;
 }
 
-pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *kind, size_t n,
-                                    const pendres_walk_point *points, const int *steps,
-                                    double (*u)[PENDRES_U_COUNT], double *rounding)
+pendres_status pendres_arc_correct(pendres_context *ctx, const pendres_arc *kind, size_t n,
+                                   const pendres_arc_point *points, const int *steps,
+                                   double (*u)[PENDRES_U_COUNT], double *rounding)
 {
   candidate *c = malloc((n + 1) * sizeof *c);
   if (c == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++) {
-    c[i] = (candidate){.walk = kind, .tangent = points[i].tangent, .steps = steps[i]};
+    c[i] = (candidate){.arc = kind, .tangent = points[i].tangent, .steps = steps[i]};
     memcpy(c[i].u, u[i], sizeof c[i].u);
   }
   const pendres_status status = converge(ctx, n, c);
@@ -319,13 +319,13 @@ pendres_status pendres_walk_correct(pendres_context *ctx, const pendres_walk *ki
  * The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
  * tried as the one that goes on: near a fold the last one hardly changes.
  */
-static int first_tangent(const pendres_walk *w, const pendres_continuation_equations *e,
+static int first_tangent(const pendres_arc *w, const pendres_continuation_equations *e,
                          double direction, double *tangent)
 {
   const int n = w->unknowns, last = n - 1;
   int best = -1;
   for (int k = 0; k < n; k++) {
-    double along[PENDRES_WALK_UNKNOWNS] = {0.0}, t[PENDRES_WALK_UNKNOWNS];
+    double along[PENDRES_ARC_UNKNOWNS] = {0.0}, t[PENDRES_ARC_UNKNOWNS];
     along[k] = 1.0;
     if (!tangent_of(w, e, along, t) || (best >= 0 && fabs(t[k]) <= fabs(tangent[best]))) continue;
     memcpy(tangent, t, (size_t)n * sizeof *t);
@@ -338,7 +338,7 @@ static int first_tangent(const pendres_walk *w, const pendres_continuation_equat
   return 1;
 }
 
-static pendres_status equations_at(pendres_context *ctx, const pendres_walk *w, int steps,
+static pendres_status equations_at(pendres_context *ctx, const pendres_arc *w, int steps,
                                    const double u[PENDRES_U_COUNT],
                                    pendres_continuation_equations *e)
 {
@@ -346,13 +346,13 @@ static pendres_status equations_at(pendres_context *ctx, const pendres_walk *w, 
                                             w->unknown, 1, (const double (*)[PENDRES_U_COUNT])u, e);
 }
 
-pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
-                                  const double u[PENDRES_U_COUNT], double direction)
+pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
+                                 const double u[PENDRES_U_COUNT], double direction)
 {
   pendres_continuation_equations e;
   double place[1][PENDRES_U_COUNT], rounding = NAN;
   int steps = 0;
-  w->here = (pendres_walk_point){.arclength = 0.0};
+  w->here = (pendres_arc_point){.arclength = 0.0};
   w->stuck = w->found = w->apart = 0;
   w->step = 0.1 * w->longest;
   memset(w->bend, 0, sizeof w->bend);
@@ -362,7 +362,7 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, u, &e);
   if (status != PENDRES_OK) return status;
   if (!first_tangent(w, &e, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
-  status = pendres_walk_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
+  status = pendres_arc_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
   if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
   if (status == PENDRES_OK && pendres_continuation_map_half(&w->map, 0, &w->half)) {
@@ -377,11 +377,11 @@ pendres_status pendres_walk_begin(pendres_context *ctx, pendres_walk *w,
   return first_tangent(w, &e, direction, w->here.tangent) ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }
 
-pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *w, int steps,
-                                     pendres_walk_point *point)
+pendres_status pendres_arc_describe(pendres_context *ctx, const pendres_arc *w, int steps,
+                                    pendres_arc_point *point)
 {
   pendres_continuation_equations e;
-  double tangent[PENDRES_WALK_UNKNOWNS], null[2] = {point->null[0], point->null[1]};
+  double tangent[PENDRES_ARC_UNKNOWNS], null[2] = {point->null[0], point->null[1]};
   const pendres_status status = pendres_continuation_map_equations(
     ctx, &w->map, w->condition, steps, w->unknowns, w->unknown, 1,
     (const double (*)[PENDRES_U_COUNT])point->u, &e);
@@ -395,12 +395,12 @@ pendres_status pendres_walk_describe(pendres_context *ctx, const pendres_walk *w
  * Keep the points that converged and follow upon each other, and choose the next step. A few that
  * failed may be stepped over: where branches cross there is a small gap in which none converges.
  */
-static void accept(pendres_walk *w, const candidate *c)
+static void accept(pendres_arc *w, const candidate *c)
 {
-  const pendres_walk_point start = w->here;
-  const pendres_walk_point *last = &start;
+  const pendres_arc_point start = w->here;
+  const pendres_arc_point *last = &start;
   w->found = 0;
-  for (int rank = 0, gap = 1; rank < PENDRES_WALK_AHEAD && gap <= widest_gap; rank++) {
+  for (int rank = 0, gap = 1; rank < PENDRES_ARC_AHEAD && gap <= widest_gap; rank++) {
     if (follows(w, last, gap, &c[rank], &w->ahead[w->found])) {
       last = &w->ahead[w->found++];
       gap = 1;
@@ -409,47 +409,47 @@ static void accept(pendres_walk *w, const candidate *c)
     }
   }
   if (w->found == 0) {
-    w->step /= PENDRES_WALK_AHEAD;
+    w->step /= PENDRES_ARC_AHEAD;
     /* With a shorter step the bend may be the wrong one of a longer past. */
     memset(w->bend, 0, sizeof w->bend);
     w->stuck = w->step < shortest_step;
     return;
   }
-  const pendres_walk_point *before = w->found > 1 ? &w->ahead[w->found - 2] : &start;
+  const pendres_arc_point *before = w->found > 1 ? &w->ahead[w->found - 2] : &start;
   for (int k = 0; k < w->unknowns; k++)
     w->bend[k] = (last->tangent[k] - before->tangent[k]) / (last->arclength - before->arclength);
   w->here = *last;
-  if (w->found == PENDRES_WALK_AHEAD)
+  if (w->found == PENDRES_ARC_AHEAD)
     w->step = fmin(1.6 * w->step, w->longest);
-  else if (w->found < PENDRES_WALK_AHEAD / 2)
+  else if (w->found < PENDRES_ARC_AHEAD / 2)
     w->step *= 0.5;
 }
 
-pendres_status pendres_walk_advance(pendres_context *ctx, size_t n, pendres_walk *walks)
+pendres_status pendres_arc_advance(pendres_context *ctx, size_t n, pendres_arc *arcs)
 {
-  const size_t most = n * PENDRES_WALK_AHEAD;
+  const size_t most = n * PENDRES_ARC_AHEAD;
   pendres_status status = PENDRES_OK;
   size_t count = 0;
   candidate *c = malloc((most + 1) * sizeof *c);
   if (c == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++) {
-    pendres_walk *w = &walks[i];
+    pendres_arc *w = &arcs[i];
     int steps = 0;
     w->found = 0;
     if (w->stuck) continue;
     status = pendres_continuation_map_steps(ctx, w->map.force, w->here.u, w->tolerance, &steps);
     if (status != PENDRES_OK) goto done;
-    for (int k = 0; k < PENDRES_WALK_AHEAD; k++) {
-      c[count] = (candidate){.walk = w, .tangent = w->here.tangent, .steps = steps, .rank = k};
+    for (int k = 0; k < PENDRES_ARC_AHEAD; k++) {
+      c[count] = (candidate){.arc = w, .tangent = w->here.tangent, .steps = steps, .rank = k};
       predict(&c[count++]);
     }
   }
   status = converge(ctx, count, c);
   for (size_t i = 0, k = 0; i < n && status == PENDRES_OK; i++)
-    if (!walks[i].stuck) {
-      accept(&walks[i], &c[k]);
-      k += PENDRES_WALK_AHEAD;
+    if (!arcs[i].stuck) {
+      accept(&arcs[i], &c[k]);
+      k += PENDRES_ARC_AHEAD;
     }
 done:
   free(c);

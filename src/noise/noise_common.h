@@ -1,11 +1,11 @@
 /*
- * noise_plan.h -- what all questions about noise around an attractor have in common.
+ * noise_common.h -- what all questions about noise around an attractor have in common.
  *
  * Owns: who trajectories are, how long they settle, how many steps a period they take, and the
  * parts that they are followed in.
  */
-#ifndef PENDRES_NOISE_PLAN_H
-#define PENDRES_NOISE_PLAN_H
+#ifndef PENDRES_NOISE_COMMON_H
+#define PENDRES_NOISE_COMMON_H
 
 #include <pendres/langevin.h>
 #include <pendres/orbit.h>

@@ -1,5 +1,5 @@
-/* noise_plan.c -- ids, settling, steps and parts of noisy trajectories; see noise_plan.h. */
-#include "noise/noise_plan.h"
+/* noise_common.c -- ids, settling, steps and parts of noisy trajectories; see noise_common.h. */
+#include "noise/noise_common.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* chaos_walk.c -- pendulums that carry a tangent vector along; see chaos_walk.h. */
-#include "orbits/chaos_walk.h"
+/* chaos_walkers.c -- pendulums that carry a tangent vector along; see chaos_walkers.h. */
+#include "orbits/chaos_walkers.h"
 
 #include <math.h>
 
@@ -65,7 +65,7 @@ static void reach(pendres_walker *a, double y)
  */
 static void end_half(pendres_walker *a, double y)
 {
-  a->sum[PENDRES_WALK_AMPLITUDE] +=
+  a->sum[PENDRES_WALKER_AMPLITUDE] +=
     0.25 * (fmax(a->high[0], a->high[1]) - fmin(a->low[0], a->low[1]));
   a->low[0] = a->low[1];
   a->high[0] = a->high[1];
@@ -84,8 +84,8 @@ static void watch(void *arg, int step, const pendres_rows *rows)
     pendres_walker *a = &b->a[i];
     const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
     const double w = pendres_rows_get(rows, PENDRES_ROW_W, i);
-    a->sum[PENDRES_WALK_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
-    a->sum[PENDRES_WALK_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
+    a->sum[PENDRES_WALKER_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
+    a->sum[PENDRES_WALKER_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
                                   w * w;
     reach(a, y);
     if (a->last_w * w < 0.0) reach(a, turning_angle(spacing, a->last_y, a->last_w, y, w));
@@ -107,10 +107,10 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
   const double u = m[0][0] * a->u[0] + m[0][1] * a->u[1];
   const double v = m[1][0] * a->u[0] + m[1][1] * a->u[1];
   const double length = hypot(u, v);
-  a->sum[PENDRES_WALK_TURNS] += (y - a->y) / two_pi;
+  a->sum[PENDRES_WALKER_TURNS] += (y - a->y) / two_pi;
   a->y = y;
   a->w = pendres_rows_get(rows, PENDRES_ROW_W, i);
-  a->sum[PENDRES_WALK_SPEED] += a->w;
+  a->sum[PENDRES_WALKER_SPEED] += a->w;
   pendres_passage_wrap(&c->pendulum, &a->y, &a->turns);
   for (int k = 0; k < 2; k++) {
     /* Of a period that was not watched its end is all that is known. */
@@ -119,7 +119,7 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
   }
   a->u[0] = u / length;
   a->u[1] = v / length;
-  a->sum[PENDRES_WALK_GROWTH] += log(length);
+  a->sum[PENDRES_WALKER_GROWTH] += log(length);
   a->periods++;
   /* What escapes is in no chaos any longer either. */
   if (a->trapped == 0 &&
@@ -127,8 +127,8 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
     a->trapped = a->periods;
 }
 
-static pendres_status walk_block(pendres_block *block, watched_block *b,
-                                 const pendres_catalogue *c, int watched)
+static pendres_status advance_block(pendres_block *block, watched_block *b,
+                                    const pendres_catalogue *c, int watched)
 {
   for (size_t i = 0; i < b->n; i++) {
     pendres_walker *a = &b->a[i];
@@ -144,15 +144,15 @@ static pendres_status walk_block(pendres_block *block, watched_block *b,
   return status;
 }
 
-static void record(pendres_walk_trace *t, long filled, size_t walker, const pendres_walker *a)
+static void record(pendres_walker_trace *t, long filled, size_t walker, const pendres_walker *a)
 {
   const size_t at = walker * (size_t)t->length + (size_t)(filled % t->length);
   t->y[at] = a->y + two_pi * (double)a->turns;
   t->w[at] = a->w;
 }
 
-pendres_status pendres_walk(pendres_context *ctx, const pendres_catalogue *c, size_t n,
-                            pendres_walker *a, long periods, pendres_walk_trace *trace)
+pendres_status pendres_walkers_advance(pendres_context *ctx, const pendres_catalogue *c, size_t n,
+                                       pendres_walker *a, long periods, pendres_walker_trace *trace)
 {
   pendres_block block;
   int steps = 0;
@@ -172,7 +172,7 @@ pendres_status pendres_walk(pendres_context *ctx, const pendres_catalogue *c, si
                        .n = n - first < capacity ? n - first : capacity};
     pendres_block_resize(&block, b.n);
     for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-      status = walk_block(&block, &b, c, trace != NULL);
+      status = advance_block(&block, &b, c, trace != NULL);
       for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
         record(trace, trace->filled + k, first + i, &b.a[i]);
     }

@@ -1,10 +1,10 @@
 /*
- * chaos_walk.h -- pendulums that carry a tangent vector along, and what they have on the average.
+ * chaos_walkers.h -- pendulums that carry a tangent vector along, and what they have on average.
  *
  * Owns: one drive period of such walkers, and sums over batches of periods.
  */
-#ifndef PENDRES_CHAOS_WALK_H
-#define PENDRES_CHAOS_WALK_H
+#ifndef PENDRES_CHAOS_WALKERS_H
+#define PENDRES_CHAOS_WALKERS_H
 
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
@@ -12,32 +12,32 @@
 struct pendres_catalogue;
 
 /* What is summed over drive periods. */
-typedef enum pendres_walk_measure {
-  PENDRES_WALK_GROWTH,    /* of the logarithm of the tangent vector */
-  PENDRES_WALK_WORK,      /* of the drive: loop areas */
-  PENDRES_WALK_LOSS,      /* by friction */
-  PENDRES_WALK_AMPLITUDE, /* half peak to peak of the angle in a period, from phase 0 and pi on */
-  PENDRES_WALK_TURNS,     /* of the angle, in whole turns */
-  PENDRES_WALK_SPEED,     /* w at the period's end: mirror images differ in it */
-  PENDRES_WALK_MEASURES
-} pendres_walk_measure;
+typedef enum pendres_walker_measure {
+  PENDRES_WALKER_GROWTH,    /* of the logarithm of the tangent vector */
+  PENDRES_WALKER_WORK,      /* of the drive: loop areas */
+  PENDRES_WALKER_LOSS,      /* by friction */
+  PENDRES_WALKER_AMPLITUDE, /* half peak to peak of the angle in a period, from phase 0 and pi on */
+  PENDRES_WALKER_TURNS,     /* of the angle, in whole turns */
+  PENDRES_WALKER_SPEED,     /* w at the period's end: mirror images differ in it */
+  PENDRES_WALKER_MEASURES
+} pendres_walker_measure;
 
 typedef struct pendres_walker {
   double y, w, u[2]; /* the angle within half a turn of zero; the tangent vector, of length one */
   long turns;        /* whole turns taken out of y */
-  long periods;      /* walked so far */
+  long periods;      /* so far */
   long trapped;      /* after so many of them it was inside a trap; 0: never */
-  double sum[PENDRES_WALK_MEASURES];
+  double sum[PENDRES_WALKER_MEASURES];
   double low[2], high[2]; /* angles in the latest two halves of periods, the later one last */
   double last_y, last_w;  /* the latest sample of the period under way */
 } pendres_walker;
 
 /* The latest strobe points of walkers, angles with whole turns: a ring buffer for each of them. */
-typedef struct pendres_walk_trace {
+typedef struct pendres_walker_trace {
   long length; /* of a ring buffer */
   long filled; /* points recorded of each walker */
   double *y, *w; /* [walker][length] */
-} pendres_walk_trace;
+} pendres_walker_trace;
 
 pendres_walker pendres_walker_at(double y, double w);
 
@@ -45,7 +45,8 @@ pendres_walker pendres_walker_at(double y, double w);
  * Go on for some periods. With a trace also sums other than growth are taken, and every strobe
  * point is kept.
  */
-pendres_status pendres_walk(pendres_context *ctx, const struct pendres_catalogue *c, size_t n,
-                            pendres_walker *a, long periods, pendres_walk_trace *trace);
+pendres_status pendres_walkers_advance(pendres_context *ctx, const struct pendres_catalogue *c,
+                                       size_t n, pendres_walker *a, long periods,
+                                       pendres_walker_trace *trace);
 
 #endif
