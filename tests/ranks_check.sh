@@ -1,6 +1,7 @@
 #!/bin/sh
-# ranks_check.sh -- the program over MPI: the same bytes from 1, 2 and 4 ranks, and a program without
-# MPI refuses to be started several times. Skipped where there is no MPI, or no h5py to compare with.
+# ranks_check.sh -- the program over MPI: the same bytes from 1, 2 and 4 ranks of one thread and of
+# two, a point that a budget ends in any of them is told and computed later, and a program without MPI
+# refuses to be started several times. Skipped where there is no MPI, or no h5py to compare with.
 set -u
 mpirun=$(command -v mpirun) && command -v mpicc >/dev/null || { echo "no MPI here"; exit 77; }
 python=${PYTHON:-/usr/bin/python3}
@@ -37,13 +38,22 @@ cat >curve.nml <<'DECK'
 DECK
 for deck in lines curve; do
   "$RESONANCE" -q -o whole.h5 $deck.nml >table.txt || complain "$deck fails without MPI"
-  for ranks in 1 2 4; do
-    timeout 100 "$mpirun" -n $ranks "$program" -q -t1 -o ranks.h5 $deck.nml >ranks.txt 2>err.txt ||
-      { complain "$deck fails on $ranks ranks:"; cat err.txt; continue; }
-    cmp -s table.txt ranks.txt || complain "another table of $deck on $ranks ranks"
-    "$python" "$same" whole.h5 ranks.h5 >same.txt || { complain "$deck, $ranks ranks"; cat same.txt; }
+  for shape in "1 1" "1 2" "2 1" "2 2" "4 1"; do
+    ranks=${shape% *} threads=${shape#* }
+    timeout 100 "$mpirun" -n $ranks "$program" -q -t$threads -o ranks.h5 $deck.nml >ranks.txt \
+      2>err.txt || { complain "$deck fails on $ranks ranks:"; cat err.txt; continue; }
+    cmp -s table.txt ranks.txt || complain "another table of $deck on $ranks ranks x $threads"
+    "$python" "$same" whole.h5 ranks.h5 >same.txt ||
+      { complain "$deck, $ranks ranks x $threads threads"; cat same.txt; }
   done
 done
+
+# All points have no time at all; then those that were given up are computed, and nothing else.
+timeout 100 "$mpirun" -n 2 "$program" -t1 --budget=1e-9 -o budget.h5 curve.nml >out.txt 2>err.txt
+[ $? -eq 3 ] || complain "a budget of nothing is enough"
+grep -q "4 points were ended by --budget" err.txt || { complain "not told of a budget"; cat err.txt; }
+timeout 100 "$mpirun" -n 2 "$program" -q -t1 --resume -o budget.h5 curve.nml >out.txt 2>err.txt
+"$python" "$same" whole.h5 budget.h5 >same.txt || { complain "after a budget"; cat same.txt; }
 
 # What rank 0 refuses ends all; a program without MPI does not start the same run twice.
 echo "&scene kind = 'nothing' /" >bad.nml

@@ -15,7 +15,7 @@
 
 enum {
   STATES_A_TASK = 65536, /* whole rows of about so many states */
-  SLICE = 16384,          /* states a task of a refinement */
+  SLICE = 4096,           /* states a task of a refinement: several blocks */
   SMALL = 2048,           /* so few are not worth a task */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
   LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */

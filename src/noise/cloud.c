@@ -10,7 +10,7 @@
 #include "engine/context_internal.h"
 #include "noise/noise_common.h"
 
-enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS };
+enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = 192 /* trajectories, at most */ };
 
 /* What linear theory leaves out is smaller than a covariance by about its variance: below this
  * one it is lost in rounding, and trajectories would only be a poorer way to the same. */
@@ -263,7 +263,7 @@ pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_r
 
 size_t pendres_cloud_parts(const pendres_cloud_request *request)
 {
-  return request != NULL ? pendres_noise_parts(request->trajectories) : 0;
+  return request != NULL ? pendres_noise_parts(request->trajectories, PART) : 0;
 }
 
 size_t pendres_cloud_part(const pendres_cloud_request *request, size_t part, size_t *first)
@@ -272,7 +272,7 @@ size_t pendres_cloud_part(const pendres_cloud_request *request, size_t part, siz
   if (first == NULL) first = &unused;
   *first = 0;
   if (part >= pendres_cloud_parts(request)) return 0;
-  return pendres_noise_part(request->trajectories, part, first);
+  return pendres_noise_part(request->trajectories, PART, part, first);
 }
 
 static pendres_status follow(pendres_context *ctx, const pendres_cloud_request *q, size_t part,

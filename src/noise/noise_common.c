@@ -8,7 +8,6 @@
 #include "model/model.h"
 
 enum {
-  PART = 192,   /* trajectories, at most */
   IDS = 1 << 20 /* ids between those of one pendulum and attractor and others */
 };
 
@@ -80,14 +79,14 @@ pendres_status pendres_noise_choose_steps(pendres_context *ctx,
   return PENDRES_OK;
 }
 
-size_t pendres_noise_parts(size_t trajectories)
+size_t pendres_noise_parts(size_t trajectories, size_t most)
 {
-  return trajectories / PART + (trajectories % PART > 0);
+  return trajectories / most + (trajectories % most > 0);
 }
 
-size_t pendres_noise_part(size_t trajectories, size_t part, size_t *first)
+size_t pendres_noise_part(size_t trajectories, size_t most, size_t part, size_t *first)
 {
-  const size_t parts = pendres_noise_parts(trajectories);
+  const size_t parts = pendres_noise_parts(trajectories, most);
   *first = part * trajectories / parts;
   return (part + 1) * trajectories / parts - *first;
 }

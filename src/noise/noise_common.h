@@ -33,9 +33,10 @@ pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           unsigned statistics, double tolerance,
                                           pendres_langevin_bias *bias);
 
-/* How many parts so many trajectories are followed in, and those of one part: the number of the
- * first, and how many. A part has two or more, if there are two or more in all. */
-size_t pendres_noise_parts(size_t trajectories);
-size_t pendres_noise_part(size_t trajectories, size_t part, size_t *first);
+/* How many parts of `most` trajectories or less so many are followed in, and those of one part: the
+ * number of the first, and how many. A part has two or more, if there are two or more in all and
+ * `most` is 4 or more. */
+size_t pendres_noise_parts(size_t trajectories, size_t most);
+size_t pendres_noise_part(size_t trajectories, size_t most, size_t part, size_t *first);
 
 #endif

@@ -19,7 +19,11 @@ static const double bias_of_choice = 0.01, temperature_of_choice = 1e-4;
 
 static const double default_level = 0.95;
 
-enum { WAYS = PENDRES_SWITCHING_WAYS, WELL = -2 };
+enum {
+  WAYS = PENDRES_SWITCHING_WAYS,
+  WELL = -2,
+  PART = 96 /* trajectories, at most: counts of parts add up to the same however they are cut */
+};
 
 /* Where ways begin and end: the first state, the second, or another well. */
 static const struct {
@@ -99,7 +103,7 @@ static size_t share(const pendres_switching_survey *q, int state)
 size_t pendres_switching_parts(const pendres_switching_survey *survey)
 {
   if (survey == NULL) return 0;
-  return pendres_noise_parts(share(survey, 0)) + pendres_noise_parts(share(survey, 1));
+  return pendres_noise_parts(share(survey, 0), PART) + pendres_noise_parts(share(survey, 1), PART);
 }
 
 static pendres_status follow(pendres_context *ctx, const pendres_switching_survey *q,
@@ -110,14 +114,15 @@ static pendres_status follow(pendres_context *ctx, const pendres_switching_surve
   if (wrong == NULL && part >= pendres_switching_parts(q)) wrong = "there is no such part";
   if (wrong == NULL && q->steps_per_period == 0) wrong = "to follow trajectories asks for steps";
   if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
-  const size_t of_first = pendres_noise_parts(share(q, 0));
+  const size_t of_first = pendres_noise_parts(share(q, 0), PART);
   const int start = part >= of_first;
   size_t first;
   pendres_switching_request r = {.set = q->set, .from = (size_t)q->state[start],
                                  .periods = q->periods, .steps_per_period = q->steps_per_period};
   r.pendulum = pendres_attractors_get(q->set, r.from)->orbit.pendulum;
   r.pendulum.temperature = temperature;
-  r.trajectories = pendres_noise_part(share(q, start), start ? part - of_first : part, &first);
+  r.trajectories = pendres_noise_part(share(q, start), PART, start ? part - of_first : part,
+                                      &first);
   r.first_id = pendres_noise_first_id(&r.pendulum, r.from) + first;
   return pendres_switching_count(ctx, &r, tally);
 }
