@@ -422,11 +422,12 @@ figures: $(PROGRAM)
 	done; plot="$${PYTHON:-/usr/bin/python3} $(CURDIR)/plots/plot.py"; \
 	$$plot *.h5 && $$plot --surface f10.h5 && exit $$failed
 
-# The few pictures that docs/gallery.md shows, small, from what `make figures` left.
+# The few pictures that docs/gallery.md and the README show, from what `make figures` left.
 GALLERY := f07 f08 f09 hysteresis josephson cascade
 gallery:
-	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 62 -o docs/gallery \
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 100 -o docs/gallery \
 	  $(GALLERY:%=$(BUILD)/figures/%.h5)
+	@$${PYTHON:-/usr/bin/python3} plots/plot.py --dpi 100 -o docs $(BUILD)/figures/f02.h5
 
 style:
 	@tests/style_check.sh

@@ -5,7 +5,7 @@ import h5py
 import numpy as np
 
 from style import (EXACT, FREE, LA, SA, Run, around, drive_axis, figure, free_frequency,
-                   frequency, legend, parameter_axis, words)
+                   frequency, legend, parameter_axis, plt, words)
 
 
 def draw_free_oscillation(h, path):
@@ -40,23 +40,27 @@ def resonance_axes(ax, h, labels):
         if np.any(peak == kind):
             ax.plot(amplitude[peak == kind], omega[peak == kind], style, ms=3, color=colour,
                     label=name)
-    # Numbers stand outside of the arch: to the left of its rising part, above its falling one.
+    # Numbers keep off the lines: they stand within the arch below the free pendulum's line, and to
+    # the right of what is beyond that line.
     top = amplitude[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
+    free = frequency(h, free_frequency(amplitude))[0]
     for value in labels:
         i = np.argmin(abs(values - value))
         if abs(values[i] - value) > 1e-9 or not np.isfinite(amplitude[i]):
             continue
-        beyond = amplitude[i] < top
+        within = omega[i] < free[i]
+        left = within and amplitude[i] >= top
         ax.annotate(f"{value:g}", (amplitude[i], omega[i]), textcoords="offset points",
-                    xytext=(-6, 1) if beyond else (5, 1), ha="right" if beyond else "left",
-                    va="bottom", fontsize=7)
+                    xytext=(-5 if left else 5, -3 if within else 1),
+                    ha="right" if left else "left", va="top" if within else "bottom",
+                    fontsize=plt.rcParams["legend.fontsize"] - 0.5)
     ax.set(xlim=(0, x[-1]), ylim=around(np.append(omega, frequency(h, 1.0)[0]), 0.12))
     return label
 
 
 def draw_resonance_curve(h, path):
     fig, ax = figure(h, 5.4, 4.0)
-    label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.5, 0.7, 1.0])
+    label = resonance_axes(ax, h, [0.06, 0.1, 0.14, 0.2, 0.24, 0.32, 0.7, 1.0])
     ax.set(xlabel=r"mean loop amplitude $\overline{x_0}$ (rad)", ylabel="resonance: " + label)
     beside = path[:-3] + "_inset.h5"
     inset = os.path.exists(beside)
@@ -68,8 +72,9 @@ def draw_resonance_curve(h, path):
             resonance_axes(small, Run(other, h.options), [0.099, 0.28])
         small.set_title("$F_0 = 0.1$", fontsize=7.5, pad=2)
         small.tick_params(labelsize=7)
-    legend(ax, loc="lower right" if inset else "lower left", title="numbers: " + h.axis_of("mean_loop_amplitude", 0).replace("_", " "),
-           title_fontsize=7.5)
+    axis = h.axis_of("mean_loop_amplitude", 0).replace("_", " ")
+    legend(ax, loc="lower right" if inset else "lower left", title="numbers: " + axis,
+           title_fontsize=7.5, framealpha=1)
     return fig
 
 
@@ -108,8 +113,8 @@ def draw_response(h, path):
 
 
 def arrow_along(ax, x, y, colour):
-    """An arrow in the direction that a loop is gone through."""
-    k = len(x) // 8
+    """An arrow in the direction that a loop is gone through, half way between its ends."""
+    k = np.argmin(np.abs(x[:len(x) - max(1, len(x) // 100)] - (np.max(x) + np.min(x)) / 2))
     ax.annotate("", (x[k + max(1, len(x) // 100)], y[k + max(1, len(x) // 100)]), (x[k], y[k]),
                 arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.2, "mutation_scale": 14})
 
@@ -282,11 +287,17 @@ def draw_ramp(h, name):
         if len(values) > 1:
             axes[1].hist(parameter_axis(h, values, name)[0], bins="auto", color=f"C{way}", alpha=0.5)
     top.set_ylabel("x at drive phase 0 (rad)")
-    legend(top)
+    legend(top, under=np.atleast_1d(axes)[-1])
     if noisy:
-        axes[1].set_ylabel(f"jumps at $T = {h['temperature']:g}$")
+        axes[1].set_ylabel(f"jumps at\n$T = {h['temperature']:g}$")
     np.atleast_1d(axes)[-1].set_xlabel(label)
     return fig
+
+
+def broken(x, y, ends):
+    """A curve with gaps where states end."""
+    at = [np.sum(x < end) for end in ends if x.min() < end < x.max()]
+    return np.insert(x, at, np.nan), np.insert(y, at, np.nan)
 
 
 def draw_hysteresis(h, path):
@@ -301,22 +312,27 @@ def draw_hysteresis(h, path):
     steps = runs and name == "torque"
     shown = velocity / h["drive_frequency"] if steps else h["amplitude"]
     fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
-    small = 4 if len(x) < 150 else 2
-    for way, marker in enumerate("^v"):
-        top.plot(x, shown[way], marker, ms=small, mfc="none", color=f"C{way}",
-                 label=f"{words(name)} goes {('up', 'down')[way]}")
-        below.plot(x, h["lyapunov"][way], marker, ms=small, mfc="none", color=f"C{way}")
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
-    for value, way, slow in zip(h["jump_parameter"], h["jump_direction"], gradual):
+    ends = parameter_axis(h, h["jump_parameter"], name)[0]
+    for way, marker in enumerate("^v"):
+        # Lines end where the state does; where both ways agree, their marks take turns. What has
+        # steps is left as points.
+        every = max(1, len(x) // 20)
+        style = dict(ms=4 if len(x) < 150 else 2, ls="") if steps else dict(
+            ms=4, lw=0.9, markevery=(way * every // 2, every))
+        stops = ends[(h["jump_direction"] == way) & (gradual == 0)]
+        for ax, values in (top, shown[way]), (below, h["lyapunov"][way]):
+            ax.plot(*broken(x, values, stops), marker=marker, mfc="none", color=f"C{way}", **style,
+                    label=f"{words(name)} goes {('up', 'down')[way]}")
+    for end, way, slow in zip(ends, h["jump_direction"], gradual):
         for ax in (top, below):
-            ax.axvline(parameter_axis(h, value, name)[0], color=f"C{way}", lw=0.8,
-                       ls=":" if slow else "-")
+            ax.axvline(end, color=f"C{way}", lw=0.8, ls=":" if slow else "-")
     if runs and not steps:
         right = top.twinx()
         right.plot(x, velocity.T, lw=0.8)
         right.set_ylabel("mean velocity")
     top.set_ylabel("mean velocity / drive frequency" if steps else "amplitude (rad)")
-    top.legend()
+    legend(top, under=below)
     below.axhline(0, color="0.7", lw=0.8)
     below.set(ylabel="Lyapunov\nexponent", xlabel=label)
     return fig

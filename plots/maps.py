@@ -8,7 +8,7 @@ from matplotlib.patheffects import withStroke
 from curves import bifurcation_curves, column_of
 from curves import draw_response as curve_response
 from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
-                   colours_of, figure, frequency, parameter_axis, plt)
+                   colours_of, figure, frequency, legend, parameter_axis, plt)
 
 OUTLINE = [withStroke(linewidth=2, foreground="black")]
 MOST_PIXELS = 1500  # a side; finer grids are thinned
@@ -50,10 +50,15 @@ def label_plane(fig, ax, index, extent, names, colours):
     bar.ax.set_yticklabels(names[::step])
 
 
+def unit_of_x(h):
+    """What positions are divided by, and the label of their axis: only a pendulum's are angles."""
+    return (1.0, "$x(0)$") if "a1" in h else (np.pi, r"$x(0)/\pi$")
+
+
 def write_wells(ax, h, thin):
     """The number of the well in the middle of each large area of one well, as in print."""
     well, index = h["well"][:: thin[0], :: thin[1]], h["attractor_index"][:: thin[0], :: thin[1]]
-    x, v = h["x"][:: thin[0]] / np.pi, h["v"][:: thin[1]]
+    x, v = h["x"][:: thin[0]] / unit_of_x(h)[0], h["v"][:: thin[1]]
     for number in np.unique(well[index >= 0]):
         here = (well == number) & (index >= 0)
         if np.count_nonzero(here) < 0.01 * here.size:
@@ -78,7 +83,7 @@ def draw_clouds(ax, h):
         some = np.flatnonzero(np.isfinite(x))
         some = some[:: max(1, len(some) // 3000)]
         style = {"marker": "o+x"[t % 3], "color": greys[t % 3], "ls": ""}
-        ax.plot(x[some] / np.pi, v[some], ms=1.2 if t % 3 == 0 else 2.2, mew=0.4, rasterized=True,
+        ax.plot(x[some] / unit_of_x(h)[0], v[some], ms=1.2 if t % 3 == 0 else 2.2, mew=0.4, rasterized=True,
                 **style)
         handles.insert(0, Line2D([], [], ms=5, mec="black" if t % 3 == 0 else None, **style,
                                  label=f"$T = {temperatures[t]:g}$"))
@@ -103,12 +108,13 @@ def wells_apart(h, index, thin):
 
 
 def draw_basins(h, path):
-    x, v = h["x"], h["v"]
+    unit, label = unit_of_x(h)
+    x, v = h["x"] / unit, h["v"]
     fig, ax = figure(h, 5.6, 3.8)
     thin = tuple(max(1, -(-len(axis) // MOST_PIXELS)) for axis in (x, v))
     index = h["attractor_index"][:: thin[0], :: thin[1]]
     names, colours = attractor_styles(h)
-    extent = (x[0] / np.pi, x[-1] / np.pi, v[0], v[-1])
+    extent = (x[0], x[-1], v[0], v[-1])
     # Where all starts end on one attractor, the well is what they differ in.
     if "basin_well_fraction" in h or (len(names) == 1 and np.ptp(h["well"]) > 0):
         ends, well_names, well_colours = wells_apart(h, index, thin)
@@ -117,20 +123,19 @@ def draw_basins(h, path):
         label_plane(fig, ax, index, extent, names, colours)
     if "boundary_x" in h and h.options.boundary:
         gaps = np.flatnonzero(np.diff(h["boundary_piece"])) + 1
-        ax.plot(np.insert(h["boundary_x"] / np.pi, gaps, np.nan),
+        ax.plot(np.insert(h["boundary_x"] / unit, gaps, np.nan),
                 np.insert(h["boundary_v"], gaps, np.nan), color="black", lw=0.5)
     if "strobe_x" in h:
         draw_clouds(ax, h)
-    elif "well" in h:
+    elif "well" in h and "a1" not in h:  # other forces have no numbered wells
         write_wells(ax, h, thin)
     for i, name in enumerate(names):
-        at = h["attractor_x"][i] / np.pi, h["attractor_v"][i]
-        if np.all(np.isfinite(at)) and x[0] / np.pi <= at[0] <= x[-1] / np.pi:
+        at = h["attractor_x"][i] / unit, h["attractor_v"][i]
+        if np.all(np.isfinite(at)) and x[0] <= at[0] <= x[-1]:
             ax.plot(*at, "X", ms=6, mew=0.8, color="white", mec="black")
             ax.annotate(name, at, color="white", fontsize=8, textcoords="offset points",
                         xytext=(6, 6), path_effects=OUTLINE)
-    ax.set(xlabel=r"$x(0)/\pi$", ylabel="$v(0)$", xlim=(x[0] / np.pi, x[-1] / np.pi),
-           ylim=(v[0], v[-1]))
+    ax.set(xlabel=label, ylabel="$v(0)$", xlim=(x[0], x[-1]), ylim=(v[0], v[-1]))
     return fig
 
 
@@ -221,7 +226,7 @@ def draw_phase_diagram(h, path):
             (1.4, "-", "folds: SA or LA ends"), (0.4, "-", "folds of others"),
             (0.8, ":", "doubling, symmetry breaking"))]
         handles.append(Line2D([], [], marker="*", color="black", ms=8, ls="", label="cusp"))
-        axes[0].legend(handles=handles, loc="upper left", framealpha=0.9)
+        legend(axes[0], handles, under=axes[1], loc="upper left", framealpha=0.9)
     return fig
 
 

@@ -71,6 +71,15 @@ def parse():
     return parser.parse_args()
 
 
+def balanced(text, most):
+    """Text in as few lines as it takes, and these about alike in length."""
+    lines = textwrap.wrap(text, most)
+    shorter = most
+    while shorter > 1 and len(textwrap.wrap(text, shorter - 1)) == len(lines):
+        shorter -= 1
+    return textwrap.fill(text, shorter)
+
+
 def draw(path, options):
     """The figure of a file; ValueError says why there is none."""
     try:
@@ -88,8 +97,8 @@ def draw(path, options):
             figure = drawer(run, path)
         except KeyError as missing:
             raise ValueError(f"something is missing from it: {missing}") from None
-        width = figure.get_size_inches()[0]
-        figure.suptitle(textwrap.fill(run.text("title"), max(20, int(12 * width))), fontsize=9)
+        most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
+        figure.suptitle(balanced(run.text("title"), most), fontsize=plt.rcParams["font.size"])
         return figure
 
 

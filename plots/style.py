@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.transforms import ScaledTranslation
 
 SA, LA = "#0072B2", "#D55E00"
 COEXISTENCE, OTHER, SINGLE, UNRESOLVED = "#F0E442", "#009E73", "#D9D9D9", "#999999"
@@ -50,22 +51,35 @@ def strings(values):
     return [v.decode() if isinstance(v, bytes) else str(v) for v in np.atleast_1d(values)]
 
 
+NARROW = 4.5                            # inches; a column of print is less
+SIZES = {False: (9, 7.5), True: (7.5, 6.5)}  # of text and of legends, in points
+
+
 def figure(run, width, height, rows=1, columns=1, **more):
     """Axes of a default size in inches, or of the one that the command line asks for."""
-    return plt.subplots(rows, columns, figsize=run.options.size or (width, height), **more)
+    size = run.options.size or (width, height)
+    text, small = SIZES[size[0] < NARROW]
+    plt.rcParams.update({"font.size": text, "axes.titlesize": text, "legend.fontsize": small})
+    return plt.subplots(rows, columns, figsize=size, **more)
 
 
-def legend(ax, **more):
-    """A legend beside the curves, or below the axes where a picture is too narrow for both."""
-    handles, texts = ax.get_legend_handles_labels()
+def legend(ax, handles=None, under=None, **more):
+    """A legend beside the curves, or where a picture is too narrow for both below the axes, or
+    below those `under` them."""
+    texts = [handle.get_label() for handle in handles or []]
+    if handles is None:
+        handles, texts = ax.get_legend_handles_labels()
     once = dict(zip(texts, zip(handles, texts)))  # each text once
     if not once:
         return
-    if ax.figure.get_size_inches()[0] >= 4.5:
-        ax.legend(*zip(*once.values()), **more)
-    else:
-        more["loc"] = "upper center"
-        ax.legend(*zip(*once.values()), bbox_to_anchor=(0.5, -0.2), ncol=2, **more)
+    if ax.figure.get_size_inches()[0] < NARROW:
+        under, points = under or ax, ScaledTranslation(0, -0.42, ax.figure.dpi_scale_trans)
+        more.update(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=0, frameon=False,
+                    bbox_transform=under.transAxes + points,
+                    ncol=2 if max(map(len, once)) <= 22 else 1)
+        more["title_fontsize"] = plt.rcParams["legend.fontsize"]
+        ax = under
+    ax.legend(*zip(*once.values()), **more)
 
 
 def drive_axis(run, values, name):
