@@ -8,7 +8,7 @@
 #include "engine/kernels.h"
 #include "engine/lanes.h"
 
-enum { MOST_LANES = 96, VECTORS = 6, ROWS = PENDRES_ROWS_ALL, SIZE = ROWS * MOST_LANES };
+enum { MOST_LANES = 96, VECTORS = 6, TANGENTS = 5, SIZE = PENDRES_ROWS_ALL * MOST_LANES };
 
 /* Those that this processor runs; the first is the plainest. */
 static size_t available(const pendres_kernels *list[3])
@@ -37,58 +37,50 @@ static double uniform(double from, double to)
 typedef struct bench {
   double *vector[VECTORS], *stiffness, *drive, *friction, *inverse, *torque, *modulation;
   double *power[PENDRES_FORCE_COEFFICIENTS];
+  double *tangent[TANGENTS]; /* their y, y, w, w, and what is kept of them */
   pendres_sum sum[3];
 } bench;
 
 static void close_bench(bench *b)
 {
+  double *const one[] = {b->stiffness, b->drive, b->friction, b->inverse, b->torque, b->modulation};
+  for (size_t i = 0; i < sizeof one / sizeof *one; i++) free(one[i]);
   for (int i = 0; i < VECTORS; i++) free(b->vector[i]);
-  free(b->stiffness);
-  free(b->drive);
-  free(b->friction);
-  free(b->inverse);
-  free(b->torque);
-  free(b->modulation);
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) free(b->power[k]);
+  for (int i = 0; i < TANGENTS; i++) free(b->tangent[i]);
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) free(b->power[i]);
+}
+
+static double *random_lanes(size_t n, double from, double to)
+{
+  double *x = pendres_lanes_allocate(n);
+  assert_non_null(x);
+  for (size_t i = 0; i < n; i++) x[i] = uniform(from, to);
+  return x;
 }
 
 /* What other models have; powers weigh so little that none overflows in program(). */
 static void open_terms(bench *b)
 {
-  b->torque = pendres_lanes_allocate(MOST_LANES);
-  b->modulation = pendres_lanes_allocate(MOST_LANES);
-  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
-    b->power[k] = pendres_lanes_allocate(MOST_LANES);
-    assert_non_null(b->power[k]);
-    for (int i = 0; i < MOST_LANES; i++) b->power[k][i] = uniform(-1.0, 1.0) * pow(0.01, k);
-  }
-  assert_true(b->torque && b->modulation);
-  for (int i = 0; i < MOST_LANES; i++) {
-    b->torque[i] = uniform(-1.0, 1.0);
-    b->modulation[i] = uniform(-2.0, 2.0);
-  }
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++)
+    b->power[k] = random_lanes(MOST_LANES, -pow(0.01, k), pow(0.01, k));
+  b->torque = random_lanes(MOST_LANES, -1.0, 1.0);
+  b->modulation = random_lanes(MOST_LANES, -2.0, 2.0);
 }
 
 static void open_bench(bench *b, uint64_t seed)
 {
   random_state = seed;
-  for (int i = 0; i < VECTORS; i++) {
-    b->vector[i] = pendres_lanes_allocate(SIZE);
-    assert_non_null(b->vector[i]);
-    for (int j = 0; j < SIZE; j++) b->vector[i][j] = uniform(-4.0, 4.0);
-  }
-  b->stiffness = pendres_lanes_allocate(MOST_LANES);
-  b->drive = pendres_lanes_allocate(MOST_LANES);
-  b->friction = pendres_lanes_allocate(MOST_LANES);
-  b->inverse = pendres_lanes_allocate(MOST_LANES);
-  assert_true(b->stiffness && b->drive && b->friction && b->inverse);
+  for (int i = 0; i < VECTORS; i++) b->vector[i] = random_lanes(SIZE, -4.0, 4.0);
+  b->inverse = random_lanes(MOST_LANES, 1.0 / 3.0, 5.0);
+  b->stiffness = random_lanes(MOST_LANES, 1.0, 1.0);
+  b->drive = random_lanes(MOST_LANES, 0.0, 1.0);
+  b->friction = random_lanes(MOST_LANES, 0.0, 2.0);
   for (int i = 0; i < MOST_LANES; i++) {
-    const double omega = uniform(0.2, 3.0);
-    b->inverse[i] = 1.0 / omega;
-    b->stiffness[i] = 1.0 / (omega * omega);
-    b->drive[i] = uniform(0.0, 1.0) / (omega * omega);
-    b->friction[i] = uniform(0.0, 2.0) / omega;
+    b->stiffness[i] = b->inverse[i] * b->inverse[i];
+    b->drive[i] *= b->stiffness[i];
+    b->friction[i] *= b->inverse[i];
   }
+  for (int i = 0; i < TANGENTS; i++) b->tangent[i] = random_lanes(MOST_LANES, 0.1, 1.0);
   for (int s = 0; s < 3; s++) {
     pendres_sum *q = &b->sum[s];
     q->terms = 1 + (int)uniform(0.0, PENDRES_KERNELS_TERMS);
@@ -102,7 +94,7 @@ static void open_bench(bench *b, uint64_t seed)
 }
 
 /* All kinds of operations; vectors are read after they were written, and sums into themselves. */
-static size_t program(const bench *b, pendres_operation o[10])
+static size_t program(const bench *b, pendres_operation o[12])
 {
   double *const *v = b->vector;
   size_t n = 0;
@@ -116,6 +108,8 @@ static size_t program(const bench *b, pendres_operation o[10])
   o[n++] = (pendres_operation){.sum = &b->sum[2], .to = v[2], .slope = v[4], .cos_theta = 0.1,
                                .keep = 1};
   o[n++] = (pendres_operation){.to = v[0]};
+  o[n++] = (pendres_operation){.from = v[2], .carry = 0.2, .cos_theta = 0.4};
+  o[n++] = (pendres_operation){.from = v[5], .carry = 0.2, .cos_theta = 0.5, .second = 1};
   return n;
 }
 
@@ -144,7 +138,10 @@ static pendres_strip strip_of(const bench *b, equation e, size_t lane, size_t la
     .model = e.model,
     .at = e.rows * lane,
     .k = {b->stiffness + lane, b->drive + lane, b->friction + lane, b->inverse + lane,
-          b->torque + lane, b->modulation + lane, {NULL}}};
+          b->torque + lane, b->modulation + lane, {NULL}},
+    .tangent = {.keep = b->tangent[4] + lane}};
+  for (int i = 0; i < 2; i++) s.tangent.y[i] = b->tangent[i] + lane;
+  for (int i = 0; i < 2; i++) s.tangent.w[i] = b->tangent[2 + i] + lane;
   for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) s.k.power[k] = b->power[k] + lane;
   return s;
 }
@@ -159,7 +156,7 @@ static void test_same_bytes_on_every_instruction_set(void **state)
       bench first;
       for (size_t k = 0; k < count; k++) {
         bench b;
-        pendres_operation o[10];
+        pendres_operation o[12];
         open_bench(&b, 1000 * e + lanes);
         const size_t n = program(&b, o);
         const pendres_strip s = strip_of(&b, equations[e], 0, lanes);
@@ -167,6 +164,8 @@ static void test_same_bytes_on_every_instruction_set(void **state)
         for (int i = 0; i < VECTORS && k > 0; i++)
           assert_memory_equal(b.vector[i], first.vector[i],
                               equations[e].rows * lanes * sizeof(double));
+        for (int i = 0; i < TANGENTS && k > 0; i++)
+          assert_memory_equal(b.tangent[i], first.tangent[i], lanes * sizeof(double));
         if (k == 0)
           first = b;
         else
@@ -186,7 +185,7 @@ static void test_same_bytes_however_lanes_are_split(void **state)
     for (size_t e = 0; e < EQUATIONS; e++) {
       const size_t rows = equations[e].rows;
       bench whole, parts;
-      pendres_operation o[10];
+      pendres_operation o[12];
       open_bench(&whole, e);
       open_bench(&parts, e);
       /* The same numbers, row by row of each part. */
@@ -209,6 +208,8 @@ static void test_same_bytes_however_lanes_are_split(void **state)
             assert_memory_equal(
               &parts.vector[i][rows * (lane - lane % 8) + 8 * r + lane % 8],
               &whole.vector[i][r * lanes + lane], sizeof(double));
+      for (int i = 0; i < TANGENTS; i++)
+        assert_memory_equal(parts.tangent[i], whole.tangent[i], lanes * sizeof(double));
       close_bench(&whole);
       close_bench(&parts);
     }

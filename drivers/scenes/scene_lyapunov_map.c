@@ -11,7 +11,9 @@
 
 enum {
   AXES = 2,
-  CHUNK = 2048 /* points of a task: enough for full blocks */
+  /* Points of a task: enough for full blocks. The few that are followed for long fill them in large
+     maps only, which have tasks enough for any number of threads. */
+  FEWEST = 2048, MOST = 8192, TASKS = 128
 };
 
 /* What is written of a point: NaN where it does not exist. */
@@ -25,19 +27,20 @@ typedef struct work {
   const deck *d;
   pendres_pendulum pendulum;
   deck_axis_id axis[AXES]; /* the second one runs fastest */
-  size_t count;
+  size_t count, chunk; /* points, and those of a task */
   row *rows;
 } work;
 
-/* What a task finds. */
-typedef struct record {
-  row rows[CHUNK];
-} record;
+static size_t chunk_of(size_t count)
+{
+  const size_t some = count / TASKS;
+  return some < FEWEST ? FEWEST : some < MOST ? some : MOST;
+}
 
 static size_t count_of(const work *w, size_t task)
 {
-  const size_t left = w->count - task * CHUNK;
-  return left < CHUNK ? left : CHUNK;
+  const size_t left = w->count - task * w->chunk;
+  return left < w->chunk ? left : w->chunk;
 }
 
 static double coordinate(const work *w, size_t point, int axis)
@@ -99,8 +102,7 @@ static pendres_status find(const work *w, const some *s, pendres_context *ctx, f
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const work *w = arg;
-  record *r = out->data;
-  const size_t n = count_of(w, task), first = task * CHUNK;
+  const size_t n = count_of(w, task), first = task * w->chunk;
   pendres_pendulum *p = malloc(n * sizeof *p);
   pendres_lyapunov *found = malloc(n * sizeof *found);
   double *x = malloc(2 * n * sizeof *x);
@@ -113,7 +115,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
     x[n + i] = w->d->orbit.v;
   }
   if (p != NULL && found != NULL && x != NULL)
-    status = find(w, &(some){first, n, p, x, x + n, found, r->rows}, ctx, out);
+    status = find(w, &(some){first, n, p, x, x + n, found, out->data}, ctx, out);
   free(p);
   free(found);
   free(x);
@@ -123,8 +125,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  const record *r = in->data;
-  memcpy(w->rows + task * CHUNK, r->rows, count_of(w, task) * sizeof *r->rows);
+  memcpy(w->rows + task * w->chunk, in->data, count_of(w, task) * sizeof *w->rows);
   return PENDRES_OK;
 }
 
@@ -195,9 +196,11 @@ static pendres_status run_scene(scene_run *run)
   work w = {.d = run->deck, .pendulum = scene_along_pendulum(run->deck)};
   (void)deck_moving(run->deck, AXES, w.axis);
   w.count = run->deck->axis[w.axis[0]].count * run->deck->axis[w.axis[1]].count;
+  w.chunk = chunk_of(w.count);
   const farm_stage stage = {.what = "parts of the map", .last = 1,
-                            .tasks = (w.count + CHUNK - 1) / CHUNK, .record_size = sizeof(record),
-                            .task = compute, .collect = collect, .arg = &w};
+                            .tasks = (w.count + w.chunk - 1) / w.chunk,
+                            .record_size = w.chunk * sizeof(row), .task = compute,
+                            .collect = collect, .arg = &w};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   w.rows = malloc((w.count + 1) * sizeof *w.rows);
   if (w.rows == NULL) (void)scene_fail(run, status, "out of memory for %zu points", w.count);

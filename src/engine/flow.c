@@ -32,7 +32,8 @@ enum {
   COEFFICIENTS = POWERS + PENDRES_FORCE_COEFFICIENTS
 };
 
-enum { CARRIED = 6 /* rows */ };
+/* Rows of what is carried: of errors, as in pendres_carried, or of tangents. */
+enum { CARRIED = 6, TANGENT_Y = 0, TANGENT_W = 2, TANGENT_KEEP = 4 };
 
 struct pendres_flow {
   pendres_lanes_shape shape;
@@ -41,7 +42,8 @@ struct pendres_flow {
   N_Vector state;
   double *rows;           /* the state for everybody else, row after row */
   double *coefficient[COEFFICIENTS];
-  double *off[CARRIED];   /* errors, as in pendres_carried; NULL until they are first carried */
+  pendres_flow_load load; /* what is carried, */
+  double *off[CARRIED];   /* in these; NULL until anything is */
   pendres_flow_drive drive;
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
@@ -80,10 +82,12 @@ static int count_steps(pendres_flow *flow, int steps)
 static int after_step(sunrealtype theta, N_Vector y, void *arg)
 {
   pendres_flow *flow = arg;
-  if (flow->shape.off.yy != NULL) {
+  if (flow->load != PENDRES_FLOW_NOTHING) {
     const int driven = flow->shape.model != PENDRES_MODEL_PLAIN;
     const double phase = pendres_flow_drive_phase(&flow->drive, theta);
-    pendres_lanes_carry(y, two_pi / flow->drive.steps, driven ? cos(phase) : 1.0);
+    const double step = two_pi / flow->drive.steps;
+    const int second = flow->load == PENDRES_FLOW_TANGENTS && lrint(phase / step) % 2 == 0;
+    pendres_lanes_carry(y, step, driven ? cos(phase) : 1.0, second);
   }
   return count_steps(flow, 1);
 }
@@ -285,18 +289,26 @@ void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
     if (flow->off[c] != NULL) flow->off[c][to] = flow->off[c][from];
 }
 
-pendres_status pendres_flow_carry(pendres_flow *flow, int on)
+pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load)
 {
+  double *const *off = flow->off;
   flow->shape.off = (pendres_carried){0};
-  if (!on) return PENDRES_OK;
+  flow->shape.tangent = (pendres_tangents){0};
+  flow->load = PENDRES_FLOW_NOTHING;
+  if (load == PENDRES_FLOW_NOTHING) return PENDRES_OK;
   if (flow->shape.rows != PENDRES_ROWS_STATE || flow->tolerance != 0.0)
     return PENDRES_INVALID_ARGUMENT;
   for (int i = 0; i < CARRIED; i++) {
     if (flow->off[i] == NULL) flow->off[i] = pendres_lanes_allocate(flow->shape.capacity);
     if (flow->off[i] == NULL) return PENDRES_OUT_OF_MEMORY;
   }
-  flow->shape.off = (pendres_carried){flow->off[0], flow->off[1], flow->off[2],
-                                      flow->off[3], flow->off[4], flow->off[5]};
+  if (load == PENDRES_FLOW_ERRORS)
+    flow->shape.off = (pendres_carried){off[0], off[1], off[2], off[3], off[4], off[5]};
+  else
+    flow->shape.tangent = (pendres_tangents){{off[TANGENT_Y], off[TANGENT_Y + 1]},
+                                             {off[TANGENT_W], off[TANGENT_W + 1]},
+                                             off[TANGENT_KEEP]};
+  flow->load = load;
   return PENDRES_OK;
 }
 
@@ -317,6 +329,21 @@ void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
 {
   return (pendres_flow_error){flow->off[0][lane], flow->off[1][lane], flow->off[2][lane]};
+}
+
+void pendres_flow_set_tangent(pendres_flow *flow, size_t lane, int which, const double tangent[2])
+{
+  const double drag = 0.5 * flow->coefficient[FRICTION][lane];
+  flow->off[TANGENT_Y + which][lane] = tangent[0];
+  flow->off[TANGENT_W + which][lane] = fma(drag, tangent[0], tangent[1]);
+  flow->off[TANGENT_KEEP][lane] = exp(-drag * two_pi / flow->drive.steps);
+}
+
+void pendres_flow_get_tangent(const pendres_flow *flow, size_t lane, int which, double tangent[2])
+{
+  const double drag = 0.5 * flow->coefficient[FRICTION][lane];
+  tangent[0] = flow->off[TANGENT_Y + which][lane];
+  tangent[1] = fma(-drag, tangent[0], flow->off[TANGENT_W + which][lane]);
 }
 
 pendres_rows pendres_flow_rows(const pendres_flow *flow)
@@ -352,8 +379,8 @@ enum { SPAN_PERIOD, SPAN_HALF, SPAN_SAMPLED };
 static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
 {
   return (pendres_lanes_replay_kind){
-    .steps = flow->drive.steps, .span = span, .carried = flow->shape.off.yy != NULL,
-    .driven = flow->shape.off.yy != NULL && flow->shape.model != PENDRES_MODEL_PLAIN};
+    .steps = flow->drive.steps, .span = span, .carried = (int)flow->load,
+    .driven = flow->load != PENDRES_FLOW_NOTHING && flow->shape.model != PENDRES_MODEL_PLAIN};
 }
 
 /* What is known of such a period. In wide blocks nothing would be gained, and nobody be asked

@@ -57,15 +57,27 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
                            double w);
 
 /*
- * From now on carry the errors of the lanes along, or no longer; blocks of states with fixed steps
- * only. Each step adds the lane's `added` to the variance of y, and to that of v = omega w; what is
- * there grows and shrinks as the equation linearised along the trajectory has it. A lane's error is
- * set after its pendulum and the steps of the period.
+ * From now on carry errors of the lanes along, or a tangent vector of each, or nothing; blocks of
+ * states with fixed steps only. Both grow and shrink as the equation linearised along the
+ * trajectory has it. Each step adds the lane's `added` to the variance of y, and to that of v =
+ * omega w. What is carried is set after the lane's pendulum and the steps of the period.
+ *
+ * Each lane has two tangents, one by the block's steps and one by steps twice as long, of which
+ * there must be an even number a period. What they grow by is right to fourth order in the step in
+ * the mean over time, but not over a single period: they are half a step ahead of their lanes.
  */
-pendres_status pendres_flow_carry(pendres_flow *flow, int on);
+typedef enum pendres_flow_load {
+  PENDRES_FLOW_NOTHING,
+  PENDRES_FLOW_ERRORS,
+  PENDRES_FLOW_TANGENTS
+} pendres_flow_load;
+pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load);
 void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
                             double added);
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane);
+/* which: 0 by the block's steps, 1 by steps twice as long. */
+void pendres_flow_set_tangent(pendres_flow *flow, size_t lane, int which, const double tangent[2]);
+void pendres_flow_get_tangent(const pendres_flow *flow, size_t lane, int which, double tangent[2]);
 
 /* Copy a lane with all its coefficients. */
 void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);

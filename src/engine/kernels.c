@@ -10,9 +10,8 @@
 
 #include <string.h>
 
-#include "engine/force_polynomial.h"
+#include "engine/kernels_force.h"
 #include "engine/kernels_vector.h"
-#include "model/forces.h"
 
 #ifndef PENDRES_KERNELS
 #define PENDRES_KERNELS base
@@ -62,52 +61,6 @@ static void sum(const pendres_sum *q, size_t at, size_t n)
   for (; at < end; at += 2 * LANES) sum_vectors(2, q, at); /* there are two rows or more */
 }
 
-/* f of a lane by a force's own header, and its derivative. */
-PENDRES_VECTOR_INLINE void own_force(pendres_model_terms model, const pendres_coefficients *k,
-                                     size_t i, double y, double *f, double *slope)
-{
-  double a[PENDRES_FORCE_COEFFICIENTS];
-  for (int c = 0; c < PENDRES_FORCE_COEFFICIENTS; c++) a[c] = k->power[c][i];
-  pendres_forces_at(PENDRES_MODEL_FORCE(model), a, y, f, slope);
-}
-
-PENDRES_VECTOR_INLINE void own_forces(pendres_model_terms model, int count,
-                                      const pendres_coefficients *k, size_t lane, vec *y)
-{
-  double f[GROUP * LANES];
-  PENDRES_VECTOR_EACH pendres_vector_store(f + v * LANES, y[v]);
-#pragma omp simd
-  for (int i = 0; i < count * LANES; i++) {
-    double slope;
-    own_force(model, k, lane + (size_t)i, f[i], &f[i], &slope);
-  }
-  PENDRES_VECTOR_EACH y[v] = pendres_vector_load(f + v * LANES);
-}
-
-/* y[v] = f(y[v]) of a model; lane: where the vectors' coefficients begin. */
-PENDRES_VECTOR_INLINE void forces(pendres_model_terms model, int count,
-                                  const pendres_coefficients *k, size_t lane, vec *y)
-{
-  if (model == PENDRES_MODEL_POLYNOMIAL)
-    pendres_polynomial_forces(count, k->power, lane, y);
-  else if (model > PENDRES_MODEL_POLYNOMIAL)
-    own_forces(model, count, k, lane, y);
-  else
-    pendres_vector_sines(count, y);
-}
-
-/* f and its derivative at a lane's y: the same f, bit by bit. */
-PENDRES_VECTOR_INLINE void force_of(pendres_model_terms model, const pendres_coefficients *k,
-                                    size_t i, double y, double *f, double *slope)
-{
-  if (model == PENDRES_MODEL_POLYNOMIAL)
-    pendres_polynomial_force(k->power, i, y, f, slope);
-  else if (model > PENDRES_MODEL_POLYNOMIAL)
-    own_force(model, k, i, y, f, slope);
-  else
-    pendres_kernels_sincos(y, f, slope);
-}
-
 /*
  * The slope of w of `count` vectors, y given and used up. w is read again: in registers it would
  * push out what the force needs.
@@ -119,7 +72,7 @@ PENDRES_VECTOR_INLINE void accelerate(pendres_model_terms model, int count,
   const double *stiffness = k->stiffness + lane, *drive = k->drive + lane;
   const double *friction = k->friction + lane;
   const vec f = pendres_vector_set(cos_theta);
-  forces(model, count, k, lane, y);
+  pendres_kernels_forces(model, count, k->power, lane, y);
   if (model != PENDRES_MODEL_PLAIN) {
     const vec one = pendres_vector_set(1.0);
     PENDRES_VECTOR_EACH
@@ -195,7 +148,7 @@ PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coeffic
   const double drag = k->friction[i] * w;
   felt a = {.modulation = 1.0};
   double by_y;
-  force_of(model, k, i, y, &a.bare, &by_y);
+  pendres_kernels_force(model, k->power, i, y, &a.bare, &by_y);
   a.force = a.bare;
   double rest = -drag;
   if (model != PENDRES_MODEL_PLAIN) {
@@ -310,7 +263,7 @@ PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip 
     double by_y;
     if (model >= PENDRES_MODEL_POLYNOMIAL) {
       double unused;
-      force_of(model, &k, i, y[i], &unused, &by_y);
+      pendres_kernels_force(model, k.power, i, y[i], &unused, &by_y);
     } else {
       by_y = pendres_kernels_cos_roughly(y[i]);
     }
@@ -325,6 +278,41 @@ PENDRES_VECTOR_INLINE void carry(pendres_model_terms model, const pendres_strip 
     yy[i] = a + added[i];
     yw[i] = b;
     ww[i] = FMA(k.stiffness[i], added[i], c);
+  }
+}
+
+/*
+ * A lane's tangent over the step from half a step before a state to half a step after it: half a
+ * step's drift, the kick of the spring at the state, and the other half. The kick is weaker by a
+ * twelfth of itself and the step, which makes means over time exact to fourth order (Takahashi and
+ * Imada, Journal of the Physical Society of Japan 53 (1984) 3765).
+ */
+PENDRES_VECTOR_INLINE void kick(double step, double spring, double keep, double *y, double *w)
+{
+  const double half = 0.5 * step, pull = step * spring;
+  const double weaker = FMA(pull * pull, step * (-1.0 / 12.0), pull);
+  const double a = FMA(half, *w, *y), b = FMA(-weaker, a, *w);
+  *y = keep * FMA(half, b, a);
+  *w = keep * b;
+}
+
+PENDRES_VECTOR_INLINE void turn(pendres_model_terms model, int second, const pendres_strip *s,
+                                const pendres_operation *o)
+{
+  const double *restrict y = o->from + s->at, *restrict keep = s->tangent.keep;
+  const pendres_coefficients k = s->k;
+  double *restrict y1 = s->tangent.y[0], *restrict w1 = s->tangent.w[0];
+  double *restrict y2 = s->tangent.y[1], *restrict w2 = s->tangent.w[1];
+  const double step = o->carry, cos_theta = o->cos_theta;
+#pragma omp simd
+  for (size_t i = 0; i < s->lanes; i++) {
+    double unused, by_y;
+    pendres_kernels_force(model, k.power, i, y[i], &unused, &by_y);
+    if (model != PENDRES_MODEL_PLAIN) by_y *= FMA(k.modulation[i], cos_theta, 1.0);
+    const double drag = 0.5 * k.friction[i];
+    const double spring = FMA(k.stiffness[i], by_y, -(drag * drag));
+    kick(step, spring, keep[i], &y1[i], &w1[i]);
+    if (second) kick(2.0 * step, spring, keep[i] * keep[i], &y2[i], &w2[i]);
   }
 }
 
@@ -366,7 +354,12 @@ PENDRES_VECTOR_INLINE void run_state(pendres_model_terms model, int count, const
       for (; lane + step <= s->lanes; lane += step) slope_vectors(model, count, s, lane, o);
       for (; lane < s->lanes; lane += REST * LANES) slope_vectors(model, REST, s, lane, o);
     } else if (o->carry != 0.0) {
-      carry(model, s, o);
+      if (s->off.yy != NULL)
+        carry(model, s, o);
+      else if (o->second)
+        turn(model, 1, s, o);
+      else
+        turn(model, 0, s, o);
     } else {
       set(o, s->at, size);
     }

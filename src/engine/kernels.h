@@ -118,7 +118,8 @@ typedef struct pendres_sum {
  *                     needs z any more, and its contents are undefined
  *   from, slope       slope = right-hand side at from, another vector
  *   from, to          to = from
- *   from, carry       the errors of the strip's lanes over a step of this length that ends at from
+ *   from, carry       errors or tangents of the strip's lanes over a step of this length that ends
+ *                     at from
  *   to                to = 0
  *   nothing           nothing
  */
@@ -127,7 +128,8 @@ typedef struct pendres_operation {
   const double *from;
   double *to, *slope;
   double cos_theta;
-  double carry; /* 0: errors are not carried; else cos_theta is that of the step's end */
+  double carry; /* 0: nothing is carried; else cos_theta is that of the step's end */
+  int second;   /* tangents: by steps twice as long, too */
   int keep;
 } pendres_operation;
 
@@ -144,6 +146,17 @@ typedef struct pendres_carried {
   const double *keep, *kick;
 } pendres_carried;
 
+/*
+ * A tangent vector of each lane: how far a neighbour would be away, divided by something small. In
+ * place of its w stands w + friction y / 2, by which the drag drops out of the equation but for
+ * what it keeps of both over a step. Carried along by steps of their own, one cosine each: once
+ * with the steps of the state, and once with steps twice as long, which tell how exact that is.
+ */
+typedef struct pendres_tangents {
+  double *y[2], *w[2];
+  const double *keep; /* exp(-friction step / 2) */
+} pendres_tangents;
+
 /* What one lane is off by, in the same words. */
 typedef struct pendres_flow_error {
   double yy, yw, ww;
@@ -155,7 +168,8 @@ typedef struct pendres_strip {
   pendres_model_terms model;
   size_t at;    /* a vector's rows are at x + at, x + at + lanes, ... */
   pendres_coefficients k;
-  pendres_carried off; /* read and written where errors are carried */
+  pendres_carried off; /* read and written where errors are carried, */
+  pendres_tangents tangent; /* or tangents; NULL: not so */
 } pendres_strip;
 
 typedef struct pendres_kernels {

@@ -147,9 +147,9 @@ void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta)
   pendres_lanes_tape_slope(of(y)->shape, y, slope, cos_theta);
 }
 
-void pendres_lanes_carry(N_Vector y, double step, double cos_theta)
+void pendres_lanes_carry(N_Vector y, double step, double cos_theta, int second)
 {
-  pendres_lanes_tape_carry(of(y)->shape, y, step, cos_theta);
+  pendres_lanes_tape_carry(of(y)->shape, y, step, cos_theta, second);
 }
 
 static int linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)

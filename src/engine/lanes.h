@@ -44,6 +44,6 @@ void pendres_lanes_read(N_Vector v, double *rows);
 void pendres_lanes_slope(N_Vector y, N_Vector slope, double cos_theta);
 
 /* The errors of the lanes over a step of this length that has ended at y. */
-void pendres_lanes_carry(N_Vector y, double step, double cos_theta);
+void pendres_lanes_carry(N_Vector y, double step, double cos_theta, int second);
 
 #endif

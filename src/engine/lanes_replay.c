@@ -147,7 +147,8 @@ static int same_operation(const pendres_lanes_replay *p, const pendres_operation
   if ((a->sum == NULL) != (b->sum == NULL)) return 0;
   if (a->sum != NULL && a->sum - p->sum != b->sum - q->sum) return 0;
   return a->from == b->from && a->to == b->to && a->slope == b->slope &&
-         a->cos_theta == b->cos_theta && a->carry == b->carry && a->keep == b->keep;
+         a->cos_theta == b->cos_theta && a->carry == b->carry && a->second == b->second &&
+         a->keep == b->keep;
 }
 
 static int same(const pendres_lanes_replay *p, const pendres_lanes_replay *q)

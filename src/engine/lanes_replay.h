@@ -24,7 +24,7 @@ typedef struct pendres_lanes_replay {
 typedef struct pendres_lanes_replay_kind {
   int steps;
   int span;    /* the caller's: what is a period, and where it is looked at */
-  int carried; /* errors are carried along ... */
+  int carried; /* the caller's: errors or tangents are carried along ... */
   int driven;  /* ... by a spring that depends on the phase */
 } pendres_lanes_replay_kind;
 

@@ -28,6 +28,7 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
     const pendres_coefficients *k = &s->coefficients;
     lanes = pendres_lanes_strip(s, lane);
     const pendres_carried *off = &s->off;
+    const pendres_tangents *tangent = &s->tangent;
     pendres_strip strip = {
       .lanes = lanes,
       .model = s->model,
@@ -43,6 +44,10 @@ void pendres_lanes_shape_run(const pendres_lanes_shape *s, const pendres_operati
     if (off->yy != NULL)
       strip.off = (pendres_carried){off->yy + lane,    off->yw + lane,   off->ww + lane,
                                     off->added + lane, off->keep + lane, off->kick + lane};
+    if (tangent->keep != NULL)
+      strip.tangent = (pendres_tangents){{tangent->y[0] + lane, tangent->y[1] + lane},
+                                         {tangent->w[0] + lane, tangent->w[1] + lane},
+                                         tangent->keep + lane};
     s->kernels->run(s->rows, &strip, operations, n);
   }
 }

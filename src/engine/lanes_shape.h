@@ -32,6 +32,7 @@ typedef struct pendres_lanes_shape {
   pendres_model_terms model; /* of all lanes */
   pendres_coefficients coefficients; /* of the slope, an entry a lane; not owned */
   pendres_carried off;               /* errors of the lanes, likewise; NULL: not carried */
+  pendres_tangents tangent;          /* or these */
   size_t vectors;                    /* made so far, for their place in the cache */
   struct pendres_lanes_tape *tape;   /* what was put off */
   struct _generic_N_Vector *spare;   /* stands in for clones that there is no memory for, */

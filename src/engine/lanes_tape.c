@@ -151,10 +151,12 @@ void pendres_lanes_tape_copy(pendres_lanes_shape *s, N_Vector from, N_Vector to)
   note(s->tape, o, pendres_lanes_of(from)->bit, to);
 }
 
-void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta)
+void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta,
+                              int second)
 {
   pendres_operation *o = next(s);
-  *o = (pendres_operation){.from = data_of(y), .cos_theta = cos_theta, .carry = step};
+  *o = (pendres_operation){.from = data_of(y), .cos_theta = cos_theta, .carry = step,
+                             .second = second};
   s->tape->unread &= ~pendres_lanes_of(y)->bit;
 }
 

@@ -51,9 +51,10 @@ void pendres_lanes_tape_copy(pendres_lanes_shape *s, N_Vector from, N_Vector to)
 void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope,
                               double cos_theta);
 
-/* The errors of the lanes over a step that has ended at y. */
-void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step,
-                              double cos_theta);
+/* The errors or tangents of the lanes over a step that has ended at y; second: over two steps, too.
+   */
+void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta,
+                              int second);
 
 /* Do all that was put off: before anybody looks at a number or changes one. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);

@@ -103,7 +103,7 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow
                               .index = i};
   pendres_rank_order(n, queue);
 
-  if (b.carry) status = pendres_flow_carry(b.flow, 1);
+  if (b.carry) status = pendres_flow_carry(b.flow, PENDRES_FLOW_ERRORS);
   if (status != PENDRES_OK)
     (void)pendres_context_fail(ctx, status, "out of memory for the errors of %zu lanes", n);
   for (size_t first = 0; first < n && status == PENDRES_OK;) {
@@ -112,7 +112,7 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow
     status = run_class(&b, queue + first, last - first);
     first = last;
   }
-  if (b.carry) (void)pendres_flow_carry(b.flow, 0);
+  if (b.carry) (void)pendres_flow_carry(b.flow, PENDRES_FLOW_NOTHING);
 done:
   free(queue);
   free(b.slot);

@@ -109,12 +109,17 @@ void pendres_block_load(pendres_block *b, size_t lane, const pendres_pendulum *p
   pendres_flow_set_lane(b->flow, lane, p, y, w);
 }
 
+static pendres_status carry(pendres_block *b, pendres_flow_load load)
+{
+  const pendres_status status = pendres_flow_carry(b->flow, load);
+  if (status == PENDRES_OK) return status;
+  return pendres_context_fail(b->ctx, status, "out of memory for what %zu lanes carry along",
+                              pendres_flow_capacity(b->flow));
+}
+
 pendres_status pendres_block_carry(pendres_block *b, int on)
 {
-  const pendres_status status = pendres_flow_carry(b->flow, on);
-  if (status == PENDRES_OK) return status;
-  return pendres_context_fail(b->ctx, status, "out of memory for the errors of %zu lanes",
-                              pendres_flow_capacity(b->flow));
+  return carry(b, on ? PENDRES_FLOW_ERRORS : PENDRES_FLOW_NOTHING);
 }
 
 void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_error *error,
@@ -126,6 +131,26 @@ void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_e
 pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane)
 {
   return pendres_flow_get_error(b->flow, lane);
+}
+
+void pendres_block_put_state(pendres_block *b, size_t lane, double y, double w)
+{
+  pendres_flow_put_state(b->flow, lane, y, w);
+}
+
+pendres_status pendres_block_carry_tangents(pendres_block *b, int on)
+{
+  return carry(b, on ? PENDRES_FLOW_TANGENTS : PENDRES_FLOW_NOTHING);
+}
+
+void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const double tangent[2])
+{
+  pendres_flow_set_tangent(b->flow, lane, which, tangent);
+}
+
+void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, double tangent[2])
+{
+  pendres_flow_get_tangent(b->flow, lane, which, tangent);
 }
 
 /* What comes after a run of this many periods. */

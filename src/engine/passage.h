@@ -84,6 +84,19 @@ void pendres_block_set_error(pendres_block *b, size_t lane, const pendres_flow_e
                              double added);
 pendres_flow_error pendres_block_get_error(const pendres_block *b, size_t lane);
 
+/* Set the state of a lane, and nothing else of it. */
+void pendres_block_put_state(pendres_block *b, size_t lane, double y, double w);
+
+/*
+ * Carry two tangent vectors of (y, w) along in each lane from now on, until that is put off; blocks
+ * of states only, an even number of steps a period. They are set after the lane was loaded. Over
+ * long times they grow by what is right to fourth order in the step: 0 by the block's steps, 1 by
+ * steps twice as long (flow.h).
+ */
+pendres_status pendres_block_carry_tangents(pendres_block *b, int on);
+void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const double tangent[2]);
+void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, double tangent[2]);
+
 /* One drive period, or its first half, of all lanes: asks whether to go on, and counts the cost. */
 pendres_status pendres_block_period(pendres_block *b);
 pendres_status pendres_block_half_period(pendres_block *b);
