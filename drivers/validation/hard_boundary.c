@@ -13,10 +13,10 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
 
 static const double half_pi = 1.57079632679489661923;
-static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 static const double tolerances[] = { 1e-13, 1e-8 }; /* the tightest, the standard one */
 
 enum {

@@ -7,13 +7,12 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
 
 /* Half a unit in the last place of an angle between 2 and 4. */
 static const double last_place = 2.220446049250313e-16;
 
-static const double pi = 3.14159265358979323846;
-static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 static const double half_pi_low = 6.123233995736766e-17; /* what a double's pi / 2 lacks */
 
 static double steps_a_period(const pendres_context *ctx)

@@ -8,10 +8,8 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
-
-static const double pi = 3.14159265358979323846;
-static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 
 /* ---- tolerance ----------------------------------------------------------------------------- */
 

@@ -12,6 +12,7 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
 
 static const double half_pi = 1.57079632679489661923;
@@ -203,7 +204,7 @@ static pendres_status error_over_claimed(hard_sheet *sheet, const truth *t, doub
   if (status == PENDRES_OK && outcome != PENDRES_NOT_CONVERGED) {
     /* Newton's method may have gone to the twin: that is an orbit, too. */
     const pendres_reference_cycle *e = t->saddles && !o.stable ? &t->saddle : &t->node;
-    const long double exact_x = e->y + 1.57079632679489661923132169163975144L;
+    const long double exact_x = e->y + half_pi_exact;
     const struct { long double off; double claim; } measures[] = {
       { o.x - exact_x, o.x_error },
       { o.v - e->v, o.v_error },

@@ -11,9 +11,9 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
 
-static const long double pi = 3.141592653589793238462643383279502884L;
 static const double tolerance = 1e-8;
 
 enum { STARTS = 4, PERIODS = 3 };
@@ -60,11 +60,11 @@ static pendres_status measure(hard_sheet *sheet, double damping, pendres_method 
   *out = (measured){ .rhs = cost.rhs_evaluations / cost.pendulum_periods };
   (void)set_up(sheet, damping, p, again_x, again_v);
   for (int i = 0; i < n; i++) {
-    long double y = again_x[i] - 0.5L * pi, w = again_v[i];
+    long double y = again_x[i] - half_pi_exact, w = again_v[i];
     long turns = 0;
     status = pendres_reference_advance(&p[i], &y, &w, &turns, PERIODS);
     if (status != PENDRES_OK) break;
-    const long double angle = x[i] - 0.5L * pi - 2.0L * pi * (long double)turns;
+    const long double angle = x[i] - half_pi_exact - 2.0L * pi_exact * (long double)turns;
     const double error =
       hard_larger((double)fabsl(angle - y), (double)fabsl((long double)v[i] - w));
     out->error = hard_larger(out->error, error);
@@ -80,7 +80,7 @@ done:
    drive period, and ten for the layer; two right-hand sides a step. */
 static double bdf_rhs(double t)
 {
-  return 2.0 * (2.0 * (double)pi + 10.0) / pow(t, 1.0 / 6.0);
+  return 2.0 * (2.0 * pi + 10.0) / pow(t, 1.0 / 6.0);
 }
 
 /*
@@ -93,7 +93,7 @@ static double bdf_rhs(double t)
  */
 static pendres_status add_damping(hard_sheet *sheet, double damping)
 {
-  const double period = 4.0 * (double)pi;
+  const double period = 4.0 * pi;
   const double rhs = 12.0 * 1.5 * fmax(200.0, 0.25 * damping * period);
   measured ours, bdf, naive;
   pendres_status status = measure(sheet, damping, PENDRES_BLOCK_FIXED, &ours);
@@ -151,8 +151,8 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
     off = hard_over_claim((double)fabsl(o->amplitude - exact.amplitude), o->amplitude_error, most);
     off = hard_larger(off, hard_over_claim((double)fabsl(o->loop_area - exact.loop_area),
                                            o->loop_area_error, most));
-    off = hard_larger(off, hard_over_claim((double)fabsl(o->x - 0.5L * pi - exact.y), o->x_error,
-                                           most));
+    off = hard_larger(off, hard_over_claim((double)fabsl(o->x - half_pi_exact - exact.y),
+                                           o->x_error, most));
   }
   status = hard_sheet_add_at(sheet, "stiff_settled", damping,
                              "pendulums that did not settle on the only orbit", wrong, 0.0, NAN);
@@ -184,7 +184,7 @@ static long double slow_position(const pendres_pendulum *p, long double x, long 
 {
   enum { STEPS = 10000 };
   const long double g = p->damping;
-  const long double h = 2.0L * pi / p->drive_frequency * (long double)periods / g / STEPS;
+  const long double h = 2.0L * pi_exact / p->drive_frequency * (long double)periods / g / STEPS;
   x += (v * g - cosl(x) - p->drive_amplitude) / (g * g);
   for (int i = 0; i < STEPS; i++) {
     const long double s = i * h;

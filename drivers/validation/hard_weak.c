@@ -7,10 +7,8 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
-
-static const double pi = 3.14159265358979323846;
-static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 
 /* Larger of the errors of a state next to a reference orbit's Poincaré point. */
 static double off_point(const pendres_reference_cycle *c, double x, double v)

@@ -10,10 +10,10 @@
 
 #include <pendres/reference.h>
 
+#include "validation/exact.h"
 #include "validation/hard_cases.h"
 
 static const double half_pi = 1.57079632679489661923;
-static const long double half_pi_exact = 1.57079632679489661923132169163975144L;
 static const double naive_tolerance = 1e-6;
 
 static pendres_pendulum driven(double drive)

@@ -7,15 +7,15 @@
 
 #include <pendres/reference.h>
 
-const long work_unit_periods[WORK_UNIT_MARKS] = { 10, 100 };
+#include "validation/exact.h"
 
-static const long double pi = 3.141592653589793238462643L;
+const long work_unit_periods[WORK_UNIT_MARKS] = { 10, 100 };
 
 enum { CHUNK = 8 /* pendulums a task */ };
 
 static void place(work_unit *w, int sweep)
 {
-  const double two_pi = 2.0 * (double)pi, plastic = 1.32471795724474602596;
+  const double two_pi = 2.0 * pi, plastic = 1.32471795724474602596;
   const double n = (double)w->n;
   for (size_t i = 0; i < w->n; i++) {
     const double k = (double)(i + 1);
@@ -72,7 +72,7 @@ typedef struct marks {
 /* From mark to mark, with the product of the derivatives. */
 static pendres_status refer_one(const work_unit *w, size_t i, marks *out)
 {
-  long double y = (long double)w->x[i] - pi / 2.0L, v = 0.0L;
+  long double y = (long double)w->x[i] - half_pi_exact, v = 0.0L;
   long double growth[2][2] = { { 1.0L, 0.0L }, { 0.0L, 1.0L } };
   long turns = 0, done = 0;
   for (int m = 0; m < WORK_UNIT_MARKS; m++) {
@@ -88,7 +88,7 @@ static pendres_status refer_one(const work_unit *w, size_t i, marks *out)
       }
     memcpy(growth, product, sizeof growth);
     y = to.y, v = to.v, turns += to.turns, done = work_unit_periods[m];
-    out->angle[m] = y + 2.0L * pi * (long double)turns;
+    out->angle[m] = y + 2.0L * pi_exact * (long double)turns;
     out->velocity[m] = v;
     out->growth[m] = (double)largest;
   }
@@ -135,7 +135,7 @@ size_t work_unit_pick(const work_unit *w, size_t some, size_t k)
 
 double work_unit_error(const work_unit *w, size_t i, int mark, double x, double v)
 {
-  const double dx = (double)((long double)x - pi / 2.0L - w->angle[mark][i]);
+  const double dx = (double)((long double)x - half_pi_exact - w->angle[mark][i]);
   const double dv = (double)((long double)v - w->velocity[mark][i]);
   if (isnan(dx) || isnan(dv)) return INFINITY;
   return fmax(fabs(dx), fabs(dv));
