@@ -85,7 +85,9 @@ try()
       done ;;
     'resonance --merge deck.nml'*) run "$1" "$2" ; [ -s deck.h5 ] || fail "$1: no deck.h5" ;;
     'python3 plots/plot.py '*.h5) # plots_check draws each kind of run
-      for file in ${2#*plot.py }; do [ -s "$file" ] || fail "$1: no command makes $file"; done ;;
+      for file in ${2#*plot.py }; do
+        grep -q "input/${file%.h5}\.nml" "$1" || fail "$1: no command makes $file"
+      done ;;
     'PYTHONPATH=python python3'*)
       [ -n "$computing" ] || return 0
       case $2 in
@@ -133,6 +135,13 @@ done
 for deck in input/*.nml; do
   name=${deck#input/}
   grep -q -e "\`${name%.nml}\`" -e "$deck" README.md docs/*.md || fail "no page tells of $deck"
+done
+for page in docs/*.md; do
+  grep -q "(${page#docs/})" docs/README.md || [ "$page" = docs/README.md ] ||
+    fail "docs/README.md does not list $page"
+  for link in $(grep -o ']([^)#]*' "$page" | sed 's/^](//' | grep -v '^http'); do
+    [ -e "docs/$link" ] || fail "$page leads to $link, which is not there"
+  done
 done
 for script in docs/batch/*.sh; do sh -n "$script" || fail "$script is no shell script"; done
 exit 0
