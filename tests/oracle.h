@@ -23,6 +23,7 @@ enum { ORACLE_SIZE = 6 };
 typedef struct oracle {
   long double gamma, drive, omega, torque, b, a[PENDRES_FORCE_COEFFICIENTS];
   int polynomial, ring;
+  int reflects; /* oracle_miss() asks for the mirror image, y -> -y, of the start */
 } oracle;
 
 static inline oracle oracle_of(const pendres_pendulum *p)
@@ -100,6 +101,7 @@ static inline void oracle_miss(const oracle *p, int periods, int winding, int si
 {
   long double s[ORACLE_SIZE] = {start[0], start[1], 1.0L, 0.0L, 0.0L, 1.0L};
   oracle_advance(p, periods, s);
+  for (int i = 0; p->reflects && i < ORACLE_SIZE; i++) s[i] = -s[i];
   miss[0] = s[0] - start[0] - 2.0L * ORACLE_PI * winding;
   miss[1] = s[1] - start[1];
   miss[2] = (s[2] - sign) * (s[5] - sign) - s[3] * s[4];

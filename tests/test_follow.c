@@ -291,6 +291,44 @@ static void born_of_rest(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Under a parametric drive alone an orbit of six periods may be its own mirror image three periods
+ * later. It loses that symmetry where a multiplier of three periods and the reflection is -1, by the
+ * oracle, which is no fold: the parameter does not turn there.
+ */
+static void symmetric_after_three_periods(void **state)
+{
+  const pendres_pendulum p = {
+    .damping = 0.1, .drive_frequency = 1.655, .parametric_amplitude = 0.6};
+  const pendres_orbit_guess g = {
+    .pendulum = p, .x = 3.9146139, .v = -0.2149686, .period = 6};
+  pendres_context *ctx = context(1e-10);
+  pendres_status outcome = PENDRES_INTERNAL;
+  pendres_orbit o;
+  size_t breakings = 0;
+  (void)state;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(outcome);
+  pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 1.64, 1.67);
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    double left = NAN;
+    oracle mirror = oracle_of(&f->orbit.pendulum);
+    if (f->kind != PENDRES_SYMMETRY_BREAKING) continue;
+    breakings++;
+    mirror.reflects = 1;
+    mirror.omega += 1e-7L;
+    const double value = oracle_bifurcation(&mirror, &mirror.omega, 3, 0, -1,
+                                            f->orbit.x - half_pi, f->orbit.v, &left);
+    assert_true(left < 1e-13 && f->value_error < 1e-9);
+    check_near(f->value, value, f->value_error + 1e-13);
+  }
+  assert_int_equal(breakings, 1);
+  assert_int_equal(pendres_branch_bifurcations(b), 2); /* and a fold */
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
 /* What cannot be followed, or not along this, is refused. */
 static void refusals(void **state)
 {
@@ -317,6 +355,8 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(oscillators), cmocka_unit_test(steps),
                                      cmocka_unit_test(mathieu),
                                      cmocka_unit_test(damped_tongues),
-                                     cmocka_unit_test(born_of_rest), cmocka_unit_test(refusals)};
+                                     cmocka_unit_test(born_of_rest),
+                                     cmocka_unit_test(symmetric_after_three_periods),
+                                     cmocka_unit_test(refusals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,6 +121,29 @@ static void doubling(const char *name, const pendres_bifurcation *at, double low
   pendres_branch_free(b);
 }
 
+/* Folds along the frequency of an oscillator with a polynomial force, from the orbit at `low` on. */
+static void polynomial(const char *name, pendres_pendulum p, double low, double high)
+{
+  char whole[64];
+  p.force = PENDRES_FORCE_POLYNOMIAL;
+  p.drive_frequency = low;
+  pendres_orbit_guess g = {.pendulum = p, .period = 1};
+  pendres_orbit o;
+  pendres_status outcome = PENDRES_OK;
+  fail_if(pendres_strobe_advance(ctx, 1, &p, &g.x, &g.v, 300, NULL));
+  fail_if(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  pendres_branch *b = branch_of(&o, PENDRES_DRIVE_FREQUENCY, 0.9 * low, high);
+  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    if (f->kind != PENDRES_FOLD) continue;
+    snprintf(whole, sizeof whole, "%s_fold_%zu", name, i + 1);
+    print(whole, f->value, f->value_error);
+    snprintf(whole, sizeof whole, "%s_fold_%zu_area", name, i + 1);
+    print(whole, f->orbit.loop_area, f->orbit.loop_area_error);
+  }
+  pendres_branch_free(b);
+}
+
 int main(void)
 {
   static const double s[] = {0.13, 0.14, 0.15}, breaking[] = {0.06, 0.1, 0.12};
@@ -142,6 +165,20 @@ int main(void)
   print("baker_gollub_symmetry", at->value, at->value_error);
   doubling("baker_gollub_doubling", at, 0.8, 1.2);
   pendres_branch_free(b);
+  const pendres_pendulum duffing = {.drive_amplitude = 0.3, .force_coefficients = {1.0, 0.0, 1.0}};
+  const pendres_pendulum helmholtz = {.damping = 0.1, .force_coefficients = {1.0, -1.0}};
+  static const double damping[] = {0.1, 0.2}, drive[] = {0.06, 0.07};
+  for (int i = 0; i < 2; i++) {
+    char name[32];
+    pendres_pendulum p = duffing;
+    p.damping = damping[i];
+    snprintf(name, sizeof name, "duffing_%g", damping[i]);
+    polynomial(name, p, 1.0, i == 0 ? 2.0 : 1.6);
+    p = helmholtz;
+    p.drive_amplitude = drive[i];
+    snprintf(name, sizeof name, "helmholtz_%g", drive[i]);
+    polynomial(name, p, 0.7, 1.1);
+  }
   pendres_context_free(ctx);
   return 0;
 }

@@ -118,7 +118,7 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
   int twice = 0;
   m->condition = PENDRES_CONDITION_FOLD;
   /* Rest has no folds: there the other map has a flip. */
-  if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && !t->kind.apart)
+  if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && t->kind.map.period <= 2 && !t->kind.apart)
     return locate_birth(ctx, t, u, reach, m);
   const pendres_status fold = pendres_continuation_locate(
     ctx, &t->kind.map, PENDRES_CONDITION_FOLD, t->kind.unknown, u, reach, &m->located);

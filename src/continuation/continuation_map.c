@@ -12,10 +12,9 @@
 #include "engine/passage.h"
 #include "engine/steps.h"
 
-/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
-   method: an error of 1e-5 of them costs no accuracy of the solution. So short since second
-   derivatives grow to 1e9 where orbits pass close to the top of the barrier; the determinant's
-   own rounding, 1e-15, does no harm yet. */
+/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's method:
+   an error of 1e-5 of them costs nothing. So short since second derivatives grow to 1e9 where orbits
+   pass close to the top of the barrier; the determinant's own rounding, 1e-15, does no harm yet. */
 static const double nudge = 2e-9;
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
@@ -72,14 +71,19 @@ static int is_reflected(const pendres_pendulum *p, int unknowns, const int *unkn
          (p->parametric_amplitude != 0.0 || is_among(PENDRES_U_MODULATION, unknowns, unknown));
 }
 
-/* Whether an orbit of one or two periods is its own mirror image a period later: averaged over its
-   drive cycles nothing is left of it. */
+/* Periods after which an orbit may be its own mirror image at the same phase; 0 if it cannot. */
+static int reflected_after(int period)
+{
+  return period == 1 ? 1 : period % 2 == 0 ? period / 2 : 0;
+}
+
+/* Whether an orbit is so: averaged over its drive cycles nothing is left of it. */
 static int is_own_reflection(const pendres_orbit *o)
 {
   const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++)
     if (!(hypot(o->cosine[m], o->sine[m]) <= nothing)) return 0;
-  return o->period <= 2 && o->winding == 0;
+  return reflected_after(o->period) > 0 && o->winding == 0;
 }
 
 pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int unknowns,
@@ -140,14 +144,11 @@ double pendres_continuation_map_growth(const pendres_continuation_image *i)
 
 /* ---- images ---- */
 
-/* Whole periods of a map. */
+/* Of a map. */
 static int whole_periods(const pendres_continuation_map *map)
 {
-  switch (map->mirror) {
-  case PENDRES_MIRROR_HALF: return map->period / 2;
-  case PENDRES_MIRROR_WHOLE: return 1;
-  default: return map->period;
-  }
+  if (map->mirror == PENDRES_MIRROR_WHOLE) return reflected_after(map->period);
+  return map->mirror == PENDRES_MIRROR_HALF ? map->period / 2 : map->period;
 }
 
 static void read_image(const pendres_rows *rows, size_t lane,
@@ -159,14 +160,12 @@ static void read_image(const pendres_rows *rows, size_t lane,
   const double time = map->mirror == PENDRES_MIRROR_HALF
                         ? pi * map->period / u[PENDRES_U_OMEGA]
                         : two_pi * whole_periods(map) / u[PENDRES_U_OMEGA];
-
   out->f[0] = sign * pendres_rows_get(rows, PENDRES_ROW_Y, lane) + turns - u[PENDRES_U_Y];
   out->f[1] = sign * pendres_rows_get(rows, PENDRES_ROW_W, lane) - u[PENDRES_U_W];
-  for (int i = 0; i < 2; i++)
+  for (int i = 0; i < 2; i++) {
     for (int k = 0; k < PENDRES_U_COUNT; k++)
       out->j[i][k] =
         k < columns ? sign * pendres_rows_get(rows, PENDRES_ROW_BY_Y + 2 * k + i, lane) : NAN;
-  for (int i = 0; i < 2; i++) {
     for (int k = 0; k < 2; k++) out->n[i][k] = out->j[i][k];
     out->j[i][i] -= 1.0;
   }
@@ -259,18 +258,19 @@ void pendres_continuation_map_unfold(pendres_continuation_map *map)
 int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half)
 {
+  /* Orbits are kept apart from those of map 0: most of one or two periods are born of rest. */
+  const int reflects = map->reflects && map->winding == 0 && reflected_after(map->period) > 0;
   *half = *map;
-  if (map->reflects && map->period <= 2 && map->winding == 0 && which == 0 &&
-      map->mirror == PENDRES_MIRROR_NONE) {
+  if (reflects && which == (map->period > 2) && map->mirror == PENDRES_MIRROR_NONE) {
     half->mirror = PENDRES_MIRROR_WHOLE;
     return 1;
   }
   if (map->mirror == PENDRES_MIRROR_WHOLE) {
     pendres_continuation_map_unfold(half);
     half->period = 1;
-    return which == 0;
+    return which == 0 && map->period <= 2;
   }
-  const int first = map->reflects && map->period == 2 && map->winding == 0 ? 1 : 0;
+  const int first = reflects && map->period == 2 ? 1 : 0;
   if (map->mirror != PENDRES_MIRROR_NONE || which != first) return 0;
   if (map->period % 2 != 0) {
     half->mirror = PENDRES_MIRROR_HALF;

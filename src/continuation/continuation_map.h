@@ -12,8 +12,9 @@
  *   reflection (y, w) -> (2 pi p - y, -w), whose second iterate is the former.
  *
  * With a parametric drive alone the mirror image of a trajectory is one at the same phase. Orbits
- * that are their own are rest (q = 1), and those of q = 2 with y(t + tau) = 2 pi p - y(t): both are
- * fixed points of one strobe period followed by the reflection. Of rest that map's flip is where
+ * that are their own are rest (q = 1), and those of even q that are it q/2 periods later, as of q = 2
+ * with y(t + tau) = 2 pi p - y(t): fixed points of q/2 strobe periods, of rest of one, followed by
+ * the reflection. Of rest that map's flip is where
  * pairs of orbits of period 1 are born, and its fold where the strobe map itself has a flip, where
  * orbits of period 2 are born: the boundaries of the tongues of parametric resonance.
  *
@@ -52,7 +53,7 @@ typedef struct pendres_continuation_map {
   enum {
     PENDRES_MIRROR_NONE,
     PENDRES_MIRROR_HALF, /* q half periods and the reflection; q is odd */
-    PENDRES_MIRROR_WHOLE /* one period and the reflection; q is 1 or 2 */
+    PENDRES_MIRROR_WHOLE /* q/2 periods, of rest one, and the reflection; q is even or 1 */
   } mirror;
   int period;    /* q */
   int winding;   /* p */
@@ -119,8 +120,8 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
 
 /*
  * The map of which a fixed point of `map` may be one twice over, as where the one's orbits are born
- * from the other's: that with a reflection for an odd period, half the period of an even one. There
- * may be two (which = 0, 1). 0 if there is none.
+ * from the other's: that with a reflection for an odd period, half the period of an even one, or
+ * that with a reflection of it. There may be two (which = 0, 1). 0 if there is none.
  */
 int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half);
