@@ -293,8 +293,8 @@ static void born_of_rest(void **state)
 
 /*
  * Under a parametric drive alone an orbit of six periods may be its own mirror image three periods
- * later. It loses that symmetry where a multiplier of three periods and the reflection is -1, by the
- * oracle, which is no fold: the parameter does not turn there.
+ * later. It loses that symmetry where a multiplier of three periods and the reflection is -1, by
+ * the oracle, which is no fold: the parameter does not turn there.
  */
 static void symmetric_after_three_periods(void **state)
 {

@@ -12,9 +12,9 @@
 #include "engine/passage.h"
 #include "engine/steps.h"
 
-/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's method:
-   an error of 1e-5 of them costs nothing. So short since second derivatives grow to 1e9 where orbits
-   pass close to the top of the barrier; the determinant's own rounding, 1e-15, does no harm yet. */
+/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's: an
+   error of 1e-5 of them costs nothing. So short since second derivatives grow to 1e9 where orbits
+   pass close to the top of the barrier; the determinant's own rounding, 1e-15, does no harm. */
 static const double nudge = 2e-9;
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
