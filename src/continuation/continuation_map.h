@@ -14,8 +14,9 @@
  * With a parametric drive alone the mirror image of a trajectory is one at the same phase. Orbits
  * that are their own are rest (q = 1), and those of even q that are so q/2 periods later, as of
  * q = 2 with y(t + tau) = 2 pi p - y(t): fixed points of q/2 strobe periods, of rest of one,
- * followed by the reflection. Of rest that map's flip is where pairs of orbits of period 1 are born, and its fold where the strobe map itself has a flip, where
- * orbits of period 2 are born: the boundaries of the tongues of parametric resonance.
+ * followed by the reflection. Of rest that map's flip is where pairs of orbits of period 1 are
+ * born, and its fold where the strobe map itself has a flip, where orbits of period 2 are born: the
+ * boundaries of the tongues of parametric resonance.
  *
  * N = DG has the known determinant exp(-gamma time) (Liouville). A fold has det(N - I) = 0, a flip
  * det(N + I) = 0: of the first map a flip is a period doubling, of the second the loss of mirror
