@@ -271,52 +271,82 @@ static pendres_status write_free(scene_run *run)
 
 /* ---- the scene ----------------------------------------------------------------------------- */
 
-static void print_end(FILE *out, const scene_lines *l, const pendres_branch_point *p,
-                      const char *why)
-{
-  fprintf(out, "  %.12f +- %.0e %-17s",
-          pendres_parameter_get(l->grid.options.parameter, &p->orbit.pendulum), p->parameter_error,
-          why);
-}
-
 /* A part of a branch that attracts, from its lower value of the parameter to the higher one. */
-static void print_part(FILE *out, const scene_lines *l, const pendres_branch *b,
-                       const pendres_branch_part *part)
+typedef struct part {
+  double line, value[2], error[2];
+  size_t branch;
+  int period;
+  char why[2][24]; /* it ends there */
+} part;
+
+static part part_of(const scene_lines *l, const pendres_branch *b, const pendres_branch_part *of)
 {
-  const pendres_branch_point *p[2] = {pendres_branch_get(b, part->first),
-                                      pendres_branch_get(b, part->last)};
-  const pendres_special kind[2] = {part->begins, part->ends};
+  const pendres_branch_point *p[2] = {pendres_branch_get(b, of->first),
+                                      pendres_branch_get(b, of->last)};
+  const pendres_special kind[2] = {of->begins, of->ends};
   const pendres_parameter along = l->grid.options.parameter;
   const int back = pendres_parameter_get(along, &p[0]->orbit.pendulum) >
                    pendres_parameter_get(along, &p[1]->orbit.pendulum);
+  part out = {.period = p[0]->orbit.period};
   for (int i = 0; i < 2; i++) {
     const int k = back ? 1 - i : i;
-    print_end(out, l, p[k],
-              kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
-                                         : pendres_branch_end_name(pendres_branch_end_of(b, k)));
+    out.value[i] = pendres_parameter_get(along, &p[k]->orbit.pendulum);
+    out.error[i] = p[k]->parameter_error;
+    snprintf(out.why[i], sizeof out.why[i], "%s",
+             kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
+                                        : pendres_branch_end_name(pendres_branch_end_of(b, k)));
   }
-  fputc('\n', out);
+  return out;
 }
 
-/* Wherever branches attract: all of it, and what ends it. */
-static void print_table(FILE *out, const scene_lines *l)
+/* Wherever branches attract: their number; rows may be NULL. */
+static size_t take_parts(const scene_lines *l, part *rows)
 {
-  fprintf(out, "%-15s  branch  period  attracts from %s                  to\n",
-          scene_lines_words(l->grid.across), scene_lines_words(l->grid.options.parameter));
+  size_t count = 0;
   for (size_t i = 0; i < l->grid.lines; i++) {
     const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
     for (size_t k = 0; k < pendres_branches_count(all); k++) {
       const pendres_branch *b = pendres_branches_get(all, k);
-      pendres_branch_part part[MOST_PARTS];
-      const size_t n = pendres_branch_parts(b, MOST_PARTS, part);
-      for (size_t m = 0; m < n && m < MOST_PARTS; m++) {
-        fprintf(out, "%-15.6g  %-6zu  %-6d", l->grid.line_value[i], k,
-                pendres_branch_get(b, part[m].first)->orbit.period);
-        print_part(out, l, b, &part[m]);
+      pendres_branch_part found[MOST_PARTS];
+      const size_t n = pendres_branch_parts(b, MOST_PARTS, found);
+      for (size_t m = 0; m < n && m < MOST_PARTS; m++, count++) {
+        if (rows == NULL) continue;
+        rows[count] = part_of(l, b, &found[m]);
+        rows[count].line = l->grid.line_value[i];
+        rows[count].branch = k;
       }
     }
   }
+  return count;
+}
+
+static pendres_status print_table(FILE *out, const scene_lines *l)
+{
+  char line[64], from[96];
+  const scene_cell cells[] = {
+    SCENE_CELL(part, line, line, "%-15.6g  "),
+    {.heading = "branch  ", .format = "%-6zu  ", .type = SCENE_COUNT,
+     .value = offsetof(part, branch)},
+    {.heading = "period  ", .format = "%-6d  ", .type = SCENE_NUMBER,
+     .value = offsetof(part, period)},
+    SCENE_CELL(part, value[0], from, "%.12f +- "),
+    SCENE_CELL(part, error[0], "                  ", "%.0e "),
+    {.heading = "to", .format = "%-17s  ", .type = SCENE_TEXT, .value = offsetof(part, why[0])},
+    SCENE_CELL(part, value[1], "", "%.12f +- "),
+    SCENE_CELL(part, error[1], "", "%.0e "),
+    {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
+  };
+  const size_t n = take_parts(l, NULL);
+  part *rows = malloc((n + 1) * sizeof *rows);
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for a table");
+  (void)take_parts(l, rows);
+  snprintf(line, sizeof line, "%-15s  ", scene_lines_words(l->grid.across));
+  snprintf(from, sizeof from, "attracts from %s", scene_lines_words(l->grid.options.parameter));
+  scene_columns_print(out, &table, n, sizeof cells / sizeof *cells, cells, NULL);
+  free(rows);
   scene_lines_print(l, out);
+  return PENDRES_OK;
 }
 
 static pendres_status write_results(const scene_lines *l)
@@ -342,7 +372,7 @@ static pendres_status run_scene(scene_run *run)
   scene_lines l;
   pendres_status status = scene_lines_compute(run, 0.0, &l);
   if (status == PENDRES_OK) status = write_results(&l);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &l);
+  if (status == PENDRES_OK && run->table != NULL) status = print_table(run->table, &l);
   scene_lines_free(&l);
   return status;
 }

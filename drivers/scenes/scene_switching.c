@@ -319,38 +319,61 @@ static pendres_status write_results(scene_run *run, const work *w)
            : status;
 }
 
-/* A mean time and its error or, where nothing was seen, how long it is at least. */
-static void print_time(FILE *out, const pendres_switching_rate *r)
+/* A line of the table: one way at one temperature. */
+typedef struct line {
+  pendres_switching_rate rate;
+  double temperature;
+  char way[64];
+  char mean_time[32], mean_time_error[32]; /* or, where nothing was seen, how long it is at least */
+} line;
+
+static line line_of(const work *w, int k, size_t i)
 {
-  char text[32] = "-";
-  if (r->events > 0.0) snprintf(text, sizeof text, "%.4g", r->mean_time);
-  else if (r->upper > 0.0) snprintf(text, sizeof text, "> %.2g", 1.0 / r->upper);
-  fprintf(out, "%-12s ", text);
-  if (r->events > 0.0) fprintf(out, "%-9.2g ", r->mean_time_error);
-  else fprintf(out, "%-9s ", "-");
+  const pendres_switching_rate *r = &w->rates[i].way[k];
+  line out = {.rate = *r, .temperature = w->rates[i].temperature, .mean_time = "-",
+              .mean_time_error = "-"};
+  if (w->d->switching.from > 0)
+    snprintf(out.way, sizeof out.way, "%s to %s", w->name[k], w->name[1 - k]);
+  else
+    snprintf(out.way, sizeof out.way, "%s", k == SA ? "SA to LA" : "LA to SA");
+  if (r->events > 0.0) {
+    snprintf(out.mean_time, sizeof out.mean_time, "%.4g", r->mean_time);
+    snprintf(out.mean_time_error, sizeof out.mean_time_error, "%.2g", r->mean_time_error);
+  } else if (r->upper > 0.0) {
+    snprintf(out.mean_time, sizeof out.mean_time, "> %.2g", 1.0 / r->upper);
+  }
+  return out;
 }
 
-static void print_table(FILE *out, const work *w)
+static pendres_status print_table(scene_run *run, const work *w)
 {
-  const int numbered = w->d->switching.from > 0;
-  fprintf(out, "temperature  transition  rate         +-        mean time    +-        events\n");
-  for (int k = 0; k < STATES; k++)
-    for (size_t i = 0; i < w->temperatures; i++) {
-      const pendres_switching_rate *r = &w->rates[i].way[k];
-      char way[64];
-      snprintf(way, sizeof way, "%s to %s", w->name[k], w->name[1 - k]);
-      if (!numbered) snprintf(way, sizeof way, "%s", k == SA ? "SA to LA" : "LA to SA");
-      fprintf(out, "%-12.5g %-11s %-12.4g %-9.2g ", w->rates[i].temperature, way, r->value,
-              r->error);
-      print_time(out, r);
-      fprintf(out, "%.0f\n", r->events);
-    }
+  static const scene_cell cells[] = {
+    SCENE_CELL(line, temperature, "temperature  ", "%-12.5g "),
+    {.heading = "transition  ", .format = "%-11s ", .type = SCENE_TEXT,
+     .value = offsetof(line, way)},
+    SCENE_CELL(line, rate.value, "rate         ", "%-12.4g "),
+    SCENE_CELL(line, rate.error, "+-        ", "%-9.2g "),
+    {.heading = "mean time    ", .format = "%-12s ", .type = SCENE_TEXT,
+     .value = offsetof(line, mean_time)},
+    {.heading = "+-        ", .format = "%-9s ", .type = SCENE_TEXT,
+     .value = offsetof(line, mean_time_error)},
+    SCENE_CELL(line, rate.events, "events", "%.0f"),
+  };
+  const size_t n = STATES * w->temperatures;
+  line *rows = malloc((n + 1) * sizeof *rows);
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a table");
+  for (size_t i = 0; i < n; i++)
+    rows[i] = line_of(w, (int)(i / w->temperatures), i % w->temperatures);
+  scene_columns_print(run->table, &table, n, sizeof cells / sizeof *cells, cells, NULL);
+  free(rows);
   for (int k = 0; k < WAYS; k++) {
     const pendres_switching_activation *f = &w->activation[k];
-    fprintf(out, "activation energy %s: ", w->words[k]);
-    if (!isnan(f->energy)) fprintf(out, "%.5f +- %.5f", f->energy, f->energy_error);
-    fprintf(out, "%s\n", verdicts[f->verdict]);
+    fprintf(run->table, "activation energy %s: ", w->words[k]);
+    if (!isnan(f->energy)) fprintf(run->table, "%.5f +- %.5f", f->energy, f->energy_error);
+    fprintf(run->table, "%s\n", verdicts[f->verdict]);
   }
+  return PENDRES_OK;
 }
 
 static pendres_status run_scene(scene_run *run)
@@ -360,7 +383,7 @@ static pendres_status run_scene(scene_run *run)
   pendres_status status = find_states(run, &w);
   if (status == PENDRES_OK) status = compute(run, &w);
   if (status == PENDRES_OK) status = write_results(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
+  if (status == PENDRES_OK && run->table != NULL) status = print_table(run, &w);
   pendres_attractors_free(w.set);
   scene_failures_free(&w.choices);
   scene_failures_free(&w.failed);
