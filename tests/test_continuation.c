@@ -109,6 +109,43 @@ static void branch_crosses_at_three_orbits(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Strong friction and a slow drive: on the way over the top an orbit multiplies the last place of
+ * its point, and the rounding of its steps, ten thousandfold, and forgets both before the period is
+ * over. Measures of points of a branch against the reference: each error is a bound, and once the
+ * phase lag was off by 1.7 of it here.
+ */
+static void rounding_grows_within_a_period(void **state)
+{
+  (void)state;
+  pendres_context *ctx = context_of(1.1e-11, PENDRES_TABLE_DEFAULT);
+  const double middle = 0.099642125570905585;
+  const pendres_orbit_guess guess = {
+    .pendulum = {.damping = 1.6842668913306955, .drive_amplitude = 1.1905385066274963,
+                 .drive_frequency = middle},
+    .x = 3.1193249071541063, .v = 0.11475805953223731, .period = 1};
+  const pendres_branch_options options = {
+    .parameter = PENDRES_DRIVE_FREQUENCY, .low = middle - 2e-4, .high = middle + 2e-4,
+    .spacing = 1e-4};
+  pendres_orbit start;
+  pendres_status outcome;
+  pendres_branch *b = NULL;
+  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+  check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+  const size_t n = pendres_branch_count(b);
+  assert_true(n >= 5);
+  for (size_t i = 0; i < n; i++) {
+    const pendres_orbit *o = &pendres_branch_get(b, i)->orbit;
+    pendres_reference_cycle want;
+    check_ok(pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, 1, 0, &want));
+    check_near(o->phase_lag, (double)want.phase_lag, o->phase_lag_error);
+    check_near(o->amplitude, (double)want.amplitude, o->amplitude_error);
+    check_near(o->loop_area, (double)want.loop_area, o->loop_area_error);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
 /* LA at small damping ends by losing its symmetry; the pair that is born doubles its period. */
 static void symmetry_breaks_and_period_doubles(void **state)
 {
@@ -378,6 +415,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(tolerances_and_methods_agree),
     cmocka_unit_test(branch_is_an_s),
+    cmocka_unit_test(rounding_grows_within_a_period),
     cmocka_unit_test(branch_crosses_at_three_orbits),
     cmocka_unit_test(symmetry_breaks_and_period_doubles),
     cmocka_unit_test(running_orbits_make_an_isola),

@@ -16,7 +16,9 @@ static const double matrix_rounding = 7e-16;
 
 /* What one computation of an orbit found. */
 typedef struct reading {
+  double within; /* the point may be moved by so little to close the orbit: what rounding makes */
   double m[2][2], m_by[2][2][2];
+  pendres_newton_noise noise; /* of the finer one */
   pendres_orbit_measures measures;
 } reading;
 
@@ -51,13 +53,22 @@ static int winding_of(const pendres_continuation_map *map)
   return map->mirror ? 0 : map->winding;
 }
 
-/* The samples of one candidate as they are: its point solves the equations already. */
+/*
+ * The samples of one candidate. Its point solves the equations already, to the last place: what
+ * that is off by may have grown a hundred thousandfold on the way and is taken out, where the orbit
+ * at given parameters tells by how much.
+ */
 static pendres_orbit_measures *take(void *arg, const pendres_newton_candidate *c,
                                     const pendres_newton_samples *taken, double *y, double *w)
 {
   reading *out = (reading *)arg + c->index;
   memcpy(out->m, c->m, sizeof out->m);
   memcpy(out->m_by, c->m_by, sizeof out->m_by);
+  if (!taken->bends) out->noise = pendres_newton_noise_of(c, taken);
+  double shift[2];
+  if (out->within > 0.0 && pendres_newton_closed(c, taken, y, w, shift) &&
+      hypot(shift[0], shift[1]) <= out->within)
+    return &out->measures;
   for (size_t k = 0; k < taken->count; k++) {
     const double *row = pendres_newton_sample(taken, k, c->lane);
     y[k] = row[0];
@@ -82,6 +93,7 @@ static pendres_status read_all(pendres_context *ctx, size_t n,
   for (size_t i = 0; i < n; i++) {
     const pendres_continuation_pair *p = &pairs[i];
     const double *u = fine ? p->fine : p->coarse;
+    out[i].within = fine && !p->critical ? p->rounding : 0.0;
     guess[i] = (pendres_orbit_guess){.pendulum = pendres_continuation_map_pendulum(p->map.force, u),
                                      .period = p->map.period,
                                      .winding = winding_of(&p->map)};
@@ -99,8 +111,22 @@ done:
   return status;
 }
 
+/*
+ * What rounding makes of y and w along the orbit, where it may grow and fade again within a period;
+ * step: of an angle of order one in a step. The equations of a bifurcation have an inverse of their
+ * own, that of I - M is singular there: what it makes of the start is larger along the orbit.
+ */
+static double rounding_along(const pendres_continuation_pair *pair, const reading *fine,
+                             double step)
+{
+  if (pair->critical) return pair->rounding * fine->noise.swell;
+  const double y = pair->fine[PENDRES_U_Y], w = pair->fine[PENDRES_U_W];
+  const double size = fmax(fine->measures.amplitude, fmax(fabs(y), fabs(w)));
+  return fmax(pair->rounding, step * size * fine->noise.along);
+}
+
 static void fill(const pendres_continuation_pair *pair, const reading *a, const reading *b,
-                 pendres_orbit *o)
+                 double step, pendres_orbit *o)
 {
   const double from[2] = {pair->fine[PENDRES_U_Y] - pair->coarse[PENDRES_U_Y],
                           pair->fine[PENDRES_U_W] - pair->coarse[PENDRES_U_W]};
@@ -113,8 +139,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
     pair->critical
       ? pair->apart / 3.0
       : pendres_orbit_apart_beside(a->m, b->m, a->m_by, from, b->measures.amplitude);
-  const pendres_orbit_doubt doubt = {.apart = fmax(fmax(hypot(from[0], from[1]), along), beside),
-                                     .rounding = pair->rounding};
+  const double apart = fmax(fmax(hypot(from[0], from[1]), along), beside);
 
   /* A velocity: the two computations may differ in the drive frequency. */
   const double clocks = pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
@@ -127,8 +152,8 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
     .fine = {pair->fine[PENDRES_U_Y], pair->fine[PENDRES_U_W]},
     .coarse_measures = &a->measures,
     .fine_measures = &b->measures,
-    .at_start = doubt,
-    .along = doubt,
+    .at_start = {apart, pair->rounding},
+    .along = {apart, rounding_along(pair, b, step)},
     .spectrum.left = matrix_rounding * sqrt(pair->fine_steps * pair->map.period)};
   memcpy(two.spectrum.by_point, a->m_by, sizeof two.spectrum.by_point);
   memcpy(two.spectrum.coarse, a->m, sizeof two.spectrum.coarse);
@@ -140,6 +165,7 @@ pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n
                                                   const pendres_continuation_pair *pairs,
                                                   pendres_orbit *out)
 {
+  const double step = pendres_newton_rounding(ctx->options.table);
   reading *coarse = malloc((n + 1) * sizeof *coarse), *fine = malloc((n + 1) * sizeof *fine);
   pendres_status status = PENDRES_OK;
   if (coarse == NULL || fine == NULL)
@@ -147,7 +173,7 @@ pendres_status pendres_continuation_orbit_measure(pendres_context *ctx, size_t n
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 0, coarse);
   if (status == PENDRES_OK) status = read_all(ctx, n, pairs, 1, fine);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    fill(&pairs[i], &coarse[i], &fine[i], &out[i]);
+    fill(&pairs[i], &coarse[i], &fine[i], step, &out[i]);
   free(coarse);
   free(fine);
   return status;

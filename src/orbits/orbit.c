@@ -14,7 +14,6 @@
 #include "orbits/orbit_pair.h"
 #include "orbits/orbit_reading.h"
 #include "engine/steps.h"
-#include "orbits/strobe_noise.h"
 
 /* A run of one candidate by a number of steps: the corrected point and its measures. */
 typedef struct result {
@@ -248,8 +247,7 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
                                   pendres_orbit_want want, result *coarse, result *fine,
                                   pendres_orbit *out, pendres_status *outcome)
 {
-  /* Periodic orbits keep below what the worst of pendulums round. */
-  const double rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table);
+  const double rounding = pendres_newton_rounding(ctx->options.table);
   pendres_status status = pendres_newton_converge(ctx, n, c);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 1, coarse);
   if (status != PENDRES_OK) return status;

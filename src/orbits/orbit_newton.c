@@ -8,6 +8,7 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
+#include "orbits/strobe_noise.h"
 
 enum { MOST_ITERATIONS = 20 };
 
@@ -212,6 +213,11 @@ double pendres_newton_share(const double m[2][2])
   return hypot(back[0], back[1]) / size;
 }
 
+double pendres_newton_rounding(pendres_table table)
+{
+  return 0.27 * pendres_strobe_noise_of_step(table);
+}
+
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
                                              const pendres_newton_samples *taken)
 {
@@ -223,9 +229,11 @@ pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
   const double share = pendres_newton_share(c->m);
   const double plain = sqrt((double)taken->count) * fmax(1.0, stretch);
   const double start = share * sqrt(to_end), along = share * sqrt(to_any);
+  const double swell = sqrt(to_any / to_end);
   /* A tangent that has faded beyond what a double holds tells nothing. */
   return (pendres_newton_noise){.start = isfinite(start) ? fmax(plain, start) : plain,
-                                .along = isfinite(along) ? fmax(plain, along) : plain};
+                                .along = isfinite(along) ? fmax(plain, along) : plain,
+                                .swell = isfinite(swell) ? fmax(1.0, swell) : 1.0};
 }
 
 /* One Newton step from what the latest pass found. */

@@ -89,7 +89,12 @@ int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newto
  */
 typedef struct pendres_newton_noise {
   double start, along;
+  double swell; /* how much larger errors are along the orbit than where it starts; at least 1 */
 } pendres_newton_noise;
+
+/* The unit: what rounding in one step leaves of an angle of order one. Periodic orbits keep below
+   what the worst of pendulums round. */
+double pendres_newton_rounding(pendres_table table);
 
 /* Of a candidate whose samples were taken with their tangents. */
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,

@@ -11,7 +11,6 @@
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
-#include "orbits/strobe_noise.h"
 
 /* The series of an orbit by some steps a period, and where it keeps its numbers. */
 typedef struct curve {
@@ -51,7 +50,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   status = pendres_orbit_samples_series(&o->pendulum, &samples, memory + 2 * n, &out->series);
   if (status != PENDRES_OK)
     status = pendres_context_fail(ctx, status, "the samples of an orbit could not be transformed");
-  out->rounding = 0.27 * pendres_strobe_noise_of_step(ctx->options.table) *
+  out->rounding = pendres_newton_rounding(ctx->options.table) *
                   fmax(o->amplitude, fabs(c.w)) * pendres_newton_noise_of(&c, &taken).along;
 done:
   pendres_orbit_tables_free(&tables);
