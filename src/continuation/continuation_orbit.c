@@ -11,9 +11,6 @@
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_reading.h"
 
-/* Of an entry of M, at random in every step: see strobe_noise.c. */
-static const double matrix_rounding = 7e-16;
-
 /* What one computation of an orbit found. */
 typedef struct reading {
   double within; /* the point may be moved by so little to close the orbit: what rounding makes */
@@ -154,7 +151,8 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
     .fine_measures = &b->measures,
     .at_start = {apart, pair->rounding},
     .along = {apart, rounding_along(pair, b, step)},
-    .spectrum.left = matrix_rounding * sqrt(pair->fine_steps * pair->map.period)};
+    .spectrum.left =
+      pendres_newton_matrix * step * sqrt((double)pair->fine_steps * pair->map.period)};
   memcpy(two.spectrum.by_point, a->m_by, sizeof two.spectrum.by_point);
   memcpy(two.spectrum.coarse, a->m, sizeof two.spectrum.coarse);
   memcpy(two.spectrum.fine, b->m, sizeof two.spectrum.fine);

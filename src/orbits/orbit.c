@@ -128,7 +128,7 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
 static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fine,
                                           double rounding)
 {
-  pendres_orbit_spectrum spectrum = {.left = 6.0 * rounding};
+  pendres_orbit_spectrum spectrum = {.left = pendres_newton_matrix * rounding};
   memcpy(spectrum.coarse, coarse->m, sizeof spectrum.coarse);
   memcpy(spectrum.by_point, coarse->m_by, sizeof spectrum.by_point);
   /* The matrix belongs to the corrected point. */

@@ -213,6 +213,8 @@ double pendres_newton_share(const double m[2][2])
   return hypot(back[0], back[1]) / size;
 }
 
+const double pendres_newton_matrix = 9.0;
+
 double pendres_newton_rounding(pendres_table table)
 {
   return 0.27 * pendres_strobe_noise_of_step(table);

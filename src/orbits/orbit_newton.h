@@ -95,6 +95,9 @@ typedef struct pendres_newton_noise {
 /* The unit: what rounding in one step leaves of an angle of order one. Periodic orbits keep below
    what the worst of pendulums round. */
 double pendres_newton_rounding(pendres_table table);
+/* So many of these units it leaves, relatively, of a derivative of the map, as measured: sums of
+   more terms, and twice as many roundings. */
+extern const double pendres_newton_matrix;
 
 /* Of a candidate whose samples were taken with their tangents. */
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
