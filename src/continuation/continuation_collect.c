@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_branch.h"
 
@@ -143,16 +144,12 @@ static pendres_status add_branch(pendres_context *ctx, pendres_branches *set,
     return PENDRES_OK;
   }
   if (status != PENDRES_OK) return status;
-  if (set->count == set->capacity) {
-    const size_t capacity = 2 * set->capacity + 4;
-    pendres_branch **grown = realloc(set->branch, capacity * sizeof *grown);
-    if (grown == NULL) {
-      pendres_branch_free(b);
-      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches");
-    }
-    set->branch = grown;
-    set->capacity = capacity;
+  pendres_branch **grown = pendres_grow(set->branch, set->count, &set->capacity, sizeof *grown);
+  if (grown == NULL) {
+    pendres_branch_free(b);
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for branches");
   }
+  set->branch = grown;
   set->branch[set->count++] = b;
   return PENDRES_OK;
 }
@@ -268,16 +265,12 @@ static pendres_status add_curve(pendres_context *ctx, pendres_curves *set,
     pendres_curve_free(c);
     return PENDRES_OK;
   }
-  if (set->count == set->capacity) {
-    const size_t capacity = 2 * set->capacity + 4;
-    pendres_curve **grown = realloc(set->curve, capacity * sizeof *grown);
-    if (grown == NULL) {
-      pendres_curve_free(c);
-      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
-    }
-    set->curve = grown;
-    set->capacity = capacity;
+  pendres_curve **grown = pendres_grow(set->curve, set->count, &set->capacity, sizeof *grown);
+  if (grown == NULL) {
+    pendres_curve_free(c);
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
   }
+  set->curve = grown;
   set->curve[set->count++] = c;
   return PENDRES_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
@@ -21,13 +22,9 @@ typedef struct way {
 
 static int add(way *w, const pendres_arc_point *point)
 {
-  if (w->count == w->capacity) {
-    const size_t capacity = 2 * w->capacity + 64;
-    pendres_arc_point *grown = realloc(w->point, capacity * sizeof *grown);
-    if (grown == NULL) return -1;
-    w->point = grown;
-    w->capacity = capacity;
-  }
+  pendres_arc_point *grown = pendres_grow(w->point, w->count, &w->capacity, sizeof *grown);
+  if (grown == NULL) return -1;
+  w->point = grown;
   w->point[w->count++] = *point;
   return 0;
 }

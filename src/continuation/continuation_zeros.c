@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_trail.h"
@@ -187,13 +188,9 @@ static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
 
 static int insert(pendres_trail *t, size_t at, const pendres_arc_point *p)
 {
-  if (t->count == t->capacity) {
-    const size_t capacity = t->count + t->count / 2 + 16;
-    pendres_arc_point *grown = realloc(t->point, capacity * sizeof *grown);
-    if (grown == NULL) return -1;
-    t->point = grown;
-    t->capacity = capacity;
-  }
+  pendres_arc_point *grown = pendres_grow(t->point, t->count, &t->capacity, sizeof *grown);
+  if (grown == NULL) return -1;
+  t->point = grown;
   memmove(t->point + at + 1, t->point + at, (t->count - at) * sizeof *t->point);
   t->point[at] = *p;
   t->count++;

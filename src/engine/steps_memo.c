@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-enum { FIRST_SIZE = 64 }; /* doubled as it fills */
+#include "base/grow.h"
 
 typedef struct entry {
   pendres_steps_cell cell;
@@ -49,13 +49,9 @@ int pendres_steps_memo_find(const pendres_steps_memo *memo, const pendres_steps_
 pendres_status pendres_steps_memo_add(pendres_steps_memo *memo, const pendres_steps_cell *cell,
                                       int steps)
 {
-  if (memo->used == memo->size) {
-    const size_t size = memo->size > 0 ? 2 * memo->size : FIRST_SIZE;
-    entry *entries = realloc(memo->entries, size * sizeof *entries);
-    if (entries == NULL) return PENDRES_OUT_OF_MEMORY;
-    memo->entries = entries;
-    memo->size = size;
-  }
+  entry *entries = pendres_grow(memo->entries, memo->used, &memo->size, sizeof *entries);
+  if (entries == NULL) return PENDRES_OUT_OF_MEMORY;
+  memo->entries = entries;
   memo->entries[memo->used++] = (entry){.cell = *cell, .steps = steps};
   return PENDRES_OK;
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/mix.h"
 
 /* What is known of a state; UNSURE: integrated, but it may belong elsewhere. */
@@ -50,23 +51,13 @@ static size_t offset_of(const pendres_basin_plan *p)
   return p->first * p->nv;
 }
 
-/* Make room for one more element of an array. */
-static int grow(void **array, size_t *capacity, size_t used, size_t size)
-{
-  if (used < *capacity) return 0;
-  const size_t more = *capacity > 0 ? 2 * *capacity : 1024;
-  void *grown = realloc(*array, more * size);
-  if (grown == NULL) return -1;
-  *array = grown;
-  *capacity = more;
-  return 0;
-}
-
 /* Ask for a state of these rows, unless it has been integrated or asked for. */
 static int ask(pendres_basin_plan *p, size_t k)
 {
   if (p->knowledge[k] >= ASKED) return 0;
-  if (grow((void **)&p->queue, &p->queue_capacity, p->queued, sizeof *p->queue) != 0) return -1;
+  size_t *queue = pendres_grow(p->queue, p->queued, &p->queue_capacity, sizeof *queue);
+  if (queue == NULL) return -1;
+  p->queue = queue;
   p->knowledge[k] = ASKED;
   p->queue[p->queued++] = offset_of(p) + k;
   return 0;
@@ -79,7 +70,9 @@ static int ask_at(pendres_basin_plan *p, size_t row, size_t column)
 
 static int add_cell(pendres_basin_plan *p, size_t top, size_t bottom, size_t left, size_t right)
 {
-  if (grow((void **)&p->cells, &p->cell_capacity, p->cell_count, sizeof *p->cells) != 0) return -1;
+  cell *cells = pendres_grow(p->cells, p->cell_count, &p->cell_capacity, sizeof *cells);
+  if (cells == NULL) return -1;
+  p->cells = cells;
   p->cells[p->cell_count++] = (cell){.top = (uint32_t)top, .bottom = (uint32_t)bottom,
                                      .left = (uint32_t)left, .right = (uint32_t)right};
   return 0;
@@ -155,9 +148,10 @@ static uint16_t number_of(pendres_basin_plan *p, const pendres_basin_state *s)
 {
   for (size_t i = p->fate_count; i-- > 0;)
     if (p->fates[i].attractor == s->attractor && p->fates[i].well == s->well) return (uint16_t)i;
-  if (p->fate_count == UINT16_MAX ||
-      grow((void **)&p->fates, &p->fate_capacity, p->fate_count, sizeof *p->fates) != 0)
-    return UINT16_MAX;
+  if (p->fate_count == UINT16_MAX) return UINT16_MAX;
+  fate *fates = pendres_grow(p->fates, p->fate_count, &p->fate_capacity, sizeof *fates);
+  if (fates == NULL) return UINT16_MAX;
+  p->fates = fates;
   p->fates[p->fate_count] =
     (fate){.well = s->well, .attractor = s->attractor, .label = s->label};
   return (uint16_t)p->fate_count++;

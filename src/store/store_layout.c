@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
+
 /* ---- The list of nodes ----------------------------------------------------------------------- */
 
 pendres_store_node *pendres_store_find(const pendres_store *store, const char *path)
@@ -23,14 +25,10 @@ pendres_store_node *pendres_store_find(const pendres_store *store, const char *p
 
 pendres_status pendres_store_reserve(pendres_store *store, const char *path, char **copy)
 {
-  if (store->count == store->room) {
-    const size_t room = store->room ? 2 * store->room : 32;
-    pendres_store_node *nodes = realloc(store->nodes, room * sizeof *nodes);
-
-    if (!nodes) return PENDRES_OUT_OF_MEMORY;
-    store->nodes = nodes;
-    store->room = room;
-  }
+  pendres_store_node *nodes =
+    pendres_grow(store->nodes, store->count, &store->room, sizeof *nodes);
+  if (nodes == NULL) return PENDRES_OUT_OF_MEMORY;
+  store->nodes = nodes;
   *copy = pendres_store_copy(path);
   return *copy ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
 }
