@@ -22,19 +22,20 @@
  * A rotation that is not locked to the drive has the exponents 0 and -gamma, and closes an
  * invariant curve around the cylinder of states. The pendulum is called quasi-periodic on three
  * pieces of evidence: its strobe points do not come back to an orbit of up to 128 periods;
- * weighted Birkhoff averages of its turns, and of the growth of a neighbour's distance, over the
- * first and the second half of its periods agree to 1e-5 a period; and that growth is 0 to 1e-5
- * a period. With weights exp(-1/(t(1 - t))) such averages converge faster than any power of the
- * number of periods (Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111), those of chaos
- * no faster than its root. What this does not tell apart is a lock to more than 128 periods that
- * draws neighbours together by less than 1e-5 a period. The mean velocity's error is what the
- * halves differ by, and the errors of single periods, times what the invariant curve makes of
- * them: the mean length of the tangent vector along it, times that of the vector's reciprocal.
- * Close to where a lock has ended a rotation is slow for long, and a neighbour's distance grows
- * for as long: where rotations may be, chaos is called so once it has grown by e^30. There is
- * one such curve at most, since the area between two would be invariant and has to shrink; with
- * a mirror symmetry it is its own image and does not rotate. So rotations are looked for under a
- * torque and a drive, or under both drives.
+ * weighted Birkhoff averages of its turns, and of the growth of a neighbour's distance, over all
+ * of its periods and over the first, the middle and the last half of them agree to 1e-5 a
+ * period; and that growth is 0 to 1e-5 a period. With weights exp(-1/(t(1 - t))) such averages
+ * converge faster than any power of the number of periods (Das, Saiki, Sander and Yorke,
+ * Nonlinearity 30 (2017) 4111), those of chaos no faster than its root. What this does not tell
+ * apart is a lock to more than 128 periods that draws neighbours together by less than 1e-5 a
+ * period. The mean velocity's error is what these averages differ by, and the errors of single
+ * periods, times what the invariant curve makes of them: the mean length of the tangent vector
+ * along it, times that of the vector's reciprocal. Close to where a lock has ended a rotation is
+ * p/q for long, and slips once in many periods: unless it has slipped three times it is
+ * unresolved. Meanwhile a neighbour's distance grows: where rotations may be, chaos is called so
+ * once it has grown by e^30. There is one such curve at most, since the area between two would
+ * be invariant and has to shrink; with a mirror symmetry it is its own image and does not
+ * rotate. So rotations are looked for under a torque and a drive, or under both drives.
  *
  * Chaos that lasts for longer than it is watched, and then ends, is not told from chaos that lasts.
  */

@@ -169,6 +169,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
                     .value = end.value, .value_error = end.value_error,
                     .from = w->state.attractor.label, .share = NAN};
   pendres_stretch next = pendres_stretch_none;
+  int goes_on = 0;
   pendres_status status = go_over(w, &end, limit, &next);
   if (status == PENDRES_OK) {
     w->state.attractor = pendres_settled_orbit(&pendres_stretch_last(&next)->orbit);
@@ -186,11 +187,16 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
     j.to = PENDRES_LABEL_UNRESOLVED;
     status = PENDRES_OK;
   } else if (status == PENDRES_NOT_FOUND) {
+    const pendres_attractor old = w->state.attractor;
     status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
+    /* What could not be followed further, and goes on, has not ended. */
+    goes_on = s->end == PENDRES_STRETCH_LOST && old.orbit.period > 1 &&
+              pendres_settled_alike(&old, &w->state.attractor);
   }
-  if (status == PENDRES_OK) status = note_jump(w, &j);
-  leave_stretch(w);
+  if (status == PENDRES_OK && !goes_on) status = note_jump(w, &j);
+  if (goes_on) pendres_stretch_free(&w->stretch);
+  else leave_stretch(w);
   w->stretch = next;
   return status;
 }
@@ -358,7 +364,7 @@ static pendres_status follow_rotation(path *w, size_t *i)
     const pendres_pendulum p = pendulum_at(w, w->value[*i + n]);
     s[n] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
   }
-  const pendres_status status = pendres_settled_all(w->ctx, n, s);
+  const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++, (*i)++) {
     if (s[k].attractor.label != PENDRES_LABEL_QUASI_PERIODIC) break;
     w->state = s[k];

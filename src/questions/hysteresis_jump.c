@@ -91,7 +91,7 @@ static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, 
 }
 
 static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
-                                         pendres_settled *s)
+                                         pendres_lyapunov_care care, pendres_settled *s)
 {
   pendres_pendulum p[TRIALS] = {{0}};
   pendres_lyapunov l[TRIALS];
@@ -102,7 +102,7 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
     x[k] = s[which[k]].x;
     v[k] = s[which[k]].v;
   }
-  const pendres_status status = pendres_lyapunov_move(ctx, n, p, x, v, l, orbit);
+  const pendres_status status = pendres_lyapunov_move(ctx, n, p, x, v, care, l, orbit);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     s[which[k]].x = x[k];
     s[which[k]].v = v[k];
@@ -133,7 +133,9 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
   return status;
 }
 
-pendres_status pendres_settled_all(pendres_context *ctx, size_t n, pendres_settled *s)
+/* Settle n pendulums, TRIALS at most, from where they are. */
+static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapunov_care care,
+                                 pendres_settled *s)
 {
   size_t averaged[TRIALS], trapped[TRIALS], a = 0, t = 0;
   for (size_t i = 0; i < n; i++) {
@@ -141,9 +143,16 @@ pendres_status pendres_settled_all(pendres_context *ctx, size_t n, pendres_settl
     else trapped[t++] = i;
   }
   pendres_status status = PENDRES_OK;
-  if (a > 0) status = settle_by_averages(ctx, a, averaged, s);
+  if (a > 0) status = settle_by_averages(ctx, a, averaged, care, s);
   if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
   return status;
+}
+
+pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
+{
+  size_t all[TRIALS];
+  for (size_t i = 0; i < n; i++) all[i] = i;
+  return settle_by_averages(ctx, n, all, PENDRES_CARE_CLOSE, s);
 }
 
 /* Onto the attractor. */
@@ -166,7 +175,7 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
                                     double v, pendres_settled *out)
 {
   *out = pendres_settled_nothing_at(p, x, v);
-  const pendres_status status = pendres_settled_all(ctx, 1, out);
+  const pendres_status status = settle_all(ctx, 1, PENDRES_CARE_FULL, out);
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
@@ -207,7 +216,8 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
       which[n++] = i;
     }
     if (n == 0) break;
-    status = pendres_settled_all(ctx, n, some);
+    const int last = round + 1 == ROUNDS;
+    status = settle_all(ctx, n, last ? PENDRES_CARE_FULL : PENDRES_CARE_ONCE, some);
     for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
   }
   return status;
@@ -219,7 +229,7 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
   pendres_settled went[TRIALS];
   double distance[TRIALS];
   begin(at, direction, distance, went);
-  pendres_status status = pendres_settled_all(ctx, TRIALS, went);
+  pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_ONCE, went);
   if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
   if (status != PENDRES_OK) return status;
 

@@ -30,12 +30,13 @@ pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, 
 /* The attractor that a stable orbit is; its trap is not determined. */
 pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
 
-/* Settle n pendulums, PENDRES_HYSTERESIS_TRIALS at most, from where they are. Those that may rotate
-   without a lock to the drive, which no hunt for orbits finds, are judged as in lyapunov.h. */
-pendres_status pendres_settled_all(pendres_context *ctx, size_t n, pendres_settled *s);
+/* What n pendulums that may rotate, PENDRES_HYSTERESIS_TRIALS at most, come to from where they are,
+   next to rotations that are not locked to the drive. */
+pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s);
 
-/* Settle one pendulum. What does not close is taken some way along, so that it is on its
-   attractor. */
+/* Settle one pendulum: one that may rotate without a lock to the drive, which no hunt for orbits
+   finds, is judged as in lyapunov.h. What does not close is taken some way along, so that it is on
+   its attractor. */
 pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
                                     double v, pendres_settled *out);
 

@@ -18,10 +18,12 @@
 
 enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
-  SPANS = PENDRES_SPANS,
   TRANSIENT = 200, /* drive periods, where damping is not weak */
   PERIODS = 512,
-  ROUNDS = 4       /* of averages, each twice as long as the one before */
+  ROUNDS = 4,      /* of averages, each twice as long as the one before */
+  FEW_PERIODS = 128, /* of the first average of what is known to be close to a rotation, ... */
+  MORE_ROUNDS = 6, /* ... and its rounds */
+  SLIPS = 3        /* of a rotation by where a lock has ended, for its mean to be known */
 };
 
 /* Strobe points that come back so closely are next to an orbit: at first, and once that orbit has
@@ -47,6 +49,8 @@ typedef struct job {
   pendres_runner *runner;
   pendres_orbit *orbit; /* that runners are on; NULL where nobody asks */
   long transient, periods;
+  int rounds;
+  pendres_lyapunov_care care;
 } job;
 
 int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
@@ -62,6 +66,9 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 static long transient_of(const job *j, const pendres_pendulum *p)
 {
   if (j->transient > 0) return j->transient;
+  /* Across the curve of a rotation they shrink by all of the damping: to 1e-11. */
+  const double forgets = p->drive_frequency / (two_pi * p->damping);
+  if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
   return (long)fmax(TRANSIENT, fmin(1e7, 80.0 * p->drive_frequency / (two_pi * p->damping)));
 }
 
@@ -169,28 +176,22 @@ static int quasi_periodic(const pendres_runner *r, long periods, double accuracy
                           pendres_lyapunov *out)
 {
   const pendres_pendulum *p = r->lane.pendulum;
-  double norm[SPANS] = {0.0}, growth[SPANS], turned[SPANS];
   if (!r->rotates) return 0;
-  for (long k = 0; k < periods; k++) {
-    double weight[SPANS];
-    pendres_runner_weights(k, periods, weight);
-    for (int s = 0; s < SPANS; s++) norm[s] += weight[s];
-  }
-  for (int s = 0; s < SPANS; s++) {
-    growth[s] = r->smooth_growth[s] / norm[s];
-    turned[s] = r->smooth_turned[s] / norm[s];
-  }
-  const double growth_apart = fabs(growth[PENDRES_SPAN_FIRST] - growth[PENDRES_SPAN_SECOND]);
-  const double turned_apart = fabs(turned[PENDRES_SPAN_FIRST] - turned[PENDRES_SPAN_SECOND]);
-  const double grown = fabs(growth[PENDRES_SPAN_WHOLE]);
-  if (!(growth_apart < same_mean && turned_apart < same_mean && grown < same_mean)) return 0;
-  const double n = (double)periods, rate = p->drive_frequency / two_pi;
-  const double uneven = r->lengths / n * (r->reciprocals / n);
+  const pendres_smooth_means m = pendres_smooth_take(&r->smooth);
+  if (!(m.growth_apart < same_mean && m.turned_apart < same_mean && fabs(m.growth) < same_mean))
+    return 0;
+  /* Averages shorter than usual have to agree as well as the integration allows. */
+  if (periods < PERIODS && !(m.turned_apart < accuracy)) return 0;
+  /* A rotation that came back to where there is no orbit is slow there: what it does between slips
+     is not its mean. */
+  const double slips = fabs(m.turned * r->period - r->winding) * (double)periods;
+  if (r->near < close_by && slips < SLIPS) return 0;
+  const double rate = p->drive_frequency / two_pi;
   const double period_error = accuracy * (1.0 + p->drive_frequency / p->damping) / two_pi;
   *out = (pendres_lyapunov){
     .label = PENDRES_LABEL_QUASI_PERIODIC,
-    .exponent_error = (grown + growth_apart) * rate,
-    .rotation = turned[PENDRES_SPAN_WHOLE], .rotation_error = turned_apart + uneven * period_error};
+    .exponent_error = (fabs(m.growth) + m.growth_apart) * rate,
+    .rotation = m.turned, .rotation_error = m.turned_apart + m.uneven * period_error};
   return 1;
 }
 
@@ -266,7 +267,7 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
   if (status == PENDRES_OK) status = run_transient(ctx, j);
   if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
   /* Chaos leaves no doubt in most cases, and tangent vectors show it at half the cost. */
-  for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++, batch *= 2) {
+  for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
     status = pendres_runners_average(ctx, j->n, j->runner, batch);
     if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
     /* Those that were let go have averages of this round, and no result yet. */
@@ -284,11 +285,13 @@ static const char *refuses(const pendres_pendulum *p, double x, double v)
 }
 
 pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                     double *x, double *v, pendres_lyapunov *out,
-                                     pendres_orbit *orbit)
+                                     double *x, double *v, pendres_lyapunov_care care,
+                                     pendres_lyapunov *out, pendres_orbit *orbit)
 {
-  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner), .orbit = orbit,
-           .periods = PERIODS};
+  static const int rounds[] = {
+    [PENDRES_CARE_FULL] = MORE_ROUNDS, [PENDRES_CARE_ONCE] = 1, [PENDRES_CARE_CLOSE] = MORE_ROUNDS};
+  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner), .orbit = orbit, .care = care,
+           .periods = care == PENDRES_CARE_CLOSE ? FEW_PERIODS : PERIODS, .rounds = rounds[care]};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   for (size_t i = 0; i < n; i++) orbit[i] = pendres_orbit_none(&p[i]);
@@ -317,7 +320,8 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "pendulum %zu: %s", i, why);
   }
   job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner),
-           .transient = o->transient, .periods = o->periods > 0 ? o->periods : PERIODS};
+           .transient = o->transient, .periods = o->periods > 0 ? o->periods : PERIODS,
+           .rounds = ROUNDS, .care = PENDRES_CARE_FULL};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   const pendres_status status = find_all(ctx, &j, p, x, v, out);

@@ -12,7 +12,6 @@
 
 enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
-  SPANS = PENDRES_SPANS,
   WARM_UP = 16,        /* periods in which the tangent vector turns into the growing direction */
   LONGEST_ORBIT = 128, /* drive periods of an orbit that is looked for */
   EXTRAPOLATED = 15    /* times what steps are off by is the difference to steps twice as long */
@@ -72,31 +71,6 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-void pendres_runner_weights(long k, long n, double weight[PENDRES_SPANS])
-{
-  const double t = ((double)k + 0.5) / (double)n;
-  const double at[SPANS] = {
-    [PENDRES_SPAN_WHOLE] = t,
-    [PENDRES_SPAN_FIRST] = 2.0 * t,
-    [PENDRES_SPAN_SECOND] = 2.0 * t - 1.0};
-  for (int s = 0; s < SPANS; s++) {
-    const double product = at[s] * (1.0 - at[s]);
-    weight[s] = product > 0.0 ? exp(-1.0 / product) : 0.0;
-  }
-}
-
-/* What the averages of rotations take from a period. */
-static void add_smooth(runner *r, const double weight[SPANS], double growth, double turned)
-{
-  for (int s = 0; s < SPANS; s++) {
-    r->smooth_growth[s] += weight[s] * growth;
-    r->smooth_turned[s] += weight[s] * turned;
-  }
-  r->length += growth;
-  r->lengths += exp(r->length);
-  r->reciprocals += exp(-r->length);
-}
-
 /* Put a runner where it is. Its neighbour, if it has one, is in the next lane. */
 static void put(const average_job *a, size_t lane, const runner *r)
 {
@@ -110,8 +84,7 @@ static void put(const average_job *a, size_t lane, const runner *r)
 static void load(const average_job *a, size_t lane, runner *r)
 {
   for (int b = 0; b < BATCHES; b++) r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
-  for (int s = 0; s < SPANS; s++) r->smooth_growth[s] = r->smooth_turned[s] = 0.0;
-  r->length = r->lengths = r->reciprocals = 0.0;
+  r->smooth = (pendres_smooth){.length = 0.0};
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
   if (a->neighbour)
     pendres_block_load(a->block, lane + 1, r->lane.pendulum, r->lane.y, r->lane.w);
@@ -172,11 +145,8 @@ static void arrive(const average_job *a, size_t lane, long step, runner *r)
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, lane);
   const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
   if (step >= 0) r->turned[step / a->batch] += turned;
-  if (step >= 0 && r->rotates) {
-    double weight[SPANS];
-    pendres_runner_weights(step, a->batch * BATCHES, weight);
-    add_smooth(r, weight, growth, turned);
-  }
+  if (step >= 0 && r->rotates)
+    pendres_smooth_add(&r->smooth, step, a->batch * BATCHES, growth, turned);
   pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);

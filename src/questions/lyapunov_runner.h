@@ -10,11 +10,9 @@
 #include <pendres/context.h>
 
 #include "engine/strobe_run.h"
+#include "questions/smooth.h"
 
 enum { PENDRES_RUNNER_BATCHES = 16 };
-
-/* Of smooth averages: all periods, and either half of them. */
-enum { PENDRES_SPAN_WHOLE, PENDRES_SPAN_FIRST, PENDRES_SPAN_SECOND, PENDRES_SPANS };
 
 typedef enum pendres_runner_state {
   PENDRES_RUNNER_MOVING,
@@ -35,9 +33,7 @@ typedef struct pendres_runner {
                           neighbour */
   /* Sums over the periods of each batch. */
   double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
-  /* Of rotations: sums with smooth weights, the logarithm of the tangent vector's length, and sums
-     of that length and of its reciprocal. */
-  double smooth_growth[PENDRES_SPANS], smooth_turned[PENDRES_SPANS], length, lengths, reciprocals;
+  pendres_smooth smooth; /* of rotations */
 } pendres_runner;
 
 /* A runner at its start, lane and steps, of which there must be an even number a period; points
@@ -58,8 +54,5 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
  * neighbours.
  */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
-
-/* Weights of period k of n in smooth averages. */
-void pendres_runner_weights(long k, long n, double weight[PENDRES_SPANS]);
 
 #endif

@@ -168,14 +168,22 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
   return pendres_branch_follow(ctx, 1, orbit, &options, out);
 }
 
-static size_t points_for(const pendres_orbit *orbit)
+static size_t first_points(const pendres_orbit *orbit)
 {
   return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
 }
 
-static size_t more(size_t points)
+/* Each point costs as many drive periods as the orbit has. */
+static size_t most_points(const pendres_orbit *orbit)
 {
-  return 4 * points < MOST_POINTS ? 4 * points : MOST_POINTS;
+  const size_t share = MOST_POINTS / (size_t)orbit->period;
+  if (!pendres_lyapunov_may_rotate(&orbit->pendulum)) return MOST_POINTS;
+  return share > FEW_POINTS ? share : FEW_POINTS;
+}
+
+static size_t more(size_t points, size_t most)
+{
+  return 4 * points < most ? 4 * points : most;
 }
 
 pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *orbit,
@@ -185,15 +193,16 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
   const double from = pendres_parameter_get(parameter, &orbit->pendulum);
   pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
   *out = pendres_stretch_none;
-  for (size_t most = points_for(orbit);; most = more(most)) {
+  const size_t most = most_points(orbit);
+  for (size_t points = first_points(orbit);; points = more(points, most)) {
     double off = 0.0;
     s.period = orbit->period;
     s.winding = orbit->winding;
-    const pendres_status status = follow(ctx, orbit, parameter, from, limit, most, &s.branch);
+    const pendres_status status = follow(ctx, orbit, parameter, from, limit, points, &s.branch);
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
     if (choose_way(&s)) {
-      if (is_enough(&s, walk_along(&s, limit)) || most == MOST_POINTS) break;
+      if (is_enough(&s, walk_along(&s, limit)) || points == most) break;
     } else {
       /* Right at its end, or nothing could be followed. */
       s.points = 1;
@@ -220,14 +229,16 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   if (status != PENDRES_OK) return status;
   const double there = pendres_parameter_get(at->parameter, &child.pendulum);
   if (!(ahead(&s, there, at->value) > 0.0)) return PENDRES_NOT_FOUND;
-  for (size_t most = points_for(&child);; most = more(most)) {
+  const size_t most = most_points(&child);
+  for (size_t points = first_points(&child);; points = more(points, most)) {
     double off = INFINITY;
-    status = follow(ctx, &child, at->parameter, at->value, limit, most, &s.branch);
+    status = follow(ctx, &child, at->parameter, at->value, limit, points,
+                    &s.branch);
     if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
     if (!(off < near_birth && choose_way(&s)) || is_enough(&s, walk_along(&s, limit)) ||
-        most == MOST_POINTS)
+        points == most)
       break;
     pendres_branch_free(s.branch);
   }
