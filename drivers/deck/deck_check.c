@@ -220,10 +220,12 @@ static void expand_axes(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++) {
     deck_axis *axis = &b->d->axis[i];
     if (axis->listed_count + axis->range_count == 0) continue;
-    if (count_of(b->d, axis) > DECK_MAX_COUNT)
+    if (count_of(b->d, axis) > DECK_MAX_COUNT) {
       complain(b, given(b, "sweep", "resolution"), "resolution",
                "'resolution' makes more than 1000000 values of a range");
-    else if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
+      return;
+    }
+    if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
   }
 }
 

@@ -33,9 +33,12 @@ typedef struct note {
   char message[512];
 } note;
 
-static void nap(void)
+/* Longer, up to a millisecond, the longer nothing has come: a look at MPI costs some microseconds of
+   a processor that pendulums could have, and a task's record comes once in many milliseconds. */
+static void nap(int *idle)
 {
-  const struct timespec t = { 0, 200000 };
+  const struct timespec t = { 0, *idle < 10 ? 100000L * (*idle + 1) : 1000000L };
+  ++*idle;
   (void)nanosleep(&t, NULL);
 }
 
@@ -112,12 +115,13 @@ static int answer(crew *c, const ranks_parcel *p)
 static void *serve(void *arg)
 {
   crew *c = arg;
-  int under_way = 0, halted = 0;
+  int under_way = 0, halted = 0, idle = 0;
   while (under_way > 0 || !atomic_load(&c->idle)) {
     ranks_parcel p;
     if (ranks_receive(TO_ROOT, &p)) {
       under_way += answer(c, &p);
       free(p.data);
+      idle = 0;
       continue;
     }
     const int failed = atomic_load(&c->limit) < c->stage->tasks;
@@ -126,7 +130,7 @@ static void *serve(void *arg)
       send_to_others(&n, NULL);
       halted = 1;
     }
-    nap();
+    nap(&idle);
   }
   return NULL;
 }
@@ -161,12 +165,14 @@ static void collect_shared(crew *c, const note *n, char *data)
 static void *listen(void *arg)
 {
   crew *c = arg;
+  int idle = 0;
   for (int ended = 0; !ended;) {
     ranks_parcel p;
     if (!ranks_receive(TO_ALL, &p)) {
-      nap();
+      nap(&idle);
       continue;
     }
+    idle = 0;
     const note *n = p.data;
     if (n->run == c->farm->run && n->kind == QUIT) {
       c->status = PENDRES_INTERRUPTED;
@@ -189,13 +195,14 @@ static void *listen(void *arg)
 static int ask(crew *c, int thread, size_t *task)
 {
   note n = note_of(c, ASK);
+  int idle = 0;
   n.thread = thread;
   if (c->stage->timed || c->stage->chained || farm_stop(c->farm)) return 0;
   if (!ranks_send(0, TO_ROOT, &n, sizeof n)) return 0;
   while (!atomic_load(&c->ended)) {
     ranks_parcel p;
     if (!ranks_receive(TO_THREAD + thread, &p)) {
-      nap();
+      nap(&idle);
       continue;
     }
     memcpy(&n, p.data, sizeof n);
