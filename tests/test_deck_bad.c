@@ -73,8 +73,9 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='work_precision' /\n&sweep unit='ensemble' /",
     { "2:1 needs 'tolerance' in &sweep", "2:1 needs 'method' in &sweep" } },
   { "&scene kind='switching' /\n" ONE, { "1:13 needs a group &sweep with 'temperature'" } },
-  { "&scene kind='branches' /\n&pendulum drive_amplitude=0 /\n&sweep damping=1 drive_frequency=1 /",
-    { "2:27 'drive_amplitude' must be positive" } },
+  { "&scene kind='branches' /\n&pendulum drive_amplitude=-1 /\n"
+    "&sweep damping=1 drive_frequency=1 /",
+    { "2:27 'drive_amplitude' must not be negative" } },
   { "&scene kind='response' /\n&pendulum drive_amplitude=1 /\n&sweep damping=1 /",
     { "3:1 'drive_frequency' or 'drive_period' in &sweep" } },
   /* what excludes each other */
