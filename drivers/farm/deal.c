@@ -33,8 +33,8 @@ typedef struct note {
   char message[512];
 } note;
 
-/* Longer, up to a millisecond, the longer nothing has come: a look at MPI costs some microseconds of
-   a processor that pendulums could have, and a task's record comes once in many milliseconds. */
+/* Longer, up to a millisecond, the longer nothing has come: a look at MPI costs some microseconds
+   of a processor that pendulums could have, and a record comes once in many milliseconds. */
 static void nap(int *idle)
 {
   const struct timespec t = { 0, *idle < 10 ? 100000L * (*idle + 1) : 1000000L };
