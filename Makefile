@@ -389,7 +389,8 @@ endif
 	$(INSTALL) -m 644 $(BUILD)/pendres.3 $(DESTDIR)$(MANDIR)/man3
 	$(INSTALL) -d $(addprefix $(DESTDIR)$(DATADIR)/,$(sort $(dir $(SHARED_FILES))))
 	@for file in $(SHARED_FILES); do \
-	  $(INSTALL) -m 644 "$$file" "$(DESTDIR)$(DATADIR)/$$file" || exit 1; done
+	  if [ -x "$$file" ]; then mode=755; else mode=644; fi; \
+	  $(INSTALL) -m $$mode "$$file" "$(DESTDIR)$(DATADIR)/$$file" || exit 1; done
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 uninstall:

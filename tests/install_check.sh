@@ -34,6 +34,7 @@ for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0.1 lib/pkgconf
   share/pendres/python/pendres/__init__.py share/pendres/python/setup.py; do
   [ -e "$stage/opt/pendres/$file" ] || fail "$file was not installed"
 done
+[ -x "$stage/opt/pendres/share/pendres/docs/batch/slurm-array.sh" ] || fail "scripts do not run"
 for header in include/pendres/*.h; do
   cmp -s "$header" "$stage/opt/pendres/$header" || fail "$header was not installed"
 done
