@@ -7,6 +7,7 @@
 
 #include <pendres/phase_diagram.h>
 #include <pendres/resonance.h>
+#include <pendres/rotation.h>
 
 static const char branches_deck[] =
   "&scene kind = 'branches' /\n"
@@ -358,11 +359,50 @@ static void branches_along_torque(void **state)
   free(value), free(error);
 }
 
+/*
+ * Without a drive equilibria are followed, to where they end at a torque of 1, exactly; and
+ * rotations, which exist from Tricomi's torque on (0.1270088598053908 at this damping, which
+ * test_rotation.c has from RK4), stand beside them. Members that rotate are marked, and why.
+ */
+static void branches_without_a_drive(void **state)
+{
+  (void)state;
+  const char *deck_text =
+    "&scene kind = 'branches' /\n"
+    "&pendulum drive_amplitude = 0.0, damping = 0.1, drive_frequency = 1.0 /\n"
+    "&sweep torque = 0.1, 0.2, 0.95 /\n"
+    "&ensemble members = 3 /\n"
+    "&precision period_budget = 60 /\n";
+  static const double torque[] = {0.1, 0.2, 0.95};
+  size_t n = 0, ends = 0;
+  assert_true(scene_run_marked(NULL, deck_text, 1, "free") > 0);
+  assert_non_null(strstr(scene_told, "period of its own"));
+  pendres_store *store = scene_open("free");
+  double *value = scene_values(store, "rotation_period", &n);
+  double *error = scene_values(store, "rotation_period_error", &n);
+  double *least = scene_values(store, "rotation_least_torque", &n);
+  double *end = scene_values(store, "bifurcation_torque", &ends);
+  assert_true(isnan(value[0]) && isnan(error[0]) && value[1] > value[2] && n == 3);
+  for (int i = 0; i < 3; i++) {
+    const pendres_pendulum p = {.damping = 0.1, .drive_frequency = 1.0, .torque = torque[i]};
+    pendres_rotation r;
+    check_near(least[i], 0.1270088598053908, 1e-14);
+    if (i == 0) continue;
+    check_ok(pendres_rotation_find(&p, &r, NULL));
+    check_near(value[i], r.period, r.period_error);
+  }
+  assert_true(ends > 0);
+  for (size_t i = 0; i < ends; i++) check_near(end[i], 1.0, 1e-12);
+  free(value), free(error), free(least), free(end);
+  pendres_store_free(store);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(same_bytes_on_any_threads), cmocka_unit_test(errors_stand_beside),
     cmocka_unit_test(branches_hold_the_figures),
+    cmocka_unit_test(branches_without_a_drive),
     cmocka_unit_test(branches_along_torque), cmocka_unit_test(diagram_holds_the_regimes),
     cmocka_unit_test(drives_are_axes),
     cmocka_unit_test(responses_have_axes),

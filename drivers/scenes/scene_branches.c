@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "scenes/scene_curves.h"
+#include "scenes/scene_rotations.h"
 
 enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
 
@@ -353,6 +354,7 @@ static pendres_status write_results(const scene_lines *l)
 {
   pendres_status status = scene_lines_write(l, sizeof columns / sizeof *columns, columns);
   if (status == PENDRES_OK) status = scene_lines_write_doubtful(l);
+  if (status == PENDRES_OK && scene_rotations_are(l)) status = scene_rotations_write(l);
   if (status == PENDRES_OK) status = write_branches(l);
   if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
   if (status == PENDRES_OK) status = scene_curves_write(l);

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pendres/rotation.h>
+
 /* As long as settling its members: following branches and curves through a point. */
 enum { RUNS_A_POINT = 5 };
 
@@ -82,7 +84,7 @@ static pendres_status hand_over(pendres_status status, pendres_phase_record *r, 
   return status;
 }
 
-static pendres_pendulum pendulum_at(const scene_lines *l, size_t point)
+pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
 {
   pendres_pendulum p = l->grid.pendulum;
   pendres_parameter_set(l->grid.across, l->grid.line_value[point / l->grid.values], &p);
@@ -117,7 +119,7 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
   for (size_t k = 0; k < values && status == PENDRES_OK; k++) {
     char words[SCENE_TOLD];
     const size_t point = task * values + k;
-    const pendres_pendulum p = pendulum_at(l, point);
+    const pendres_pendulum p = scene_lines_pendulum(l, point);
     pendres_response response;
     int left_out = l->failed.reason[point] != SCENE_FAILURE_NONE;
     scene_point_begin(out, l->run->deck, point, 1, 2, l->axis);
@@ -201,7 +203,7 @@ static void leave_out(scene_lines *l)
 {
   for (size_t i = 0; i < l->n; i++) {
     char words[120];
-    const pendres_pendulum p = pendulum_at(l, i);
+    const pendres_pendulum p = scene_lines_pendulum(l, i);
     if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
     (void)pendres_phase_diagram_leave_out(l->diagram, i);
     scene_failures_mark(&l->failed, i, SCENE_FAILURE_TOO_LONG, words);
@@ -219,8 +221,16 @@ static void judge(scene_lines *l)
     if (reason != SCENE_FAILURE_NONE) {
       scene_failures_mark(&l->failed, i, reason, message);
     } else if (outcome == PENDRES_OK && unresolved > 0) {
-      scene_failure_unsettled(l->run->deck, unresolved, l->grid.options.ensemble.members, "members",
+      const size_t members = l->grid.options.ensemble.members;
+      scene_failure_unsettled(l->run->deck, unresolved, members, "members",
                               l->points[i].weakest_multiplier, words, sizeof words);
+      /* Which is refused where there is a drive. */
+      const pendres_pendulum p = scene_lines_pendulum(l, i);
+      pendres_rotation r;
+      if (pendres_rotation_find(&p, &r, NULL) == PENDRES_OK)
+        snprintf(words, sizeof words, "%zu of %zu members are on no orbit of the drive's clock: a "
+                 "rotation is there, which without a drive has a period of its own",
+                 unresolved, members);
       scene_failures_mark(&l->failed, i, SCENE_FAILURE_UNRESOLVED, words);
     }
   }

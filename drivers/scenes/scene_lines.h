@@ -42,6 +42,9 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
 
+/* The parameters of a point. */
+pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point);
+
 /* Whether an axis of decks is one of the diagram's two. */
 int scene_lines_changes(const scene_lines *l, deck_axis_id axis);
 
