@@ -42,6 +42,12 @@ static pendres_store_spec state_spec(const deck *d, int k, const char *group, co
     s.long_name = "why there is no label for the state";
     scene_failure_flags(&s);
     break;
+  case BASINS_UNCERTAIN:
+    s.name = "uncertain";
+    s.long_name = "1: the errors that the pendulum carried may change where it settles";
+    s.comment = "0: not so, or not integrated";
+    s.type = PENDRES_STORE_INT8;
+    break;
   default:
     s.name = "settling_periods";
     s.long_name = "drive periods until the pendulum is inside its attractor's trapping region";
@@ -70,14 +76,15 @@ static int32_t state_value(const pendres_basin_state *s, int k)
   return k == BASINS_ATTRACTOR ? s->attractor : k == BASINS_WELL ? s->well : s->settling_periods;
 }
 
-/* One variable of n states as an array for the store; int8 for what has flags, else int32. */
+/* One variable of n states as an array for the store: int8 of what has few values, else int32. */
 static const void *pack(size_t n, const pendres_basin_state *state, int k, int32_t *values)
 {
-  int8_t *labels = (int8_t *)values;
+  int8_t *few = (int8_t *)values;
   for (size_t i = 0; i < n; i++) {
-    if (k == BASINS_LABEL) labels[i] = state[i].label;
+    if (k == BASINS_LABEL) few[i] = state[i].label;
+    else if (k == BASINS_UNCERTAIN) few[i] = state[i].how == PENDRES_BASIN_UNCERTAIN;
     else if (k == BASINS_FAILED)
-      labels[i] = state[i].attractor == PENDRES_ATTRACTOR_UNKNOWN ? SCENE_FAILURE_UNRESOLVED
+      few[i] = state[i].attractor == PENDRES_ATTRACTOR_UNKNOWN ? SCENE_FAILURE_UNRESOLVED
                                                                   : SCENE_FAILURE_NONE;
     else values[i] = state_value(&state[i], k);
   }
