@@ -8,16 +8,17 @@
  *
  * Method. A pendulum runs until its strobe points come back (Brent's cycle detection); the orbit
  * nearby is found by Newton's method. If it is stable and the pendulum is next to it, exponent,
- * period and winding are the orbit's, exact but for its error. What does not come back carries two
- * tangent vectors along (Benettin, Galgani and Strelcyn, Physical Review A 14 (1976) 2338), by the
- * integrator's steps and by steps twice as long, one cosine a step (Takahashi and Imada, Journal of
- * the Physical Society of Japan 53 (1984) 3765): fourth order in the mean over time. Richardson's
- * extrapolation takes off what follows from both, which enters the error. Growth is averaged over
- * batches of periods, whose scatter gives the error. It is chaotic if the exponent is above
- * zero by five standard errors. What is neither, as next to a bifurcation, is followed for longer,
- * now beside a neighbour that is put back to a distance of 1e-8 once a period, which costs twice as
- * much and has no steps of its own; and it is at last unresolved. Where rotations may be, such a
- * neighbour is there from the first.
+ * period and winding are the orbit's, exact but for its error. What does not come back carries
+ * two tangent vectors along (Benettin, Galgani and Strelcyn, Physical Review A 14 (1976) 2338),
+ * by the integrator's steps and by steps twice as long, one cosine a step (Takahashi and Imada,
+ * Journal of the Physical Society of Japan 53 (1984) 3765): fourth order in the mean over time.
+ * Richardson's extrapolation takes off what follows from both, which enters the error. Growth is
+ * averaged over batches of periods, whose scatter gives the error. It is chaotic if the exponent
+ * is above zero by five standard errors and does not change on the way, as far as the batches
+ * tell. What is neither, as next to a bifurcation, is followed for longer, now beside a neighbour
+ * that is put back to a distance of 1e-8 once a period, which costs twice as much and has no
+ * steps of its own; and it is at last unresolved. Where rotations may be, such a neighbour is
+ * there from the first.
  *
  * A rotation that is not locked to the drive has the exponents 0 and -gamma, and closes an
  * invariant curve around the cylinder of states. The pendulum is called quasi-periodic on three

@@ -37,6 +37,9 @@ static const double same_orbit = 0.02;
 static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.02;
 /* Chaos is no less so by steps twice as long, off by this times what extrapolation takes off. */
 static const double carried_in_doubt = 15.0;
+/* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
+   which batches can be parted, once in a thousand at most. */
+static const double apart_by_chance = 5.5;
 /* Next to where a lock has ended a rotation is slow, and stretches a tangent vector by as much as
    it will shrink it again, up to this logarithm: chaos goes beyond. */
 static const double passing = 30.0;
@@ -166,6 +169,25 @@ static double mean_of(const double sum[BATCHES], long batch, double *error)
 }
 
 /*
+ * Whether batches before and after some one of them differ by more than chance makes them, by
+ * Student's t of the means of both parts: a pendulum that has come from one chaos to another, and
+ * whose mean is that of neither. Source: Worsley, Journal of the American Statistical Association
+ * 74 (1979) 365.
+ */
+static int changes(const double sum[BATCHES])
+{
+  double all = 0.0, first = 0.0, square = 0.0, between = 0.0;
+  for (int b = 0; b < BATCHES; b++) all += sum[b];
+  const double mean = all / BATCHES;
+  for (int b = 0; b < BATCHES; b++) square += (sum[b] - mean) * (sum[b] - mean);
+  for (int k = 1; k < BATCHES - 1; k++) {
+    first += sum[k - 1] - mean;
+    if (k > 1) between = fmax(between, first * first * BATCHES / (k * (BATCHES - k)));
+  }
+  return between * (BATCHES - 2) > apart_by_chance * apart_by_chance * (square - between);
+}
+
+/*
  * Whether a runner is on a rotation that is not locked to the drive, and then its mean. A period's
  * error moves y by as much, and by omega/gamma times as much what its velocity is wrong by, which
  * friction forgets. What that does to the mean velocity depends on where on the invariant curve it
@@ -208,7 +230,8 @@ static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
     const double turned = mean_of(r->turned, batch, &turned_error);
     double least = r->neighbour ? least_growth : least_carried;
     if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
-    const int chaotic = growth > significance * error + carried_in_doubt * off && growth > least;
+    const int chaotic = growth > significance * error + carried_in_doubt * off &&
+                        growth > least && !changes(r->growth[0]);
     out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
