@@ -10,19 +10,11 @@
 #include <pendres/hysteresis.h>
 #include <pendres/strobe.h>
 
-#include "check.h"
+#include "context_fixture.h"
 
-static int create(void **state)
+static int setup_exact(void **state)
 {
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-9}, &ctx));
-  *state = ctx;
-  return 0;
-}
-
-static int destroy(void **state)
-{
-  pendres_context_free(*state);
+  *state = context_with(&(pendres_options){.tolerance = 1e-9});
   return 0;
 }
 
@@ -180,9 +172,9 @@ static void running(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test_setup_teardown(loop_of_the_drive_frequency, create, destroy),
-    cmocka_unit_test_setup_teardown(forks, create, destroy),
-    cmocka_unit_test_setup_teardown(running, create, destroy),
+    cmocka_unit_test_setup_teardown(loop_of_the_drive_frequency, setup_exact, teardown),
+    cmocka_unit_test_setup_teardown(forks, setup_exact, teardown),
+    cmocka_unit_test_setup_teardown(running, setup_exact, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,23 +11,9 @@
 #include <pendres/hysteresis.h>
 #include <pendres/lyapunov.h>
 
-#include "check.h"
+#include "context_fixture.h"
 
 static const double two_pi = 6.28318530717958647693;
-
-static int create(void **state)
-{
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
-  *state = ctx;
-  return 0;
-}
-
-static int destroy(void **state)
-{
-  pendres_context_free(*state);
-  return 0;
-}
 
 /* That of input/josephson.nml. */
 static const pendres_pendulum junction = {
@@ -236,11 +222,11 @@ static void others(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test_setup_teardown(step_and_rotation, create, destroy),
-    cmocka_unit_test_setup_teardown(mean_velocity, create, destroy),
-    cmocka_unit_test_setup_teardown(slips, create, destroy),
-    cmocka_unit_test_setup_teardown(overdamped, create, destroy),
-    cmocka_unit_test_setup_teardown(others, create, destroy),
+    cmocka_unit_test_setup_teardown(step_and_rotation, setup, teardown),
+    cmocka_unit_test_setup_teardown(mean_velocity, setup, teardown),
+    cmocka_unit_test_setup_teardown(slips, setup, teardown),
+    cmocka_unit_test_setup_teardown(overdamped, setup, teardown),
+    cmocka_unit_test_setup_teardown(others, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,23 +8,9 @@
 #include <pendres/lyapunov.h>
 #include <pendres/orbit.h>
 
-#include "check.h"
+#include "context_fixture.h"
 
 static const double two_pi = 6.28318530717958647693;
-
-static int create(void **state)
-{
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
-  *state = ctx;
-  return 0;
-}
-
-static int destroy(void **state)
-{
-  pendres_context_free(*state);
-  return 0;
-}
 
 /* Multipliers of orbits of small amplitude are complex, and their modulus is Liouville's. */
 static void weak_drives(void **state)
@@ -319,15 +305,15 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(caught_and_let_go),
-    cmocka_unit_test_setup_teardown(weak_drives, create, destroy),
-    cmocka_unit_test_setup_teardown(other_forces, create, destroy),
-    cmocka_unit_test_setup_teardown(models_side_by_side, create, destroy),
-    cmocka_unit_test_setup_teardown(orbits, create, destroy),
-    cmocka_unit_test_setup_teardown(chaos, create, destroy),
-    cmocka_unit_test_setup_teardown(longer, create, destroy),
+    cmocka_unit_test_setup_teardown(weak_drives, setup, teardown),
+    cmocka_unit_test_setup_teardown(other_forces, setup, teardown),
+    cmocka_unit_test_setup_teardown(models_side_by_side, setup, teardown),
+    cmocka_unit_test_setup_teardown(orbits, setup, teardown),
+    cmocka_unit_test_setup_teardown(chaos, setup, teardown),
+    cmocka_unit_test_setup_teardown(longer, setup, teardown),
     cmocka_unit_test(late),
-    cmocka_unit_test_setup_teardown(unstable_orbit, create, destroy),
-    cmocka_unit_test_setup_teardown(neighbours, create, destroy),
+    cmocka_unit_test_setup_teardown(unstable_orbit, setup, teardown),
+    cmocka_unit_test_setup_teardown(neighbours, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 #include <pendres/attractor.h>
 #include <pendres/ramp.h>
 
-#include "check.h"
+#include "context_fixture.h"
 
 static const double two_pi = 6.28318530717958647693;
 
@@ -23,17 +23,9 @@ static const pendres_pendulum plain = {.damping = 0.12, .drive_amplitude = 0.2,
                                        .drive_frequency = 0.8};
 static const double fold = 0.84159987215;
 
-static int create(void **state)
+static int setup_seeded(void **state)
 {
-  pendres_context *ctx = NULL;
-  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-6, .seed = 5}, &ctx));
-  *state = ctx;
-  return 0;
-}
-
-static int destroy(void **state)
-{
-  pendres_context_free(*state);
+  *state = context_with(&(pendres_options){.tolerance = 1e-6, .seed = 5});
   return 0;
 }
 
@@ -382,5 +374,5 @@ int main(void)
     cmocka_unit_test(noisy_jumps),     cmocka_unit_test(streams),
     cmocka_unit_test(summaries),
   };
-  return cmocka_run_group_tests(tests, create, destroy);
+  return cmocka_run_group_tests(tests, setup_seeded, teardown);
 }

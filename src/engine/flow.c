@@ -3,58 +3,19 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 
 #include "base/angles.h"
 #include "engine/compat.h"
-#include "engine/flow_drive.h"
+#include "engine/flow_internal.h"
 #include "engine/flow_table.h"
-#include "engine/lanes.h"
-#include "engine/lanes_replay.h"
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
 /* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
 static const double steps_between = 300000.0;
-
-/* Arrays of coefficients, an entry a lane. */
-enum {
-  STIFFNESS,
-  DRIVE,
-  FRICTION,
-  INVERSE,
-  TORQUE,
-  MODULATION,
-  POWERS,
-  COEFFICIENTS = POWERS + PENDRES_FORCE_COEFFICIENTS
-};
-
-/* Rows of what is carried: of errors, as in pendres_carried, or of tangents. */
-enum { CARRIED = 6, TANGENT_Y = 0, TANGENT_W = 2, TANGENT_KEEP = 4 };
-
-struct pendres_flow {
-  pendres_lanes_shape shape;
-  double tolerance;
-  double end, half;         /* ARKODE's clock after a period and half of one */
-  N_Vector state;
-  double *rows;           /* the state for everybody else, row after row */
-  double *coefficient[COEFFICIENTS];
-  pendres_flow_load load; /* what is carried, */
-  double *off[CARRIED];   /* in these; NULL until anything is */
-  pendres_flow_drive drive;
-  pendres_lanes_replays *replays; /* of periods with fixed steps */
-  void *arkode;
-  double evaluations, steps_taken;
-  int (*stop)(void *arg); /* asked now and then within a period; NULL: nobody is */
-  void *stop_arg;
-  double next_asked;      /* once so many steps have been taken */
-  int stopped;
-  size_t lanes; /* in use */
-  int failure;
-};
 
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
 {
@@ -157,24 +118,11 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
   flow->stop_arg = options->stop_arg;
   flow->next_asked = steps_between;
   flow->tolerance = options->tolerance;
-  for (int i = 0; i < COEFFICIENTS; i++) {
-    flow->coefficient[i] = pendres_lanes_allocate(flow->shape.capacity);
-    if (flow->coefficient[i] == NULL) goto fail;
-  }
-  flow->shape.coefficients =
-    (pendres_coefficients){.stiffness = flow->coefficient[STIFFNESS],
-                           .drive = flow->coefficient[DRIVE],
-                           .friction = flow->coefficient[FRICTION],
-                           .inverse = flow->coefficient[INVERSE],
-                           .torque = flow->coefficient[TORQUE],
-                           .modulation = flow->coefficient[MODULATION]};
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    flow->shape.coefficients.power[i] = flow->coefficient[POWERS + i];
+  if (pendres_flow_lanes_open(flow) != 0) goto fail;
   flow->replays = pendres_lanes_replays_create();
   if (flow->replays == NULL) goto fail;
   flow->state = pendres_lanes_create(&flow->shape, sun);
-  flow->rows = pendres_lanes_allocate(flow->shape.rows * flow->shape.capacity);
-  if (flow->state == NULL || flow->rows == NULL) goto fail;
+  if (flow->state == NULL) goto fail;
   status = arkode_setup(flow, options->table, sun);
   if (flow->shape.starved) status = PENDRES_OUT_OF_MEMORY;
   if (status != PENDRES_OK) goto fail;
@@ -192,9 +140,7 @@ void pendres_flow_free(pendres_flow *flow)
   if (flow->state != NULL) N_VDestroy(flow->state);
   pendres_lanes_close(&flow->shape);
   pendres_lanes_replays_free(flow->replays);
-  free(flow->rows);
-  for (int i = 0; i < COEFFICIENTS; i++) free(flow->coefficient[i]);
-  for (int i = 0; i < CARRIED; i++) free(flow->off[i]);
+  pendres_flow_lanes_close(flow);
   pendres_flow_drive_free(&flow->drive);
   free(flow);
 }
@@ -215,146 +161,6 @@ pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
     flow->end += h;
   }
   return PENDRES_OK;
-}
-
-void pendres_flow_clear(pendres_flow *flow)
-{
-  pendres_flow_resize(flow, 0);
-  flow->shape.model = PENDRES_MODEL_PLAIN;
-}
-
-void pendres_flow_resize(pendres_flow *flow, size_t lanes)
-{
-  const size_t old = flow->shape.stride;
-  double *data = flow->rows;
-  pendres_lanes_resize(&flow->shape, lanes);
-  const size_t stride = flow->shape.stride;
-
-  /* Rows move towards lower addresses when shrinking, to higher ones when growing. */
-  if (stride < old)
-    for (size_t r = 1; r < flow->shape.rows; r++)
-      memmove(data + r * stride, data + r * old, stride * sizeof *data);
-  else if (stride > old)
-    for (size_t r = flow->shape.rows; r-- > 0;) {
-      memmove(data + r * stride, data + r * old, old * sizeof *data);
-      memset(data + r * stride + old, 0, (stride - old) * sizeof *data);
-    }
-  flow->lanes = lanes;
-  /* Lanes that only fill up a vector rest at the bottom, and cost no special case. */
-  for (size_t i = lanes; i < stride; i++) {
-    for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + i] = 0.0;
-    for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][i] = 0.0;
-    for (int c = 0; c < CARRIED; c++)
-      if (flow->off[c] != NULL) flow->off[c][i] = 0.0;
-  }
-}
-
-size_t pendres_flow_capacity(const pendres_flow *flow)
-{
-  return flow->shape.capacity;
-}
-
-void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
-                           double w)
-{
-  const size_t stride = flow->shape.stride;
-  const double omega = p->drive_frequency;
-  double *data = flow->rows;
-
-  flow->coefficient[STIFFNESS][lane] = 1.0 / (omega * omega);
-  flow->coefficient[DRIVE][lane] = p->drive_amplitude / (omega * omega);
-  flow->coefficient[FRICTION][lane] = p->damping / omega;
-  flow->coefficient[INVERSE][lane] = 1.0 / omega;
-  flow->coefficient[TORQUE][lane] = p->torque / (omega * omega);
-  flow->coefficient[MODULATION][lane] = p->parametric_amplitude;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    flow->coefficient[POWERS + i][lane] = p->force_coefficients[i];
-  const pendres_model_terms model = pendres_model_kind(p);
-  if (model > flow->shape.model) flow->shape.model = model;
-  for (size_t r = 0; r < flow->shape.rows; r++) data[r * stride + lane] = 0.0;
-  pendres_flow_put_state(flow, lane, y, w);
-  if (flow->shape.rows >= PENDRES_ROWS_VARIATIONAL) {
-    data[PENDRES_ROW_BY_Y * stride + lane] = 1.0;
-    data[(PENDRES_ROW_BY_W + 1) * stride + lane] = 1.0;
-  }
-}
-
-void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to)
-{
-  double *data = flow->rows;
-  for (size_t r = 0; r < flow->shape.rows; r++)
-    data[r * flow->shape.stride + to] = data[r * flow->shape.stride + from];
-  for (int c = 0; c < COEFFICIENTS; c++) flow->coefficient[c][to] = flow->coefficient[c][from];
-  for (int c = 0; c < CARRIED; c++)
-    if (flow->off[c] != NULL) flow->off[c][to] = flow->off[c][from];
-}
-
-pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load)
-{
-  double *const *off = flow->off;
-  flow->shape.off = (pendres_carried){0};
-  flow->shape.tangent = (pendres_tangents){0};
-  flow->load = PENDRES_FLOW_NOTHING;
-  if (load == PENDRES_FLOW_NOTHING) return PENDRES_OK;
-  if (flow->shape.rows != PENDRES_ROWS_STATE || flow->tolerance != 0.0)
-    return PENDRES_INVALID_ARGUMENT;
-  for (int i = 0; i < CARRIED; i++) {
-    if (flow->off[i] == NULL) flow->off[i] = pendres_lanes_allocate(flow->shape.capacity);
-    if (flow->off[i] == NULL) return PENDRES_OUT_OF_MEMORY;
-  }
-  if (load == PENDRES_FLOW_ERRORS)
-    flow->shape.off = (pendres_carried){off[0], off[1], off[2], off[3], off[4], off[5]};
-  else
-    flow->shape.tangent = (pendres_tangents){{off[TANGENT_Y], off[TANGENT_Y + 1]},
-                                             {off[TANGENT_W], off[TANGENT_W + 1]},
-                                             off[TANGENT_KEEP]};
-  flow->load = load;
-  return PENDRES_OK;
-}
-
-void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
-                            double added)
-{
-  flow->off[0][lane] = error->yy;
-  flow->off[1][lane] = error->yw;
-  flow->off[2][lane] = error->ww;
-  flow->off[3][lane] = added;
-  /* The drag by the mean of both ends of a step, so that it contracts however large it is. */
-  const double step = two_pi / flow->drive.steps;
-  const double drag = 0.5 * step * flow->coefficient[FRICTION][lane];
-  flow->off[4][lane] = (1.0 - drag) / (1.0 + drag);
-  flow->off[5][lane] = step * flow->coefficient[STIFFNESS][lane] / (1.0 + drag);
-}
-
-pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane)
-{
-  return (pendres_flow_error){flow->off[0][lane], flow->off[1][lane], flow->off[2][lane]};
-}
-
-void pendres_flow_set_tangent(pendres_flow *flow, size_t lane, int which, const double tangent[2])
-{
-  const double drag = 0.5 * flow->coefficient[FRICTION][lane];
-  flow->off[TANGENT_Y + which][lane] = tangent[0];
-  flow->off[TANGENT_W + which][lane] = fma(drag, tangent[0], tangent[1]);
-  flow->off[TANGENT_KEEP][lane] = exp(-drag * two_pi / flow->drive.steps);
-}
-
-void pendres_flow_get_tangent(const pendres_flow *flow, size_t lane, int which, double tangent[2])
-{
-  const double drag = 0.5 * flow->coefficient[FRICTION][lane];
-  tangent[0] = flow->off[TANGENT_Y + which][lane];
-  tangent[1] = fma(-drag, tangent[0], flow->off[TANGENT_W + which][lane]);
-}
-
-pendres_rows pendres_flow_rows(const pendres_flow *flow)
-{
-  return (pendres_rows){.at = flow->rows, .stride = flow->shape.stride};
-}
-
-void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w)
-{
-  flow->rows[PENDRES_ROW_Y * flow->shape.stride + lane] = y;
-  flow->rows[PENDRES_ROW_W * flow->shape.stride + lane] = w;
 }
 
 /* Put the clock back to phase 0, with the block's present state. */

@@ -66,11 +66,6 @@ void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendul
  * there must be an even number a period. What they grow by is right to fourth order in the step in
  * the mean over time, but not over a single period: they are half a step ahead of their lanes.
  */
-typedef enum pendres_flow_load {
-  PENDRES_FLOW_NOTHING,
-  PENDRES_FLOW_ERRORS,
-  PENDRES_FLOW_TANGENTS
-} pendres_flow_load;
 pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load);
 void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
                             double added);
