@@ -19,8 +19,8 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   engine/accuracy.h engine/context_internal.h engine/passage.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/label.h orbits/orbit_error.h
-  orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_reading.h
-  orbits/orbit_sample.h
+  orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
+  orbits/orbit_reading.h orbits/orbit_sample.h
   orbits/settle.h
   noise/langevin_moving.h noise/noise_common.h continuation/continuation_map.h continuation/continuation_parameter.h
   continuation/continuation_arc.h'

@@ -12,6 +12,7 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
+#include "orbits/orbit_prime.h"
 
 /* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
    unless they are about to annihilate in a fold, where neither is an attractor much longer. */
@@ -21,15 +22,6 @@ static const double same_guess = 0.05;
 
 /* ---- what is in a catalogue ---- */
 
-/* From a Poincaré point of an orbit to another one. */
-static double distance(const pendres_orbit *o, double x, double v)
-{
-  const double turn = pendres_model_turn(&o->pendulum);
-  double dx = x - o->x;
-  dx -= turn * rint(dx / turn);
-  return hypot(dx, v - o->v);
-}
-
 /* Whether an orbit, or another point of the same orbit, is in the catalogue. */
 static int known(const pendres_catalogue *c, const pendres_orbit *o)
 {
@@ -38,7 +30,8 @@ static int known(const pendres_catalogue *c, const pendres_orbit *o)
     const pendres_place place = {.y = at->y, .w = at->w};
     double x, v;
     pendres_passage_out(&o->pendulum, &place, &x, &v);
-    if (at->period == o->period && at->winding == o->winding && distance(o, x, v) < same_point)
+    if (at->period == o->period && at->winding == o->winding &&
+        pendres_orbit_apart(o, x, v) < same_point)
       return 1;
   }
   return 0;
@@ -48,7 +41,8 @@ static int known(const pendres_catalogue *c, const pendres_orbit *o)
 static int closes_earlier(const pendres_orbit *points, int q)
 {
   for (int d = 1; d < q; d++)
-    if (q % d == 0 && distance(&points[0], points[d].x, points[d].v) < same_point) return 1;
+    if (q % d == 0 && pendres_orbit_apart(&points[0], points[d].x, points[d].v) < same_point)
+      return 1;
   return 0;
 }
 
@@ -341,7 +335,7 @@ static size_t distinct_orbits(size_t n, pendres_orbit *o, size_t *set,
     int new = !known(&catalogues[set[i]], &o[i]);
     for (size_t j = count; j-- > 0 && set[j] == set[i] && new;)
       new = o[j].period != o[i].period || o[j].winding != o[i].winding ||
-            distance(&o[j], o[i].x, o[i].v) > same_point;
+            pendres_orbit_apart(&o[j], o[i].x, o[i].v) > same_point;
     if (!new) continue;
     set[count] = set[i];
     o[count++] = o[i];

@@ -13,6 +13,7 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 #include "orbits/catalogue.h"
+#include "orbits/orbit_prime.h"
 #include "questions/lyapunov_move.h"
 #include "questions/lyapunov_runner.h"
 
@@ -111,20 +112,13 @@ static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
 }
 
-/* The orbits that runners were caught near: those that are not stable, or not near, let them go. */
-static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapunov *out)
+/* The orbits that caught runners are near: refined, and told by their prime periods. outcome[k] is
+   PENDRES_OK where the k-th of them is next to a stable orbit, and orbit[] has these alone. */
+static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_t count,
+                                       pendres_orbit_guess *guess, pendres_orbit *orbit,
+                                       pendres_status *outcome)
 {
-  size_t count = 0, k = 0;
-  for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == PENDRES_RUNNER_CAUGHT;
-  if (count == 0) return PENDRES_OK;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_orbit_guess *guess = malloc(count * sizeof *guess);
-  pendres_orbit *orbit = malloc(count * sizeof *orbit);
-  pendres_status *outcome = malloc(count * sizeof *outcome);
-  if (guess == NULL || orbit == NULL || outcome == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", count);
-    goto done;
-  }
+  size_t k = 0, good = 0;
   for (size_t i = 0; i < j->n; i++) {
     const pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
@@ -134,19 +128,46 @@ static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapun
       .pendulum = *r->lane.pendulum, .period = r->period, .winding = r->winding};
     pendres_passage_out(r->lane.pendulum, &at, &g->x, &g->v);
   }
-  status = pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  const pendres_status status =
+    pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  if (status != PENDRES_OK) return status;
   k = 0;
+  for (size_t i = 0; i < j->n; i++) {
+    const pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
+    const pendres_orbit *o = &orbit[k];
+    const int is = outcome[k] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
+    outcome[k++] = is ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+    if (is) orbit[good++] = *o;
+  }
+  return pendres_orbits_to_prime(ctx, good, orbit);
+}
+
+/* The orbits that runners were caught near: those that are not stable, or not near, let them go. */
+static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapunov *out)
+{
+  size_t count = 0, k = 0, good = 0;
+  for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == PENDRES_RUNNER_CAUGHT;
+  if (count == 0) return PENDRES_OK;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_orbit_guess *guess = malloc(count * sizeof *guess);
+  pendres_orbit *orbit = malloc(count * sizeof *orbit);
+  pendres_status *outcome = malloc(count * sizeof *outcome);
+  if (guess == NULL || orbit == NULL || outcome == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", count);
+  else
+    status = orbits_of_caught(ctx, j, count, guess, orbit, outcome);
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
     pendres_runner *r = &j->runner[i];
     if (r->state != PENDRES_RUNNER_CAUGHT) continue;
-    const pendres_orbit *o = &orbit[k];
-    const int good = outcome[k++] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
-    r->state = good ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
+    const int is = outcome[k++] == PENDRES_OK;
+    r->state = is ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
     r->near = very_close_by;
-    if (good) take_orbit(o, &out[i]);
-    if (good && j->orbit != NULL) j->orbit[i] = *o;
+    if (!is) continue;
+    take_orbit(&orbit[good], &out[i]);
+    if (j->orbit != NULL) j->orbit[i] = orbit[good];
+    good++;
   }
-done:
   free(guess);
   free(orbit);
   free(outcome);

@@ -1,0 +1,136 @@
+/* orbit_prime.c -- the prime period of orbits; see orbit_prime.h. */
+#include "orbits/orbit_prime.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/passage.h"
+#include "engine/strobe_run.h"
+#include "model/model.h"
+
+/* Poincaré points of one orbit agree to this, beside their errors. Those of an orbit that has just
+   doubled its period may as well; the shorter one is not stable then. */
+static const double same_point = 1e-6;
+/* The closed orbit, by other steps, by methods that choose their own. */
+static const double run_within = 1e-10;
+
+/* An orbit of more than one period, and a shorter period after which it closes. */
+typedef struct closing {
+  size_t which; /* of the orbits */
+  int tried;    /* shorter ones than this are not its period */
+  int period;   /* 0: it closes after no divisor of its own period */
+  int winding;
+} closing;
+
+typedef struct job {
+  pendres_orbit *orbit;
+  closing *found; /* one a lane */
+} job;
+
+double pendres_orbit_apart(const pendres_orbit *o, double x, double v)
+{
+  const double turn = pendres_model_turn(&o->pendulum);
+  double dx = x - o->x;
+  dx -= turn * rint(dx / turn);
+  return hypot(dx, v - o->v);
+}
+
+static int is_same(const pendres_orbit *o, double x, double v)
+{
+  return pendres_orbit_apart(o, x, v) < same_point + 4.0 * (o->x_error + o->v_error);
+}
+
+/* Followed through the periods that divide the orbit's, until it is back. */
+static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const job *j = arg;
+  closing *c = &j->found[index];
+  const pendres_orbit *o = &j->orbit[c->which];
+  const int d = (int)lane->period;
+  if (d > o->period / 2 || !(isfinite(lane->y) && isfinite(lane->w))) return 1;
+  if (d <= c->tried || o->period % d != 0 || o->winding % (o->period / d) != 0) return 0;
+  double x, v;
+  pendres_strobe_lane_out(lane, &x, &v);
+  if (!is_same(o, x, v)) return 0;
+  c->period = d;
+  c->winding = o->winding / (o->period / d);
+  return 1;
+}
+
+/* Of n orbits those that close earlier than they have been tried for: they are put in front. */
+static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
+{
+  pendres_strobe_lane *lanes = malloc((*n + 1) * sizeof *lanes);
+  if (lanes == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", *n);
+  for (size_t i = 0; i < *n; i++) {
+    const pendres_orbit *o = &j->orbit[j->found[i].which];
+    lanes[i] = pendres_strobe_lane_at(&o->pendulum, o->x, o->v);
+    lanes[i].steps = o->steps;
+    j->found[i].period = 0;
+  }
+  const pendres_status status =
+    pendres_strobe_run_within(ctx, run_within, *n, lanes, visit, j);
+  size_t kept = 0;
+  for (size_t i = 0; i < *n; i++)
+    if (j->found[i].period > 0) j->found[kept++] = j->found[i];
+  *n = kept;
+  free(lanes);
+  return status;
+}
+
+/* Refine them with the shorter periods; what is found takes their place, or they are left to be
+   tried with longer ones. */
+static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_orbit_guess *guess = calloc(*n, sizeof *guess);
+  pendres_orbit *shorter = calloc(*n, sizeof *shorter);
+  pendres_status *outcome = calloc(*n, sizeof *outcome);
+  if (guess == NULL || shorter == NULL || outcome == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", *n);
+    goto done;
+  }
+  for (size_t i = 0; i < *n; i++) {
+    const closing *c = &j->found[i];
+    const pendres_orbit *o = &j->orbit[c->which];
+    guess[i] = (pendres_orbit_guess){.pendulum = o->pendulum, .x = o->x, .v = o->v,
+                                     .period = c->period, .winding = c->winding};
+  }
+  status = pendres_orbit_refine(ctx, *n, guess, PENDRES_ORBIT_PLAIN, shorter, outcome);
+  size_t kept = 0;
+  for (size_t i = 0; i < *n && status == PENDRES_OK; i++) {
+    closing c = j->found[i];
+    pendres_orbit *o = &j->orbit[c.which];
+    if (outcome[i] != PENDRES_NOT_CONVERGED && shorter[i].stable &&
+        is_same(o, shorter[i].x, shorter[i].v)) {
+      *o = shorter[i];
+    } else {
+      c.tried = c.period;
+      j->found[kept++] = c;
+    }
+  }
+  *n = kept;
+done:
+  free(guess);
+  free(shorter);
+  free(outcome);
+  return status;
+}
+
+pendres_status pendres_orbits_to_prime(pendres_context *ctx, size_t n, pendres_orbit *orbit)
+{
+  pendres_status status = PENDRES_OK;
+  job j = {.orbit = orbit, .found = calloc(n + 1, sizeof *j.found)};
+  if (j.found == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
+  size_t left = 0;
+  for (size_t i = 0; i < n; i++)
+    if (orbit[i].period > 1) j.found[left++] = (closing){.which = i};
+  while (left > 0 && status == PENDRES_OK) {
+    status = close_early(ctx, &j, &left);
+    if (left > 0 && status == PENDRES_OK) status = refine(ctx, &j, &left);
+  }
+  free(j.found);
+  return status;
+}
