@@ -43,10 +43,8 @@ static const scene_column columns[] = {
 
 /* Points of all branches of all lines, one after another. */
 typedef struct row {
-  double damping, damping_error, frequency, frequency_error;
-  double drive_amplitude, drive_amplitude_error, amplitude, amplitude_error;
-  double torque, torque_error, parametric_amplitude, parametric_amplitude_error;
-  double phase_lag, phase_lag_error, loop_area, loop_area_error;
+  scene_place place;
+  double amplitude, amplitude_error, phase_lag, phase_lag_error, loop_area, loop_area_error;
   double multiplier_re[2], multiplier_im[2], multiplier_error[2];
   int stable, kind, doubt, number, period;
 } row;
@@ -68,8 +66,6 @@ static const char *doubts(int value)
 }
 
 static const scene_column of_points[] = {
-  SCENE_COLUMN(row, damping, "friction coefficient", "1"),
-  SCENE_COLUMN(row, frequency, "drive frequency", "1"),
   SCENE_COLUMN(row, amplitude, "amplitude of the orbit", "rad"),
   SCENE_COLUMN(row, phase_lag, "phase lag of the orbit", "rad"),
   SCENE_COLUMN(row, loop_area, "loop area of the orbit", "1"),
@@ -90,30 +86,11 @@ static const scene_column of_points[] = {
    .value = offsetof(row, period)},
 };
 
-/* Of parameters that stand beside the points where they are axes. */
-static const struct {
-  deck_axis_id axis;
-  scene_column column;
-} of_axes[] = {
-  {DECK_AXIS_DRIVE_AMPLITUDE, SCENE_COLUMN(row, drive_amplitude, "drive amplitude", "1")},
-  {DECK_AXIS_TORQUE, SCENE_COLUMN(row, torque, "torque", "1")},
-  {DECK_AXIS_PARAMETRIC_AMPLITUDE,
-   SCENE_COLUMN(row, parametric_amplitude, "amplitude of the parametric drive", "1")}};
-
 static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
 {
   const pendres_orbit *o = &p->orbit;
-  const pendres_parameter along = l->grid.options.parameter;
-  return (row){.damping = o->pendulum.damping,
-               .frequency = o->pendulum.drive_frequency,
-               .frequency_error = along == PENDRES_DRIVE_FREQUENCY ? p->parameter_error : 0.0,
-               .drive_amplitude = o->pendulum.drive_amplitude,
-               .drive_amplitude_error = along == PENDRES_DRIVE_AMPLITUDE ? p->parameter_error : 0.0,
-               .torque = o->pendulum.torque,
-               .torque_error = along == PENDRES_TORQUE ? p->parameter_error : 0.0,
-               .parametric_amplitude = o->pendulum.parametric_amplitude,
-               .parametric_amplitude_error =
-                 along == PENDRES_PARAMETRIC_AMPLITUDE ? p->parameter_error : 0.0,
+  const double error[2] = {p->parameter_error, 0.0};
+  return (row){.place = scene_lines_place(l, &o->pendulum, error),
                .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
                .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
                .loop_area = o->loop_area, .loop_area_error = o->loop_area_error,
@@ -157,10 +134,8 @@ static pendres_status write_branches(const scene_lines *l)
                                      "Floquet multiplier, the larger modulus first", "1");
   if (status != PENDRES_OK) (void)scene_store_failed(l->run, status);
   if (status == PENDRES_OK)
-    status = scene_columns_write(l->run, &table, sizeof of_points / sizeof *of_points, of_points);
-  for (size_t i = 0; i < sizeof of_axes / sizeof *of_axes && status == PENDRES_OK; i++)
-    if (scene_lines_changes(l, of_axes[i].axis))
-      status = scene_columns_write(l->run, &table, 1, &of_axes[i].column);
+    status = scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points,
+                                      of_points);
   free(rows);
   return status;
 }

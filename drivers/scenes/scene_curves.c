@@ -14,16 +14,13 @@ static const char *endings(int value)
 /* ---- points of curves, and bifurcations along lines ---------------------------------------- */
 
 typedef struct row {
-  double damping, damping_error, frequency, frequency_error;
-  double drive_amplitude, drive_amplitude_error, amplitude, amplitude_error;
-  double torque, torque_error, parametric_amplitude, parametric_amplitude_error;
+  scene_place place;
+  double amplitude, amplitude_error;
   double multiplier, other_multiplier, multiplier_error, curvature, curvature_error;
   int curve, branch, kind, period;
 } row;
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(row, damping, "friction coefficient there", "1"),
-  SCENE_COLUMN(row, frequency, "drive frequency there", "1"),
   SCENE_COLUMN(row, amplitude, "amplitude of the orbit there", "rad"),
   SCENE_COLUMN(row, multiplier, "Floquet multiplier of the larger modulus", "1"),
   {.name = "other_multiplier", .long_name = "Floquet multiplier of the smaller modulus",
@@ -32,16 +29,6 @@ static const scene_column columns[] = {
   {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
    .value = offsetof(row, period)},
 };
-
-/* Of parameters that stand beside the points where they are axes. */
-static const struct {
-  deck_axis_id axis;
-  scene_column column;
-} of_axes[] = {
-  {DECK_AXIS_DRIVE_AMPLITUDE, SCENE_COLUMN(row, drive_amplitude, "drive amplitude there", "1")},
-  {DECK_AXIS_TORQUE, SCENE_COLUMN(row, torque, "torque there", "1")},
-  {DECK_AXIS_PARAMETRIC_AMPLITUDE,
-   SCENE_COLUMN(row, parametric_amplitude, "amplitude of the parametric drive there", "1")}};
 
 static const scene_column of_folds[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
@@ -66,29 +53,13 @@ static const scene_column of_bifurcations[] = {
    .value = offsetof(row, branch), .names = endings},
 };
 
-/* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */
-static double error_of(const scene_lines *l, pendres_parameter parameter, const double error[2])
-{
-  if (parameter == l->grid.options.parameter) return error[0];
-  return parameter == l->grid.across ? error[1] : 0.0;
-}
-
 static row row_of(const scene_lines *l, const pendres_orbit *o, const double error[2],
                   pendres_special kind, double curvature)
 {
   const pendres_label ending = kind == PENDRES_FOLD
                                  ? pendres_phase_diagram_ending(l->diagram, o, curvature)
                                  : PENDRES_LABEL_PERIODIC;
-  return (row){.damping = o->pendulum.damping,
-               .damping_error = error_of(l, PENDRES_DAMPING, error),
-               .frequency = o->pendulum.drive_frequency,
-               .frequency_error = error_of(l, PENDRES_DRIVE_FREQUENCY, error),
-               .drive_amplitude = o->pendulum.drive_amplitude,
-               .drive_amplitude_error = error_of(l, PENDRES_DRIVE_AMPLITUDE, error),
-               .torque = o->pendulum.torque,
-               .torque_error = error_of(l, PENDRES_TORQUE, error),
-               .parametric_amplitude = o->pendulum.parametric_amplitude,
-               .parametric_amplitude_error = error_of(l, PENDRES_PARAMETRIC_AMPLITUDE, error),
+  return (row){.place = scene_lines_place(l, &o->pendulum, error),
                .amplitude = o->amplitude,
                .amplitude_error = o->amplitude_error,
                .multiplier = o->multiplier_re[0],
@@ -111,10 +82,7 @@ static pendres_status write_table(const scene_lines *l, const char *dimension, s
   pendres_status status =
     pendres_store_dimension(l->run->store, "", dimension, n, NULL, "number of the point", "1");
   if (status != PENDRES_OK) return scene_store_failed(l->run, status);
-  status = scene_columns_write(l->run, &table, sizeof columns / sizeof *columns, columns);
-  for (size_t i = 0; i < sizeof of_axes / sizeof *of_axes && status == PENDRES_OK; i++)
-    if (scene_lines_changes(l, of_axes[i].axis))
-      status = scene_columns_write(l->run, &table, 1, &of_axes[i].column);
+  status = scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns, columns);
   return status == PENDRES_OK
            ? scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest)
            : status;
@@ -184,29 +152,19 @@ static pendres_status put_scalar(const scene_lines *l, const char *name, const c
 
 static pendres_status write_cusp(const scene_lines *l)
 {
-  static const struct {
-    deck_axis_id axis;
-    const char *name, *long_name;
-    pendres_parameter parameter;
-  } about[] = {
-    {DECK_AXIS_DAMPING, "cusp_damping", "damping at which SA and LA become one", PENDRES_DAMPING},
-    {DECK_AXIS_DRIVE_FREQUENCY, "cusp_frequency", "drive frequency there", PENDRES_DRIVE_FREQUENCY},
-    {DECK_AXIS_DRIVE_AMPLITUDE, "cusp_drive_amplitude", "drive amplitude there",
-     PENDRES_DRIVE_AMPLITUDE},
-    {DECK_AXIS_TORQUE, "cusp_torque", "torque there", PENDRES_TORQUE},
-    {DECK_AXIS_PARAMETRIC_AMPLITUDE, "cusp_parametric_amplitude", "parametric amplitude there",
-     PENDRES_PARAMETRIC_AMPLITUDE},
-  };
   const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const scene_place place =
+    c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
   pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof about / sizeof *about && status == PENDRES_OK; k++) {
-    if (about[k].axis != l->axis[0] && about[k].axis != l->axis[1]) continue;
-    double value[2] = {NAN, NAN};
-    if (c != NULL) {
-      value[0] = pendres_parameter_get(about[k].parameter, &c->orbit.pendulum);
-      value[1] = error_of(l, about[k].parameter, c->value_error);
-    }
-    status = put_scalar(l, about[k].name, about[k].long_name, "1", value);
+  for (size_t k = 0; k < SCENE_PARAMETERS && status == PENDRES_OK; k++) {
+    const scene_parameter *of = &scene_parameters[k];
+    const double value[2] = {c != NULL ? place.value[k] : NAN, c != NULL ? place.error[k] : NAN};
+    char name[64], words[64];
+    if (!scene_lines_changes(l, of->axis)) continue;
+    (void)snprintf(name, sizeof name, "cusp_%s", of->name);
+    (void)snprintf(words, sizeof words, "%s %s", of->one,
+                   of->axis == DECK_AXIS_DAMPING ? "at which SA and LA become one" : "there");
+    status = put_scalar(l, name, words, "1", value);
   }
   const double amplitude[2] = {c != NULL ? c->orbit.amplitude : NAN,
                                c != NULL ? c->orbit.amplitude_error : NAN};

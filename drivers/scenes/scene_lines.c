@@ -33,38 +33,43 @@ static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], dou
                               .line_value = across->value};
 }
 
-static const struct {
-  deck_axis_id axis;
-  const char *one, *many;
-} words[] = {{DECK_AXIS_DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes"},
-             {DECK_AXIS_DAMPING, "damping", "dampings"},
-             {DECK_AXIS_DRIVE_FREQUENCY, "drive frequency", "drive frequencies"},
-             {DECK_AXIS_TORQUE, "torque", "torques"},
-             {DECK_AXIS_PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes"}};
-enum { WORDS = sizeof words / sizeof *words };
+const scene_parameter scene_parameters[SCENE_PARAMETERS] = {
+  {DECK_AXIS_DAMPING, "damping", "dampings", "damping", "friction coefficient"},
+  {DECK_AXIS_DRIVE_FREQUENCY, "drive frequency", "drive frequencies", "frequency",
+   "drive frequency"},
+  {DECK_AXIS_DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes", "drive_amplitude",
+   "drive amplitude"},
+  {DECK_AXIS_TORQUE, "torque", "torques", "torque", "torque"},
+  {DECK_AXIS_PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes",
+   "parametric_amplitude", "amplitude of the parametric drive"}};
+
+/* So many of them are in all tables. */
+enum { ALWAYS = 2 };
 
 const char *scene_lines_words(pendres_parameter parameter)
 {
-  for (size_t i = 0; i < WORDS; i++)
-    if (scene_along_parameter(words[i].axis) == parameter) return words[i].one;
+  const scene_parameter *of = scene_parameters;
+  for (int i = 0; i < SCENE_PARAMETERS; i++)
+    if (scene_along_parameter(of[i].axis) == parameter) return of[i].one;
   return pendres_parameter_name(parameter);
 }
 
 void scene_lines_plan(const deck *d, FILE *out)
 {
+  const scene_parameter *of = scene_parameters;
   deck_axis_id axis[2];
   scene_plane(d, axis);
   fprintf(out, "%lld members at ", (long long)d->ensemble.members);
   for (int i = 0; i < 2; i++) {
     const deck_axis *a = &d->axis[axis[i]];
     size_t k = 0;
-    while (words[k].axis != axis[i]) k++;
-    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, words[k].many,
+    while (of[k].axis != axis[i]) k++;
+    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, of[k].many,
             a->value[0], a->value[a->count - 1], i == 0 ? "" : "\n");
   }
-  for (size_t i = 0; i < WORDS; i++) {
-    const double value = scene_fixed(d, words[i].axis);
-    if (!isnan(value)) fprintf(out, "%s %g", words[i].one, value);
+  for (int i = 0, held = 0; i < SCENE_PARAMETERS; i++) {
+    const double value = scene_fixed(d, of[i].axis);
+    if (!isnan(value)) fprintf(out, "%s%s %g", held++ > 0 ? ", " : "", of[i].one, value);
   }
 }
 
@@ -295,6 +300,49 @@ pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     status = scene_dimension(l->run, "", l->axis[i]);
   return status == PENDRES_OK ? scene_columns_write(l->run, &table, count, columns) : status;
+}
+
+/* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */
+static double error_of(const scene_lines *l, pendres_parameter parameter, const double error[2])
+{
+  if (parameter == l->grid.options.parameter) return error[0];
+  return parameter == l->grid.across ? error[1] : 0.0;
+}
+
+scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
+                              const double error[2])
+{
+  scene_place place;
+  for (int i = 0; i < SCENE_PARAMETERS; i++) {
+    const pendres_parameter parameter = scene_along_parameter(scene_parameters[i].axis);
+    place.value[i] = pendres_parameter_get(parameter, p);
+    place.error[i] = error_of(l, parameter, error);
+  }
+  return place;
+}
+
+static scene_column column_of(int i)
+{
+  return (scene_column){.name = scene_parameters[i].name,
+                        .long_name = scene_parameters[i].long_name, .units = "1",
+                        .value = offsetof(scene_place, value) + (size_t)i * sizeof(double),
+                        .error = offsetof(scene_place, error) + (size_t)i * sizeof(double)};
+}
+
+pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
+                                        const char *words, size_t count,
+                                        const scene_column *columns)
+{
+  scene_table places = *table;
+  pendres_status status = PENDRES_OK;
+  places.words = words;
+  for (int i = 0; i < SCENE_PARAMETERS && status == PENDRES_OK; i++) {
+    const scene_column column = column_of(i);
+    if (i == ALWAYS) status = scene_columns_write(l->run, table, count, columns);
+    if (status == PENDRES_OK && (i < ALWAYS || scene_lines_changes(l, scene_parameters[i].axis)))
+      status = scene_columns_write(l->run, &places, 1, &column);
+  }
+  return status;
 }
 
 pendres_status scene_lines_write_doubtful(const scene_lines *l)
