@@ -16,7 +16,7 @@
 
 #define ORACLE_PI 3.14159265358979323846264338L
 
-enum { ORACLE_SIZE = 6 };
+enum { ORACLE_SIZE = 6, ORACLE_PARTS = 32 };
 
 /* y'' + gamma y' + f(y) (1 + b cos omega t) = torque + drive cos omega t; f is sin y, or where
    `polynomial` is set the sum of a[k - 1] y^k, or where `ring` is set sin y + a[0] y. */
@@ -75,23 +75,27 @@ static inline void oracle_midpoint(const oracle *p, long double t, long double s
   for (int i = 0; i < ORACLE_SIZE; i++) to[i] = 0.5L * (before[i] + here[i] + h * d[i]);
 }
 
+/* One of the parts of a period, each as long as the others; s is replaced. */
+static inline void oracle_part(const oracle *p, int part, long double *s)
+{
+  enum { COLUMNS = 8 };
+  const long double step = 2.0L * ORACLE_PI / p->omega / ORACLE_PARTS;
+  long double table[COLUMNS][ORACLE_SIZE];
+  for (int k = 0; k < COLUMNS; k++) {
+    oracle_midpoint(p, part * step, step, 2 * (k + 1), s, table[k]);
+    for (int m = k - 1; m >= 0; m--) {
+      const long double ratio = (long double)(k + 1) / (m + 1);
+      for (int i = 0; i < ORACLE_SIZE; i++)
+        table[m][i] = table[m + 1][i] + (table[m + 1][i] - table[m][i]) / (ratio * ratio - 1.0L);
+    }
+  }
+  memcpy(s, table[0], sizeof table[0]);
+}
+
 /* From time 0 on, over so many periods; s is replaced. */
 static inline void oracle_advance(const oracle *p, int periods, long double *s)
 {
-  enum { COLUMNS = 8, PARTS = 32 };
-  const long double step = 2.0L * ORACLE_PI / p->omega / PARTS;
-  long double table[COLUMNS][ORACLE_SIZE];
-  for (int part = 0; part < PARTS * periods; part++) {
-    for (int k = 0; k < COLUMNS; k++) {
-      oracle_midpoint(p, part * step, step, 2 * (k + 1), s, table[k]);
-      for (int m = k - 1; m >= 0; m--) {
-        const long double ratio = (long double)(k + 1) / (m + 1);
-        for (int i = 0; i < ORACLE_SIZE; i++)
-          table[m][i] = table[m + 1][i] + (table[m + 1][i] - table[m][i]) / (ratio * ratio - 1.0L);
-      }
-    }
-    memcpy(s, table[0], sizeof table[0]);
-  }
+  for (int part = 0; part < ORACLE_PARTS * periods; part++) oracle_part(p, part, s);
 }
 
 /* How a start (y, v) misses being that of an orbit of so many periods and turns (0, 1), and the
@@ -128,6 +132,55 @@ static inline void oracle_solve(long double a[3][3], long double *b)
     }
   }
   for (int c = 0; c < 3; c++) b[c] /= a[c][c];
+}
+
+/* Of the orbit of one period that (y, v) is near and becomes: the work of the drive in a period.
+   Equally spaced samples of a smooth periodic function add up to its integral. */
+static inline long double oracle_loop_area(const oracle *p, long double *start)
+{
+  enum { ROUNDS = 4 };
+  long double s[ORACLE_SIZE], area = 0.0L;
+  for (int round = 0; round <= ROUNDS; round++) {
+    memcpy(s, (const long double[ORACLE_SIZE]){start[0], start[1], 1.0L, 0.0L, 0.0L, 1.0L},
+           sizeof s);
+    area = 0.0L;
+    for (int k = 0; k < ORACLE_PARTS; k++) {
+      area += p->drive * cosl(2.0L * ORACLE_PI * k / ORACLE_PARTS) * s[1];
+      oracle_part(p, k, s);
+    }
+    if (round == ROUNDS) break;
+    /* s[2..3] is the derivative by y, s[4..5] by v. */
+    const long double miss[2] = {s[0] - start[0], s[1] - start[1]};
+    const long double det = (s[2] - 1.0L) * (s[5] - 1.0L) - s[3] * s[4];
+    start[0] -= ((s[5] - 1.0L) * miss[0] - s[4] * miss[1]) / det;
+    start[1] -= ((s[2] - 1.0L) * miss[1] - s[3] * miss[0]) / det;
+  }
+  return area * 2.0L * ORACLE_PI / p->omega / ORACLE_PARTS;
+}
+
+/* The frequency near p->omega at which that area is largest, by the secant rule for its slope, of
+   fourth order in differences of h; *area, the largest. */
+static inline long double oracle_resonance(oracle *p, double y, double v, long double *area)
+{
+  enum { ROUNDS = 3 };
+  const long double h = 2e-5L * p->omega;
+  long double at[2] = {p->omega * (1.0L - 1e-5L), p->omega * (1.0L + 1e-5L)}, slope[2];
+  for (int k = 0; k < ROUNDS + 2; k++) {
+    long double of[4];
+    for (int i = 0; i < 4; i++) {
+      long double start[2] = {y, v};
+      p->omega = at[k < 2 ? k : 1] + h * (i < 2 ? i - 2 : i - 1);
+      of[i] = oracle_loop_area(p, start);
+    }
+    slope[k < 2 ? k : 1] = (of[0] - 8.0L * of[1] + 8.0L * of[2] - of[3]) / (12.0L * h);
+    if (k == 0) continue;
+    if (slope[1] == slope[0] || k == ROUNDS + 1) break;
+    const long double next = at[1] - slope[1] * (at[1] - at[0]) / (slope[1] - slope[0]);
+    at[0] = at[1], slope[0] = slope[1], at[1] = next;
+  }
+  p->omega = at[1];
+  *area = oracle_loop_area(p, (long double[2]){y, v});
+  return at[1];
 }
 
 /*

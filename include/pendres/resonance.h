@@ -15,6 +15,12 @@
  * it, or a member beside it, is on at either; gaps that may then hold more than is known are cut,
  * until single members' changes are located. Where members change so often that this has no end,
  * the peak is ragged. What is narrower than the scan and leaves no trace at its points is not seen.
+ *
+ * All models are served. With other forces the scan is as fine as the damping and the frequency of
+ * free oscillations ask that the drive can keep up. Only the work of drive_amplitude counts, not
+ * that of a torque or a parametric drive: without drive_amplitude there is no resonance. Members
+ * that no attractor is known for, such as rotations that do not lock to the drive and those that
+ * escape to infinity, have no loop area: errors allow for them as if they could be on any state.
  */
 #ifndef PENDRES_RESONANCE_H
 #define PENDRES_RESONANCE_H

@@ -87,6 +87,14 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
   *slope = fma(by, y, sum);
 }
 
+/* Powers of a force with a coefficient. */
+static int powers(const pendres_pendulum *p)
+{
+  int n = 0;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++) n += p->force_coefficients[i] != 0.0;
+  return n;
+}
+
 static double polynomial_potential(const double *a, double x)
 {
   double sum = 0.0;
@@ -173,6 +181,43 @@ double pendres_model_scale(const pendres_pendulum *p)
       if (low > 0.0 && high > 0.0) scale = fmax(scale, pow(low / high, 1.0 / (j - i)));
     }
   return scale > 0.0 ? scale : 1.0;
+}
+
+/* Whether drive and torque get a pendulum as far as `reach`: on average a drive makes up for the
+   damping at speeds below F0/damping, and at rest both together hold it. */
+static int reached(const pendres_pendulum *p, double reach)
+{
+  const double speed = p->drive_amplitude / p->damping, climb = pendres_model_climb(p, reach);
+  return climb <= 0.5 * speed * speed ||
+         climb <= (fabs(p->drive_amplitude) + fabs(p->torque)) * reach;
+}
+
+pendres_model_units pendres_model_units_of(const pendres_pendulum *p)
+{
+  enum { DOUBLINGS = 100, HALVINGS = 4 };
+  const double stiffer = sqrt(1.0 + fabs(p->parametric_amplitude));
+  pendres_model_units u = {1.0, stiffer};
+  if (p->force == PENDRES_FORCE_PENDULUM) return u;
+  /* A single power has no length of its own. */
+  const double own = pendres_model_scale(p);
+  double reach = 0x1p-40 * own;
+  for (int k = 0; k < DOUBLINGS && reached(p, 2.0 * reach); k++) reach *= 2.0;
+  double step = reach;
+  for (int k = 0; k < HALVINGS; k++) {
+    step *= 0.5;
+    if (reached(p, reach + step)) reach += step;
+  }
+  const double rate = stiffer * sqrt(2.0 * pendres_model_climb(p, reach)) / reach;
+  if (!(rate > 0.0 && isfinite(rate))) return u;
+  u.rate = rate;
+  u.length = p->force != PENDRES_FORCE_POLYNOMIAL || powers(p) > 1 ? fmin(own, reach) : reach;
+  return u;
+}
+
+double pendres_model_distance(const pendres_pendulum *p, double x, double v)
+{
+  const pendres_model_units unit = pendres_model_units_of(p);
+  return hypot(x, v / unit.rate) / unit.length;
 }
 
 /*

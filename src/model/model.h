@@ -50,6 +50,21 @@ double pendres_model_stiffest(const pendres_pendulum *p, double reach);
    length at which two of its terms are alike, 1 if it has one alone; of other forces 1. */
 double pendres_model_scale(const pendres_pendulum *p);
 
+/*
+ * What lengths and frequencies of a pendulum are to be compared with, so that nothing depends on
+ * the units of its parameters: how far the drive gets it or, if that is less, the force's own
+ * length; and an upper estimate of the frequency of free oscillations as wide as that. Both are 1
+ * of pendulums, whose frequency only falls with amplitude; their damping must not be 0.
+ */
+typedef struct pendres_model_units {
+  double length, rate;
+} pendres_model_units;
+
+pendres_model_units pendres_model_units_of(const pendres_pendulum *p);
+
+/* How far two states with these differences are apart, in units of p. */
+double pendres_model_distance(const pendres_pendulum *p, double x, double v);
+
 /* Whether a pendulum in a state is on its way to infinity for certain: pendres_outcome says
    when. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);

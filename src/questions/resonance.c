@@ -22,9 +22,9 @@ const char *pendres_peak_name(pendres_peak peak)
 enum { SECTIONS = 4 /* a gap is cut into */ };
 
 /*
- * A gap with a jump is cut until it is this narrow; then its fold is located, or the jump halved
- * down to. Where members change to larger areas and to smaller ones it is cut until they are apart,
- * or so close that they are not told apart.
+ * A gap with a jump is cut until it is this narrow, beside the force's rate; then its fold is
+ * located, or the jump halved down to. Where members change to larger areas and to smaller ones it
+ * is cut until they are apart, or so close that they are not told apart.
  */
 static const double narrow = 2e-5, narrowest = 1e-7;
 
@@ -66,11 +66,13 @@ static double threshold_of(const pendres_search *s)
 }
 
 /* Whether a gap has to be looked into further. */
-static int open_gap(const pendres_gap *g, double threshold)
+static int open_gap(const work *w, size_t i, double threshold)
 {
+  const pendres_gap *g = &w->gap[i];
+  const double width = g->width / w->s.rate;
   if (!(g->bound > threshold)) return 0;
-  if (g->kind == PENDRES_GAP_JUMP) return g->width > (g->mixed ? narrowest : narrow);
-  return g->loose || (g->kind == PENDRES_GAP_PLAIN && g->width > narrow);
+  if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
+  return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > narrow);
 }
 
 /* The largest bound of all gaps that are open; minus infinity if none is. */
@@ -78,7 +80,7 @@ static double largest_bound(const work *w, double threshold)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (open_gap(&w->gap[i], threshold)) largest = fmax(largest, w->gap[i].bound);
+    if (open_gap(w, i, threshold)) largest = fmax(largest, w->gap[i].bound);
   return largest;
 }
 
@@ -141,7 +143,7 @@ static pendres_status resolve_gaps(work *w)
     for (size_t i = 0; i + 1 < s->count; i++) {
       const double first = pendres_scan_frequency(&s->points[i]), width = w->gap[i].width;
       /* Those that promise little may be ruled out by what the others turn up. */
-      if (!open_gap(&w->gap[i], threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
+      if (!open_gap(w, i, threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
         continue;
       for (int k = 1; k < SECTIONS && n < PENDRES_SEARCH_POINTS; k++)
         omega[n++] = first + width * k / SECTIONS;
@@ -193,7 +195,7 @@ static int unresolved(const work *w, size_t i, double area)
 {
   const pendres_gap *g = &w->gap[i];
   if (!(g->bound > area)) return 0;
-  if (open_gap(g, area) || g->mixed) return 1;
+  if (open_gap(w, i, area) || g->mixed) return 1;
   return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
 }
 
@@ -313,7 +315,9 @@ static pendres_status no_area(pendres_context *ctx, const pendres_pendulum *p)
 {
   return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
                               "damping %g, drive amplitude %g: the loop area is zero at all drive "
-                              "frequencies", p->damping, p->drive_amplitude);
+                              "frequencies%s", p->damping, p->drive_amplitude,
+                              p->parametric_amplitude == 0.0
+                                ? "" : "; the work of a parametric drive does not count");
 }
 
 static pendres_status search(work *w, double lowest, double highest, pendres_resonance *out)
@@ -363,7 +367,7 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   for (int i = 0; i < 2 && why == NULL; i++) {
     pendres_pendulum at = *p;
     at.drive_frequency = i == 0 ? lowest : highest;
-    if (pendres_model_check_plain(&at, &why) == PENDRES_OK)
+    if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
       why = pendres_response_refuses(&at, ensemble);
   }
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);

@@ -8,6 +8,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "questions/resonance_gap.h"
 
 /*
@@ -22,7 +23,7 @@ static const pendres_attractor *ending_state(const pendres_response *here,
     const pendres_orbit *o = &here->state[i].orbit;
     for (size_t j = 0; j < there->states; j++) {
       const pendres_orbit *p = &there->state[j].orbit;
-      const double distance = hypot(o->x - p->x, o->v - p->v);
+      const double distance = pendres_model_distance(&o->pendulum, o->x - p->x, o->v - p->v);
       /* Gaps are narrow: an orbit moves by far less than it differs from another, but for the
          square-root rush into its fold. */
       goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
@@ -93,6 +94,7 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
                                     double amplitude, size_t most, starts *s)
 {
   const size_t n = s->n;
+  const double length = pendres_model_units_of(p).length;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_pendulum *pendulums = malloc(n * sizeof *pendulums);
   pendres_outcome *outcome = malloc(n * sizeof *outcome);
@@ -115,7 +117,7 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
         outcome[i].attractor < 0 ? NULL
                                  : pendres_attractors_get(set, (size_t)outcome[i].attractor);
       /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
-      if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15)) continue;
+      if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15 * length)) continue;
       if (pass == 1 && s->n < most && on * most >= s->n * all) {
         s->x[s->n] = s->x[i];
         s->v[s->n++] = s->v[i];
@@ -140,6 +142,7 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
                                    const pendres_fold *fold, double side, int *decides)
 {
   const size_t most[2] = {DECIDERS, e->members};
+  const double rate = pendres_model_units_of(&fold->orbit.pendulum).rate;
   starts s = {.x = malloc(e->members * sizeof *s.x), .v = malloc(e->members * sizeof *s.v)};
   pendres_status status = PENDRES_OK;
   *decides = 0;
@@ -150,7 +153,7 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
     for (size_t k = 1; k <= s.n; k++) pendres_ensemble_start(e, k, &s.x[k - 1], &s.v[k - 1]);
     for (double off = 1e-3; off > 5e-7 && s.n > 0 && status == PENDRES_OK; off *= 0.1) {
       pendres_pendulum p = fold->orbit.pendulum;
-      p.drive_frequency = fold->value + side * off;
+      p.drive_frequency = fold->value + side * off * rate;
       status = keep_those_on(ctx, &p, fold->orbit.amplitude, most[pass], &s);
     }
     *decides = s.n > 0;
@@ -173,6 +176,7 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   const pendres_attractor *state = left != NULL ? left : right;
   const pendres_scan_point *without = left != NULL ? b : a;
   const double side = left != NULL ? -1.0 : 1.0; /* where the state exists */
+  const double rate = pendres_model_units_of(&a->response.pendulum).rate;
   *found = 0;
   if (state == NULL || (left != NULL && right != NULL) || without->response.states == 0)
     return PENDRES_OK;
@@ -190,15 +194,17 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   at->fold = fold.value;
   at->fold_error = fold.value_error;
   const double room = fabs(fold.value - (side < 0 ? lower : upper));
-  *beside = fold.value + side * fmin(1e-3, 0.5 * room);
+  *beside = fold.value + side * fmin(1e-3 * rate, 0.5 * room);
   *found = 1;
   return PENDRES_OK;
 }
 
-/* The resonance at a point, with what follows from the error of its frequency. */
-static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *at, double step,
+/* The resonance at a point, with what follows from the error of its frequency; side: from where on
+   the states are those of the point. */
+static pendres_status conclude(pendres_context *ctx, const pendres_scan_point *at, int side,
                                pendres_resonance *out)
 {
+  const double step = side * 1e-6 * pendres_model_units_of(&at->response.pendulum).rate;
   pendres_scan_point beside;
   const pendres_status status =
     pendres_scan_follow(ctx, at, at->response.pendulum.drive_frequency + step, &beside);
@@ -216,7 +222,7 @@ pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_sca
                              .frequency_error = at->fold_error,
                              .fold_frequency = at->fold,
                              .fold_frequency_error = at->fold_error};
-  return conclude(ctx, at, -1e-6 * at->at_fold, out);
+  return conclude(ctx, at, -at->at_fold, out);
 }
 
 pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
@@ -233,5 +239,5 @@ pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres
                                                 lower.response.pendulum.drive_frequency,
                              .fold_frequency = NAN,
                              .fold_frequency_error = NAN};
-  return conclude(ctx, low ? &lower : &upper, low ? -1e-6 : 1e-6, out);
+  return conclude(ctx, low ? &lower : &upper, low ? -1 : 1, out);
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/model.h"
+
 enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
 
 /* A state at one or both ends of a gap. */
@@ -29,8 +31,10 @@ static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
   const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
   const double dx = 0.5 * step * (a->frequency_derivative[0] + b->frequency_derivative[0]);
   const double dv = 0.5 * step * (a->frequency_derivative[1] + b->frequency_derivative[1]);
-  const double off = hypot(b->x - a->x - dx, b->v - a->v - dv);
-  return a->period == b->period && a->winding == b->winding && off <= 0.05 + 0.25 * hypot(dx, dv);
+  const pendres_pendulum *p = &a->pendulum;
+  const double off = pendres_model_distance(p, b->x - a->x - dx, b->v - a->v - dv);
+  return a->period == b->period && a->winding == b->winding &&
+         off <= 0.05 + 0.25 * pendres_model_distance(p, dx, dv);
 }
 
 /* Chaos at both ends is taken for one attractor when its areas agree within their errors. */

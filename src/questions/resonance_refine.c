@@ -8,6 +8,7 @@
 #include <gsl/gsl_roots.h>
 
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
 #include "questions/response_loop.h"
@@ -211,7 +212,8 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
   for (size_t i = 0; *same && i < r->states; i++) {
     const pendres_orbit *o = &there.state[i].orbit;
     *same = there.state_members[i] == r->state_members[i] &&
-            hypot(o->x - r->state[i].orbit.x, o->v - r->state[i].orbit.v) < 1e-5;
+            pendres_model_distance(&r->pendulum, o->x - r->state[i].orbit.x,
+                                   o->v - r->state[i].orbit.v) < 1e-5;
     r->state[i].label = there.state[i].label;
   }
   return pendres_response_renew(ctx, r);
@@ -287,7 +289,8 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
 
   /* The curvature from two points astride, wide enough for the slopes' own errors. */
   pendres_scan_point at, beside;
-  const double width = fmin(1e-4, 0.25 * (upper - lower));
+  const double rate = pendres_model_units_of(&a->response.pendulum).rate;
+  const double width = fmin(1e-4 * rate, 0.25 * (upper - lower));
   pendres_orbit_coarser coarser[PENDRES_RESPONSE_STATES];
   pendres_status status = follow(ctx, &s.latest, root, coarser, &at);
   if (status == PENDRES_OK) status = pendres_scan_follow(ctx, &at, root + width, &beside);

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 
 enum {
   COARSE_POINTS = 19, /* over the range at first: 0.04 apart in the default range */
@@ -25,7 +26,7 @@ pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulu
                                      pendres_search *out)
 {
   *out = (pendres_search){.ctx = ctx, .pendulum = *p, .ensemble = ensemble,
-                          .most_work = most_work};
+                          .most_work = most_work, .rate = pendres_model_units_of(p).rate};
   out->slopes = pendres_context_slopes(ctx);
   out->newton = ctx->cost.newton_steps;
   out->points = malloc(PENDRES_SEARCH_POINTS * sizeof *out->points);
@@ -61,7 +62,7 @@ void pendres_search_account(pendres_search *s, double omega)
   const double slopes = pendres_context_slopes(s->ctx), newton = s->ctx->cost.newton_steps;
   /* Slow drives take more steps a period, each of Newton's steps some periods. */
   s->work += work_of_slope * (slopes - s->slopes) +
-             fmax(1.0, 1.0 / omega) * work_of_newton * (newton - s->newton);
+             fmax(1.0, s->rate / omega) * work_of_newton * (newton - s->newton);
   s->slopes = slopes;
   s->newton = newton;
   if (s->work > s->most_work) s->exhausted = 1;
@@ -107,7 +108,8 @@ static pendres_status add_batch(pendres_search *s, size_t n, const double *omega
 static double expected_work(const pendres_search *s, double omega)
 {
   const double periods = 20.0 + 10.0 * omega / (pi * s->pendulum.damping);
-  return 20.0 * work_of_period * periods * (double)s->ensemble->members * fmax(1.0, 1.0 / omega);
+  return 20.0 * work_of_period * periods * (double)s->ensemble->members *
+         fmax(1.0, s->rate / omega);
 }
 
 pendres_status pendres_search_add(pendres_search *s, size_t n, const double *omega)
@@ -148,15 +150,17 @@ pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point
 /* ---- the first scan ---- */
 
 /*
- * A resonance of the free motion with harmonic n of the drive, near 1/n, is as wide as damping over
- * n. Where the drive can keep a pendulum turning over, for half a cycle each way, it
- * turns about F0 / (pi damping omega) times before the drive turns it back: with each turn more or
- * less a state may come and go.
+ * A resonance of the free motion with harmonic n of the drive, near 1/n of the force's rate, is as
+ * wide as damping over n. Where the drive can keep a pendulum turning over, for half a cycle each
+ * way, it turns about F0 / (pi damping omega) times before the drive turns it back: with each turn
+ * more or less a state may come and go.
  */
 double pendres_search_width(const pendres_pendulum *p, double omega)
 {
-  const double resonance = p->damping * fmin(omega, 1.0), drive = fabs(p->drive_amplitude);
-  if (!(drive > 4.0 / pi * p->damping)) return resonance;
+  const double resonance = p->damping * fmin(omega / pendres_model_units_of(p).rate, 1.0);
+  const double drive = fabs(p->drive_amplitude);
+  if (pendres_model_of(p->force)->period == 0.0 || !(drive > 4.0 / pi * p->damping))
+    return resonance;
   return fmin(resonance, 0.5 * p->damping * omega * omega / drive);
 }
 

@@ -26,6 +26,7 @@ typedef struct pendres_search {
   pendres_scan_point *points; /* ascending in omega */
   double most_work;           /* the budget: no more is begun when it is spent */
   double work;                /* spent so far, about seconds of a processor */
+  double rate;                /* of the force: frequencies are measured by it */
   double slopes, newton;      /* the context's cost when work was last added up */
   int exhausted;              /* the budget of work is spent */
   int crowded;                /* no room for further frequencies */
