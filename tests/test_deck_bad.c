@@ -153,14 +153,15 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { CURVE "&sweep damping=1 drive_frequency_range=1.2,0.5 /", { "3:44 must ascend" } },
   { CURVE "&sweep damping=1 drive_amplitude=0.1 /",
     { "2:11 'drive_amplitude' is given in &sweep too" } },
-  { CURVE "&sweep damping=1 torque=0.1 /",
-    { "3:18 'torque' in &sweep is not used by scene 'resonance_curve' (only by: response, "
-      "phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
+  { "&scene kind='switching' /\n" ONE "&sweep temperature=1 torque=0.1 /",
+    { "3:22 'torque' in &sweep is not used by scene 'switching' (only by: resonance_curve, "
+      "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
+  { CURVE "&sweep damping=1,2 torque=0.1,0.2 /",
+    { "3:20 results have one axis: beside 'torque' give 'damping' one value" } },
+  { CURVE "&sweep damping=1 torque=0.1,0.2 parametric_amplitude=0.1 /",
+    { "3:33 results have one axis: give 'torque' or 'parametric_amplitude'" } },
   { "&scene kind='resonance_curve' /\n&sweep damping=1,2 drive_amplitude=0.1,0.2 /",
     { "2:20 results have one axis: beside 'drive_amplitude' give 'damping' one value" } },
-  { "&scene kind='response' /\n&pendulum drive_amplitude=0.2 torque=0.1 /\n"
-    "&sweep damping=1 drive_period=7,8 resonance_range=0.6,0.9 /",
-    { "3:35 'resonance_range' is not used: no resonance is looked for" } },
   { "&scene kind='response' /\n&sweep damping=1 drive_amplitude=0.1,0.2 drive_period=7 "
     "resonance_range=0.6,0.9 /",
     { "2:57 'resonance_range' is not used: no resonance is looked for" } },

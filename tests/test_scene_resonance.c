@@ -124,6 +124,55 @@ static void drive_amplitudes(void **state)
   for (int i = 0; i < 3; i++) free(period[i]);
 }
 
+/*
+ * Of others than the plain pendulum: over torques, of which 0 is the plain pendulum's resonance to
+ * the last bit; of a linear oscillator, whose peak is at the zero of 3 u^2 - (2 a - g^2) u - a^2 in
+ * u = w^2; and beside a response if the deck says where to look. What compares with the plain
+ * pendulum's free oscillations is left out.
+ */
+static void other_models(void **state)
+{
+  static const char range[] = "drive_frequency_range = 0.7, 1.1 /\n&ensemble members = 8 /\n";
+  char text[500];
+  size_t n = 0;
+  (void)state;
+  snprintf(text, sizeof text, "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.1, "
+           "damping = 0.5 /\n&sweep torque = 0, 0.2, %s", range);
+  assert_int_equal(scene_run_marked(NULL, text, 1, "torques"), 0);
+  snprintf(text, sizeof text, "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.1 /"
+           "\n&sweep damping = 0.5, %s", range);
+  assert_int_equal(scene_run_marked(NULL, text, 1, "plain"), 0);
+  pendres_store *store = scene_open("torques"), *plain = scene_open("plain");
+  double *frequency = scene_values(store, "resonance_frequency", &n);
+  double *want = scene_values(plain, "resonance_frequency", &n);
+  double *torque = scene_values(store, "torque", &n);
+  assert_true(n == 2 && torque[1] == 0.2 && frequency[0] == want[0] && frequency[1] < want[0]);
+  assert_true(pendres_store_has(plain, "", "free_frequency"));
+  assert_false(pendres_store_has(store, "", "free_frequency"));
+  free(frequency), free(want), free(torque);
+  pendres_store_free(store);
+  pendres_store_free(plain);
+
+  const double a = 4.0, g = 0.4, b = 2.0 * a - g * g;
+  const double exact = sqrt((b + sqrt(b * b + 12.0 * a * a)) / 6.0);
+  for (int looked = 0; looked < 2; looked++) {
+    snprintf(text, sizeof text, "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.1, "
+             "force = 'polynomial', force_coefficients = 4 /\n&sweep damping = 0.4, "
+             "drive_frequency = 1.5, 2.5%s /\n&ensemble members = 8 /\n",
+             looked ? ", resonance_range = 1.5, 2.5" : "");
+    assert_int_equal(scene_run_marked(NULL, text, 1, "linear"), 0);
+    store = scene_open("linear");
+    assert_true(pendres_store_has(store, "", "resonance_frequency") == looked);
+    if (looked) {
+      double *found = scene_values(store, "resonance_frequency", &n);
+      double *error = scene_values(store, "resonance_frequency_error", &n);
+      check_near(found[0], exact, error[0]);
+      free(found), free(error);
+    }
+    pendres_store_free(store);
+  }
+}
+
 /* Resonances that may be narrower than a search can look: a peak, marked, and exit code 3. */
 static void a_search_that_is_not_complete(void **state)
 {
@@ -151,7 +200,7 @@ int main(void)
     cmocka_unit_test(a_signal_at_the_turning_point),
     cmocka_unit_test(points_without_a_peak),
     cmocka_unit_test(a_search_that_is_not_complete),
-    cmocka_unit_test(drive_amplitudes),
+    cmocka_unit_test(drive_amplitudes), cmocka_unit_test(other_models),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

@@ -136,6 +136,7 @@ typedef struct deck {
   deck_axis axis[DECK_AXIS_COUNT];
   int64_t resolution;       /* each step of the ranges is divided into so many */
   double search[2];         /* bounds of drive frequency in the search of a resonance */
+  int search_given;         /* the deck says them */
 
   struct {                  /* as in struct pendres_ensemble */
     int64_t members;
@@ -265,7 +266,8 @@ int deck_moving(const deck *d, int room, deck_axis_id *axis);
 int deck_extra_axis(const deck *d, deck_axis_id *axis);
 
 /** Does a scene of that deck search for resonances: a resonance curve, or a response over the
-    drive's frequency or period? The search serves the plain pendulum alone. */
+    drive's frequency or period? Beside a response of others than the plain pendulum, whose
+    resonances may be anywhere, one is looked for only where the deck says in which range. */
 int deck_searches(const deck *d);
 
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */

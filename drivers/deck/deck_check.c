@@ -165,8 +165,8 @@ static void check_idle_keys(deck_builder *b)
     [DECK_OFF_LINE] = "the starts are on a line, see 'shape'",
     [DECK_IN_RECTANGLE] = "'shape' is not 'rectangle'",
     [DECK_AT_RANDOM] = "'shape' is not 'random'",
-    [DECK_WITH_SEARCH] = "no resonance is looked for: that takes the plain pendulum along the "
-                         "drive's frequency or period",
+    [DECK_WITH_SEARCH] = "no resonance is looked for: that takes lines along the drive's "
+                         "frequency or period",
   };
   const char *group = b->scene == 1u << DECK_HYSTERESIS            ? "hysteresis"
                       : b->scene == 1u << DECK_BIFURCATION_DIAGRAM ? "bifurcation_diagram"
@@ -345,39 +345,50 @@ static void check_ensemble(deck_builder *b)
              "'members' must make whole 'rows' of a rectangle");
 }
 
+/* Of drive amplitude, torque and parametric amplitude one is an axis of results; 0: more are. */
+static int one_extra(deck_builder *b, deck_axis_id extra)
+{
+  static const deck_axis_id extras[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
+                                         DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  char message[160];
+  for (size_t i = 0; i < sizeof extras / sizeof *extras; i++) {
+    if (extras[i] == extra || b->d->axis[extras[i]].count == 0) continue;
+    const char *other = deck_axis_name(extras[i]);
+    snprintf(message, sizeof message,
+             "results have %s: give '%s' or '%s' in &sweep, and the other in &pendulum",
+             b->d->kind == DECK_RESONANCE_CURVE ? "one axis" : "two axes", deck_axis_name(extra),
+             other);
+    complain(b, given(b, "sweep", other), other, message);
+    return 0;
+  }
+  return 1;
+}
+
 /* A resonance curve has one axis. */
 static void check_curve(deck_builder *b)
 {
-  if (b->d->kind != DECK_RESONANCE_CURVE || b->d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count == 0 ||
-      b->d->axis[DECK_AXIS_DAMPING].count < 2)
-    return;
-  complain(b, given(b, "sweep", "drive_amplitude"), "drive_amplitude",
-           "results have one axis: beside 'drive_amplitude' give 'damping' one value");
+  char message[120];
+  deck_axis_id extra = DECK_AXIS_DRIVE_AMPLITUDE;
+  if (b->d->kind != DECK_RESONANCE_CURVE || !deck_extra_axis(b->d, &extra)) return;
+  if (!one_extra(b, extra) || b->d->axis[DECK_AXIS_DAMPING].count < 2) return;
+  const char *name = deck_axis_name(extra);
+  snprintf(message, sizeof message, "results have one axis: beside '%s' give 'damping' one value",
+           name);
+  complain(b, given(b, "sweep", name), name, message);
 }
 
 /* Results have two axes: where drive amplitude, torque or parametric amplitude is one, another has
    one value; but for a response without noise, which has three then. */
 static void check_plane(deck_builder *b)
 {
-  static const deck_axis_id extras[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
-                                         DECK_AXIS_PARAMETRIC_AMPLITUDE };
   const deck *d = b->d;
   deck_axis_id extra = DECK_AXIS_DRIVE_AMPLITUDE;
   char message[160];
   const deck_axis *frequency = &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
   const deck_axis *period = &d->axis[DECK_AXIS_DRIVE_PERIOD];
   if (d->kind != DECK_RESPONSE && d->kind != DECK_PHASE_DIAGRAM && d->kind != DECK_BRANCHES) return;
-  if (!deck_extra_axis(d, &extra)) return;
+  if (!deck_extra_axis(d, &extra) || !one_extra(b, extra)) return;
   const char *name = deck_axis_name(extra);
-  for (size_t i = 0; i < sizeof extras / sizeof *extras; i++)
-    if (extras[i] != extra && d->axis[extras[i]].count > 0) {
-      const char *other = deck_axis_name(extras[i]);
-      snprintf(message, sizeof message,
-               "results have two axes: give '%s' or '%s' in &sweep, and the "
-               "other in &pendulum", name, other);
-      complain(b, given(b, "sweep", other), other, message);
-      return;
-    }
   if (d->axis[DECK_AXIS_DAMPING].count < 2 || (frequency->count < 2 && period->count < 2)) return;
   if (d->kind == DECK_RESPONSE && d->axis[DECK_AXIS_TEMPERATURE].count == 0) return;
   snprintf(message, sizeof message,
@@ -406,6 +417,8 @@ void deck_check(deck_builder *b)
   check_axis_sources(b);
   resolve_drive(b);
   expand_axes(b);
+  d->search_given = in_scene(b, "sweep", "resonance_range") &&
+                    given(b, "sweep", "resonance_range")->given;
   check_idle_keys(b);
   if (b->errors->count == 0) check_moving(b);
   if (b->errors->count == 0) check_ramp(b);

@@ -36,7 +36,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (ORBIT | BASINS | RESPONSE | ALONG | GRID) /* torque, parametric drive, forces */
+#define MODELS (ORBIT | BASINS | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
@@ -174,7 +174,8 @@ const deck_key deck_table[] = {
   { BOUNDS("sweep", "resonance_range", search), IN(RESPONSE), FREQUENCY, .number = 0.5,
     .number2 = 1.2, .when = DECK_WITH_SEARCH,
     SAYS("omega0", "lowest and highest drive frequency where the resonance of each line is looked "
-         "for; scene 'resonance_curve' has 'drive_frequency_range' for that") },
+         "for; scene 'resonance_curve' has 'drive_frequency_range' for that. With a torque, a "
+         "parametric drive or another force none is looked for without this key") },
   { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE), FREQUENCY,
     SAYS("omega0", "angular frequency of the drive; instead of 'drive_period' where both are "
          "possible") },
@@ -189,9 +190,9 @@ const deck_key deck_table[] = {
          "instead of the value in &pendulum, and the damping or the drive has one value") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
   { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
-  { SWEEP("torque", TORQUE), IN(RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
+  { SWEEP("torque", TORQUE), IN(CURVE | RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
     SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
-  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(RESPONSE | ALONG | GRID),
+  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(CURVE | RESPONSE | ALONG | GRID),
     RANGE(-BIG, BIG),
     SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
@@ -442,7 +443,8 @@ int deck_searches(const deck *d)
   deck_axis_id extra;
   if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
   /* Where another parameter is an axis, lines are along the drive if it has several values. */
-  return deck_is_plain(d) && (!deck_extra_axis(d, &extra) || along->count > 1);
+  return (deck_is_plain(d) || d->search_given) &&
+         (!deck_extra_axis(d, &extra) || along->count > 1);
 }
 
 int deck_is_plain(const deck *d)

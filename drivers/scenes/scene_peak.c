@@ -48,7 +48,9 @@ size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
   };
   size_t count = 0;
   const deck_axis *damping = &d->axis[DECK_AXIS_DAMPING];
-  if (!(fabs(d->pendulum.drive_amplitude - 0.2) <= 1e-12) || n != damping->count) return 0;
+  if (!(fabs(d->pendulum.drive_amplitude - 0.2) <= 1e-12) || n != damping->count ||
+      !deck_is_plain(d))
+    return 0;
   for (size_t k = 0; k < SCENE_PRINTED_PERIODS; k++)
     for (size_t i = 0; i < n && count <= k; i++)
       if (rows[i].at == damping->value[i] && fabs(rows[i].at - printed[k].damping) < 1e-12 &&
@@ -57,6 +59,14 @@ size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
                                           .computed = rows[i].resonance_period,
                                           .error = rows[i].resonance_period_error};
   return count;
+}
+
+const char *scene_peak_heading(deck_axis_id axis)
+{
+  return axis == DECK_AXIS_DAMPING                ? "damping   "
+         : axis == DECK_AXIS_TORQUE               ? "torque    "
+         : axis == DECK_AXIS_PARAMETRIC_AMPLITUDE ? "parametric"
+                                                  : "drive     ";
 }
 
 const char *scene_peak_names(int kind)

@@ -2,7 +2,8 @@
  * scene_resonance_curve.c -- resonance frequency against amplitude, a point a damping.
  *
  * The paper's Fig. 2 and its inset. One task a damping: pendres_resonance_find. With drive
- * amplitudes in &sweep there is a point each of these instead, at one damping.
+ * amplitudes, torques or parametric amplitudes in &sweep there is a point each of these instead, at
+ * one damping.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +15,7 @@ typedef struct curve {
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
-  deck_axis_id axis;         /* damping or drive amplitude */
+  deck_axis_id axis;         /* damping or another parameter */
   scene_peak *points;        /* one a value of the axis */
   int8_t *no_peak;           /* not 0: the point has none */
   scene_failures failed;
@@ -22,8 +23,17 @@ typedef struct curve {
 
 static deck_axis_id axis_of(const deck *d)
 {
-  return d->axis[DECK_AXIS_DRIVE_AMPLITUDE].count > 0 ? DECK_AXIS_DRIVE_AMPLITUDE
-                                                      : DECK_AXIS_DAMPING;
+  deck_axis_id axis = DECK_AXIS_DAMPING;
+  (void)deck_extra_axis(d, &axis);
+  return axis;
+}
+
+static const char *many(deck_axis_id axis)
+{
+  return axis == DECK_AXIS_DAMPING           ? "dampings"
+         : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitudes"
+         : axis == DECK_AXIS_TORQUE          ? "torques"
+                                             : "parametric amplitudes";
 }
 
 static void plan(const deck *d, FILE *out)
@@ -33,8 +43,8 @@ static void plan(const deck *d, FILE *out)
   fprintf(out,
           "resonances at %zu %s %g to %g, %s %g: the largest mean loop area of\n"
           "%lld members over drive frequencies %g to %g\n",
-          a->count, dampings ? "dampings" : "drive amplitudes", a->value[0],
-          a->value[a->count - 1], dampings ? "drive amplitude" : "damping",
+          a->count, many(axis_of(d)), a->value[0], a->value[a->count - 1],
+          dampings ? "drive amplitude" : "damping",
           dampings ? d->pendulum.drive_amplitude : d->axis[DECK_AXIS_DAMPING].value[0],
           (long long)d->ensemble.members, d->search[0], d->search[1]);
 }
@@ -83,8 +93,15 @@ static const scene_column columns[] = {
   SCENE_COLUMN(scene_peak, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
   SCENE_COLUMN(scene_peak, mean_power, "mean power taken up from the drive", "1"),
   SCENE_COLUMN(scene_peak, sa_fraction, "share of the members on the small-amplitude state", "1"),
+};
+
+/* Of the plain pendulum. */
+static const scene_column free_frequency[] = {
   SCENE_COLUMN(scene_peak, free_frequency,
                "frequency of the free undamped pendulum of that loop amplitude", "1"),
+};
+
+static const scene_column more_columns[] = {
   SCENE_COLUMN(scene_peak, fold_frequency, "drive frequency of the fold that makes the edge", "1"),
   SCENE_UNCERTAIN(scene_peak, uncertain),
   {.name = "peak", .long_name = "a smooth maximum, the largest value at a jump, or the largest "
@@ -101,7 +118,7 @@ static scene_table table_of(const curve *c)
 static void print_table(FILE *out, const curve *c)
 {
   const scene_cell cells[] = {
-    {.heading = c->axis == DECK_AXIS_DAMPING ? "damping   " : "drive     ", .format = "%-9.4g ",
+    {.heading = scene_peak_heading(c->axis), .format = "%-9.4g ",
      .value = offsetof(scene_peak, at)},
     SCENE_CELL(scene_peak, resonance_frequency, "frequency     ", "%.10f  "),
     SCENE_CELL(scene_peak, resonance_frequency_error, "+-       ", "%.0e  "),
@@ -119,11 +136,18 @@ static pendres_status write_results(scene_run *run, const curve *c)
 {
   const deck_axis *axis = &c->d->axis[c->axis];
   const scene_table table = table_of(c);
-  pendres_status status = pendres_store_dimension(
-    run->store, "", deck_axis_name(c->axis), axis->count, axis->value,
-    c->axis == DECK_AXIS_DAMPING ? "damping" : "drive amplitude", "1");
+  const int own = c->axis == DECK_AXIS_DAMPING || c->axis == DECK_AXIS_DRIVE_AMPLITUDE;
+  pendres_status status =
+    own ? pendres_store_dimension(run->store, "", deck_axis_name(c->axis), axis->count, axis->value,
+                                  c->axis == DECK_AXIS_DAMPING ? "damping" : "drive amplitude", "1")
+        : scene_dimension(run, "", c->axis);
   if (status != PENDRES_OK) return scene_store_failed(run, status);
   status = scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK && deck_is_plain(c->d))
+    status = scene_columns_write(run, &table, 1, free_frequency);
+  if (status == PENDRES_OK)
+    status = scene_columns_write(run, &table, sizeof more_columns / sizeof *more_columns,
+                                 more_columns);
   return status == PENDRES_OK
            ? scene_failures_write(run, &c->failed, "failed", "resonance", 1, &c->axis)
            : status;
@@ -181,7 +205,7 @@ static pendres_status write_paper(scene_run *run, const curve *c)
   scene_printed values[MOST];
   size_t n = 0;
   const double f0 = c->d->pendulum.drive_amplitude;
-  if (c->axis != DECK_AXIS_DAMPING) return PENDRES_OK;
+  if (c->axis != DECK_AXIS_DAMPING || !deck_is_plain(c->d)) return PENDRES_OK;
   for (size_t k = 0; k < sizeof printed_turns / sizeof printed_turns[0]; k++) {
     double damping, error;
     if (fabs(f0 - printed_turns[k].drive_amplitude) > 1e-12) continue;
@@ -213,8 +237,8 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu resonances", n);
     goto done;
   }
-  const char *what = c.axis == DECK_AXIS_DAMPING ? "dampings" : "drive amplitudes";
-  status = scene_compute(run, &(farm_stage){ .what = what, .last = 1, .tasks = n, .task = compute,
+  status = scene_compute(run, &(farm_stage){ .what = many(c.axis), .last = 1,
+                                             .tasks = n, .task = compute,
                                              .record_size = sizeof(record), .collect = collect,
                                              .arg = &c });
   if (status == PENDRES_OK) status = write_results(run, &c);

@@ -345,10 +345,11 @@ static void print_table(FILE *out, const grid *g)
 {
   enum { MOST_LINES = 40 };
   const int frequencies = g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY;
-  const int damping = g->axis[g->axes - 2] == DECK_AXIS_DAMPING, both = g->axes == 3;
+  const int both = g->axes == 3;
   const scene_cell cells[] = {
-    SCENE_CELL(scene_peak, beside, "drive     ", "%-9.4g "),
-    {.heading = damping ? "damping   " : "drive     ", .format = "%-9.4g ",
+    {.heading = scene_peak_heading(g->axis[0]), .format = "%-9.4g ",
+     .value = offsetof(scene_peak, beside)},
+    {.heading = scene_peak_heading(g->axis[g->axes - 2]), .format = "%-9.4g ",
      .value = offsetof(scene_peak, at)},
     {.heading = frequencies ? "resonant freq.   " : "resonant period  ", .format = "%.9f      ",
      .value = frequencies ? offsetof(scene_peak, resonance_frequency)
