@@ -10,16 +10,7 @@
 
 #include "scenes/scene_failed.h"
 
-/* Variables of every state. */
-enum {
-  BASINS_LABEL,
-  BASINS_ATTRACTOR,
-  BASINS_WELL,
-  BASINS_PERIODS,
-  BASINS_FAILED,
-  BASINS_UNCERTAIN,
-  BASINS_VARIABLES
-};
+enum { BASINS_VARIABLES = 6 /* of every state */ };
 
 typedef struct basins {
   scene_run *run;

@@ -35,10 +35,11 @@ done:
   return status;
 }
 
-/* Of each attractor and well: the states that settle there. */
+/* Of each attractor and well: the states that settle there, and their share of the window. */
 typedef struct well {
   int attractor, number;
   size_t states;
+  double fraction, fraction_error;
 } well;
 
 static const scene_column of_wells[] = {
@@ -50,34 +51,39 @@ static const scene_column of_wells[] = {
    .value = offsetof(well, states)},
 };
 
-static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
-{
-  well *rows = malloc((n + 1) * sizeof *rows);
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++)
-    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states};
-  const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
-                             .stride = sizeof *rows, .rows = rows};
-  pendres_status status =
-    pendres_store_dimension(b->run->store, "", "basin_well", n, NULL,
-                            "well of an attractor, by attractor, then by well", "1");
-  if (status == PENDRES_OK)
-    status = scene_columns_write(b->run, &table, sizeof of_wells / sizeof *of_wells, of_wells);
-  free(rows);
-  return status;
-}
+/* Of boundaries between wells. */
+static const scene_column of_shares = {
+  .name = "fraction", .long_name = "share of the window that settles there",
+  .value = offsetof(well, fraction), .error = offsetof(well, fraction_error)};
 
-/* Of each attractor and well: its share of the window. */
-static pendres_status write_shares(basins *b, size_t n)
+static pendres_status make_wells(const basins *b, size_t n, const pendres_basin_well *wells,
+                                 well *rows)
 {
-  const pendres_store_spec spec = {.name = "basin_well_fraction", .dimensions = {"basin_well"},
-                                   .long_name = "share of the window that settles there"};
   double *share = calloc(2 * n + 1, sizeof *share);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (share != NULL) status = pendres_basin_sums_well_shares(b->sums, share, share + n);
-  if (status == PENDRES_OK)
-    status = pendres_store_put_result(b->run->store, &spec, share, share + n, n);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    rows[i] = (well){wells[i].attractor, (int)wells[i].well, wells[i].states, share[i],
+                     share[n + i]};
   free(share);
+  return status;
+}
+
+static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
+{
+  well *rows = malloc((n + 1) * sizeof *rows);
+  const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
+                             .stride = sizeof *rows, .rows = rows};
+  pendres_status status =
+    rows != NULL ? make_wells(b, n, wells, rows) : PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK)
+    status = pendres_store_dimension(b->run->store, "", "basin_well", n, NULL,
+                                     "well of an attractor, by attractor, then by well", "1");
+  if (status == PENDRES_OK)
+    status = scene_columns_write(b->run, &table, sizeof of_wells / sizeof *of_wells, of_wells);
+  if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL)
+    status = scene_columns_write(b->run, &table, 1, &of_shares);
+  free(rows);
   return status;
 }
 
@@ -88,7 +94,6 @@ pendres_status basins_write_wells(basins *b, size_t attractors)
   pendres_status status = pendres_basin_sums_wells(b->sums, &n, &wells);
   if (status == PENDRES_OK) status = write_counts(b, attractors, n, wells);
   if (status == PENDRES_OK) status = write_each(b, n, wells);
-  if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL) status = write_shares(b, n);
   return status;
 }
 

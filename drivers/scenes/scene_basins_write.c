@@ -10,85 +10,68 @@ enum { QUICK = 1 /* compression of what there is most of: higher levels gain lit
 
 /* ---- states -------------------------------------------------------------------------------- */
 
-/* The variable number k of every state, in a group with the given dimensions; meanings: room for
-   the names of its values. */
-static pendres_store_spec state_spec(const deck *d, int k, const char *group, const char *second,
-                                     const char *meanings[SCENE_MOST_NAMES])
+/* A state as a row of results. */
+typedef struct state_row {
+  int label, attractor, well, settling_periods, failed, uncertain;
+} state_row;
+
+static const scene_column of_states[BASINS_VARIABLES] = {
+  {.name = "label", .long_name = "what the pendulum settles on", .type = SCENE_FLAG,
+   .value = offsetof(state_row, label), .names = scene_label_names},
+  {.name = "attractor_index", .long_name = "number of the attractor that the pendulum settles on",
+   .type = SCENE_NUMBER, .value = offsetof(state_row, attractor), .comment = "-1: unresolved"},
+  {.name = "well", .long_name = "number of the well that the pendulum settles in",
+   .type = SCENE_NUMBER, .value = offsetof(state_row, well),
+   .comment = "0 for running and chaotic pendulums"},
+  {.name = "settling_periods", .type = SCENE_NUMBER, .value = offsetof(state_row, settling_periods),
+   .long_name = "drive periods until the pendulum is inside its attractor's trapping region",
+   .comment = "-1: unresolved; -2: filled in by refinement, not integrated"},
+  {.name = "failed", .long_name = "why there is no label for the state", .type = SCENE_FLAG,
+   .value = offsetof(state_row, failed), .names = scene_failure_names},
+  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
+   .long_name = "1: the errors that the pendulum carried may change where it settles",
+   .comment = "0: not so, or not integrated"},
+};
+
+/* Where a force may drive pendulums to infinity, the first two can say so. */
+static void state_columns(const deck *d, scene_column columns[BASINS_VARIABLES])
 {
-  const int open = strcmp(d->pendulum.force, "polynomial") == 0;
-  pendres_store_spec s = {.group = group, .dimensions = {"x", second}, .deflate = QUICK};
-  switch (k) {
-  case BASINS_LABEL:
-    s.name = "label";
-    s.long_name = "what the pendulum settles on";
-    s.type = PENDRES_STORE_INT8;
-    s.flag_count = scene_meanings(open ? scene_fate_names : scene_label_names, meanings);
-    s.flag_meanings = meanings;
-    break;
-  case BASINS_ATTRACTOR:
-    s.name = "attractor_index";
-    s.long_name = "number of the attractor that the pendulum settles on";
-    s.comment = open ? "-1: unresolved; -2: escapes to infinity" : "-1: unresolved";
-    s.type = PENDRES_STORE_INT32;
-    break;
-  case BASINS_WELL:
-    s.name = "well";
-    s.long_name = "number of the well that the pendulum settles in";
-    s.comment = "0 for running and chaotic pendulums";
-    s.type = PENDRES_STORE_INT32;
-    break;
-  case BASINS_FAILED:
-    s.name = "failed";
-    s.long_name = "why there is no label for the state";
-    scene_failure_flags(&s);
-    break;
-  case BASINS_UNCERTAIN:
-    s.name = "uncertain";
-    s.long_name = "1: the errors that the pendulum carried may change where it settles";
-    s.comment = "0: not so, or not integrated";
-    s.type = PENDRES_STORE_INT8;
-    break;
-  default:
-    s.name = "settling_periods";
-    s.long_name = "drive periods until the pendulum is inside its attractor's trapping region";
-    s.comment = "-1: unresolved; -2: filled in by refinement, not integrated";
-    s.type = PENDRES_STORE_INT32;
-    break;
+  memcpy(columns, of_states, sizeof of_states);
+  if (strcmp(d->pendulum.force, "polynomial") != 0) return;
+  columns[0].names = scene_fate_names;
+  columns[1].comment = "-1: unresolved; -2: escapes to infinity";
+}
+
+static void state_rows(size_t n, const pendres_basin_state *state, state_row *rows)
+{
+  for (size_t i = 0; i < n; i++) {
+    const pendres_basin_state *s = &state[i];
+    const int unknown = s->attractor == PENDRES_ATTRACTOR_UNKNOWN;
+    rows[i] = (state_row){
+      .label = s->label, .attractor = s->attractor, .well = s->well,
+      .settling_periods = s->settling_periods,
+      .failed = unknown ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE,
+      .uncertain = s->how == PENDRES_BASIN_UNCERTAIN};
   }
-  return s;
+}
+
+static scene_table state_table(const char *group, const char *second, size_t n,
+                               const state_row *rows)
+{
+  return (scene_table){.group = group, .dimensions = {"x", second}, .n = n,
+                       .stride = sizeof *rows, .rows = rows, .deflate = QUICK};
 }
 
 pendres_status basins_define(basins *b)
 {
+  const scene_table table = state_table("", "v", 0, NULL);
+  scene_column columns[BASINS_VARIABLES];
   pendres_status status = scene_dimension(b->run, "", DECK_AXIS_X);
   if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
-  if (status != PENDRES_OK) return status;
-  for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
-    const char *meanings[SCENE_MOST_NAMES];
-    const pendres_store_spec spec = state_spec(b->d, k, "", "v", meanings);
-    status = pendres_store_variable(b->run->store, &spec, &b->variable[k]);
-  }
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
-}
-
-static int32_t state_value(const pendres_basin_state *s, int k)
-{
-  return k == BASINS_ATTRACTOR ? s->attractor : k == BASINS_WELL ? s->well : s->settling_periods;
-}
-
-/* One variable of n states as an array for the store: int8 of what has few values, else int32. */
-static const void *pack(size_t n, const pendres_basin_state *state, int k, int32_t *values)
-{
-  int8_t *few = (int8_t *)values;
-  for (size_t i = 0; i < n; i++) {
-    if (k == BASINS_LABEL) few[i] = state[i].label;
-    else if (k == BASINS_UNCERTAIN) few[i] = state[i].how == PENDRES_BASIN_UNCERTAIN;
-    else if (k == BASINS_FAILED)
-      few[i] = state[i].attractor == PENDRES_ATTRACTOR_UNKNOWN ? SCENE_FAILURE_UNRESOLVED
-                                                                  : SCENE_FAILURE_NONE;
-    else values[i] = state_value(&state[i], k);
-  }
-  return values;
+  state_columns(b->d, columns);
+  return status == PENDRES_OK
+           ? scene_columns_define(b->run, &table, BASINS_VARIABLES, columns, b->variable)
+           : status;
 }
 
 pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
@@ -97,35 +80,37 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
   enum { ROWS = 256 };
   const size_t nv = b->grid.nv;
   pendres_status status = PENDRES_OK;
-  int32_t *values = malloc((rows < ROWS ? rows : ROWS) * nv * sizeof *values);
-  if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for rows");
+  scene_column columns[BASINS_VARIABLES];
+  state_row *some = malloc((rows < ROWS ? rows : ROWS) * nv * sizeof *some);
+  if (some == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for rows");
+  state_columns(b->d, columns);
   for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
-    const size_t some = rows - i < ROWS ? rows - i : ROWS;
-    for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++)
-      status =
-        pendres_store_write_rows(b->run->store, b->variable[k], first + i, some,
-                                 pack(some * nv, state + i * nv, k, values), some * nv);
+    const size_t n = rows - i < ROWS ? rows - i : ROWS;
+    const scene_table table = state_table("", "v", n * nv, some);
+    state_rows(n * nv, state + i * nv, some);
+    status = scene_columns_write_rows(b->run, &table, first + i, n, BASINS_VARIABLES, columns,
+                                      b->variable);
   }
-  free(values);
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+  free(some);
+  return status;
 }
 
 static pendres_status write_cut(basins *b)
 {
   const size_t n = b->grid.nx;
+  scene_column columns[BASINS_VARIABLES];
   pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
   if (status != PENDRES_OK) return status;
-  int32_t *values = malloc(n * sizeof *values);
-  if (values == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
-  for (int k = 0; k < BASINS_VARIABLES && status == PENDRES_OK; k++) {
-    const char *meanings[SCENE_MOST_NAMES];
-    const pendres_store_spec spec = state_spec(b->d, k, "cut", NULL, meanings);
-    status = pendres_store_put(b->run->store, &spec, pack(n, b->cut, k, values), n);
-  }
-  if (status == PENDRES_OK)
-    status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
-                                          "the line v = 0");
-  free(values);
+  state_row *rows = malloc(n * sizeof *rows);
+  if (rows == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
+  const scene_table table = state_table("cut", NULL, n, rows);
+  state_columns(b->d, columns);
+  state_rows(n, b->cut, rows);
+  status = scene_columns_write(b->run, &table, BASINS_VARIABLES, columns);
+  free(rows);
+  if (status != PENDRES_OK) return status;
+  status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
+                                        "the line v = 0");
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
 }
 
@@ -133,8 +118,10 @@ static pendres_status write_cut(basins *b)
 
 /* An attractor and its share of the window. */
 typedef struct row {
+  size_t number;
   pendres_attractor of;
   double basin_fraction, basin_fraction_error;
+  double period, winding; /* of the orbit; NaN for chaos, which has none */
 } row;
 
 #define OF_ORBIT(field, words, unit)                                                  \
@@ -167,24 +154,28 @@ static const scene_column of_attractors[] = {
    .value = offsetof(row, basin_fraction), .error = offsetof(row, basin_fraction_error)},
 };
 
-static pendres_status write_attractors(basins *b, const double *fraction, const double *error)
+static void make_rows(const basins *b, const double *fraction, const double *error, row *rows)
 {
-  const size_t n = pendres_attractors_count(b->set);
-  row *rows = malloc((n + 1) * sizeof *rows);
+  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
+    const pendres_attractor *a = pendres_attractors_get(b->set, i);
+    const int closed = a->orbit.period > 0;
+    rows[i] = (row){.number = i, .of = *a,
+                    .basin_fraction = fraction[i], .basin_fraction_error = error[i],
+                    .period = closed ? a->orbit.period : NAN,
+                    .winding = closed ? a->orbit.winding : NAN};
+  }
+}
+
+static pendres_status write_attractors(basins *b, size_t n, const row *rows)
+{
   const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
                              .rows = rows};
-  pendres_status status = PENDRES_OK;
-  if (rows == NULL)
-    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  for (size_t i = 0; i < n; i++)
-    rows[i] = (row){*pendres_attractors_get(b->set, i), fraction[i], error[i]};
-  status = pendres_store_dimension(b->run->store, "", "attractor", n, NULL,
-                                   "attractor, by amplitude, then by position", "1");
+  pendres_status status = pendres_store_dimension(
+    b->run->store, "", "attractor", n, NULL, "attractor, by amplitude, then by position", "1");
   if (status == PENDRES_OK)
     status = scene_columns_write(b->run, &table, sizeof of_attractors / sizeof *of_attractors,
                                  of_attractors);
   if (status == PENDRES_OK) status = basins_write_wells(b, n);
-  free(rows);
   return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
 }
 
@@ -322,13 +313,32 @@ static pendres_status write_paper(basins *b)
 
 /* ---- the table ----------------------------------------------------------------------------- */
 
-/* What a closed orbit has and a chaotic attractor has not. */
-static void print_orbit(FILE *out, const pendres_orbit *o)
+static const scene_cell cells[] = {
+  {.heading = "attractor   ", .format = "%2zu ", .type = SCENE_COUNT,
+   .value = offsetof(row, number)},
+  {.heading = "", .format = "%-10s", .type = SCENE_FLAG, .value = offsetof(row, of.label),
+   .names = scene_label_names},
+  {.heading = "period ", .format = "%4.0f ", .none = "   - ", .value = offsetof(row, period)},
+  {.heading = "winding ", .format = "%6.0f   ", .none = "     -   ",
+   .value = offsetof(row, winding)},
+  {.heading = "amplitude    ", .format = "%.8f   ", .none = "-            ",
+   .value = offsetof(row, of.orbit.amplitude)},
+  {.heading = "phase lag    ", .format = "%.8f   ", .none = "-            ",
+   .value = offsetof(row, of.orbit.phase_lag)},
+  SCENE_CELL(row, of.lyapunov, "Lyapunov exponent     ", "%9.6f +- "),
+  SCENE_CELL(row, of.lyapunov_error, "", "%.0e   "),
+  SCENE_CELL(row, basin_fraction, "share of the area", "%.6f +- "),
+  SCENE_CELL(row, basin_fraction_error, "", "%.0e"),
+};
+
+/* How long chaos was watched. */
+static void print_chaos(FILE *out, size_t n, const row *rows)
 {
-  if (o->period > 0)
-    fprintf(out, "%4d %6d   %.8f   %.8f", o->period, o->winding, o->amplitude, o->phase_lag);
-  else
-    fprintf(out, "%4s %6s   %-10s   %-10s", "-", "-", "-", "-");
+  for (size_t i = 0; i < n; i++)
+    if (rows[i].of.label == PENDRES_LABEL_CHAOTIC)
+      fprintf(out, "%2zu was watched for %.3g drive periods: chaos that ends at a rate above %.1e "
+                   "would have been seen to\n",
+              i, rows[i].of.watched_periods, rows[i].of.escape_rate_bound);
 }
 
 static void print_statistics(FILE *out, const pendres_basin_statistics *s, pendres_basin_end by)
@@ -347,26 +357,17 @@ static void print_statistics(FILE *out, const pendres_basin_statistics *s, pendr
   else fprintf(out, "%.3f +- %.3f\n", s->uncertainty_exponent, s->uncertainty_exponent_error);
 }
 
-static void print_table(const basins *b, const pendres_basin_statistics *s, const double *fraction,
-                        const double *error)
+static void print_table(const basins *b, const pendres_basin_statistics *s, size_t n,
+                        const row *rows)
 {
   FILE *out = b->run->table;
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (out == NULL) return;
-  fprintf(out, "attractor   period winding amplitude    phase lag    Lyapunov exponent     "
-               "share of the area\n");
-  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
-    const pendres_attractor *a = pendres_attractors_get(b->set, i);
-    fprintf(out, "%2zu %-10s", i, pendres_label_name(a->label));
-    print_orbit(out, &a->orbit);
-    fprintf(out, "   %9.6f +- %.0e   %.6f +- %.0e\n", a->lyapunov, a->lyapunov_error, fraction[i],
-            error[i]);
-    if (a->label == PENDRES_LABEL_CHAOTIC)
-      fprintf(out, "   watched for %.3g drive periods: chaos that ends at a rate above %.1e would "
-                   "have been seen to\n", a->watched_periods, a->escape_rate_bound);
-  }
+  scene_columns_print(out, &table, n, sizeof cells / sizeof *cells, cells, NULL);
   if (s->escaped > 0)
     fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
             s->escape_fraction_error);
+  print_chaos(out, n, rows);
   fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
           s->uncertain_states);
   if (b->d->basins.refine)
@@ -381,25 +382,42 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, cons
   if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
 }
 
+static pendres_status write_results(basins *b, pendres_basin_statistics *s, size_t n,
+                                    const row *rows)
+{
+  const int statistics = b->d->basins.statistics;
+  pendres_status status = statistics ? look_closer(b, s) : PENDRES_OK;
+  if (status == PENDRES_OK) status = write_attractors(b, n, rows);
+  if (status == PENDRES_OK) status = write_cut(b);
+  if (status == PENDRES_OK) status = write_counts(b);
+  if (status == PENDRES_OK) status = write_escapes(b, s);
+  if (status == PENDRES_OK && statistics) status = write_statistics(b, s);
+  if (status == PENDRES_OK && b->d->basins.boundary) status = basins_write_boundary(b);
+  return status == PENDRES_OK ? write_paper(b) : status;
+}
+
 pendres_status basins_write_results(basins *b)
 {
   const size_t n = pendres_attractors_count(b->set);
   pendres_basin_statistics s;
   double *fraction = malloc((2 * n + 1) * sizeof *fraction);
-  if (fraction == NULL)
-    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  pendres_status status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
-  if (status != PENDRES_OK) (void)scene_fail(b->run, status, "there are no states");
-  b->uncertain = status == PENDRES_OK ? s.uncertain_states : 0;
-  if (status == PENDRES_OK && b->d->basins.statistics) status = look_closer(b, &s);
-  if (status == PENDRES_OK) status = write_attractors(b, fraction, fraction + n);
-  if (status == PENDRES_OK) status = write_cut(b);
-  if (status == PENDRES_OK) status = write_counts(b);
-  if (status == PENDRES_OK) status = write_escapes(b, &s);
-  if (status == PENDRES_OK && b->d->basins.statistics) status = write_statistics(b, &s);
-  if (status == PENDRES_OK && b->d->basins.boundary) status = basins_write_boundary(b);
-  if (status == PENDRES_OK) status = write_paper(b);
-  if (status == PENDRES_OK) print_table(b, &s, fraction, fraction + n);
+  row *rows = malloc((n + 1) * sizeof *rows);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (fraction == NULL || rows == NULL) {
+    (void)scene_fail(b->run, status, "out of memory for attractors");
+    goto done;
+  }
+  status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(b->run, status, "there are no states");
+    goto done;
+  }
+  b->uncertain = s.uncertain_states;
+  make_rows(b, fraction, fraction + n, rows);
+  status = write_results(b, &s, n, rows);
+  if (status == PENDRES_OK) print_table(b, &s, n, rows);
+done:
   free(fraction);
+  free(rows);
   return status;
 }

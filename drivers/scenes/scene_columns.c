@@ -89,25 +89,30 @@ static void gather_others(const scene_table *t, const scene_column *c, buffers *
   }
 }
 
-static pendres_status put(scene_run *run, const scene_table *t, const scene_column *c, buffers *b,
-                          const pendres_store_spec *spec)
+/* A column's values in the type that is stored, and its errors. */
+static const void *gather(const scene_table *t, const scene_column *c, buffers *b)
 {
-  const size_t n = c->pairs ? 2 * t->n : t->n;
   if (is_real(c->type)) gather_reals(t, c, b);
   else gather_others(t, c, b);
   switch (c->type) {
-  case SCENE_REAL: return pendres_store_put_result(run->store, spec, b->value, b->error, n);
-  case SCENE_PLAIN: return pendres_store_put(run->store, spec, b->value, n);
+  case SCENE_REAL:
+  case SCENE_PLAIN: return b->value;
   case SCENE_NUMBER:
-  case SCENE_COUNT32: return pendres_store_put(run->store, spec, b->number, n);
-  case SCENE_COUNT: return pendres_store_put(run->store, spec, b->count, n);
-  case SCENE_FLAG: return pendres_store_put(run->store, spec, b->flag, n);
-  default: return pendres_store_put(run->store, spec, b->text, n);
+  case SCENE_COUNT32: return b->number;
+  case SCENE_COUNT: return b->count;
+  case SCENE_FLAG: return b->flag;
+  default: return b->text;
   }
 }
 
-static pendres_status write_column(scene_run *run, const scene_table *t, const scene_column *c,
-                                   buffers *b)
+/* A column as the store is told of it, with room for its words. */
+typedef struct variable {
+  char name[64], words[200];
+  const char *meanings[SCENE_MOST_NAMES];
+  pendres_store_spec spec;
+} variable;
+
+static void describe(const scene_run *run, const scene_table *t, const scene_column *c, variable *v)
 {
   static const pendres_store_type types[] = {[SCENE_REAL] = PENDRES_STORE_DOUBLE,
                                              [SCENE_PLAIN] = PENDRES_STORE_DOUBLE,
@@ -116,25 +121,34 @@ static pendres_status write_column(scene_run *run, const scene_table *t, const s
                                              [SCENE_COUNT32] = PENDRES_STORE_INT32,
                                              [SCENE_FLAG] = PENDRES_STORE_INT8,
                                              [SCENE_TEXT] = PENDRES_STORE_STRING};
-  char name[64], words[200];
-  const char *meanings[SCENE_MOST_NAMES];
-  pendres_store_spec spec = {.name = name, .type = types[c->type], .long_name = words,
-                             .units = c->units, .comment = c->comment, .flag_meanings = meanings,
-                             .flag_values = c->codes, .flag_bits = c->codes != NULL};
+  v->spec = (pendres_store_spec){
+    .group = t->group, .name = v->name, .type = types[c->type], .long_name = v->words,
+    .units = c->units, .comment = c->comment, .flag_meanings = v->meanings,
+    .flag_values = c->codes, .flag_bits = c->codes != NULL, .deflate = t->deflate};
   const size_t before = strcspn(c->name, "*");
   const int starred = c->name[before] != '\0';
-  (void)snprintf(name, sizeof name, "%s%s%.*s%s%s", t->prefix != NULL ? t->prefix : "",
+  (void)snprintf(v->name, sizeof v->name, "%s%s%.*s%s%s", t->prefix != NULL ? t->prefix : "",
                  t->prefix != NULL ? "_" : "", (int)before, c->name,
                  starred && t->star != NULL ? t->star : "", c->name + before + starred);
-  (void)snprintf(words, sizeof words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
+  (void)snprintf(v->words, sizeof v->words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
                  t->words != NULL ? t->words : "");
   int k = 0;
-  for (; k < 3 && t->dimensions[k] != NULL; k++) spec.dimensions[k] = t->dimensions[k];
-  if (c->pairs) spec.dimensions[k] = t->inner;
+  for (; k < 3 && t->dimensions[k] != NULL; k++) v->spec.dimensions[k] = t->dimensions[k];
+  if (c->pairs) v->spec.dimensions[k] = t->inner;
   const int plain = c->names == scene_motion_names && deck_is_plain(run->deck);
   if (c->names != NULL)
-    spec.flag_count = scene_meanings(plain ? scene_label_names : c->names, meanings);
-  return put(run, t, c, b, &spec);
+    v->spec.flag_count = scene_meanings(plain ? scene_label_names : c->names, v->meanings);
+}
+
+static pendres_status write_column(scene_run *run, const scene_table *t, const scene_column *c,
+                                   buffers *b)
+{
+  variable v;
+  const size_t n = c->pairs ? 2 * t->n : t->n;
+  const void *data = gather(t, c, b);
+  describe(run, t, c, &v);
+  return c->type == SCENE_REAL ? pendres_store_put_result(run->store, &v.spec, data, b->error, n)
+                               : pendres_store_put(run->store, &v.spec, data, n);
 }
 
 static void release(buffers *b)
@@ -147,21 +161,54 @@ static void release(buffers *b)
   free(b->text);
 }
 
+static pendres_status reserve(scene_run *run, size_t n, buffers *b)
+{
+  *b = (buffers){.value = malloc((2 * n + 1) * sizeof *b->value),
+                 .error = malloc((2 * n + 1) * sizeof *b->error),
+                 .flag = malloc(n + 1),
+                 .number = malloc((n + 1) * sizeof *b->number),
+                 .count = malloc((n + 1) * sizeof *b->count),
+                 .text = malloc((n + 1) * sizeof *b->text)};
+  if (b->value != NULL && b->error != NULL && b->flag != NULL && b->number != NULL &&
+      b->count != NULL && b->text != NULL)
+    return PENDRES_OK;
+  return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+}
+
 pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
                                    const scene_column *columns)
 {
-  buffers b = {.value = malloc((2 * t->n + 1) * sizeof *b.value),
-               .error = malloc((2 * t->n + 1) * sizeof *b.error),
-               .flag = malloc(t->n + 1),
-               .number = malloc((t->n + 1) * sizeof *b.number),
-               .count = malloc((t->n + 1) * sizeof *b.count),
-               .text = malloc((t->n + 1) * sizeof *b.text)};
-  pendres_status status = PENDRES_OK;
-  if (b.value == NULL || b.error == NULL || b.flag == NULL || b.number == NULL ||
-      b.count == NULL || b.text == NULL)
-    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", t->n);
+  buffers b;
+  pendres_status status = reserve(run, t->n, &b);
   for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
     status = write_column(run, t, &columns[k], &b);
+    if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+  }
+  release(&b);
+  return status;
+}
+
+pendres_status scene_columns_define(scene_run *run, const scene_table *t, size_t count,
+                                    const scene_column *columns, int *variable_of)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
+    variable v;
+    describe(run, t, &columns[k], &v);
+    status = pendres_store_variable(run->store, &v.spec, &variable_of[k]);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+}
+
+pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
+                                        size_t rows, size_t count, const scene_column *columns,
+                                        const int *variable_of)
+{
+  buffers b;
+  pendres_status status = reserve(run, t->n, &b);
+  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
+    status = pendres_store_write_rows(run->store, variable_of[k], first, rows,
+                                      gather(t, &columns[k], &b), t->n);
     if (status != PENDRES_OK) (void)scene_store_failed(run, status);
   }
   release(&b);
@@ -178,7 +225,8 @@ static void print_cell(FILE *out, const char *at, const scene_cell *cell)
   if (is_real(cell->type)) memcpy(&value, at, sizeof value);
   else if (is_count(cell->type)) memcpy(&count, at, sizeof count);
   else if (cell->type != SCENE_TEXT) memcpy(&number, at, sizeof number);
-  if (is_real(cell->type)) fprintf(out, cell->format, value);
+  if (is_real(cell->type) && isnan(value) && cell->none != NULL) fputs(cell->none, out);
+  else if (is_real(cell->type)) fprintf(out, cell->format, value);
   else if (is_count(cell->type)) fprintf(out, cell->format, count);
   else if (cell->type == SCENE_TEXT) fprintf(out, cell->format, at);
   else if (cell->names != NULL) fprintf(out, cell->format, cell->names(number));

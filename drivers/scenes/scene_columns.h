@@ -28,9 +28,9 @@ typedef struct scene_column {
   const char *name, *long_name, *units;
   scene_column_type type;
   size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
-  scene_names names;           /* of a SCENE_FLAG, */
-  const int8_t *codes;         /* its bits, if it is a sum of such; names are those of 0, 1, 2
-                                  ... */
+  scene_names names;           /* of a SCENE_FLAG; NULL: it is a plain 0 or 1 */
+  const int8_t *codes;         /* of a SCENE_FLAG that is a sum of bits: these; names are those
+                                  of 0, 1, 2 ... */
   int pairs;                   /* nonzero: two elements a row, over `inner` */
   const char *comment;
 } scene_column;
@@ -50,6 +50,7 @@ typedef struct scene_column {
    .type = SCENE_COUNT, .value = offsetof(row, field)}
 
 typedef struct scene_table {
+  const char *group;         /* NULL: the root */
   const char *dimensions[3]; /* of the rows, slowest first; none: one row of scalars */
   const char *prefix;        /* before all names, with an underscore between; may be NULL */
   const char *star;          /* in the place of the * in names; may be NULL */
@@ -58,11 +59,23 @@ typedef struct scene_table {
   size_t n, stride;          /* rows; bytes from one to the next */
   const void *rows;
   const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
+  int deflate;               /* level of compression; 0: as the file has it */
 } scene_table;
 
 /* Write all columns; their dimensions exist. */
 pendres_status scene_columns_write(scene_run *run, const scene_table *table, size_t count,
                                    const scene_column *columns);
+
+/*
+ * A table that comes in pieces: define the variables of its columns, of which none has an error,
+ * and remember their numbers; then write pieces of it. table->rows are the n elements of `rows`
+ * values of the first dimension, from number `first` on.
+ */
+pendres_status scene_columns_define(scene_run *run, const scene_table *table, size_t count,
+                                    const scene_column *columns, int *variable_of);
+pendres_status scene_columns_write_rows(scene_run *run, const scene_table *table, size_t first,
+                                        size_t rows, size_t count, const scene_column *columns,
+                                        const int *variable_of);
 
 /* Names of values of the library's enums, as columns take them. */
 const char *scene_label_names(int value); /* of attractors */
@@ -81,6 +94,7 @@ int scene_meanings(scene_names names, const char *meanings[SCENE_MOST_NAMES]);
 /* A cell of a printed line: what stands above it, its format, and where its field stands. */
 typedef struct scene_cell {
   const char *heading, *format; /* with the blanks between it and the next */
+  const char *none;             /* printed in the place of NaN; may be NULL */
   scene_column_type type;
   size_t value;
   scene_names names; /* not NULL: the format is of the value's name */

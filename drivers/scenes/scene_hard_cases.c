@@ -109,12 +109,14 @@ static const scene_column columns[] = {
 };
 
 static const scene_cell cells[] = {
-  {"case                       ", "%-26s ", SCENE_TEXT, offsetof(row, of.name), NULL},
+  {.heading = "case                       ", .format = "%-26s ", .type = SCENE_TEXT,
+   .value = offsetof(row, of.name)},
   SCENE_CELL(row, of.bound, "    bound ", "%9.2e "),
   SCENE_CELL(row, of.figure, "   figure ", "%9.2e "),
-  {"holds ", "%5s ", SCENE_FLAG, offsetof(row, holds), yes_or_no},
+  {.heading = "holds ", .format = "%5s ", .type = SCENE_FLAG, .value = offsetof(row, holds),
+   .names = yes_or_no},
   SCENE_CELL(row, of.naive, "    naive  ", "%9.2e  "),
-  {"quantity", "%s", SCENE_TEXT, offsetof(row, of.quantity), NULL},
+  {.heading = "quantity", .format = "%s", .type = SCENE_TEXT, .value = offsetof(row, of.quantity)},
 };
 
 /* ---- the scene ----------------------------------------------------------------------------- */
