@@ -16,6 +16,11 @@ static void without_context(pendres_phase_diagram *d)
   assert_int_equal(pendres_phase_diagram_take_line(d, 2, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, NULL), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_take_line(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_find_families(NULL, &n), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_find_families(d, NULL), PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take_family(NULL, 0, 5, "bytes"),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_int_equal(pendres_phase_diagram_take_family(d, 0, 5, "bytes"), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(NULL, 0), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_leave_out(d, 4), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_phase_diagram_outcome(NULL, 0, &words), PENDRES_INVALID_ARGUMENT);
@@ -50,7 +55,6 @@ static void diagrams(void **state)
   pendres_phase_grid bad[] = {some, some, some, some, some, some, some, some, some, some};
   pendres_phase_diagram *d = NULL, *none = NULL;
   pendres_phase_record *r = NULL;
-  int more = 1;
   bad[0].values = bad[1].lines = 0;
   bad[2].value = bad[3].line_value = NULL;
   bad[4].value = back;
@@ -75,8 +79,8 @@ static void diagrams(void **state)
   REFUSED(pendres_phase_diagram_complete_line(ctx, NULL, 0, &r));
   REFUSED(pendres_phase_diagram_complete_line(ctx, d, 2, &r));
   REFUSED(pendres_phase_diagram_complete_line(ctx, d, 0, NULL));
-  REFUSED(pendres_phase_diagram_follow_curves(ctx, NULL, &more));
-  REFUSED(pendres_phase_diagram_follow_curves(ctx, d, NULL));
+  REFUSED(pendres_phase_diagram_follow_family(ctx, NULL, 0, &r));
+  REFUSED(pendres_phase_diagram_follow_family(ctx, d, 0, &r));
   assert_true(r == NULL);
   without_context(d);
   pendres_phase_diagram_free(d);

@@ -5,6 +5,7 @@
 #include "phase_diagram_fixture.h"
 
 #include "oracle.h"
+#include "questions/phase_line.h"
 
 /* ---- what curves through other dampings know ---- */
 
@@ -192,7 +193,8 @@ static void whole_diagrams(void **state)
   grid.options.ensemble.members = 20;
   pendres_context *ctx = context_of(1e-8), *other = context_of(1e-8);
   pendres_phase_diagram *whole = NULL, *parts = NULL;
-  int more = 1, rounds = 0;
+  size_t families = 0;
+  int rounds = 0;
   check_ok(pendres_phase_diagram_compute(ctx, &grid, &whole));
   check_ok(pendres_phase_diagram_create(&grid, &parts));
   for (size_t i = LINES; i-- > 0;) {
@@ -205,7 +207,14 @@ static void whole_diagrams(void **state)
                      PENDRES_INVALID_ARGUMENT);
     pendres_phase_record_free(r);
   }
-  while (pendres_phase_diagram_follow_curves(other, parts, &more) == PENDRES_OK && more) {
+  while (pendres_phase_diagram_find_families(parts, &families) == PENDRES_OK && families > 0) {
+    for (size_t i = families; i-- > 0;) {
+      pendres_phase_record *r = NULL;
+      check_ok(pendres_phase_diagram_follow_family(other, parts, i, &r));
+      check_ok(pendres_phase_diagram_take_family(parts, i, pendres_phase_record_size(r),
+                                                 pendres_phase_record_bytes(r)));
+      pendres_phase_record_free(r);
+    }
     for (size_t i = 0; i < LINES; i++) {
       pendres_phase_record *r = NULL;
       check_ok(pendres_phase_diagram_complete_line(other, parts, i, &r));
@@ -236,6 +245,69 @@ static void whole_diagrams(void **state)
   pendres_phase_diagram_free(parts);
   pendres_context_free(ctx);
   pendres_context_free(other);
+}
+
+static void take_lines(pendres_context *ctx, pendres_phase_diagram *d, size_t lines)
+{
+  for (size_t i = 0; i < lines; i++) {
+    pendres_phase_record *r = NULL;
+    check_ok(pendres_phase_diagram_compute_line(ctx, d, i, &r));
+    check_ok(pendres_phase_diagram_take_line(d, i, pendres_phase_record_size(r),
+                                             pendres_phase_record_bytes(r)));
+    pendres_phase_record_free(r);
+  }
+}
+
+/* Families know nothing of each other, and are taken from the last to the first; together they have
+   the curves that are found one after another, in the same order and to the same bytes. */
+static void families_make_the_same_curves(void **state)
+{
+  (void)state;
+  const double damping[] = {0.0768, 0.0782919}, frequency[] = {0.616, 0.6482, 0.7};
+  pendres_phase_grid grid = {.pendulum = {.drive_amplitude = 0.2}, .options = *with(members()),
+                             .values = 3, .value = frequency,
+                             .across = PENDRES_DAMPING, .lines = 2, .line_value = damping};
+  pendres_curve_options options = {.second = PENDRES_DAMPING};
+  pendres_context *ctx = context_of(1e-8);
+  pendres_phase_diagram *d = NULL;
+  pendres_phase_record *r = NULL;
+  pendres_curves *want = NULL;
+  size_t families = 0, n = 0;
+  check_ok(pendres_phase_diagram_create(&grid, &d));
+  take_lines(ctx, d, 2);
+  check_ok(pendres_phase_diagram_find_families(d, &families));
+  for (size_t i = families; i-- > 0;) {
+    check_ok(pendres_phase_diagram_follow_family(ctx, d, i, &r));
+    const size_t size = pendres_phase_record_size(r);
+    const void *bytes = pendres_phase_record_bytes(r);
+    for (size_t torn = 0; torn < size; torn += 1 + size / 50)
+      assert_int_equal(pendres_phase_diagram_take_family(d, i, torn, bytes),
+                       PENDRES_INVALID_ARGUMENT);
+    check_ok(pendres_phase_diagram_take_family(d, i, size, bytes));
+    assert_int_equal(pendres_phase_diagram_take_family(d, i, size, bytes),
+                     PENDRES_INVALID_ARGUMENT);
+    pendres_phase_record_free(r);
+  }
+  pendres_phase_reach(PENDRES_DRIVE_FREQUENCY, 1, frequency[0], frequency[2],
+                      &options.low[0], &options.high[0]);
+  pendres_phase_reach(PENDRES_DAMPING, 1, damping[0], damping[1],
+                      &options.low[1], &options.high[1]);
+  const pendres_bifurcation *all = pendres_phase_diagram_bifurcations(d, &n);
+  check_ok(pendres_curves_find(ctx, n, all, &options, &want));
+  const pendres_curves *found = pendres_phase_diagram_curves(d);
+  assert_int_equal(pendres_curves_count(found), pendres_curves_count(want));
+  assert_true(pendres_curves_count(found) > families && families > 3);
+  for (size_t i = 0; i < pendres_curves_count(want); i++) {
+    const pendres_curve *a = pendres_curves_get(found, i), *b = pendres_curves_get(want, i);
+    assert_int_equal(pendres_curve_count(a), pendres_curve_count(b));
+    assert_int_equal(pendres_curve_kind(a), pendres_curve_kind(b));
+    for (size_t k = 0; k < pendres_curve_count(a); k++)
+      assert_memory_equal(pendres_curve_get(a, k), pendres_curve_get(b, k),
+                          sizeof(pendres_curve_point));
+  }
+  pendres_curves_free(want);
+  pendres_phase_diagram_free(d);
+  pendres_context_free(ctx);
 }
 
 /*
@@ -321,6 +393,7 @@ int main(void)
     cmocka_unit_test(curves_tell_where_sa_ends),
     cmocka_unit_test(above_the_cusp_there_is_no_distinction),
     cmocka_unit_test(whole_diagrams),
+    cmocka_unit_test(families_make_the_same_curves),
     cmocka_unit_test(stiffening_oscillator),
     cmocka_unit_test(points_fail_alone),
   };

@@ -184,21 +184,37 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   return status;
 }
 
+static pendres_status follow_family(const void *arg, size_t task, pendres_context *ctx,
+                                    farm_record *out)
+{
+  const scene_lines *l = arg;
+  pendres_phase_record *r = NULL;
+  const pendres_status status = pendres_phase_diagram_follow_family(ctx, l->diagram, task, &r);
+  return hand_over(status, r, out);
+}
+
+static pendres_status take_family(void *arg, size_t task, const farm_record *in)
+{
+  const scene_lines *l = arg;
+  return pendres_phase_diagram_take_family(l->diagram, task, in->size, in->data);
+}
+
 /* Curves through the bifurcations of all lines, and what they show the lines, until that is all. */
 static pendres_status follow_curves(scene_lines *l)
 {
-  pendres_context *ctx = farm_context(l->run->farm);
-  pendres_status status = PENDRES_OK;
-  if (ctx == NULL) return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for a context");
-  for (int more = 1; more && status == PENDRES_OK;) {
-    status = pendres_phase_diagram_follow_curves(ctx, l->diagram, &more);
-    if (status != PENDRES_OK) return scene_fail(l->run, status, "%s", pendres_context_message(ctx));
-    if (more)
+  for (;;) {
+    farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
+                         .task = follow_family, .collect = take_family, .arg = l};
+    pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
+    if (status != PENDRES_OK) return scene_fail(l->run, status, "out of memory for bifurcations");
+    if (curves.tasks == 0) return PENDRES_OK;
+    status = scene_compute(l->run, &curves);
+    if (status == PENDRES_OK)
       status = scene_compute(l->run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
                                                    .task = complete, .collect = collect,
                                                    .arg = l});
+    if (status != PENDRES_OK) return status;
   }
-  return status;
 }
 
 /* ---- failures ------------------------------------------------------------------------------ */

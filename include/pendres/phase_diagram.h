@@ -15,8 +15,10 @@
  *   1. pendres_phase_diagram_create()
  *   2. pendres_phase_diagram_compute_line() for every line, in any order, on any threads, each with
  *      a context of its own; it makes a record, which pendres_phase_diagram_take_line() takes
- *   3. pendres_phase_diagram_follow_curves(), on one thread; if it says that there is more:
- *   4. pendres_phase_diagram_complete_line() for every line, as in step 2; then step 3 again
+ *   3. pendres_phase_diagram_find_families(), on one thread; if there are any families:
+ *   4. pendres_phase_diagram_follow_family() for every family, as lines in step 2; it makes a
+ *      record, which pendres_phase_diagram_take_family() takes
+ *   5. pendres_phase_diagram_complete_line() for every line, as in step 2; then step 3 again
  *
  * SA and LA are named as everywhere: of the orbits of period one without winding that coexist, the
  * one of smallest amplitude is SA, the others are LA, a pair of mirror images counting as one.
@@ -226,12 +228,38 @@ pendres_status pendres_phase_diagram_compute_line(pendres_context *ctx,
 pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *diagram, size_t line,
                                                size_t size, const void *bytes);
 
-/** Follow the curves through the bifurcations of all lines: step 3. *more: whether the lines are to
-    be completed by them, and this is to be called again then. Errors as for a line. */
-pendres_status pendres_phase_diagram_follow_curves(pendres_context *ctx,
-                                                   pendres_phase_diagram *diagram, int *more);
+/**
+ * Gather the bifurcations of all lines: step 3. *families: how many families of them there are,
+ * such that no bifurcation lies on a curve of another family, as those of different periods do
+ * not; 0: the lines show no bifurcations that were not known, or all rounds are done, and the
+ * diagram is whole. Families that take longer to follow come first. Not while another thread uses
+ * the diagram.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_phase_diagram_find_families(pendres_phase_diagram *diagram,
+                                                   size_t *families);
 
-/** Complete a line by the curves: step 4, as pendres_phase_diagram_compute_line(). A line that
+/**
+ * Follow the curves through the bifurcations of a family, as far as they are not known: step 4.
+ * The diagram is read alone, so threads may follow different families of it at a time. *out is to
+ * be freed by pendres_phase_record_free(), NULL on failure; ctx belongs to one thread at a time. A
+ * curve that cannot be followed for reasons of its own ends its family, which
+ * pendres_phase_diagram_curves_outcome() tells.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT (no such family), PENDRES_INTERRUPTED, PENDRES_OUT_OF_MEMORY.
+ */
+pendres_status pendres_phase_diagram_follow_family(pendres_context *ctx,
+                                                   const pendres_phase_diagram *diagram,
+                                                   size_t family, pendres_phase_record **out);
+
+/** Take over what was followed of a family, in any order; when all are taken the diagram has the
+    curves. Not while another thread uses the diagram. PENDRES_INVALID_ARGUMENT: no such family, or
+    it was taken already, or no such bytes; PENDRES_OUT_OF_MEMORY. */
+pendres_status pendres_phase_diagram_take_family(pendres_phase_diagram *diagram, size_t family,
+                                                 size_t size, const void *bytes);
+
+/** Complete a line by the curves: step 5, as pendres_phase_diagram_compute_line(). A line that
     cannot be completed stays as it was, and the outcome of its points says why. */
 pendres_status pendres_phase_diagram_complete_line(pendres_context *ctx,
                                                    const pendres_phase_diagram *diagram,

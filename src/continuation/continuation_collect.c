@@ -1,4 +1,4 @@
-/* continuation_collect.c -- the branches and curves that many orbits lie on; see continuation.h. */
+/* continuation_collect.c -- the branches that many orbits lie on; see continuation.h. */
 #include <pendres/continuation.h>
 
 #include <math.h>
@@ -6,18 +6,8 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_alike.h"
 #include "continuation/continuation_branch.h"
-
-/*
- * Measures of orbits that lie on one branch differ from those interpolated along a chord by less
- * than this; those of different branches at one parameter by more, unless they meet right there.
- */
-static const double alike = 5e-3;
-
-struct pendres_curves {
-  size_t count, capacity;
-  pendres_curve **curve;
-};
 
 void pendres_branches_free(pendres_branches *b)
 {
@@ -42,30 +32,7 @@ size_t pendres_branches_skipped(const pendres_branches *b)
   return b != NULL ? b->skipped : 0;
 }
 
-void pendres_curves_free(pendres_curves *c)
-{
-  if (c == NULL) return;
-  for (size_t i = 0; i < c->count; i++) pendres_curve_free(c->curve[i]);
-  free(c->curve);
-  free(c);
-}
-
-size_t pendres_curves_count(const pendres_curves *c)
-{
-  return c != NULL ? c->count : 0;
-}
-
-const pendres_curve *pendres_curves_get(const pendres_curves *c, size_t i)
-{
-  return c != NULL && i < c->count ? c->curve[i] : NULL;
-}
-
 /* ---- branches ---- */
-
-static double mixed(double a, double b, double part)
-{
-  return a + part * (b - a);
-}
 
 /* Whether an orbit has the measures of a chord's point with its parameter. */
 static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double part,
@@ -75,14 +42,6 @@ static int fits_chord(const pendres_orbit *a, const pendres_orbit *b, double par
   if (fabs(mixed(a->amplitude, b->amplitude, part) - o->amplitude) > alike) return 0;
   if (fabs(mixed(a->loop_area, b->loop_area, part) - o->loop_area) > alike) return 0;
   return !(fabs(mixed(a->phase_lag, b->phase_lag, part) - o->phase_lag) > alike);
-}
-
-/* Whether orbits have one winding, or windings of each other's mirror images. */
-static int same_winding(const pendres_orbit *a, const pendres_orbit *b)
-{
-  return a->winding == b->winding || (a->winding == -b->winding &&
-                                      pendres_pendulum_symmetric(&a->pendulum) &&
-                                      pendres_pendulum_symmetric(&b->pendulum));
 }
 
 static int lies_on(const pendres_branch *b, const pendres_orbit *o)
@@ -228,97 +187,4 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        pendres_branches *branches)
 {
   return PENDRES_CONTEXT_CALL(ctx, branches_extend(ctx, n, bifurcations, options, branches));
-}
-
-/* ---- curves ---- */
-
-static int on_curve(const pendres_curve *c, const pendres_bifurcation *b, pendres_parameter second)
-{
-  const double value = pendres_parameter_get(second, &b->orbit.pendulum);
-  const pendres_curve_point *p = pendres_curve_get(c, 0);
-  if (pendres_curve_kind(c) != b->kind || p->orbit.period != b->orbit.period ||
-      !same_winding(&p->orbit, &b->orbit))
-    return 0;
-  for (size_t i = 0; i + 1 < pendres_curve_count(c); i++) {
-    const pendres_curve_point *q = pendres_curve_get(c, i + 1);
-    p = pendres_curve_get(c, i);
-    const double from = p->value[1] - value, to = q->value[1] - value;
-    const double part = from * to <= 0.0 && from != to ? from / (from - to) : 0.0;
-    /* At a cusp or a turning point the value may lie just beyond the points. */
-    if (from * to > 0.0 && fmin(fabs(from), fabs(to)) > 1e-4) continue;
-    if (fabs(mixed(p->value[0], q->value[0], part) - b->value) < alike &&
-        fabs(mixed(p->orbit.amplitude, q->orbit.amplitude, part) - b->orbit.amplitude) <
-          alike + fabs(p->orbit.amplitude - q->orbit.amplitude))
-      return 1;
-  }
-  return 0;
-}
-
-static pendres_status add_curve(pendres_context *ctx, pendres_curves *set,
-                                const pendres_bifurcation *b, const pendres_curve_options *options)
-{
-  pendres_curve *c = NULL;
-  const pendres_status status = pendres_curve_follow(ctx, 1, b, options, &c);
-  if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  /* Of a bifurcation among wild orbits nothing but itself can be followed. */
-  if (pendres_curve_count(c) < 3) {
-    pendres_curve_free(c);
-    return PENDRES_OK;
-  }
-  pendres_curve **grown = pendres_grow(set->curve, set->count, &set->capacity, sizeof *grown);
-  if (grown == NULL) {
-    pendres_curve_free(c);
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
-  }
-  set->curve = grown;
-  set->curve[set->count++] = c;
-  return PENDRES_OK;
-}
-
-static pendres_status curves_extend(pendres_context *ctx, size_t n,
-                                    const pendres_bifurcation *bifurcations,
-                                    const pendres_curve_options *options, pendres_curves *curves)
-{
-  if (options == NULL || curves == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and curves");
-  pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    int yes = 0;
-    for (size_t k = 0; k < curves->count && !yes; k++)
-      yes = on_curve(curves->curve[k], &bifurcations[i], options->second);
-    if (!yes) status = add_curve(ctx, curves, &bifurcations[i], options);
-  }
-  return status;
-}
-
-pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
-                                     const pendres_bifurcation *bifurcations,
-                                     const pendres_curve_options *options, pendres_curves *curves)
-{
-  return PENDRES_CONTEXT_CALL(ctx, curves_extend(ctx, n, bifurcations, options, curves));
-}
-
-static pendres_status curves_find(pendres_context *ctx, size_t n,
-                                  const pendres_bifurcation *bifurcations,
-                                  const pendres_curve_options *options, pendres_curves **out)
-{
-  if (options == NULL || out == NULL || (n > 0 && bifurcations == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "bifurcations, options and out");
-  *out = NULL;
-  pendres_curves *set = calloc(1, sizeof *set);
-  if (set == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
-  const pendres_status status = pendres_curves_extend(ctx, n, bifurcations, options, set);
-  if (status == PENDRES_OK)
-    *out = set;
-  else
-    pendres_curves_free(set);
-  return status;
-}
-
-pendres_status pendres_curves_find(pendres_context *ctx, size_t n,
-                                   const pendres_bifurcation *bifurcations,
-                                   const pendres_curve_options *options, pendres_curves **out)
-{
-  return PENDRES_CONTEXT_CALL(ctx, curves_find(ctx, n, bifurcations, options, out));
 }

@@ -7,24 +7,13 @@
 
 #include "engine/context_internal.h"
 #include "continuation/continuation_course.h"
+#include "continuation/continuation_curve.h"
 #include "continuation/continuation_parameter.h"
 #include "continuation/continuation_stencil.h"
 
 static const double wildest = 300.0; /* default */
 
 enum { MOST_CUSPS = 64, MOST_ADVANCES = 200 };
-
-struct pendres_curve {
-  pendres_special kind;
-  pendres_continuation_map map;
-  pendres_continuation_condition condition;
-  pendres_parameter parameter[2];
-  size_t count, cusps;
-  pendres_curve_point *point;
-  double (*u)[PENDRES_U_COUNT]; /* of each point */
-  pendres_cusp *cusp;
-  pendres_branch_end end[2];
-};
 
 void pendres_curve_free(pendres_curve *c)
 {

@@ -1,8 +1,8 @@
 /*
- * continuation_pack.c -- branches as plain bytes and back; see continuation.h.
+ * continuation_pack.c -- branches and curves as plain bytes and back; see continuation.h.
  *
  * The bytes are a head, then of each branch a head, its points and its bifurcations, as they stand
- * in memory.
+ * in memory; of each curve a head, its points and its cusps.
  */
 #include <pendres/continuation.h>
 
@@ -10,6 +10,8 @@
 #include <string.h>
 
 #include "continuation/continuation_branch.h"
+#include "continuation/continuation_curve.h"
+#include "continuation/continuation_families.h"
 
 typedef struct set_head {
   size_t count, skipped;
@@ -131,5 +133,84 @@ pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_b
   if (status == PENDRES_OK && s.left > 0) status = PENDRES_INVALID_ARGUMENT;
   if (status == PENDRES_OK) *out = set;
   else pendres_branches_free(set);
+  return status;
+}
+
+/* ---- curves ---- */
+
+/* A curve without its arrays: what stands before them. */
+static pendres_curve head_of(const pendres_curve *c)
+{
+  pendres_curve h;
+  memset(&h, 0, sizeof h);
+  h.kind = c->kind;
+  h.map = c->map;
+  h.condition = c->condition;
+  for (int k = 0; k < 2; k++) {
+    h.parameter[k] = c->parameter[k];
+    h.end[k] = c->end[k];
+  }
+  h.count = c->count;
+  h.cusps = c->cusps;
+  h.start = c->start;
+  return h;
+}
+
+size_t pendres_curves_packed_size(const pendres_curves *curves)
+{
+  size_t size = sizeof curves->count;
+  for (size_t i = 0; i < curves->count; i++) {
+    const pendres_curve *c = curves->curve[i];
+    size += sizeof *c + c->count * (sizeof *c->point + sizeof *c->u) + c->cusps * sizeof *c->cusp;
+  }
+  return size;
+}
+
+void pendres_curves_pack(const pendres_curves *curves, void *bytes)
+{
+  char *to = put(bytes, &curves->count, sizeof curves->count);
+  for (size_t i = 0; i < curves->count; i++) {
+    const pendres_curve *c = curves->curve[i], h = head_of(c);
+    to = put(to, &h, sizeof h);
+    to = put(to, c->point, c->count * sizeof *c->point);
+    to = put(to, c->u, c->count * sizeof *c->u);
+    to = put(to, c->cusp, c->cusps * sizeof *c->cusp);
+  }
+}
+
+static pendres_status get_curve(source *s, pendres_curve **out)
+{
+  pendres_curve h;
+  pendres_status status = PENDRES_OK;
+  if (!get(s, &h, sizeof h)) return PENDRES_INVALID_ARGUMENT;
+  pendres_curve *c = malloc(sizeof *c);
+  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
+  *c = h;
+  c->point = get_array(s, h.count, sizeof *c->point, &status);
+  c->u = get_array(s, h.count, sizeof *c->u, &status);
+  c->cusp = get_array(s, h.cusps, sizeof *c->cusp, &status);
+  if (status == PENDRES_OK) *out = c;
+  else pendres_curve_free(c);
+  return status;
+}
+
+pendres_status pendres_curves_unpack(size_t size, const void *bytes, pendres_curves **out)
+{
+  source s = { .at = bytes, .left = size };
+  size_t count;
+  pendres_status status = PENDRES_OK;
+  *out = NULL;
+  if (!get(&s, &count, sizeof count) || count > s.left / sizeof(pendres_curve))
+    return PENDRES_INVALID_ARGUMENT;
+  pendres_curves *set = pendres_curves_create();
+  if (set == NULL) return PENDRES_OUT_OF_MEMORY;
+  set->capacity = count;
+  set->curve = calloc(count + 1, sizeof(pendres_curve *));
+  if (set->curve == NULL) status = PENDRES_OUT_OF_MEMORY;
+  for (; set->count < count && status == PENDRES_OK; set->count += status == PENDRES_OK)
+    status = get_curve(&s, &set->curve[set->count]);
+  if (status == PENDRES_OK && s.left > 0) status = PENDRES_INVALID_ARGUMENT;
+  if (status == PENDRES_OK) *out = set;
+  else pendres_curves_free(set);
   return status;
 }

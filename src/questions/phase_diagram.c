@@ -1,5 +1,5 @@
 /* phase_diagram.c -- whole phase diagrams: lines and curves; see phase_diagram.h. */
-#include "questions/phase_record.h"
+#include "questions/phase_internal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,25 +7,6 @@
 
 #include "engine/context_internal.h"
 #include "questions/phase_line.h"
-
-/* Curves through the lines' bifurcations show branches that some lines have missed, whose own
-   bifurcations may lie on further curves; mostly the first round has shown all. */
-enum { MOST_ROUNDS = 4 };
-
-struct pendres_phase_diagram {
-  pendres_phase_grid grid;
-  pendres_phase_done *line;    /* [lines] */
-  pendres_phase_point nothing; /* what stands for a point that has no results */
-  pendres_bifurcation *bifurcation; /* of all lines, in their order */
-  size_t *first;               /* [lines + 1] the first bifurcation of each line */
-  size_t bifurcations;
-  int rounds;
-  pendres_curves *curves;
-  pendres_phase_mark curves_mark;
-  pendres_cusp cusp;
-  int has_cusp;
-  int falling;                 /* SA ends as the lines' parameter falls, see small_end.h */
-};
 
 const char *pendres_regime_name(pendres_regime regime)
 {
@@ -78,11 +59,9 @@ void pendres_phase_diagram_free(pendres_phase_diagram *d)
   if (d == NULL) return;
   for (size_t i = 0; d->line != NULL &&
        i < d->grid.lines; i++) pendres_phase_done_free(&d->line[i]);
-  pendres_phase_mark_free(&d->curves_mark);
   free(d->line);
-  free(d->bifurcation);
   free(d->first);
-  pendres_curves_free(d->curves);
+  pendres_phase_curves_free(d);
   free(d);
 }
 
@@ -119,8 +98,7 @@ pendres_status pendres_phase_diagram_leave_out(pendres_phase_diagram *d, size_t 
   return PENDRES_OK;
 }
 
-/* A failure that the parameters cause, not the machine or the caller: the rest goes on. */
-static int is_own(pendres_status status)
+int pendres_phase_is_own(pendres_status status)
 {
   switch (status) {
   case PENDRES_INVALID_ARGUMENT:
@@ -137,7 +115,7 @@ static int is_own(pendres_status status)
 static pendres_status keep(const pendres_context *ctx, pendres_status status,
                            pendres_phase_mark *m)
 {
-  if (!is_own(status)) return status;
+  if (!pendres_phase_is_own(status)) return status;
   return pendres_phase_mark_set(m, status, pendres_context_message(ctx));
 }
 
@@ -201,11 +179,11 @@ static pendres_status fill_line(pendres_context *ctx, const pendres_phase_grid *
   for (size_t k = 0; k < l->values; k++)
     l->place[k] = l->mark[k].outcome == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
   pendres_status status = try_line(ctx, g, line, l);
-  if (!is_own(status)) return status;
+  if (!pendres_phase_is_own(status)) return status;
   status = sort_out(ctx, g, line, l);
   if (status != PENDRES_OK) return status;
   status = try_line(ctx, g, line, l);
-  if (!is_own(status)) return status;
+  if (!pendres_phase_is_own(status)) return status;
   status = mark_line(ctx, status, l);
   for (size_t k = 0; k < l->values; k++) l->place[k] = PENDRES_PHASE_NOWHERE;
   l->count = 0;
@@ -219,7 +197,7 @@ static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram
   if (l->count == 0) return PENDRES_OK;
   const pendres_status status = pendres_phase_line_complete(
     ctx, l->count, d->curves, &d->grid.options, l->points, l->branches);
-  if (!is_own(status)) return status;
+  if (!pendres_phase_is_own(status)) return status;
   memcpy(l->points, before->points, l->count * sizeof *l->points);
   return mark_line(ctx, status, l);
 }
@@ -267,85 +245,6 @@ pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *d, size_t 
   return PENDRES_OK;
 }
 
-/* ---- curves ---- */
-
-/* The bifurcations of all lines. */
-static pendres_status gather(pendres_context *ctx, pendres_phase_diagram *d)
-{
-  size_t n = 0;
-  for (size_t i = 0; i < d->grid.lines; i++)
-    for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++)
-      n += pendres_branch_bifurcations(pendres_branches_get(d->line[i].branches, k));
-  pendres_bifurcation *all = malloc((n + 1) * sizeof *all);
-  if (all == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
-  free(d->bifurcation);
-  d->bifurcation = all;
-  n = 0;
-  d->falling = 0;
-  for (size_t i = 0; i < d->grid.lines; i++) {
-    d->first[i] = n;
-    d->falling |= pendres_phase_small_end(d->line[i].branches).falling;
-    for (size_t k = 0; k < pendres_branches_count(d->line[i].branches); k++) {
-      const pendres_branch *b = pendres_branches_get(d->line[i].branches, k);
-      for (size_t m = 0; m < pendres_branch_bifurcations(b); m++)
-        all[n++] = *pendres_branch_bifurcation(b, m);
-    }
-  }
-  d->first[d->grid.lines] = d->bifurcations = n;
-  return PENDRES_OK;
-}
-
-/* Of the cusps of SA and LA the last one on the way out of the region where both exist. */
-static void find_cusp(pendres_phase_diagram *d)
-{
-  for (size_t i = 0; i < pendres_curves_count(d->curves); i++) {
-    const pendres_curve *curve = pendres_curves_get(d->curves, i);
-    for (size_t k = 0; k < pendres_curve_cusps(curve); k++) {
-      const pendres_cusp *cusp = pendres_curve_cusp(curve, k);
-      if (!pendres_phase_on_sheets(&cusp->orbit)) continue;
-      if (d->has_cusp && pendres_phase_beyond(d->grid.across, d->cusp.value[1], cusp->value[1]))
-        continue;
-      d->cusp = *cusp;
-      d->has_cusp = 1;
-    }
-  }
-}
-
-static pendres_status follow_curves(pendres_context *ctx, pendres_phase_diagram *d, int *more)
-{
-  if (d == NULL || more == NULL) return PENDRES_CONTEXT_NULL(ctx, "diagram and more");
-  const pendres_phase_grid *g = &d->grid;
-  const size_t before = d->bifurcations;
-  *more = 0;
-  pendres_status status = gather(ctx, d);
-  if (status != PENDRES_OK || d->bifurcations <= before || d->rounds == MOST_ROUNDS) return status;
-  d->rounds++;
-  pendres_curve_options options = {.second = g->across};
-  const int plain = pendres_phase_plain(&g->pendulum, g->options.parameter) &&
-                    pendres_phase_plain(&g->pendulum, g->across);
-  pendres_phase_reach(g->options.parameter, plain, g->value[0], g->value[g->values - 1],
-                      &options.low[0], &options.high[0]);
-  pendres_phase_reach(g->across, plain, g->line_value[0], g->line_value[g->lines - 1],
-                      &options.low[1], &options.high[1]);
-  status = d->curves == NULL
-             ? pendres_curves_find(ctx, d->bifurcations, d->bifurcation, &options, &d->curves)
-             : pendres_curves_extend(ctx, d->bifurcations, d->bifurcation, &options, d->curves);
-  /* What was found stays; that there may be more is said, once. */
-  if (is_own(status))
-    status = d->curves_mark.outcome == PENDRES_OK ? keep(ctx, status, &d->curves_mark) : PENDRES_OK;
-  if (status != PENDRES_OK) return status;
-  find_cusp(d);
-  *more = 1;
-  return PENDRES_OK;
-}
-
-pendres_status pendres_phase_diagram_follow_curves(pendres_context *ctx, pendres_phase_diagram *d,
-                                                   int *more)
-{
-  return PENDRES_CONTEXT_CALL(ctx, follow_curves(ctx, d, more));
-}
-
 /* ---- all of it ---- */
 
 static pendres_status do_line(pendres_context *ctx, pendres_phase_diagram *d, size_t line,
@@ -358,6 +257,32 @@ static pendres_status do_line(pendres_context *ctx, pendres_phase_diagram *d, si
     status = pendres_phase_diagram_take_line(d, line, pendres_phase_record_size(r), bytes);
   }
   pendres_phase_record_free(r);
+  return status;
+}
+
+static pendres_status do_family(pendres_context *ctx, pendres_phase_diagram *d, size_t family)
+{
+  pendres_phase_record *r = NULL;
+  pendres_status status = pendres_phase_diagram_follow_family(ctx, d, family, &r);
+  if (status == PENDRES_OK) {
+    const void *bytes = pendres_phase_record_bytes(r);
+    status = pendres_phase_diagram_take_family(d, family, pendres_phase_record_size(r), bytes);
+  }
+  pendres_phase_record_free(r);
+  return status;
+}
+
+/* Curves, and the lines that they complete, until they tell nothing more. */
+static pendres_status do_curves(pendres_context *ctx, pendres_phase_diagram *d)
+{
+  size_t families = 1;
+  pendres_status status = PENDRES_OK;
+  while (families > 0 && status == PENDRES_OK) {
+    status = pendres_phase_diagram_find_families(d, &families);
+    for (size_t i = 0; i < families && status == PENDRES_OK; i++) status = do_family(ctx, d, i);
+    for (size_t i = 0; i < d->grid.lines && families > 0 && status == PENDRES_OK; i++)
+      status = do_line(ctx, d, i, 1);
+  }
   return status;
 }
 
@@ -374,11 +299,7 @@ static pendres_status compute(pendres_context *ctx, const pendres_phase_grid *gr
   if (status != PENDRES_OK)
     return pendres_context_fail(ctx, status, "out of memory for a phase diagram");
   for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++) status = do_line(ctx, d, i, 0);
-  for (int more = 1; more && status == PENDRES_OK;) {
-    status = follow_curves(ctx, d, &more);
-    for (size_t i = 0; i < grid->lines && more && status == PENDRES_OK; i++)
-      status = do_line(ctx, d, i, 1);
-  }
+  if (status == PENDRES_OK) status = do_curves(ctx, d);
   if (status != PENDRES_OK) pendres_phase_diagram_free(d);
   else *out = d;
   return status;

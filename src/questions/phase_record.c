@@ -9,14 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct pendres_phase_record {
-  size_t size;
-  char bytes[];
-};
-
 typedef struct head {
   size_t values, count, branches; /* points; those that have results; bytes */
 } head;
+
+pendres_phase_record *pendres_phase_record_create(size_t size)
+{
+  pendres_phase_record *r = malloc(sizeof *r + size);
+  if (r != NULL) r->size = size;
+  return r;
+}
 
 size_t pendres_phase_record_size(const pendres_phase_record *r)
 {
@@ -105,9 +107,8 @@ pendres_status pendres_phase_done_pack(const pendres_phase_done *l, pendres_phas
   size_t size = sizeof h + h.values * sizeof *l->place + h.count * sizeof *l->points + h.branches;
   for (size_t k = 0; k < h.values; k++)
     size += sizeof l->mark[k].outcome + strlen(words_of(&l->mark[k])) + 1;
-  *out = malloc(sizeof **out + size);
+  *out = pendres_phase_record_create(size);
   if (*out == NULL) return PENDRES_OUT_OF_MEMORY;
-  (*out)->size = size;
   char *to = put((*out)->bytes, &h, sizeof h);
   to = put(to, l->place, h.values * sizeof *l->place);
   to = put(to, l->points, h.count * sizeof *l->points);

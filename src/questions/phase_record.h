@@ -36,6 +36,13 @@ pendres_status pendres_phase_done_create(size_t values, pendres_phase_done *out)
 pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to);
 void pendres_phase_done_free(pendres_phase_done *line);
 
+/* Plain bytes; NULL: out of memory. To be freed by pendres_phase_record_free(). */
+struct pendres_phase_record {
+  size_t size;
+  char bytes[];
+};
+pendres_phase_record *pendres_phase_record_create(size_t size);
+
 /* A record to be freed by pendres_phase_record_free(). */
 pendres_status pendres_phase_done_pack(const pendres_phase_done *line, pendres_phase_record **out);
 
