@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_columns.h"
 #include "validation/contest.h"
-#include "scenes/scene.h"
 
 enum { OTHERS = 5, ERRORS = 4 };
 
@@ -30,19 +30,19 @@ static const struct {
   { "arkode_single", { 0.05, 0.03, 0.02, NAN } },
 };
 
+/* What a pendulum costs that is only asked what it settles on; the share that is resolved. */
+typedef struct settling {
+  double cost_periods, cost_periods_error, seconds, seconds_error, resolved, resolved_error;
+} settling;
+
 typedef struct work {
   const deck *d;
   farm *farm;
   work_unit unit;
   size_t methods, tolerances;
   contest *contest; /* [method][tolerance] */
-  double settled[3], settled_error[3]; /* periods, seconds a pendulum; share that is resolved */
+  settling settled;
 } work;
-
-/* What a pendulum costs that is only asked what it settles on. */
-typedef struct settling {
-  double value[3]; /* periods, seconds a pendulum; share that is resolved */
-} settling;
 
 /* With the deck's own tolerance. */
 static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
@@ -60,9 +60,10 @@ static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
   if (status != PENDRES_OK) goto done;
   pendres_context_cost(ctx, &cost);
   for (size_t i = 0; i < n; i++) resolved += outcome[i].attractor >= 0;
-  out->value[0] = cost.pendulum_periods / (double)n;
-  out->value[1] = took / (double)n;
-  out->value[2] = resolved / (double)n;
+  *out = (settling){.cost_periods = cost.pendulum_periods / (double)n,
+                    .seconds = took / (double)n,
+                    .seconds_error = NAN,
+                    .resolved = resolved / (double)n};
 done:
   free(outcome);
   free(v);
@@ -87,7 +88,7 @@ static pendres_status measure(const void *arg, size_t task, pendres_context *ctx
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
-  if (task == w->methods * w->tolerances) memcpy(w->settled, in->data, sizeof w->settled);
+  if (task == w->methods * w->tolerances) w->settled = *(const settling *)in->data;
   else w->contest[task] = *(const contest *)in->data;
   return PENDRES_OK;
 }
@@ -111,32 +112,53 @@ static double speed_at(const work *w, size_t method, double error)
   return NAN;
 }
 
-typedef struct column {
-  const char *name, *long_name, *units;
-} column;
+/* A contest as a row of results. */
+typedef struct row {
+  char method[DECK_NAME], failure[sizeof((contest *)0)->failure];
+  double tolerance;
+  double error_10, error_10_error, error_100, error_100_error;
+  double estimated_error, estimated_error_error;
+  double steps_per_period, steps_per_period_error, rhs_per_period, rhs_per_period_error;
+  double seconds, seconds_error, throughput, throughput_error, millions;
+  double estimate_ratio_least, estimate_ratio_median, pendulums;
+} row;
 
-static const column columns[] = {
-  { "error_10", "largest error of x and v after 10 drive periods", "1" },
-  { "error_100", "largest error of x and v after 100 drive periods", "1" },
-  { "estimated_error", "largest estimate of the error after 100 drive periods", "1" },
-  { "steps_per_period", "steps a pendulum and drive period", "1" },
-  { "rhs_per_period", "right-hand sides a pendulum and drive period", "1" },
-  { "seconds", "processor time of the best run", "s" },
-  { "throughput", "pendulum-periods a second on one thread", "s-1" },
+#define NOTE(field, words, unit)                                                    \
+  {.name = #field, .long_name = words, .units = unit, .type = SCENE_PLAIN,          \
+   .value = offsetof(row, field)}
+static const scene_column columns[] = {
+  SCENE_COLUMN(row, error_10, "largest error of x and v after 10 drive periods", "1"),
+  SCENE_COLUMN(row, error_100, "largest error of x and v after 100 drive periods", "1"),
+  SCENE_COLUMN(row, estimated_error, "largest estimate of the error after 100 drive periods", "1"),
+  SCENE_COLUMN(row, steps_per_period, "steps a pendulum and drive period", "1"),
+  SCENE_COLUMN(row, rhs_per_period, "right-hand sides a pendulum and drive period", "1"),
+  SCENE_COLUMN(row, seconds, "processor time of the best run", "s"),
+  SCENE_COLUMN(row, throughput, "pendulum-periods a second on one thread", "s-1"),
+  /* What is said about the figures: no results, so without errors. */
+  NOTE(estimate_ratio_least, "least estimate of a member's error over its true one", "1"),
+  NOTE(estimate_ratio_median, "median over members of estimate over true error", "1"),
+  NOTE(pendulums, "pendulums of the unit that were run", "1"),
+  SCENE_COLUMN_OF(SCENE_TEXT, row, failure, "why there are no figures; else empty"),
 };
 
-static void cell(const contest *c, size_t column, double *value, double *error)
+static row row_of(const work *w, size_t i)
 {
-  const double relative = c->spread / c->seconds;
-  switch (column) {
-  case 0: *value = c->error[0], *error = end_rounding; break;
-  case 1: *value = c->error[1], *error = end_rounding; break;
-  case 2: *value = c->estimate, *error = fabs(c->estimate - c->error[1]); break;
-  case 3: *value = c->steps, *error = 0.0; break;
-  case 4: *value = c->rhs, *error = 0.0; break;
-  case 5: *value = c->seconds, *error = c->spread; break;
-  default: *value = c->throughput, *error = c->throughput * relative; break;
-  }
+  const contest *c = &w->contest[i];
+  row r = {.tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[i % w->tolerances],
+           .error_10 = c->error[0], .error_10_error = end_rounding,
+           .error_100 = c->error[1], .error_100_error = end_rounding,
+           .estimated_error = c->estimate,
+           .estimated_error_error = fabs(c->estimate - c->error[1]),
+           .steps_per_period = c->steps, .rhs_per_period = c->rhs,
+           .seconds = c->seconds, .seconds_error = c->spread,
+           .throughput = c->throughput,
+           .throughput_error = c->throughput * (c->spread / c->seconds),
+           .millions = 1e-6 * c->throughput,
+           .estimate_ratio_least = c->honesty, .estimate_ratio_median = c->padding,
+           .pendulums = (double)c->pendulums};
+  memcpy(r.method, w->d->methods.name[i / w->tolerances], sizeof r.method);
+  memcpy(r.failure, c->failure, sizeof r.failure);
+  return r;
 }
 
 /* Members that no method could help; see contest.h. */
@@ -147,176 +169,138 @@ static size_t left_out_of(const work *w, int mark)
   return some;
 }
 
-static pendres_status write_columns(scene_run *run, const work *w, double *value, double *error)
+static pendres_status write_left_out(scene_run *run, const work *w)
 {
-  const size_t n = w->methods * w->tolerances;
-  pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < sizeof columns / sizeof *columns && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = { .name = columns[k].name,
-                                      .dimensions = { "method", "tolerance" },
-                                      .long_name = columns[k].long_name,
-                                      .units = columns[k].units };
-    for (size_t i = 0; i < n; i++) cell(&w->contest[i], k, &value[i], &error[i]);
-    status = pendres_store_put_result(run->store, &spec, value, error, n);
-  }
-  return status;
-}
-
-/* What is said about the figures: no results, so without errors. */
-static pendres_status write_notes(scene_run *run, const work *w, double *value)
-{
-  static const column notes[] = {
-    { "estimate_ratio_least", "least estimate of a member's error over its true one", "1" },
-    { "estimate_ratio_median", "median over members of estimate over true error", "1" },
-    { "pendulums", "pendulums of the unit that were run", "1" },
-  };
-  const size_t n = w->methods * w->tolerances;
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < 3 && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = { .name = notes[k].name, .units = notes[k].units,
-                                      .dimensions = { "method", "tolerance" },
-                                      .long_name = notes[k].long_name };
-    for (size_t i = 0; i < n; i++) {
-      const contest *c = &w->contest[i];
-      value[i] = k == 0 ? c->honesty : k == 1 ? c->padding : (double)c->pendulums;
-    }
-    status = pendres_store_put(run->store, &spec, value, n);
-  }
-  const char **why = malloc(n * sizeof *why);
-  if (why == NULL) return PENDRES_OUT_OF_MEMORY;
-  for (size_t i = 0; i < n; i++) why[i] = w->contest[i].failure;
-  const pendres_store_spec failure = { .name = "failure", .type = PENDRES_STORE_STRING,
-                                       .dimensions = { "method", "tolerance" },
-                                       .long_name = "why there are no figures; else empty" };
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &failure, why, n);
-  free(why);
+  static const scene_column column = {
+    .name = "left_out", .type = SCENE_PLAIN,
+    .long_name = "members left out of the largest errors: what was off at the start is 1000-fold "
+                 "there"};
   double left_out[WORK_UNIT_MARKS];
+  const scene_table table = {.dimensions = {"mark"}, .n = WORK_UNIT_MARKS,
+                             .stride = sizeof *left_out, .rows = left_out};
   for (int m = 0; m < WORK_UNIT_MARKS; m++) left_out[m] = (double)left_out_of(w, m);
-  const pendres_store_spec out = { .name = "left_out", .dimensions = { "mark" },
-                                   .long_name = "members left out of the largest errors: what "
-                                                "was off at the start is 1000-fold there" };
-  if (status == PENDRES_OK)
-    status = pendres_store_dimension_integer(run->store, NULL, "mark", WORK_UNIT_MARKS,
-                                             (const int64_t[]){ 10, 100 },
-                                             "drive periods after which errors are measured", "1");
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &out, left_out, WORK_UNIT_MARKS);
-  if (status == PENDRES_OK)
-    status = pendres_store_put_text(run->store, NULL, "unit", "pendulums that were run",
-                                    w->d->unit);
-  return status;
+  const pendres_status status = pendres_store_dimension_integer(
+    run->store, NULL, "mark", WORK_UNIT_MARKS, (const int64_t[]){10, 100},
+    "drive periods after which errors are measured", "1");
+  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
+                              : scene_store_failed(run, status);
 }
 
-static pendres_status write_settling(scene_run *run, const work *w)
+static pendres_status write_settling(scene_run *run, const settling *settled)
 {
-  static const column about[] = {
-    { "settling_cost_periods", "drive periods integrated for each pendulum that is asked what it "
-                               "settles on, search and proof of attractors included", "1" },
-    { "settling_seconds", "time for each of them", "s" },
-    { "settling_resolved", "share of them that got an answer", "1" },
+  static const scene_column about[] = {
+    SCENE_COLUMN(settling, cost_periods, "drive periods integrated for each pendulum that is asked "
+                 "what it settles on, search and proof of attractors included", "1"),
+    SCENE_COLUMN(settling, seconds, "time for each of them", "s"),
+    SCENE_COLUMN(settling, resolved, "share of them that got an answer", "1"),
   };
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < 3 && status == PENDRES_OK; k++) {
-    const pendres_store_spec spec = { .name = about[k].name, .long_name = about[k].long_name,
-                                      .units = about[k].units };
-    status = pendres_store_put_result(run->store, &spec, &w->settled[k], &w->settled_error[k], 1);
-  }
-  return status;
+  const scene_table table = {.prefix = "settling", .n = 1, .stride = sizeof *settled,
+                             .rows = settled};
+  return scene_columns_write(run, &table, sizeof about / sizeof *about, about);
 }
 
-/* Ours and others' speeds at equal errors. */
-static pendres_status write_speeds(scene_run *run, const work *w, const char **ours_names,
-                                   double *value)
+/* Speeds at equal errors, [method][error], in a group of their own. */
+static pendres_status write_speeds(scene_run *run, const char *group, size_t methods,
+                                   const char *const *names, const double *speed,
+                                   const char *comment)
 {
-  const char *names[OTHERS], *comment =
-    "unit 'ensemble' on one AVX-512 core; arkode_single: one ARKODE problem a pendulum";
-  const pendres_store_spec ours = { .group = "at_error", .name = "throughput",
-                                    .dimensions = { "method", "error" }, .units = "s-1",
-                                    .long_name = "pendulum-periods a second at an error",
-                                    .comment = "interpolated between the tightest tolerances "
-                                               "whose errors enclose it" };
-  const pendres_store_spec theirs = { .group = "others", .name = "throughput",
-                                      .dimensions = { "method", "error" }, .units = "s-1",
-                                      .long_name = "pendulum-periods a second at an error",
-                                      .comment = comment };
-  const char *about = "largest error after 100 drive periods";
-  pendres_status status = pendres_store_dimension_text(run->store, "at_error", "method",
-                                                       w->methods, ours_names, "method");
+  const scene_column column = {.name = "throughput", .units = "s-1", .type = SCENE_PLAIN,
+                               .long_name = "pendulum-periods a second at an error",
+                               .comment = comment};
+  const scene_table table = {.group = group, .dimensions = {"method", "error"},
+                             .n = methods * ERRORS, .stride = sizeof *speed, .rows = speed};
+  pendres_status status =
+    pendres_store_dimension_text(run->store, group, "method", methods, names, "method");
   if (status == PENDRES_OK)
-    status = pendres_store_dimension(run->store, "at_error", "error", ERRORS, error_marks, about,
-                                     "1");
-  for (size_t m = 0; m < w->methods; m++)
-    for (size_t e = 0; e < ERRORS; e++) value[m * ERRORS + e] = speed_at(w, m, error_marks[e]);
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &ours, value, w->methods * ERRORS);
-  for (size_t m = 0; m < OTHERS; m++) names[m] = others[m].name;
-  if (status == PENDRES_OK)
-    status = pendres_store_dimension_text(run->store, "others", "method", OTHERS, names, "method");
-  if (status == PENDRES_OK)
-    status = pendres_store_dimension(run->store, "others", "error", ERRORS, error_marks, about,
-                                     "1");
-  double speed[OTHERS * ERRORS];
-  for (size_t i = 0; i < OTHERS * ERRORS; i++)
-    speed[i] = 1e6 * others[i / ERRORS].speed[i % ERRORS];
-  if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &theirs, speed, OTHERS * ERRORS);
-  return status;
+    status = pendres_store_dimension(run->store, group, "error", ERRORS, error_marks,
+                                     "largest error after 100 drive periods", "1");
+  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
+                              : scene_store_failed(run, status);
 }
 
-static pendres_status write_results(scene_run *run, const work *w)
+static pendres_status write_ours(scene_run *run, const work *w)
 {
-  const size_t n = w->methods * (w->tolerances > ERRORS ? w->tolerances : ERRORS);
-  double *value = malloc(2 * n * sizeof *value);
+  double *speed = malloc(w->methods * ERRORS * sizeof *speed);
   const char **names = malloc(w->methods * sizeof *names);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (value == NULL || names == NULL) {
-    (void)scene_fail(run, status, "out of memory for %zu results", n);
+  if (speed == NULL || names == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu methods", w->methods);
     goto done;
   }
-  for (size_t m = 0; m < w->methods; m++) names[m] = w->d->methods.name[m];
-  status =
-    pendres_store_dimension(run->store, NULL, "method", w->methods, NULL, "method, by number", "1");
-  const pendres_store_spec name = { .name = "method_name", .type = PENDRES_STORE_STRING,
-                                    .dimensions = { "method" }, .long_name = "method" };
-  if (status == PENDRES_OK) status = pendres_store_put(run->store, &name, names, w->methods);
-  if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
-  if (status == PENDRES_OK) status = write_columns(run, w, value, value + n);
-  if (status == PENDRES_OK) status = write_notes(run, w, value);
-  if (status == PENDRES_OK) status = write_settling(run, w);
-  if (status == PENDRES_OK) status = write_speeds(run, w, names, value);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+  for (size_t m = 0; m < w->methods; m++) {
+    names[m] = w->d->methods.name[m];
+    for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = speed_at(w, m, error_marks[e]);
+  }
+  status = write_speeds(run, "at_error", w->methods, names, speed,
+                        "interpolated between the tightest tolerances whose errors enclose it");
 done:
-  free(value);
+  free(speed);
   free(names);
   return status;
 }
 
+static pendres_status write_others(scene_run *run)
+{
+  const char *names[OTHERS];
+  double speed[OTHERS * ERRORS];
+  for (size_t m = 0; m < OTHERS; m++) {
+    names[m] = others[m].name;
+    for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = 1e6 * others[m].speed[e];
+  }
+  return write_speeds(run, "others", OTHERS, names, speed,
+                      "unit 'ensemble' on one AVX-512 core; arkode_single: one ARKODE problem a "
+                      "pendulum");
+}
+
+static pendres_status write_results(scene_run *run, const work *w, const scene_table *contests)
+{
+  static const scene_column name = {.name = "method_name", .long_name = "method",
+                                    .type = SCENE_TEXT};
+  const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
+                               .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
+  pendres_status status =
+    pendres_store_dimension(run->store, NULL, "method", w->methods, NULL, "method, by number", "1");
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  status = scene_columns_write(run, &methods, 1, &name);
+  if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
+  if (status == PENDRES_OK)
+    status = scene_columns_write(run, contests, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = write_left_out(run, w);
+  if (status != PENDRES_OK) return status;
+  status = pendres_store_put_text(run->store, NULL, "unit", "pendulums that were run", w->d->unit);
+  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  status = write_settling(run, &w->settled);
+  if (status == PENDRES_OK) status = write_ours(run, w);
+  return status == PENDRES_OK ? write_others(run) : status;
+}
+
 /* ---- the scene ----------------------------------------------------------------------------- */
 
-static void print_contests(FILE *out, const work *w)
+static const scene_cell cells[] = {
+  {.heading = "method                ", .format = "%-21s ", .type = SCENE_TEXT,
+   .value = offsetof(row, method)},
+  SCENE_CELL(row, tolerance, "tolerance ", "%9.0e "),
+  SCENE_CELL(row, error_10, "error 10 ", "%8.1e "),
+  SCENE_CELL(row, error_100, "error 100 ", "%9.1e "),
+  SCENE_CELL(row, estimated_error, "estimate ", "%8.1e "),
+  SCENE_CELL(row, estimate_ratio_least, "   least ", "%8.2g "),
+  SCENE_CELL(row, steps_per_period, "  steps ", "%7.1f "),
+  SCENE_CELL(row, rhs_per_period, "    rhs ", "%7.1f "),
+  SCENE_CELL(row, millions, "     M/s ", "%8.4f "),
+  SCENE_CELL(row, pendulums, "   n", "%4.0f"),
+};
+
+static void print_table(FILE *out, const work *w, const scene_table *contests)
 {
-  fprintf(out, "%-21s %9s %8s %9s %8s %8s %7s %7s %8s %4s\n", "method", "tolerance", "error 10",
-          "error 100", "estimate", "least", "steps", "rhs", "M/s", "n");
-  for (size_t i = 0; i < w->methods * w->tolerances; i++) {
-    const contest *c = &w->contest[i];
-    fprintf(out, "%-21s %9.0e %8.1e %9.1e %8.1e %8.2g %7.1f %7.1f %8.4f %4zu\n",
-            w->d->methods.name[i / w->tolerances],
-            w->d->axis[DECK_AXIS_TOLERANCE].value[i % w->tolerances], c->error[0], c->error[1],
-            c->estimate, c->honesty, c->steps, c->rhs, 1e-6 * c->throughput, c->pendulums);
-  }
+  const row *rows = contests->rows;
+  scene_columns_print(out, contests, contests->n, sizeof cells / sizeof *cells, cells, NULL);
   fprintf(out, "least: of estimate over true error, over all n members; %zu of %zu members are "
                "left out of error 10\nand %zu of error 100, which grow whatever was off at the "
                "start %d-fold. M/s: million pendulum-periods\na second of one thread.\n",
           left_out_of(w, 0), w->unit.n, left_out_of(w, 1), CONTEST_WILD);
-  for (size_t i = 0; i < w->methods * w->tolerances; i++)
-    if (w->contest[i].failure[0] != '\0')
-      fprintf(out, "%s at %g failed: %s\n", w->d->methods.name[i / w->tolerances],
-              w->d->axis[DECK_AXIS_TOLERANCE].value[i % w->tolerances], w->contest[i].failure);
-}
-
-static void print_table(FILE *out, const work *w)
-{
-  print_contests(out, w);
+  for (size_t i = 0; i < contests->n; i++)
+    if (rows[i].failure[0] != '\0')
+      fprintf(out, "%s at %g failed: %s\n", rows[i].method, rows[i].tolerance, rows[i].failure);
   fprintf(out, "\n%-21s", "M/s at an error of");
   for (int e = 0; e < ERRORS; e++) fprintf(out, " %9.0e", error_marks[e]);
   for (size_t m = 0; m < w->methods; m++) {
@@ -326,7 +310,25 @@ static void print_table(FILE *out, const work *w)
   fprintf(out,
           "\n\nA pendulum that is asked what it settles on costs %.2f drive periods, %.2e s; "
           "%.4g %% got an answer.\n",
-          w->settled[0], w->settled[1], 100.0 * w->settled[2]);
+          w->settled.cost_periods, w->settled.seconds, 100.0 * w->settled.resolved);
+}
+
+static pendres_status tell(scene_run *run, const work *w)
+{
+  const size_t n = w->methods * w->tolerances;
+  row *rows = malloc(n * sizeof *rows);
+  const scene_table contests = {.dimensions = {"method", "tolerance"}, .n = n,
+                                .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  for (size_t i = 0; i < n; i++) {
+    rows[i] = row_of(w, i);
+    run->failed_points += rows[i].failure[0] != '\0';
+  }
+  const pendres_status status = write_results(run, w, &contests);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &contests);
+  free(rows);
+  return status;
 }
 
 static void plan(const deck *d, FILE *out)
@@ -339,8 +341,7 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   work w = { .d = d, .farm = run->farm,
-             .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count,
-             .settled = { NAN, NAN, NAN }, .settled_error = { 0.0, NAN, 0.0 } };
+             .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count };
   const size_t n = w.methods * w.tolerances;
   pendres_status status = work_unit_make(d->unit, &w.unit);
   if (status == PENDRES_OK) {
@@ -359,10 +360,7 @@ static pendres_status run_scene(scene_run *run)
   status = scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1,
                                              .task = measure,
                                              .timed = 1, .collect = collect, .arg = &w });
-  if (status != PENDRES_OK) goto done;
-  for (size_t i = 0; i < n; i++) run->failed_points += w.contest[i].failure[0] != '\0';
-  status = write_results(run, &w);
-  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);
+  if (status == PENDRES_OK) status = tell(run, &w);
 done:
   free(w.contest);
   work_unit_free(&w.unit);
