@@ -21,19 +21,33 @@ static const rule rules[DECK_KIND_COUNT] = {
   [DECK_RESONANCE_CURVE] = { 32e3, 240.0, 2e3, 1.0, 1.0, 0.02 },
   [DECK_RESPONSE] = { 50e3, 128.0, 7e3, 2.0, 1.0, 4e-4 },
   [DECK_ORBIT] = { 45e3, 36.0, 60.0, 1.0, 1.0, 1e-5 },
-  [DECK_BASINS] = { 65e3, 0.9, 30.0, 1.0, 1.2, 4e-6 },
-  [DECK_PHASE_DIAGRAM] = { 60e3, 36.0, 1e3, 3.0, 1.2, 1e-3 },
+  [DECK_BASINS] = { 75e3, 0.12, 30.0, 1.0, 1.2, 4e-6 },
+  [DECK_PHASE_DIAGRAM] = { 60e3, 17.0, 300.0, 3.0, 1.2, 1e-3 },
   [DECK_BRANCHES] = { 60e3, 470.0, 1e3, 2.0, 1.1, 2e-3 },
   [DECK_WORK_PRECISION] = { 45e3, 200.0, 1e3, 0.0, 1.0, 0.5 },
   [DECK_HARD_CASES] = { 24e3, 100.0, 1e3, 1.0, 1.0, 10.0 },
   [DECK_SWITCHING] = { 55e3, 400.0, 1e3, 1.0, 1.0, 2.0 },
   [DECK_HYSTERESIS] = { 40e3, 240.0, 60e3, 1.0, 1.0, 0.03 },
-  [DECK_BIFURCATION_DIAGRAM] = { 60e3, 1e3, 20e3, 2.0, 1.0, 0.3 },
+  [DECK_BIFURCATION_DIAGRAM] = { 60e3, 200.0, 100e3, 2.0, 1.0, 0.3 },
   [DECK_LYAPUNOV_MAP] = { 40e3, 18.0, 100.0, 1.0, 1.0, 5e-4 },
 };
 
 /* What every run has in memory, and what a thread adds. */
 static const double program_memory = 19e6, thread_memory = 9e6;
+
+/* Seconds that a program takes to start and to write what is short. */
+static const double program_seconds = 0.02;
+
+/* Bytes that a grid's state adds to the compressed file where it differs from the one before; of a
+   basin's boundary, mostly; of a noisy strobe point, and of one among others that may repeat; of a
+   sample of an orbit beyond the first ones, which are stored with little gain. */
+static const double change_bytes = 1.3, boundary_bytes = 200e3, strobe_bytes = 7.0,
+                    repeated_bytes = 3.5, sample_bytes = 15.0;
+enum { FIRST_SAMPLES = 2000 };
+
+/* A diagram keeps the records of its lines, and its curves are longer the more orbits are in
+   these: bytes of memory a byte, and of output a byte of a line's. */
+static const double record_memory = 1.5, record_output = 0.57;
 
 /* Points of the results' grid. */
 static double points_of(const deck *d)
@@ -57,21 +71,66 @@ static double strobes_of(const deck *d)
   return (double)d->axis[DECK_AXIS_TEMPERATURE].count * (double)d->basins.strobes * 4.0;
 }
 
-double estimate_output(const deck *d)
+/* Bytes of a basin's states: by how many differ from their neighbours, or, where that is not known
+   or rows are not computed whole, by the resolution alone, which makes runs of equal states
+   longer. */
+static double states_output(const deck *d, const farm_trial *t)
 {
-  const rule *r = &rules[d->kind];
-  double point = r->point;
-  if (strcmp(d->basins.by, "well") == 0) point *= 2.0;
-  if (d->basins.refine) point *= 0.2; /* a finer grid has longer runs of equal labels */
-  return r->head + point * points_of(d) + 7.0 * strobes_of(d);
+  const double states = points_of(d), same = rules[DECK_BASINS].point;
+  if (t != NULL && t->changes > 0.0 && !d->basins.refine)
+    return same * states + change_bytes * t->changes;
+  return states * (same + 150.0 / sqrt(states));
 }
 
-double estimate_memory(const deck *d, int threads)
+/* Bytes of a ramp, and of what noise does to it. */
+static double ramp_output(const deck *d)
+{
+  if (!deck_has_ramp(d)) return 0.0;
+  const double trajectories = deck_has_noise(d) ? (double)d->noise.trajectories : 0.0;
+  return 45.0 * 2.0 * (double)d->ramp.points + 14.0 * trajectories;
+}
+
+static double points_output(const deck *d, const farm_trial *t)
+{
+  const rule *r = &rules[d->kind];
+  const double points = points_of(d);
+  switch (d->kind) {
+  case DECK_BASINS:
+    return states_output(d, t) + (d->basins.boundary ? boundary_bytes : 0.0);
+  case DECK_ORBIT:
+    return r->point * fmin(points, FIRST_SAMPLES) +
+           sample_bytes * fmax(points - FIRST_SAMPLES, 0.0);
+  case DECK_PHASE_DIAGRAM:
+    return r->point * points +
+           (t != NULL && t->tasks > 0 ? record_output * t->journal / (double)t->tasks : 0.0);
+  case DECK_HYSTERESIS: return r->point * points + ramp_output(d);
+  default: return r->point * points;
+  }
+}
+
+double estimate_output(const deck *d, const farm_trial *t)
+{
+  const double strobe = d->kind == DECK_BIFURCATION_DIAGRAM ? repeated_bytes : strobe_bytes;
+  return rules[d->kind].head + points_output(d, t) + strobe * strobes_of(d);
+}
+
+double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
   double grid = rules[d->kind].memory * points_of(d);
   /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
   if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
+  if (d->kind == DECK_PHASE_DIAGRAM && t != NULL) grid += record_memory * t->journal;
   return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);
+}
+
+/* Where not even a task could be tried it is a path's, whose points have a kilobyte each, and its
+   strobe points. */
+static double estimate_journal(const deck *d, const farm_trial *t)
+{
+  if (t->what == NULL) return t->journal;
+  if (t->tried > 0) return t->journal * rules[d->kind].stages;
+  const int ways = d->kind == DECK_HYSTERESIS ? 2 : d->kind == DECK_BIFURCATION_DIAGRAM;
+  return 1.2e3 * ways * points_of(d) + 8.0 * strobes_of(d);
 }
 
 /* ---- words --------------------------------------------------------------------------------- */
@@ -99,8 +158,8 @@ static void print_time(const deck *d, const farm_trial *t, double outside, int t
   const rule *r = &rules[d->kind];
   const int tried = t->what == NULL || t->tried > 0;
   const double factor = t->what == NULL ? 1.0 : r->after;
-  const double seconds =
-    tried ? outside + factor * t->seconds : outside + r->seconds * points_of(d);
+  const double seconds = program_seconds + outside +
+                         (tried ? factor * t->seconds : r->seconds * points_of(d));
   fputs("time      about ", out);
   print_seconds(seconds, out);
   fputs(" of processor time", out);
@@ -123,12 +182,13 @@ void estimate_print(const deck *d, const farm_trial *t, double outside, int thre
   else if (t->cost.pendulum_periods > 0.0)
     fprintf(out, "work      about %.2g drive periods of all pendulums\n", t->cost.pendulum_periods);
   fputs("memory    about ", out);
-  print_bytes(estimate_memory(d, threads), out);
+  print_bytes(estimate_memory(d, t, threads), out);
   fputs("\noutput    about ", out);
-  print_bytes(estimate_output(d), out);
-  if (t->journal > 0.0) {
+  print_bytes(estimate_output(d, t), out);
+  const double journal = estimate_journal(d, t);
+  if (journal > 0.0) {
     fputs(", and while the run lasts a journal of ", out);
-    print_bytes(t->journal * (t->what != NULL ? rules[d->kind].stages : 1.0), out);
+    print_bytes(journal, out);
   }
   fputs("\n", out);
 }
@@ -158,7 +218,7 @@ void estimate_print_space(const char *path, FILE *out)
 
 void estimate_check_space(const deck *d, const char *path, progress *p)
 {
-  const double space = space_beside(path), needed = estimate_output(d);
+  const double space = space_beside(path), needed = estimate_output(d, NULL);
   if (isnan(space) || space >= needed) return;
   progress_note(p, "the output will take about %.2g MB, and where it goes only %.2g MB are free",
                 1e-6 * needed, 1e-6 * space);

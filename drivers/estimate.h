@@ -4,7 +4,8 @@
  * Owns: the rules for memory and for the size of the output, a row a kind of scene, and what
  * --dry-run says of time. Rules were measured on the decks of input/ and are meant to be right
  * within a factor of two there; what depends on the answers, as how often a pendulum has to go
- * round until it settles, is found by computing a little of the run (farm/trial.h).
+ * round until it settles and how many neighbours of a grid differ, is found by computing a little
+ * of the run (farm/trial.h).
  */
 #ifndef ESTIMATE_H
 #define ESTIMATE_H
@@ -15,9 +16,9 @@
 #include "farm/trial.h"
 #include "terminal/progress.h"
 
-/* Bytes of the output, and of memory on so many threads. */
-double estimate_output(const deck *d);
-double estimate_memory(const deck *d, int threads);
+/* Bytes of the output, and of memory on so many threads. t: what a trial has shown; NULL: none. */
+double estimate_output(const deck *d, const farm_trial *t);
+double estimate_memory(const deck *d, const farm_trial *t, int threads);
 
 /* What a trial has shown of a deck, in lines. `threads` of the run to come. */
 void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out);

@@ -365,6 +365,53 @@ static void test_trial(void **state)
   }
 }
 
+enum { ROW = 5, CHAIN = 6 };
+
+/* A head, and a row of numbers of which two differ from the one before. */
+static pendres_status row_task(const void *arg, size_t i, pendres_context *ctx, farm_record *out)
+{
+  static const int row[ROW] = { 7, 7, 8, 8, 9 };
+  const double head = 1.0 / (double)(i + 2);
+  char *to = farm_record_resize(out, sizeof head + sizeof row);
+  (void)ctx;
+  assert_int_equal(*(const size_t *)arg, i); /* of a chain: so many were collected */
+  if (to == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(to, &head, sizeof head);
+  memcpy(to + sizeof head, row, sizeof row);
+  return PENDRES_OK;
+}
+
+static pendres_status count_rows(void *arg, size_t i, const farm_record *in)
+{
+  (void)i, (void)in;
+  ++*(size_t *)arg;
+  return PENDRES_OK;
+}
+
+/* A chain is tried from its beginning on, each task after the one before was collected; what
+   differs between neighbours is counted, and stands for all. */
+static void test_trial_of_a_chain(void **state)
+{
+  (void)state;
+  for (int all = 0; all < 2; all++) {
+    size_t collected = 0;
+    scene *s = new_scene();
+    farm *f = new_farm(1, s);
+    farm_trial t = { .few = all ? 1e9 : 0.0, .most = 1e9 };
+    const farm_stage stage = { .what = "rows", .tasks = CHAIN, .chained = 1, .record_size = 1,
+                               .element = sizeof(int), .task = row_task, .collect = count_rows,
+                               .arg = &collected };
+    farm_set_trial(f, &t);
+    assert_int_equal(farm_run(f, &stage), all ? PENDRES_OK : PENDRES_INTERRUPTED);
+    assert_int_equal(t.tried, all ? CHAIN : 2);
+    assert_int_equal(collected, t.tried);
+    /* Two in the row, and the halves of the head: from one another and from the row. */
+    check_near(t.changes, CHAIN * 4.0, 0.0);
+    farm_free(f);
+    free(s);
+  }
+}
+
 /* Whatever takes too long is stopped, and nothing is concluded from it. */
 static void test_trial_of_long_tasks(void **state)
 {
@@ -413,6 +460,7 @@ int main(void)
     cmocka_unit_test(test_context),
     cmocka_unit_test(test_long_task),
     cmocka_unit_test(test_trial),
+    cmocka_unit_test(test_trial_of_a_chain),
     cmocka_unit_test(test_trial_of_long_tasks),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

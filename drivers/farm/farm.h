@@ -67,6 +67,8 @@ typedef struct farm_stage {
   const char *what;      /* names the tasks in the progress line, e.g. "dampings" */
   size_t tasks;
   size_t record_size;    /* bytes */
+  size_t element;        /* bytes of the elements that end each record, as the states of a grid's
+                            rows: trials count those that differ from the one before; 0: none */
   int last;              /* nothing that the run computes after it reads its records */
   int cheap;             /* so little to do that every shard does all of it */
   int timed;             /* tasks look at the clock: one at a time, so that each is alone */

@@ -2,8 +2,10 @@
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "farm/trial.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "farm/farm_internal.h"
@@ -24,7 +26,8 @@ typedef struct stage_trial {
   trial_record *record; /* of each task */
   char *tried;
   size_t count;
-  double seconds, bytes;
+  double seconds, bytes, changes;
+  double first;         /* seconds of the first task */
   pendres_cost cost;
 } stage_trial;
 
@@ -70,6 +73,16 @@ static size_t stored_bytes(const trial_record *r)
   return n + ENTRY;
 }
 
+/* How many of the elements that end a record differ from the one before. */
+static size_t changes_in(const trial_record *r, size_t element)
+{
+  const char *data = r->data;
+  size_t n = 0;
+  for (size_t end = r->size; element > 0 && end >= 2 * element; end -= element)
+    n += memcmp(data + end - element, data + end - 2 * element, element) != 0;
+  return n;
+}
+
 static pendres_status try_task(stage_trial *s, size_t task)
 {
   farm_record record = { 0 };
@@ -88,10 +101,20 @@ static pendres_status try_task(stage_trial *s, size_t task)
   s->tried[task] = 1;
   s->count++;
   s->seconds += seconds;
+  if (s->count == 1) s->first = seconds;
   s->bytes += (double)stored_bytes(&s->record[task]);
+  s->changes += (double)changes_in(&s->record[task], s->stage->element);
   s->cost.pendulum_periods += after.pendulum_periods - before.pendulum_periods;
   s->cost.settled_pendulums += after.settled_pendulums - before.settled_pendulums;
   return PENDRES_OK;
+}
+
+/* The first task of a chain finds what the others go on from, and takes longer. */
+static double seconds_of_all(const stage_trial *s)
+{
+  const double tasks = (double)s->stage->tasks, count = (double)s->count;
+  if (s->count < 2 || !s->stage->chained) return tasks / fmax(count, 1.0) * s->seconds;
+  return s->first + (tasks - 1.0) / (count - 1.0) * (s->seconds - s->first);
 }
 
 /* What was tried stands for all of the stage. */
@@ -99,8 +122,9 @@ static void conclude(const stage_trial *s)
 {
   farm_trial *t = s->farm->trial;
   const double all = (double)s->stage->tasks / (double)(s->count > 0 ? s->count : 1);
-  t->seconds += all * s->seconds;
+  t->seconds += seconds_of_all(s);
   t->journal += all * s->bytes;
+  t->changes += all * s->changes;
   t->cost.pendulum_periods += all * s->cost.pendulum_periods;
   t->cost.settled_pendulums += all * s->cost.settled_pendulums;
   t->what = s->count < s->stage->tasks ? s->stage->what : NULL;
@@ -108,26 +132,48 @@ static void conclude(const stage_trial *s)
   t->tried = s->count;
 }
 
-static pendres_status try_stage(stage_trial *s)
+static pendres_status collect(const stage_trial *s, size_t task)
+{
+  const farm_record record = { .data = s->record[task].data, .size = s->record[task].size };
+  if (s->stage->collect == NULL) return PENDRES_OK;
+  return s->stage->collect(s->stage->arg, task, &record);
+}
+
+/* Tasks of a chain go on from what was collected of the one before. */
+static pendres_status try_chain(stage_trial *s)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t task = 0; task < s->stage->tasks && status == PENDRES_OK; task++) {
+    if (s->count >= 2 && s->seconds > s->farm->trial->few) break;
+    status = try_task(s, task);
+    if (status == PENDRES_OK) status = collect(s, task);
+  }
+  return status;
+}
+
+static pendres_status try_some(stage_trial *s)
 {
   const farm_trial *t = s->farm->trial;
   const size_t tasks = s->stage->tasks;
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; s->count < tasks && status == PENDRES_OK; k++) {
-    /* Of a chain only the first can be tried: the others go on from what was collected. */
-    const size_t task = s->stage->chained ? 0 : spread(k, tasks);
-    if (s->stage->chained && s->count > 0) break;
+    const size_t task = spread(k, tasks);
     if (s->tried[task]) continue;
     if (s->count >= t->least && s->seconds > t->few) break;
     status = try_task(s, task);
   }
+  return status;
+}
+
+static pendres_status try_stage(stage_trial *s)
+{
+  const size_t tasks = s->stage->tasks;
+  pendres_status status = s->stage->chained ? try_chain(s) : try_some(s);
   conclude(s);
   if (status != PENDRES_OK) return status;
   if (s->count < tasks) return PENDRES_INTERRUPTED;
-  for (size_t i = 0; i < tasks && status == PENDRES_OK && s->stage->collect != NULL; i++) {
-    const farm_record record = { .data = s->record[i].data, .size = s->record[i].size };
-    status = s->stage->collect(s->stage->arg, i, &record);
-  }
+  for (size_t i = 0; i < tasks && status == PENDRES_OK && !s->stage->chained; i++)
+    status = collect(s, i);
   return status;
 }
 

@@ -22,6 +22,7 @@ typedef struct farm_trial {
   /* Of the stages up to the one that ended the trial, all of their tasks: */
   double seconds;      /* of processor time */
   double journal;      /* bytes */
+  double changes;      /* elements of records that differ from the one before */
   pendres_cost cost;
   double spent;        /* seconds in the tasks that were tried, so that the rest of the trial is
                           known to be outside of tasks */

@@ -146,6 +146,7 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
   if (s.index == NULL)
     return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", tasks);
   status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
+                                                .element = sizeof(pendres_basin_state),
                                                 .task = compute_rows, .collect = collect_rows,
                                                 .arg = &s });
   if (status == PENDRES_OK && !last) status = extend(b, s.lost, s.index, grown);
