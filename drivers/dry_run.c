@@ -20,7 +20,7 @@ static void print_line(const char *name, const char *text)
   putchar('\n');
 }
 
-static void print_plan(const scene_run *run, const scene_kind *scene)
+static void print_description(const scene_run *run, const scene_kind *scene)
 {
   const deck *d = run->deck;
   print_line("deck", d->name);
@@ -29,14 +29,14 @@ static void print_plan(const scene_run *run, const scene_kind *scene)
   print_line("output", d->output);
   printf("tolerance %g\n", d->precision.tolerance);
   printf("threads   %d\n\n", farm_threads(run->farm));
-  scene->plan(d, stdout);
+  scene->describe(d, stdout);
 }
 
 void dry_run(scene_run *run, const scene_kind *scene)
 {
   char path[DECK_PATH];
   farm_trial trial = { .few = few_seconds, .most = most_seconds, .least = least_tasks };
-  print_plan(run, scene);
+  print_description(run, scene);
   (void)fflush(stdout);
   together_output(path, sizeof path);
   if (pendres_store_create(path, NULL, &run->store) != PENDRES_OK) return;

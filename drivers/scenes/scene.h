@@ -35,7 +35,7 @@ typedef struct scene_kind {
   const char *references; /* root attribute of the file: what the scene reproduces, and methods */
   int budget;             /* not 0: its tasks tell their points, which --budget can end */
   /* What would be computed, in a few lines (--dry-run). */
-  void (*plan)(const deck *d, FILE *out);
+  void (*describe)(const deck *d, FILE *out);
   /* Compute and write everything but the provenance. */
   pendres_status (*run)(scene_run *run);
 } scene_kind;

@@ -24,9 +24,9 @@ enum {
   MOST_EXTENSIONS = 4
 };
 
-/* ---- the plan ---- */
+/* ---- what is computed ---- */
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   const deck_axis *x = &d->axis[DECK_AXIS_X], *v = &d->axis[DECK_AXIS_V];
   fprintf(out,
@@ -376,5 +376,5 @@ const scene_kind scene_basins = {
     "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, "
     "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
     "chapter VIII.6.",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene};

@@ -269,7 +269,7 @@ done:
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   deck_axis_id axis;
   const deck_axis *a = scene_along_axis(d, &axis);
@@ -283,6 +283,6 @@ const scene_kind scene_bifurcation_diagram = {
   .kind = DECK_BIFURCATION_DIAGRAM,
   .references = "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, Journal "
                 "of Statistical Physics 19 (1978) 25",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene,
 };

@@ -14,10 +14,10 @@
 
 enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "amplitudes of ");
-  scene_lines_plan(d, out);
+  scene_lines_describe(d, out);
   fprintf(out, "; the branches of orbits that they lie on, curves of folds, and backbones\n");
 }
 
@@ -360,5 +360,5 @@ const scene_kind scene_branches = {
                 "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
                 "chapters 4, 9 and 10",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene};

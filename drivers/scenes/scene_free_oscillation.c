@@ -148,7 +148,7 @@ static pendres_status run(scene_run *r)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_AMPLITUDE];
   fprintf(out, "frequency of the free pendulum at %zu amplitudes from %g to %g rad,\n", a->count,
@@ -160,6 +160,6 @@ const scene_kind scene_free_oscillation = {
   .kind = DECK_FREE_OSCILLATION,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Fig. 1",
-  .plan = plan,
+  .describe = describe,
   .run = run,
 };

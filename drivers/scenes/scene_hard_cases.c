@@ -150,7 +150,7 @@ static pendres_status run_scene(scene_run *run)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "hard cases:");
   for (size_t i = 0; i < d->cases.count; i++) fprintf(out, " %s", d->cases.name[i]);
@@ -163,6 +163,6 @@ const scene_kind scene_hard_cases = {
   .kind = DECK_HARD_CASES,
   .references = "N. J. Higham, Accuracy and Stability of Numerical Algorithms; "
                 "M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, chapter 17",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene,
 };

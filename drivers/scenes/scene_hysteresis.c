@@ -170,7 +170,7 @@ static pendres_status run_scene(scene_run *run)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   deck_axis_id axis;
   const deck_axis *a = scene_along_axis(d, &axis);
@@ -179,13 +179,13 @@ static void plan(const deck *d, FILE *out)
           deck_axis_name(axis), a->value[0], a->value[a->count - 1], a->count);
   if (d->orbit.start[0] != '\0') fprintf(out, "it starts on attractor '%s'\n", d->orbit.start);
   else fprintf(out, "it starts at x = %g, v = %g\n", d->orbit.x, d->orbit.v);
-  scene_ramp_plan(d, axis, out);
+  scene_ramp_describe(d, axis, out);
 }
 
 const scene_kind scene_hysteresis = {
   .kind = DECK_HYSTERESIS,
   .references = "Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene,
 };

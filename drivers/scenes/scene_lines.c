@@ -54,7 +54,7 @@ const char *scene_lines_words(pendres_parameter parameter)
   return pendres_parameter_name(parameter);
 }
 
-void scene_lines_plan(const deck *d, FILE *out)
+void scene_lines_describe(const deck *d, FILE *out)
 {
   const scene_parameter *of = scene_parameters;
   deck_axis_id axis[2];

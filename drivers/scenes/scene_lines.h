@@ -78,6 +78,6 @@ int scene_lines_changes(const scene_lines *l, deck_axis_id axis);
 const char *scene_lines_words(pendres_parameter parameter);
 
 /* One line on what is computed, for --dry-run: axes and what is fixed. */
-void scene_lines_plan(const deck *d, FILE *out);
+void scene_lines_describe(const deck *d, FILE *out);
 
 #endif

@@ -212,7 +212,7 @@ static pendres_status run_scene(scene_run *run)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   deck_axis_id axis[AXES] = {DECK_AXIS_DAMPING, DECK_AXIS_DAMPING};
   (void)deck_moving(d, AXES, axis);
@@ -228,6 +228,6 @@ const scene_kind scene_lyapunov_map = {
   .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
                 "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene,
 };

@@ -217,7 +217,7 @@ static pendres_status run_scene(scene_run *run)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "orbit at damping %g, drive amplitude %g, drive period %g\n", d->pendulum.damping,
           d->pendulum.drive_amplitude, d->pendulum.drive_period);
@@ -233,6 +233,6 @@ const scene_kind scene_orbit = {
   .kind = DECK_ORBIT,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Figs. 5 and 6",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene,
 };

@@ -6,10 +6,10 @@
  */
 #include "scenes/scene_curves.h"
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "regimes of ");
-  scene_lines_plan(d, out);
+  scene_lines_describe(d, out);
   fprintf(out, "; and the curves of folds and symmetry breakings, with their cusp\n");
 }
 
@@ -90,5 +90,5 @@ const scene_kind scene_phase_diagram = {
                 "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
                 "Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene};

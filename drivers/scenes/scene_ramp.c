@@ -315,7 +315,7 @@ pendres_status scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_alo
   return status;
 }
 
-void scene_ramp_plan(const deck *d, deck_axis_id axis, FILE *out)
+void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out)
 {
   long every = 0;
   if (!deck_has_ramp(d)) return;

@@ -14,6 +14,6 @@
 pendres_status scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_along_path *path);
 
 /* What is said of it before a run. */
-void scene_ramp_plan(const deck *d, deck_axis_id axis, FILE *out);
+void scene_ramp_describe(const deck *d, deck_axis_id axis, FILE *out);
 
 #endif

@@ -36,7 +36,7 @@ static const char *many(deck_axis_id axis)
                                              : "parametric amplitudes";
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   const deck_axis *a = &d->axis[axis_of(d)];
   const int dampings = axis_of(d) == DECK_AXIS_DAMPING;
@@ -257,5 +257,5 @@ const scene_kind scene_resonance_curve = {
                 "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
                 "(1999) 2067",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene};

@@ -33,7 +33,7 @@ typedef struct grid {
   scene_failures peak_failed; /* [line] */
 } grid;
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   deck_axis_id axis[SCENE_AXES];
   const int axes = scene_axes(d, axis);
@@ -414,5 +414,5 @@ const scene_kind scene_response = {
                 "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
                 "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene};

@@ -59,7 +59,7 @@ static void name_ways(work *w)
   }
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
   fprintf(out,
@@ -400,5 +400,5 @@ const scene_kind scene_switching = {
                 "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
                 "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
   .budget = 1,
-  .plan = plan,
+  .describe = describe,
   .run = run_scene };

@@ -331,7 +331,7 @@ static pendres_status tell(scene_run *run, const work *w)
   return status;
 }
 
-static void plan(const deck *d, FILE *out)
+static void describe(const deck *d, FILE *out)
 {
   fprintf(out, "%zu methods by %zu tolerances on the unit '%s', one after another on one thread\n",
           d->methods.count, d->axis[DECK_AXIS_TOLERANCE].count, d->unit);
@@ -371,6 +371,6 @@ const scene_kind scene_work_precision = {
   .kind = DECK_WORK_PRECISION,
   .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations "
                 "I, section II.10",
-  .plan = plan,
+  .describe = describe,
   .run = run_scene
 };

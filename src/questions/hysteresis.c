@@ -57,7 +57,7 @@ const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t 
   return h != NULL && i < h->jumps ? &h->jump[i] : NULL;
 }
 
-/* ---- the walk along the path ---- */
+/* ---- along the path ---- */
 
 typedef struct path {
   pendres_context *ctx;
@@ -391,7 +391,7 @@ static pendres_status settle_at(path *w, size_t i)
   return status;
 }
 
-static pendres_status walk(path *w)
+static pendres_status follow_path(path *w)
 {
   pendres_status status = settle_at(w, 0);
   for (size_t i = 1; i < w->n && status == PENDRES_OK;) {
@@ -442,7 +442,7 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
   if (w->h == NULL)
     return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
                                 w->n);
-  pendres_status status = w->n > 0 ? walk(w) : PENDRES_OK;
+  pendres_status status = w->n > 0 ? follow_path(w) : PENDRES_OK;
   if (status == PENDRES_OK) status = pendres_hysteresis_name(w->ctx, w->h);
   if (status == PENDRES_OK) *out = w->h;
   else pendres_hysteresis_free(w->h);

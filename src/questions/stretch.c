@@ -86,7 +86,7 @@ static double ahead(const pendres_stretch *s, double value, double of)
 
 /* From the place on as long as orbits are stable: sets points and the end. The number of the point
    that told it. */
-static size_t walk_along(pendres_stretch *s, double limit)
+static size_t take_stable(pendres_stretch *s, double limit)
 {
   const pendres_branch_point *p = NULL;
   const pendres_bifurcation *met = NULL; /* the latest, where it is not known yet what follows */
@@ -202,7 +202,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
     if (choose_way(&s)) {
-      if (is_enough(&s, walk_along(&s, limit)) || points == most) break;
+      if (is_enough(&s, take_stable(&s, limit)) || points == most) break;
     } else {
       /* Right at its end, or nothing could be followed. */
       s.points = 1;
@@ -237,7 +237,7 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
     if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);
-    if (!(off < near_birth && choose_way(&s)) || is_enough(&s, walk_along(&s, limit)) ||
+    if (!(off < near_birth && choose_way(&s)) || is_enough(&s, take_stable(&s, limit)) ||
         points == most)
       break;
     pendres_branch_free(s.branch);
