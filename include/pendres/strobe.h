@@ -25,13 +25,13 @@ extern "C" {
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
  * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice what is
- * between the first run and better ones, which are taken to be off by up to half as much. Those are
- * a second run with more steps a period and, where errors have grown, a third with still more; or,
- * where the method's steps are adaptive, runs with a tenth and a hundredth of the tolerance (1e-6
- * at most). It covers discretisation and rounding, amplified along each trajectory as that
- * itself amplifies them; where that is by more than the tolerance allows, the estimate says so
- * (infinite: nothing is known), it is not an error of the function. It costs four to five times as
- * much as the first run.
+ * between the first run and better ones, which are taken to be off by up to half as much. That is
+ * one with twice the steps a period; or, where the method's steps are adaptive, two with a tenth
+ * and a hundredth of the tolerance (1e-6 at most). It covers discretisation and rounding, amplified
+ * along each trajectory as that itself amplifies them; where runs lose each other on the way, even
+ * if they meet again, the estimate says so (infinite: nothing is known), it is not an error of
+ * the function. With fixed steps all of it takes three times as long as without an estimate. Runs
+ * with adaptive steps are compared at 64 strobes at most.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.
@@ -58,7 +58,7 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
  * the arrays hold periods * samples + 1 values. x is not wrapped.
  *
  * x_error and v_error, of the same length, receive estimates of the errors: a second run with
- * more steps is compared with the first, and rounding is carried along by the variational
+ * twice the steps is compared with the first, and rounding is carried along by the variational
  * equation. Where the runs have lost each other, and from there on, both are infinite. Both may be
  * NULL, and that run is then not made.
  *

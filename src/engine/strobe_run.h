@@ -31,9 +31,10 @@ void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
 
 /*
  * How far off a run may be that is so far from a better one. The better one is off as well, by less
- * than half as much: steps 1.4 times as many leave a fifteenth at order eight, a fifth at five, and
- * a tenth of the tolerance somewhat more than a tenth. So the distance is at least half the error.
- * Runs that are a tenth of a radian apart have lost each other, and nothing is known (infinite).
+ * than half as much: twice the steps leave a hundredth or less at order eight, a thirtieth at
+ * five; a tenth of the tolerance leaves somewhat more than a tenth. So the distance is at least
+ * half the error. Runs that are a tenth of a radian apart have lost each other, and nothing is
+ * known (infinite).
  */
 double pendres_strobe_doubt(double distance);
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/angles.h"
 #include "engine/accuracy.h"
@@ -50,9 +51,9 @@ static double periods_that_count(const pendres_pendulum *p, long periods)
   return 1.0 / fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
-/* More steps (`refinement` times as many) where steps are fixed. */
+/* At their starts, with steps where they are fixed. */
 static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                           const double *x, const double *v, long periods, double refinement,
+                           const double *x, const double *v, long periods,
                            pendres_strobe_lane *lanes)
 {
   for (size_t i = 0; i < n; i++) {
@@ -64,7 +65,6 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
                            pendres_accuracy_of_run(ctx, periods_that_count(&p[i], periods)),
                            &l->steps);
     if (status != PENDRES_OK) return status;
-    if (refinement != 1.0) l->steps = pendres_steps_rung((int)ceil(l->steps * refinement));
   }
   return PENDRES_OK;
 }
@@ -81,29 +81,8 @@ static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p,
   return step * sqrt(100.0 * periods_that_count(p, periods));
 }
 
-/*
- * The same pendulums once more, by a better method: more steps where they are fixed, else a smaller
- * tolerance. noise[n] receives the rounding errors.
- */
-static pendres_status run_finer(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                const double *x, const double *v, long periods,
-                                pendres_strobe_lane *finer, double *noise)
-{
-  pendres_status status = load(ctx, n, p, x, v, periods, 1.4, finer);
-  if (status != PENDRES_OK) return status;
-  const int fixed = pendres_method_of(ctx)->fixed_steps;
-  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
-  for (size_t i = 0; i < n && fixed; i++) finer[i].added = rounding * rounding;
-  status = pendres_strobe_run_within(ctx, pendres_accuracy_second(ctx), n, finer,
-                                     after_all_periods, &periods);
-  for (size_t i = 0; i < n; i++)
-    noise[i] = fixed ? pendres_strobe_noise_of(p[i].drive_frequency, &finer[i].off)
-                     : clock_noise(ctx, &p[i], periods);
-  return status;
-}
-
-/* |a - b| of two final states, in x and v. */
-static double distance(const pendres_strobe_lane *a, const pendres_strobe_lane *b)
+/* |a - b| of two states, in x and v. */
+static double distance(const pendres_strobe_lane *a, const pendres_place *b)
 {
   const double dy = (a->y - b->y) + two_pi * (double)(a->turns - b->turns);
   const double dv = (a->w - b->w) * a->pendulum->drive_frequency;
@@ -121,57 +100,141 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
          2.2e-16 * fmax(8.0 + two_pi * fabs((double)l->turns), v);
 }
 
+/* ---- runs beside each other ------------------------------------------------------------------ */
+
 /*
- * Along one expanding direction two errors of either sign may be equal by chance. Where
- * errors have grown, a third run with twice the steps is asked as well: apart[i] becomes the larger
- * distance. Adaptive steps follow their tolerance loosely (stability, not the tolerance, limits the
- * steps of stiff pendulums), so that a tenth of it may change next to nothing. With such methods
- * all pendulums are therefore run a third time, with a tolerance that is smaller again. noise[] as
- * in run_finer; lanes[n] is the first run, room[n] is scratch.
+ * Strobes at which a better run is compared with the first. Runs that lose each other on the way
+ * may meet again at the end, both on an attractor that the pendulum itself never comes to, so they
+ * are compared at each strobe. Methods that choose their own steps would choose others if they were
+ * stopped: their runs are whole, and compared at MOST_COMPARED strobes at most.
  */
-static pendres_status ask_thirdly(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                  const double *x, const double *v, long periods,
-                                  const pendres_strobe_lane *lanes, const double *noise,
-                                  pendres_strobe_lane *room, double *apart)
+typedef struct stretch {
+  long periods;      /* of the whole run */
+  long last;         /* the stretch ends at this strobe */
+  long length;       /* in periods */
+  long every;        /* counted from its end, every so manieth strobe is compared */
+  size_t slots;      /* of a lane */
+  pendres_place *at; /* n * slots: where the first run was */
+  double *apart;     /* n: distances at the end; infinite once two runs have lost each other */
+} stretch;
+
+enum { MOST_COMPARED = 64 };
+
+/* Where the first run was at a strobe of the stretch; NULL where that is not compared. */
+static pendres_place *place_of(const stretch *s, size_t index, long period)
 {
-  const double grown = 1e-13; /* rounding of some hundred steps, times a hundred */
-  const int fixed = pendres_method_of(ctx)->fixed_steps;
-  size_t some = 0;
+  const long left = s->last - period;
+  return left % s->every == 0 ? &s->at[index * s->slots + (size_t)(left / s->every)] : NULL;
+}
+
+static int keep(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const stretch *s = arg;
+  pendres_place *at = place_of(s, index, lane->period);
+  if (at != NULL) *at = (pendres_place){.y = lane->y, .w = lane->w, .turns = lane->turns};
+  return lane->period >= s->last;
+}
+
+static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const stretch *s = arg;
+  const pendres_place *at = place_of(s, index, lane->period);
+  const double apart = at != NULL ? distance(lane, at) : 0.0;
+  if (!(pendres_strobe_doubt(apart) < INFINITY)) s->apart[index] = INFINITY;
+  if (lane->period == s->periods) s->apart[index] = fmax(s->apart[index], apart);
+  return lane->period >= s->last;
+}
+
+/* With room for so many lanes. */
+static pendres_status stretch_open(pendres_context *ctx, size_t n, long periods, stretch *s)
+{
+  const long room = (long)(((size_t)1 << 20) / n); /* 24 MB */
+  const long most = room < 1 ? 1 : room < MOST_COMPARED ? room : MOST_COMPARED;
+  *s = (stretch){.periods = periods, .length = periods, .every = 1};
+  if (pendres_method_of(ctx)->fixed_steps) s->length = periods < most ? periods : most;
+  else s->every = (periods + MOST_COMPARED - 1) / MOST_COMPARED;
+  s->slots = (size_t)((s->length + s->every - 1) / s->every);
+  s->at = malloc(n * s->slots * sizeof *s->at);
+  s->apart = calloc(n, sizeof *s->apart);
+  if (s->at != NULL && s->apart != NULL) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+}
+
+static void stretch_close(stretch *s)
+{
+  free(s->at);
+  free(s->apart);
+}
+
+/*
+ * With twice the steps, stretch by stretch beside the first run: where steps are few, errors do not
+ * yet fall as the order says, and a run with half as many more may be off by as much, in the same
+ * direction. noise[n] receives the rounding errors.
+ */
+static pendres_status run_with_twice_the_steps(pendres_context *ctx, size_t n, stretch *s,
+                                               pendres_strobe_lane *lanes,
+                                               pendres_strobe_lane *finer, double *noise)
+{
+  const double rounding = pendres_strobe_noise_of_step(ctx->options.table);
+  pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < n; i++) {
-    if (fixed && !(noise[i] > grown)) continue;
-    const pendres_status status = load(ctx, 1, &p[i], &x[i], &v[i], periods, 2.0, &room[some]);
-    if (status != PENDRES_OK) return status;
-    some++;
+    finer[i] = lanes[i];
+    finer[i].steps = pendres_steps_rung(2 * lanes[i].steps);
+    finer[i].added = rounding * rounding;
   }
-  const pendres_status status = pendres_strobe_run_within(ctx, pendres_accuracy_third(ctx), some,
-                                                          room, after_all_periods, &periods);
-  some = 0;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    if (!fixed || noise[i] > grown) apart[i] = fmax(apart[i], distance(&lanes[i], &room[some++]));
+  while (s->last < s->periods && status == PENDRES_OK) {
+    s->last += s->length < s->periods - s->last ? s->length : s->periods - s->last;
+    status = pendres_strobe_run(ctx, n, lanes, keep, s);
+    if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
+    if (status == PENDRES_OK) status = pendres_strobe_run(ctx, n, finer, compare, s);
+  }
+  for (size_t i = 0; i < n; i++)
+    noise[i] = pendres_strobe_noise_of(finer[i].pendulum->drive_frequency, &finer[i].off);
   return status;
 }
 
-/* error[n] of the first run lanes[n], whose starts x[n] and v[n] still hold. */
-static pendres_status estimate(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                               const double *x, const double *v, long periods,
-                               const pendres_strobe_lane *lanes, double *error)
+/*
+ * With a smaller tolerance, twice: steps follow their tolerance loosely (stability, not the
+ * tolerance, limits those of stiff pendulums), so that a tenth of it may change next to nothing.
+ */
+static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, stretch *s,
+                                              pendres_strobe_lane *lanes,
+                                              pendres_strobe_lane *finer, double *noise)
 {
-  pendres_strobe_lane *finer = malloc(n * sizeof *finer);
-  double *apart = malloc(n * sizeof *apart);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  if (finer == NULL || apart == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
-    goto done;
+  const double tolerance[] = {pendres_accuracy_second(ctx), pendres_accuracy_third(ctx)};
+  pendres_strobe_lane *start = malloc(n * sizeof *start);
+  if (start == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  memcpy(start, lanes, n * sizeof *start);
+  s->last = s->periods;
+  pendres_status status = pendres_strobe_run(ctx, n, lanes, keep, s);
+  if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
+  for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
+    memcpy(finer, start, n * sizeof *start);
+    status = pendres_strobe_run_within(ctx, tolerance[k], n, finer, compare, s);
   }
-  status = run_finer(ctx, n, p, x, v, periods, finer, error);
-  if (status != PENDRES_OK) goto done;
-  for (size_t i = 0; i < n; i++) apart[i] = distance(&lanes[i], &finer[i]);
-  status = ask_thirdly(ctx, n, p, x, v, periods, lanes, error, finer, apart);
+  for (size_t i = 0; i < n; i++) noise[i] = clock_noise(ctx, lanes[i].pendulum, s->periods);
+  free(start);
+  return status;
+}
+
+/* Run the lanes to the end, and tell error[n] of what they come to. */
+static pendres_status run_with_errors(pendres_context *ctx, size_t n, long periods,
+                                      pendres_strobe_lane *lanes, double *error)
+{
+  stretch s;
+  pendres_strobe_lane *finer = malloc(n * sizeof *finer);
+  pendres_status status = stretch_open(ctx, n, periods, &s);
+  if (status == PENDRES_OK && finer == NULL)
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
+  if (status == PENDRES_OK)
+    status = pendres_method_of(ctx)->fixed_steps
+               ? run_with_twice_the_steps(ctx, n, &s, lanes, finer, error)
+               : run_with_less_tolerance(ctx, n, &s, lanes, finer, error);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    error[i] = error_of(apart[i], error[i], &lanes[i]);
-done:
+    error[i] = error_of(s.apart[i], error[i], &lanes[i]);
+  stretch_close(&s);
   free(finer);
-  free(apart);
   return status;
 }
 
@@ -191,12 +254,13 @@ static pendres_status strobe_advance(pendres_context *ctx, size_t n,
   pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
   if (lanes == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  status = load(ctx, n, pendulums, x, v, periods, 1.0, lanes);
-  if (status == PENDRES_OK)
+  status = load(ctx, n, pendulums, x, v, periods, lanes);
+  if (status == PENDRES_OK && error != NULL) {
+    status = run_with_errors(ctx, n, periods, lanes, error);
+  } else if (status == PENDRES_OK) {
     status = pendres_strobe_run(ctx, n, lanes, after_all_periods, &periods);
-  if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
-  if (status == PENDRES_OK && error != NULL)
-    status = estimate(ctx, n, pendulums, x, v, periods, lanes, error);
+    if (status == PENDRES_OK) status = check_ends(ctx, n, lanes);
+  }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     pendres_strobe_lane_out(&lanes[i], &x[i], &v[i]);
   free(lanes);

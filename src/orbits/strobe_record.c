@@ -1,8 +1,8 @@
 /*
  * strobe_record.c -- a trajectory at equally spaced drive phases; see strobe.h.
  *
- * Errors: discretisation from a second run with more steps; rounding from the covariance of the
- * state's rounding errors, carried along by the variational equation of the second run.
+ * Errors: discretisation from a second run with twice the steps; rounding from the covariance of
+ * the state's rounding errors, carried along by the variational equation of the second run.
  */
 #include <pendres/strobe.h>
 
@@ -114,7 +114,7 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
   if (finer == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
   const piece second = { .of = first->of, .at = &next->finer, .periods = first->periods,
-                         .stretch = (14 * next->stretch + 9) / 10, .x = finer, .v = finer + n };
+                         .stretch = 2 * next->stretch, .x = finer, .v = finer + n };
   pendres_flow_error off = { next->noise[0], next->noise[1], next->noise[2] };
   const pendres_status status = run(ctx, &second, &off, x_error, v_error);
   next->noise[0] = off.yy;
