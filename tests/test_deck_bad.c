@@ -125,7 +125,7 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='switching' /\n" ONE "&sweep temperature=0 /",
     { "3:20 'temperature' must be positive" } },
   { "&scene kind='switching' /\n" ONE "&sweep temperature=1 /\n&switching to=2 /",
-    { "4:12 'from' and 'to' belong together" } },
+    { "4:12 'to' needs 'from'" } },
   { "&scene kind='switching' /\n" ONE "&sweep temperature=1 /\n&switching from=2, to=2 /",
     { "4:20 'from' and 'to' are the same attractor" } },
   { "&scene kind='free_oscillation' /\n&sweep amplitude=0, 3.1415926535897932, 3.2, 1 /",

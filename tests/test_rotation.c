@@ -167,6 +167,12 @@ static void no_rotations(void **state)
   assert_int_equal(pendres_rotation_find(&weak, &r, &why), PENDRES_NOT_FOUND);
   assert_non_null(strstr(why, "too small"));
   assert_int_equal(pendres_rotation_find(&over, &r, &why), PENDRES_NOT_FOUND);
+  /* Where all comes to rest on its way, which was integrated without end. */
+  for (int k = 0; k < 3; k++) {
+    const pendres_pendulum slow = {.damping = k == 0 ? 1.2 : k == 1 ? 5.0 : 100.0, .torque = 0.2,
+                                   .drive_frequency = 1.0};
+    assert_int_equal(pendres_rotation_find(&slow, &r, &why), PENDRES_NOT_FOUND);
+  }
   assert_int_equal(pendres_rotation_find(&still, &r, &why), PENDRES_NOT_FOUND);
   assert_int_equal(pendres_rotation_find(&driven, &r, &why), PENDRES_INVALID_ARGUMENT);
   assert_non_null(strstr(why, "under a drive"));

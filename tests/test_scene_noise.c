@@ -70,6 +70,49 @@ static void switching_goes_by_name_or_number(void **state)
   }
 }
 
+/*
+ * Other models: between the wells of a Duffing oscillator at rest and in a weak drive, and from a
+ * junction's state of no voltage to other wells, as the library counts them
+ * (test_switching_models); what there is not, is not in the file: wells of a polynomial, another
+ * state of the junction. A junction that may rotate is refused.
+ */
+static void switching_of_other_models(void **state)
+{
+  static const char *const decks[] = {
+    "&pendulum drive_amplitude = 0.02, damping = 0.5, drive_frequency = 1.0,\n"
+    "  force = 'polynomial', force_coefficients = -1, 0, 1 /\n"
+    "&sweep temperature = 0.0625 /\n&switching from = 1, to = 2 /\n",
+    "&pendulum drive_amplitude = 0, damping = 2, drive_frequency = 1.0, torque = 0.2 /\n"
+    "&sweep temperature = 0.4, 0.5 /\n&switching from = 1 /\n",
+    "&pendulum drive_amplitude = 0, damping = 0.3, drive_frequency = 1.0, torque = 0.5 /\n"
+    "&sweep temperature = 0.4 /\n&switching from = 1 /\n"};
+  static const char *const files[] = {"duffing", "junction", "rotating"};
+  char text[400];
+  (void)state;
+  for (int i = 0; i < 3; i++) {
+    snprintf(text, sizeof text, "&scene kind = 'switching' /\n%s&noise trajectories = 192, "
+             "periods = 200 /\n", decks[i]);
+    assert_int_equal(scene_run_marked(NULL, text, 1, files[i]), i == 2);
+    if (i == 2) assert_non_null(strstr(scene_told, "rotate"));
+  }
+  double forth, back, slips[2], failed[2];
+  get("duffing", "rate_1_2", &forth, 1);
+  get("duffing", "rate_2_1", &back, 1);
+  /* Undriven it is 0.00296; the drive's period is far from resonance, and its force a twentieth of
+     what tips the wells over. */
+  assert_true(forth > 0.002 && forth < 0.006 && back > 0.002 && back < 0.006);
+  get("junction", "failed", failed, 2);
+  assert_int_equal((int)failed[0], SCENE_FAILURE_NONE);
+  pendres_store *store = scene_open("duffing");
+  assert_false(pendres_store_has(store, "", "rate_well_1"));
+  pendres_store_free(store);
+  store = scene_open("junction");
+  assert_false(pendres_store_has(store, "", "exposure_la"));
+  pendres_store_free(store);
+  get("junction", "rate_well_1", slips, 2);
+  assert_true(slips[0] > 0.0 && slips[1] > slips[0]);
+}
+
 static void switching_counts_both_ways(void **state)
 {
   static const char *const names[2] = { "sa_la", "la_sa" };
@@ -433,6 +476,7 @@ int main(void)
     cmocka_unit_test(too_hot_points_are_marked),
     cmocka_unit_test(switching_counts_both_ways),
     cmocka_unit_test(switching_goes_by_name_or_number),
+    cmocka_unit_test(switching_of_other_models),
     cmocka_unit_test(clouds_agree_with_linear_theory),
     cmocka_unit_test(coldest_clouds_are_those_of_theory),
     cmocka_unit_test(few_strobes_are_no_agreement),

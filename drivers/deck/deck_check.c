@@ -313,9 +313,8 @@ static void check_size(deck_builder *b)
   if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
     complain(b, given(b, "orbit", "periods"), "periods",
              "'periods' times 'samples' must not exceed 1e8");
-  if ((d->switching.from == 0) != (d->switching.to == 0))
-    complain(b, given(b, "switching", d->switching.from != 0 ? "from" : "to"),
-             d->switching.from != 0 ? "from" : "to", "'from' and 'to' belong together");
+  if (d->switching.from == 0 && d->switching.to != 0)
+    complain(b, given(b, "switching", "to"), "to", "'to' needs 'from'");
   else if (d->switching.from != 0 && d->switching.from == d->switching.to)
     complain(b, given(b, "switching", "to"), "to", "'from' and 'to' are the same attractor");
   if (d->basins.boundary && (d->axis[DECK_AXIS_X].count == 1 || d->axis[DECK_AXIS_V].count == 1))

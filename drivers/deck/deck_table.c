@@ -36,7 +36,7 @@
 
 #define ALL ((1u << DECK_KIND_COUNT) - 1u)
 #define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
-#define MODELS (ORBIT | BASINS | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
+#define MODELS (POINT | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
 #define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
@@ -324,7 +324,8 @@ const deck_key deck_table[] = {
 
   { INTEGER("switching", "from", switching.from), IN(SWITCHING),
     RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
-    SAYS(NULL, "number of one state, in the order of amplitude from 1 on; 0: SA and LA") },
+    SAYS(NULL, "number of one state, in the order of amplitude from 1 on; 0: SA and LA. Without "
+         "'to': only how often it is left for another well") },
   { INTEGER("switching", "to", switching.to), IN(SWITCHING),
     RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
     SAYS(NULL, "number of the other state; with 'from'") },

@@ -25,11 +25,24 @@ typedef struct work {
   pendres_switching_tally *sums;    /* [temperature] */
   pendres_switching_rates *rates;   /* [temperature] */
   pendres_switching_activation activation[WAYS];
+  pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
+  int ways, told;                   /* how many, and how many the table tells */
   scene_failures choices;           /* [state] of the steps */
   scene_failures failed;            /* [temperature] */
   char name[STATES][24], state[STATES][40]; /* of the states: "sa", "the small-amplitude state" */
   char suffix[WAYS][56], words[WAYS][120];  /* of the ways */
 } work;
+
+/* Between both states, and from either to another well; of one state alone the latter. */
+static void choose_ways(work *w)
+{
+  const int alone = w->d->switching.from > 0 && w->d->switching.to == 0;
+  const int wells = pendres_model_of(scene_pendulum(w->d).force)->period > 0.0;
+  for (int k = alone ? PENDRES_SWITCHING_FIRST_WELL : 0; k < (wells ? WAYS : STATES); k++)
+    if (!alone || k == PENDRES_SWITCHING_FIRST_WELL)
+      w->way[w->ways++] = (pendres_switching_way)k;
+  w->told = alone ? w->ways : STATES;
+}
 
 /* What the ways of switching are called: by the names of the states, or by their numbers. */
 static void name_ways(work *w)
@@ -37,8 +50,9 @@ static void name_ways(work *w)
   static const char *const sizes[STATES] = { "small", "large" };
   static const struct { int from, to; } between[] = { { SA, LA }, { LA, SA } };
   const long number[STATES] = { (long)w->d->switching.from, (long)w->d->switching.to };
+  choose_ways(w);
   for (int s = 0; s < STATES; s++) {
-    if (number[s] > 0) {
+    if (number[SA] > 0) {
       snprintf(w->name[s], sizeof w->name[s], "%ld", number[s]);
       snprintf(w->state[s], sizeof w->state[s], "attractor %ld", number[s]);
     } else {
@@ -134,9 +148,7 @@ static pendres_status find_states(scene_run *run, work *w)
 {
   const deck *d = w->d;
   const long wanted[STATES] = { (long)d->switching.from, (long)d->switching.to };
-  const pendres_pendulum p = { .damping = d->pendulum.damping,
-                               .drive_amplitude = d->pendulum.drive_amplitude,
-                               .drive_frequency = d->pendulum.drive_frequency };
+  const pendres_pendulum p = scene_pendulum(d);
   pendres_context *ctx = farm_context(run->farm);
   if (ctx == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
   const pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &w->set);
@@ -147,6 +159,9 @@ static pendres_status find_states(scene_run *run, work *w)
                                           .trajectories = (size_t)d->noise.trajectories,
                                           .periods = (long)d->noise.periods };
   pendres_switching_states(w->set, w->survey.state);
+  if (w->ways == 0)
+    return scene_fail(run, PENDRES_INVALID_ARGUMENT,
+                      "this force has no wells that are alike: 'from' needs 'to' in &switching");
   for (int s = 0; s < STATES && wanted[SA] > 0; s++) {
     if (wanted[s] > count)
       return scene_fail(run, PENDRES_NOT_FOUND,
@@ -181,7 +196,8 @@ static pendres_status conclude(work *w, size_t i)
       scene_failures_mark(&w->failed, i, (scene_failure)w->choices.reason[s],
                           w->choices.words[s]);
   const int broken = w->failed.reason[i] != SCENE_FAILURE_NONE;
-  if (!broken && (state[SA] < 0 || state[LA] < 0))
+  const int both = w->way[0] == PENDRES_SWITCHING_FORTH;
+  if (!broken && both && (state[SA] < 0 || state[LA] < 0))
     scene_failures_mark(&w->failed, i, SCENE_FAILURE_NOT_FOUND,
                         state[SA] < 0 ? "there is no small-amplitude state"
                                       : "there is no large-amplitude state");
@@ -289,7 +305,8 @@ static pendres_status write_circumstances(scene_run *run, const work *w)
   const whole of = {level, w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA]};
   const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
   pendres_status status = scene_columns_write(run, &scalars, 1, &confidence);
-  for (int s = 0; s < STATES && status == PENDRES_OK; s++) {
+  const int states = w->way[0] == PENDRES_SWITCHING_FORTH ? STATES : 1;
+  for (int s = 0; s < states && status == PENDRES_OK; s++) {
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
@@ -302,13 +319,15 @@ static pendres_status write_results(scene_run *run, const work *w)
 {
   const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
   pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) {
+  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+    const pendres_switching_way k = w->way[i];
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->suffix[k], .words = w->words[k],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].way[k]};
     status = scene_columns_write(run, &table, sizeof of_rates / sizeof *of_rates, of_rates);
   }
-  for (int k = 0; k < WAYS && status == PENDRES_OK; k++) {
+  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+    const pendres_switching_way k = w->way[i];
     const scene_table table = {.star = w->suffix[k], .words = w->words[k], .n = 1,
                                .stride = sizeof *w->activation, .rows = &w->activation[k]};
     status = scene_columns_write(run, &table, sizeof of_fits / sizeof *of_fits, of_fits);
@@ -327,15 +346,17 @@ typedef struct line {
   char mean_time[32], mean_time_error[32]; /* or, where nothing was seen, how long it is at least */
 } line;
 
-static line line_of(const work *w, int k, size_t i)
+static line line_of(const work *w, pendres_switching_way k, size_t i)
 {
   const pendres_switching_rate *r = &w->rates[i].way[k];
   line out = {.rate = *r, .temperature = w->rates[i].temperature, .mean_time = "-",
               .mean_time_error = "-"};
-  if (w->d->switching.from > 0)
+  if (k == PENDRES_SWITCHING_FIRST_WELL)
+    snprintf(out.way, sizeof out.way, "%s to a well", w->name[SA]);
+  else if (w->d->switching.from > 0)
     snprintf(out.way, sizeof out.way, "%s to %s", w->name[k], w->name[1 - k]);
   else
-    snprintf(out.way, sizeof out.way, "%s", k == SA ? "SA to LA" : "LA to SA");
+    snprintf(out.way, sizeof out.way, "%s", k == PENDRES_SWITCHING_FORTH ? "SA to LA" : "LA to SA");
   if (r->events > 0.0) {
     snprintf(out.mean_time, sizeof out.mean_time, "%.4g", r->mean_time);
     snprintf(out.mean_time_error, sizeof out.mean_time_error, "%.2g", r->mean_time_error);
@@ -359,15 +380,16 @@ static pendres_status print_table(scene_run *run, const work *w)
      .value = offsetof(line, mean_time_error)},
     SCENE_CELL(line, rate.events, "events", "%.0f"),
   };
-  const size_t n = STATES * w->temperatures;
+  const size_t n = (size_t)w->told * w->temperatures;
   line *rows = malloc((n + 1) * sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a table");
   for (size_t i = 0; i < n; i++)
-    rows[i] = line_of(w, (int)(i / w->temperatures), i % w->temperatures);
+    rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
   scene_columns_print(run->table, &table, n, sizeof cells / sizeof *cells, cells, NULL);
   free(rows);
-  for (int k = 0; k < WAYS; k++) {
+  for (int i = 0; i < w->ways; i++) {
+    const pendres_switching_way k = w->way[i];
     const pendres_switching_activation *f = &w->activation[k];
     fprintf(run->table, "activation energy %s: ", w->words[k]);
     if (!isnan(f->energy)) fprintf(run->table, "%.5f +- %.5f", f->energy, f->energy_error);

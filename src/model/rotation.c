@@ -227,12 +227,19 @@ static int sound_damping(double damping)
   return damping >= least_damping && damping <= most_damping;
 }
 
+/* Whether nothing rotates at a torque of 1, and then at no smaller one. There manifolds come to
+   rest on their way, and no gap can be told. */
+static int none_at_one(double damping, finesse how)
+{
+  const motion at_one = at_torque(damping, 1.0, how);
+  return damping > 1.0 && !(gap(&at_one) > 0.0);
+}
+
 pendres_status pendres_rotation_least_torque(double damping, pendres_rotation_onset *out)
 {
   if (!sound_damping(damping) || out == NULL) return PENDRES_INVALID_ARGUMENT;
-  const motion at_one = {.damping = damping, .torque = 1.0, .angle = half_pi, .how = fine};
   *out = (pendres_rotation_onset){.torque = 1.0, .end = PENDRES_ROTATION_SADDLE_NODE};
-  if (damping > 1.0 && !(gap(&at_one) > 0.0)) return PENDRES_OK;
+  if (none_at_one(damping, fine)) return PENDRES_OK;
   double rounding, other;
   const double angle = least_angle(damping, fine, &rounding);
   const double check = least_angle(damping, coarser, &other);
@@ -281,7 +288,7 @@ static double rotation_at(const motion *m, double *period)
   double low = (m->torque - 1.0) / m->damping;
   const double high = (m->torque + 1.0) / m->damping;
   if (m->torque <= 1.0) {
-    if (!(gap(m) > 0.0)) return NAN;
+    if (none_at_one(m->damping, m->how) || !(gap(m) > 0.0)) return NAN;
     low = unstable_at(m, from);
   }
   /* Friction balances the greatest force at `high`, and the least one at `low`. */

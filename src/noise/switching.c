@@ -1,4 +1,5 @@
 /* switching.c -- transitions between attractors and wells, and their rates; see switching.h. */
+#include <pendres/rotation.h>
 #include <pendres/switching.h>
 
 #include <limits.h>
@@ -143,6 +144,21 @@ static void sum_up(const counting *c, size_t trajectories, pendres_switching_tal
     }
 }
 
+/*
+ * Whether pendulums may rotate, as they would without the drive, on nothing that is in the set: a
+ * rotation that does not lock to the drive has no strobe point.
+ */
+static int rotates_elsewhere(const pendres_switching_request *q)
+{
+  pendres_pendulum p = q->pendulum;
+  pendres_rotation rotation;
+  if (p.force != PENDRES_FORCE_PENDULUM || p.torque == 0.0) return 0;
+  for (size_t i = 0; i < pendres_attractors_count(q->set); i++)
+    if (pendres_attractors_get(q->set, i)->orbit.winding != 0) return 0;
+  p.drive_amplitude = p.parametric_amplitude = p.temperature = 0.0;
+  return pendres_rotation_find(&p, &rotation, NULL) == PENDRES_OK;
+}
+
 /* What is wrong with a request; NULL if nothing is. */
 static const char *refuse(const pendres_switching_request *q)
 {
@@ -155,6 +171,9 @@ static const char *refuse(const pendres_switching_request *q)
     return "a chaotic attractor has no point to start from";
   if (!pendres_model_same(&a->orbit.pendulum, &q->pendulum))
     return "these are attractors of another pendulum";
+  if (rotates_elsewhere(q))
+    return "under this torque a pendulum may also rotate, which is none of the attractors: what "
+           "leaves them for good would count as staying";
   return pendres_noise_refuses(&q->pendulum);
 }
 

@@ -1,0 +1,248 @@
+/*
+ * test_switching_models.c -- transitions by noise of others than the plain pendulum: against the
+ * eigenvalue of the Klein-Kramers equation, detailed balance, and the drift of a tilted pendulum.
+ */
+#include "langevin_fixture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_linalg.h>
+
+#include <pendres/rotation.h>
+#include <pendres/switching.h>
+
+#define COUNT(a) (sizeof(a) / sizeof *(a))
+
+static pendres_attractors *attractors(pendres_pendulum p)
+{
+  pendres_context *ctx = NULL;
+  pendres_attractors *set = NULL;
+  p.temperature = 0.0;
+  check_ok(pendres_context_create(NULL, &ctx));
+  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+  pendres_context_free(ctx);
+  return set;
+}
+
+/* Transitions from one attractor to another, or to PENDRES_SWITCHING_WELL; all start on `from`. */
+static pendres_switching_rate rate(const pendres_pendulum *p, const pendres_attractors *set,
+                                   size_t from, size_t to)
+{
+  const pendres_switching_request q = {.pendulum = *p, .set = set, .from = from,
+                                       .trajectories = 192, .periods = 600, .first_id = 1000};
+  pendres_context *ctx = make(11, 40, 192);
+  pendres_switching_tally tally;
+  pendres_switching_rate r;
+  check_ok(pendres_switching_count(ctx, &q, &tally));
+  check_ok(pendres_switching_rate_of(&tally, from, to, 0.95, &r));
+  pendres_context_free(ctx);
+  return r;
+}
+
+/* ---- the eigenvalue ---- */
+
+enum { X_MODES = 48, V_MODES = 16, SIZE = X_MODES * V_MODES / 2 };
+
+/* Matrices of x, d/dx and the force in the functions of a harmonic oscillator of this width. */
+static void operators(double width, const double *a, double x[X_MODES][X_MODES],
+                      double by[X_MODES][X_MODES], double force[X_MODES][X_MODES])
+{
+  static double power[X_MODES][X_MODES], next[X_MODES][X_MODES];
+  memset(x, 0, sizeof(double[X_MODES][X_MODES]));
+  memset(by, 0, sizeof(double[X_MODES][X_MODES]));
+  for (int m = 0; m + 1 < X_MODES; m++) {
+    const double root = sqrt(0.5 * (m + 1));
+    x[m][m + 1] = x[m + 1][m] = width * root;
+    by[m][m + 1] = root / width;
+    by[m + 1][m] = -root / width;
+  }
+  memcpy(power, x, sizeof power);
+  memset(force, 0, sizeof(double[X_MODES][X_MODES]));
+  for (int k = 1; k <= 3; k++) {
+    for (int i = 0; i < X_MODES; i++)
+      for (int j = 0; j < X_MODES; j++) {
+        force[i][j] += a[k - 1] * power[i][j];
+        next[i][j] = 0.0;
+        for (int l = 0; l < X_MODES; l++) next[i][j] += power[i][l] * x[l][j];
+      }
+    memcpy(power, next, sizeof power);
+  }
+}
+
+/*
+ * The slowest rate at which a distribution in an odd force, f = a1 x + a3 x^3, becomes even: of the
+ * Klein-Kramers equation in Hermite functions of v, as Brinkman's hierarchy (H. Risken, The
+ * Fokker-Planck Equation, 10.1),
+ *
+ *     dc_n/dt = -sqrt(n) D c_n-1 - n gamma c_n - sqrt(n+1) D' c_n+1,
+ *     D, D' = sqrt(T) d/dx +- f / (2 sqrt(T)),
+ *
+ * and in functions of x of the other parity than n's. By inverse iteration: the next rate is that
+ * of motion within a well, a hundred times larger.
+ */
+static double slowest(const pendres_pendulum *p)
+{
+  static double x[X_MODES][X_MODES], by[X_MODES][X_MODES], force[X_MODES][X_MODES];
+  const double root = sqrt(p->temperature);
+  operators(0.4, p->force_coefficients, x, by, force);
+  gsl_matrix *m = gsl_matrix_calloc(SIZE, SIZE);
+  gsl_vector *c = gsl_vector_alloc(SIZE), *next = gsl_vector_alloc(SIZE);
+  gsl_permutation *order = gsl_permutation_alloc(SIZE);
+  assert_true(m != NULL && c != NULL && next != NULL && order != NULL);
+  for (int n = 0; n < V_MODES; n++)
+    for (int i = (n + 1) % 2; i < X_MODES; i += 2) {
+      const size_t row = (size_t)(n * X_MODES + i) / 2;
+      gsl_matrix_set(m, row, row, -n * p->damping);
+      for (int k = n - 1; k <= n + 1; k += 2)
+        for (int j = (k + 1) % 2; j < X_MODES && k >= 0 && k < V_MODES; j += 2) {
+          const double f = force[i][j] / (2.0 * root), d = root * by[i][j];
+          const double element = k < n ? -sqrt(n) * (d + f) : -sqrt(n + 1.0) * (d - f);
+          gsl_matrix_set(m, row, (size_t)(k * X_MODES + j) / 2, element);
+        }
+    }
+  int sign;
+  assert_int_equal(gsl_linalg_LU_decomp(m, order, &sign), 0);
+  gsl_vector_set_all(c, 1.0);
+  double value = NAN;
+  for (int round = 0; round < 12; round++) {
+    assert_int_equal(gsl_linalg_LU_solve(m, order, c, next), 0);
+    double cc = 0.0, cn = 0.0, nn = 0.0;
+    for (size_t i = 0; i < SIZE; i++) {
+      const double a = gsl_vector_get(c, i), b = gsl_vector_get(next, i);
+      cc += a * a, cn += a * b, nn += b * b;
+    }
+    value = -cc / cn;
+    for (size_t i = 0; i < SIZE; i++)
+      gsl_vector_set(c, i, gsl_vector_get(next, i) / sqrt(nn));
+  }
+  gsl_matrix_free(m);
+  gsl_vector_free(c);
+  gsl_vector_free(next);
+  gsl_permutation_free(order);
+  return value;
+}
+
+/*
+ * Holmes' double well at rest: the rate at which the wells' shares become alike is that of leaving
+ * either, twice. A transition that takes a time s to calm down, some 4/gamma, is counted late: a
+ * share of s times the rate. Barriers of four temperatures leave exp(-4) = 2 % of doubt about what a
+ * well is.
+ */
+static void a_double_well_is_left_at_the_exact_rate(void **state)
+{
+  static const double dampings[] = {0.5, 1.0, 2.0};
+  (void)state;
+  for (size_t i = 0; i < COUNT(dampings); i++) {
+    const pendres_pendulum p = {.damping = dampings[i], .drive_frequency = 1.0,
+                                .temperature = 0.0625, .force = PENDRES_FORCE_POLYNOMIAL,
+                                .force_coefficients = {-1.0, 0.0, 1.0}};
+    pendres_attractors *set = attractors(p);
+    assert_int_equal(pendres_attractors_count(set), 2);
+    const double exact = 0.5 * slowest(&p);
+    for (size_t from = 0; from < 2; from++) {
+      const pendres_switching_rate r = rate(&p, set, from, 1 - from);
+      assert_true(r.events > 150.0);
+      check_near(r.value, exact, sigmas * r.error + (0.02 + 4.0 / p.damping * exact) * exact);
+    }
+    pendres_attractors_free(set);
+  }
+}
+
+/*
+ * Under a torque one well is deeper. In equilibrium as many go to and fro: the rates are as the
+ * Boltzmann weights on the barrier's two sides, whatever the friction; by the trapezoidal rule.
+ */
+static void detailed_balance(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.4, .drive_frequency = 1.0, .temperature = 0.08,
+                              .torque = 0.05, .force = PENDRES_FORCE_POLYNOMIAL,
+                              .force_coefficients = {-1.0, 0.0, 1.0}};
+  const double h = 1e-3, top = -0.0501256; /* x - x^3 + 0.05 = 0 */
+  double weight[2] = {0.0, 0.0};
+  (void)state;
+  check_near(top - top * top * top + 0.05, 0.0, 1e-6);
+  for (double x = -4.0; x < 4.0; x += h)
+    weight[x > top] += h * exp(-pendres_pendulum_potential(&p, x) / p.temperature);
+  pendres_attractors *set = attractors(p);
+  assert_int_equal(pendres_attractors_count(set), 2);
+  const size_t left = pendres_attractors_get(set, 0)->orbit.x < 0.0 ? 0 : 1;
+  const pendres_switching_rate to_right = rate(&p, set, left, 1 - left);
+  const pendres_switching_rate to_left = rate(&p, set, 1 - left, left);
+  const double ratio = to_right.value / to_left.value;
+  check_near(ratio, weight[1] / weight[0],
+             ratio * (sigmas * hypot(to_right.error / to_right.value,
+                                     to_left.error / to_left.value) + 0.02));
+  pendres_attractors_free(set);
+}
+
+/*
+ * A Josephson junction with much friction slips to other wells at rates r and r exp(-2 pi I/T)
+ * along the torque and against it, together its mean velocity times coth(pi I/T) / (2 pi). That is
+ * known without inertia (V. Ambegaokar and B. I. Halperin, Phys. Rev. Lett. 22 (1969) 1364):
+ *
+ *     2 pi T / gamma (1 - exp(-2 pi I/T)) / (integral over y, z in [0, 2 pi] of
+ *                                            exp((V(y) - V(y - z))/T))
+ *
+ * with V = -cos y - I y; inertia multiplies it as in Kramers' formula, with the barrier's
+ * curvature (1 - I^2)^1/4. Between that correction and none lie 4 %.
+ */
+static void a_junction_slips(void **state)
+{
+  enum { N = 400 };
+  const pendres_pendulum p = {.damping = 5.0, .drive_frequency = 1.0, .temperature = 0.4,
+                              .torque = 0.2};
+  const double t = p.temperature, tilt = p.torque, g = p.damping, step = 2.0 * PI / N;
+  double sum = 0.0;
+  (void)state;
+  for (int i = 0; i < N; i++)
+    for (int k = 0; k <= N; k++) {
+      const double y = i * step, z = k * step;
+      sum += (k == 0 || k == N ? 0.5 : 1.0) * step * step *
+             exp((-cos(y) + cos(y - z) - tilt * z) / t);
+    }
+  const double drift = 2.0 * PI * t / g * (1.0 - exp(-2.0 * PI * tilt / t)) / sum;
+  const double slips = drift / (2.0 * PI * tanh(PI * tilt / t));
+  const double curve = sqrt(1.0 - tilt * tilt);
+  const double inertia = g * (sqrt(0.25 * g * g + curve) - 0.5 * g) / curve;
+  pendres_attractors *set = attractors(p);
+  assert_int_equal(pendres_attractors_count(set), 1);
+  const pendres_switching_rate r = rate(&p, set, 0, PENDRES_SWITCHING_WELL);
+  assert_true(r.events > 100.0);
+  check_near(r.value, inertia * slips, sigmas * r.error + 0.04 * slips);
+  pendres_attractors_free(set);
+}
+
+/*
+ * Where a junction may also rotate, and no attractor is that, what leaves would count as staying:
+ * that is refused, on both sides of the least torque for that.
+ */
+static void rotations_are_refused(void **state)
+{
+  pendres_rotation_onset onset;
+  pendres_switching_tally tally;
+  (void)state;
+  check_ok(pendres_rotation_least_torque(0.3, &onset));
+  for (int above = 0; above < 2; above++) {
+    const pendres_pendulum p = {.damping = 0.3, .drive_frequency = 1.0, .temperature = 0.2,
+                                .torque = (above ? 1.001 : 0.999) * onset.torque};
+    pendres_attractors *set = attractors(p);
+    const pendres_switching_request q = {.pendulum = p, .set = set, .trajectories = 1,
+                                         .periods = 1};
+    pendres_context *ctx = make(11, 40, 192);
+    assert_int_equal(pendres_switching_count(ctx, &q, &tally),
+                     above ? PENDRES_INVALID_ARGUMENT : PENDRES_OK);
+    if (above) assert_non_null(strstr(pendres_context_message(ctx), "rotate"));
+    pendres_context_free(ctx);
+    pendres_attractors_free(set);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_double_well_is_left_at_the_exact_rate), cmocka_unit_test(detailed_balance),
+    cmocka_unit_test(a_junction_slips), cmocka_unit_test(rotations_are_refused),
+  };
+  return cmocka_run_group_tests_name("switching_models", tests, NULL, NULL);
+}
