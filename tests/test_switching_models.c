@@ -126,8 +126,8 @@ static double slowest(const pendres_pendulum *p)
 /*
  * Holmes' double well at rest: the rate at which the wells' shares become alike is that of leaving
  * either, twice. A transition that takes a time s to calm down, some 4/gamma, is counted late: a
- * share of s times the rate. Barriers of four temperatures leave exp(-4) = 2 % of doubt about what a
- * well is.
+ * share of s times the rate. Barriers of four temperatures leave exp(-4) = 2 % of doubt about what
+ * a well is.
  */
 static void a_double_well_is_left_at_the_exact_rate(void **state)
 {
