@@ -108,13 +108,15 @@ static double points_output(const deck *d, const farm_trial *t)
   }
 }
 
-double estimate_output(const deck *d, const farm_trial *t)
+/* Bytes of the output. t: what a trial has shown; NULL: none. */
+static double estimate_output(const deck *d, const farm_trial *t)
 {
   const double strobe = d->kind == DECK_BIFURCATION_DIAGRAM ? repeated_bytes : strobe_bytes;
   return rules[d->kind].head + points_output(d, t) + strobe * strobes_of(d);
 }
 
-double estimate_memory(const deck *d, const farm_trial *t, int threads)
+/* Bytes of memory on so many threads. */
+static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
   double grid = rules[d->kind].memory * points_of(d);
   /* Rows are written as they come; records that wait for their turn have this much (crew.c). */

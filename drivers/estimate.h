@@ -16,10 +16,6 @@
 #include "farm/trial.h"
 #include "terminal/progress.h"
 
-/* Bytes of the output, and of memory on so many threads. t: what a trial has shown; NULL: none. */
-double estimate_output(const deck *d, const farm_trial *t);
-double estimate_memory(const deck *d, const farm_trial *t, int threads);
-
 /* What a trial has shown of a deck, in lines. `threads` of the run to come. */
 void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out);
 

@@ -21,9 +21,6 @@ void ranks_end(void);
 int ranks_own(void);   /* from 0 */
 int ranks_count(void); /* 1: no others */
 
-/* "Open MPI v4.1.4, ..." or NULL. */
-const char *ranks_library(void);
-
 /* All ranks call it, and get what rank 0 has in data[size]. */
 void ranks_broadcast(void *data, size_t size);
 

@@ -13,14 +13,12 @@
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "farm/ranks_started.h"
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static int own = 0, all = 1, started = 0;
-static char library[MPI_MAX_LIBRARY_VERSION_STRING];
 
 static void nap(void)
 {
@@ -30,7 +28,7 @@ static void nap(void)
 
 int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
 {
-  int level = MPI_THREAD_SINGLE, length = 0;
+  int level = MPI_THREAD_SINGLE;
   const long wanted = ranks_started();
   if (wanted == 1) return 1;
   if (MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &level) != MPI_SUCCESS) {
@@ -41,8 +39,6 @@ int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
   (void)MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
   (void)MPI_Comm_rank(MPI_COMM_WORLD, &own);
   (void)MPI_Comm_size(MPI_COMM_WORLD, &all);
-  (void)MPI_Get_library_version(library, &length);
-  library[strcspn(library, "\n")] = '\0';
   if (all > 1 && level >= MPI_THREAD_SERIALIZED) return 1;
   if (all > 1)
     snprintf(words, RANKS_WORDS, "this MPI has no support of threads (MPI_THREAD_SERIALIZED)");
@@ -66,11 +62,6 @@ int ranks_own(void)
 int ranks_count(void)
 {
   return all;
-}
-
-const char *ranks_library(void)
-{
-  return library[0] != '\0' ? library : NULL;
 }
 
 /* Wait for what was begun, with naps, so that others may call MPI meanwhile. */

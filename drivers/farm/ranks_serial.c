@@ -29,11 +29,6 @@ int ranks_count(void)
   return 1;
 }
 
-const char *ranks_library(void)
-{
-  return NULL;
-}
-
 void ranks_broadcast(void *data, size_t size)
 {
   (void)data, (void)size;

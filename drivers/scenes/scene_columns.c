@@ -36,10 +36,12 @@ const char *scene_label_names(int value)
   return value < PENDRES_LABEL_ESCAPE ? scene_fate_names(value) : NULL;
 }
 
-int scene_meanings(scene_names names, const char *meanings[SCENE_MOST_NAMES])
+/* The names as a list for flag_meanings; how many. */
+enum { MOST_NAMES = 16 };
+static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
 {
   int n = 0;
-  for (; n < SCENE_MOST_NAMES && names(n) != NULL; n++) meanings[n] = names(n);
+  for (; n < MOST_NAMES && names(n) != NULL; n++) meanings[n] = names(n);
   return n;
 }
 
@@ -108,7 +110,7 @@ static const void *gather(const scene_table *t, const scene_column *c, buffers *
 /* A column as the store is told of it, with room for its words. */
 typedef struct variable {
   char name[64], words[200];
-  const char *meanings[SCENE_MOST_NAMES];
+  const char *meanings[MOST_NAMES];
   pendres_store_spec spec;
 } variable;
 
@@ -137,7 +139,7 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
   if (c->pairs) v->spec.dimensions[k] = t->inner;
   const int plain = c->names == scene_motion_names && deck_is_plain(run->deck);
   if (c->names != NULL)
-    v->spec.flag_count = scene_meanings(plain ? scene_label_names : c->names, v->meanings);
+    v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
 }
 
 static pendres_status write_column(scene_run *run, const scene_table *t, const scene_column *c,

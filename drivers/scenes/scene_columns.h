@@ -87,10 +87,6 @@ const char *scene_jump_names(int value);
 const char *scene_cloud_names(int value);
 const char *scene_switching_names(int value);
 
-/* The names as a list for flag_meanings; how many. */
-enum { SCENE_MOST_NAMES = 16 };
-int scene_meanings(scene_names names, const char *meanings[SCENE_MOST_NAMES]);
-
 /* A cell of a printed line: what stands above it, its format, and where its field stands. */
 typedef struct scene_cell {
   const char *heading, *format; /* with the blanks between it and the next */

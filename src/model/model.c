@@ -262,18 +262,11 @@ int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
   return same;
 }
 
-const char *pendres_model_refuses_others(const pendres_pendulum *p)
-{
-  const char *why = NULL;
-  if (pendres_pendulum_check(p, &why) != PENDRES_OK) return why;
-  if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN) return NULL;
-  return "only the pendulum without torque and parametric drive is served here so far";
-}
-
 pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why)
 {
-  const char *reason = pendres_model_refuses_others(p);
-  if (reason == NULL) return PENDRES_OK;
-  if (why != NULL) *why = reason;
+  const pendres_status status = pendres_pendulum_check(p, why);
+  if (status != PENDRES_OK || pendres_model_kind(p) == PENDRES_MODEL_PLAIN) return status;
+  if (why != NULL)
+    *why = "only the pendulum without torque and parametric drive is served here so far";
   return PENDRES_INVALID_ARGUMENT;
 }

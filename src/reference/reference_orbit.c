@@ -116,7 +116,8 @@ static pendres_status newton_step(pendres_reference_target *target, long double 
   return PENDRES_NOT_CONVERGED;
 }
 
-pendres_status pendres_reference_orbit_close(pendres_reference_target *target)
+/* Newton on the defect: moves target->y, v. */
+static pendres_status close_orbit(pendres_reference_target *target)
 {
   enum { MOST = 100 };
   long double last = HUGE_VALL;
@@ -222,7 +223,7 @@ pendres_status pendres_reference_orbit_measure(const pendres_reference_target *t
 static pendres_status close_and_measure(pendres_reference_target *target,
                                         pendres_reference_cycle *out)
 {
-  const pendres_status status = pendres_reference_orbit_close(target);
+  const pendres_status status = close_orbit(target);
   return status == PENDRES_OK ? pendres_reference_orbit_measure(target, out) : status;
 }
 

@@ -22,9 +22,6 @@ pendres_status pendres_reference_orbit_defect(const pendres_reference_target *ta
                                               int columns, pendres_reference_run *run,
                                               long double defect[2]);
 
-/* Newton on the defect: moves target->y, v. */
-pendres_status pendres_reference_orbit_close(pendres_reference_target *target);
-
 /* Measures of the orbit at the target, which must be closed already. */
 pendres_status pendres_reference_orbit_measure(const pendres_reference_target *target,
                                                pendres_reference_cycle *out);

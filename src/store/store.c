@@ -65,7 +65,8 @@ const char *pendres_store_message(const pendres_store *store)
 
 /* ---- Into and out of HDF5 -------------------------------------------------------------------- */
 
-int pendres_store_quiet_begin(pendres_store_quiet *quiet)
+/* No messages of HDF5 from now on. Negative if there is no HDF5: it could not start. */
+static int quiet_begin(pendres_store_quiet *quiet)
 {
   /* Called again, an HDF5 that could not start would crash. */
   quiet->dead = H5open() < 0;
@@ -87,7 +88,7 @@ int pendres_store_quiet_begin(pendres_store_quiet *quiet)
   return 0;
 }
 
-void pendres_store_quiet_end(const pendres_store_quiet *quiet)
+static void quiet_end(const pendres_store_quiet *quiet)
 {
   if (quiet->dead) return;
   H5Eclear2(H5E_DEFAULT);
@@ -107,7 +108,7 @@ static pendres_status no_hdf5(pendres_store *store)
 
 pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *quiet, int writing)
 {
-  const int dead = pendres_store_quiet_begin(quiet) < 0;
+  const int dead = quiet_begin(quiet) < 0;
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
   if (store->failed) return store->failed; /* with the message of then */
@@ -133,7 +134,7 @@ pendres_status pendres_store_leave(pendres_store *store, const pendres_store_qui
     if (status == PENDRES_OUT_OF_MEMORY && !store->message[0])
       pendres_store_fail(store, status, "out of memory");
   }
-  pendres_store_quiet_end(quiet);
+  quiet_end(quiet);
   return status;
 }
 
@@ -203,7 +204,7 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
   store->writing = 1;
-  if (pendres_store_quiet_begin(&quiet) < 0) {
+  if (quiet_begin(&quiet) < 0) {
     status = no_hdf5(store);
     goto leave;
   }
@@ -232,7 +233,7 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
   if (!out) return PENDRES_INVALID_ARGUMENT;
   *out = store = store_new();
   if (!store) return PENDRES_OUT_OF_MEMORY;
-  if (pendres_store_quiet_begin(&quiet) < 0) {
+  if (quiet_begin(&quiet) < 0) {
     status = no_hdf5(store);
   } else if (!path || !*path) {
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no path of a file given");
@@ -309,7 +310,7 @@ pendres_status pendres_store_abandon(pendres_store *store, int keep_part)
   pendres_status status = PENDRES_OK;
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
-  (void)pendres_store_quiet_begin(&quiet);
+  (void)quiet_begin(&quiet);
   /* First, since an HDF5 that is short of memory may crash when it closes. */
   if (!keep_part) pendres_store_drop_part(store);
   if (store->h5 >= 0) status = close_h5(store);

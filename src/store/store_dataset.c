@@ -39,7 +39,8 @@ static hid_t string_type(void)
   return type;
 }
 
-hid_t pendres_store_file_type(pendres_store_type type)
+/* A type on disk, to be closed likewise. */
+static hid_t file_type(pendres_store_type type)
 {
   switch (type) {
   case PENDRES_STORE_DOUBLE: return H5T_IEEE_F64LE;
@@ -151,7 +152,7 @@ pendres_status pendres_store_make(pendres_store *store, const char *path,
                                   const pendres_store_node *node, int deflate, size_t chunk_rows)
 {
   pendres_store_node made = *node;
-  const hid_t type = pendres_store_file_type(node->type);
+  const hid_t type = file_type(node->type);
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
   const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
   const hid_t space = node->rank ? H5Screate_simple(node->rank, node->sizes, NULL)

@@ -69,10 +69,6 @@ pendres_status pendres_store_fail(pendres_store *store, pendres_status status,
 /* The same for a failure of HDF5, whose own innermost words are put behind: PENDRES_IO. */
 pendres_status pendres_store_fail_hdf5(pendres_store *store, const char *format, ...)
   __attribute__((format(printf, 2, 3)));
-/* The same without a store. */
-/* Negative if there is no HDF5: it could not start. */
-int pendres_store_quiet_begin(pendres_store_quiet *quiet);
-void pendres_store_quiet_end(const pendres_store_quiet *quiet);
 
 /* store_text.c: names and text. */
 
@@ -115,8 +111,7 @@ pendres_status pendres_store_set_text(pendres_store *store, hid_t object, const 
 
 /* store_dataset.c */
 
-/* Types on disk and in memory; close them with the third, since those of strings are made. */
-hid_t pendres_store_file_type(pendres_store_type type);
+/* A type in memory; close it with the second, since those of strings are made. */
 hid_t pendres_store_memory_type(pendres_store_type type);
 void pendres_store_type_close(pendres_store_type type, hid_t id);
 /* Sizes are set: work out a row, and check that the whole can be counted and addressed. */
