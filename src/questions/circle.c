@@ -1,0 +1,314 @@
+/* circle.c -- the invariant circle of a rotation; see circle.h. */
+#include "questions/circle.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_fft_real.h>
+
+#include "base/angles.h"
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "model/model.h"
+
+enum {
+  MOST = PENDRES_CIRCLE_MOST,
+  ROUNDS = 8,     /* of Newton's method */
+  SWEEPS = 400,   /* of the contraction that solves for a correction, at most */
+  LOOKS = 12,     /* of Newton's method for one angle that a period brings to a given one */
+  POINTS = 192,   /* of a pendulum's motion, for a guess */
+  ON_THE_WAY = 32 /* periods before them */
+};
+
+/* A guess further from invariant than this is no guess. */
+static const double hopeless = 0.5;
+/* A circle is left alone where a period turns its points back, or nearly so. */
+static const double least_slope = 0.02;
+/* Corrections are solved for to this, relative to the residual: what is left of it is as small as
+   what Newton's method leaves. */
+static const double solved = 1e-5;
+/* A pendulum's own points leave no wider gaps. */
+static const double widest_gap = 0.4;
+
+/* ---- trigonometric polynomials ------------------------------------------------------------- */
+
+void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonometric *out)
+{
+  double z[MOST];
+  memcpy(z, value, n * sizeof *z);
+  (void)gsl_fft_real_radix2_transform(z, 1, n); /* fails only where n is no power of two */
+  out->n = n;
+  out->c[0] = z[0] / (double)n;
+  for (size_t k = 1; k < n / 2; k++) {
+    out->c[2 * k - 1] = 2.0 * z[k] / (double)n;
+    out->c[2 * k] = -2.0 * z[n - k] / (double)n;
+  }
+  out->c[n - 1] = 0.0;
+}
+
+double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double *slope)
+{
+  const double c1 = cos(y), s1 = sin(y);
+  double c = c1, s = s1, value = t->c[0], derivative = 0.0;
+  for (size_t k = 1; k < t->n / 2; k++) {
+    const double a = t->c[2 * k - 1], b = t->c[2 * k], next = c * c1 - s * s1;
+    value += a * c + b * s;
+    derivative += (double)k * (b * c - a * s);
+    s = s * c1 + c * s1;
+    c = next;
+  }
+  if (slope != NULL) *slope = derivative;
+  return value;
+}
+
+double pendres_trigonometric_size(const pendres_trigonometric *t)
+{
+  double sum = fabs(t->c[0]);
+  for (size_t k = 1; k < t->n / 2; k++) sum += hypot(t->c[2 * k - 1], t->c[2 * k]);
+  return sum;
+}
+
+double pendres_trigonometric_tail(const pendres_trigonometric *t)
+{
+  double largest = 0.0;
+  for (size_t i = 3 * t->n / 4; i < t->n; i++) largest = fmax(largest, fabs(t->c[i]));
+  return largest;
+}
+
+/* ---- Newton's method ----------------------------------------------------------------------- */
+
+/* The points of a circle and what becomes of them. */
+typedef struct shape {
+  pendres_context *ctx;
+  const pendres_pendulum *pendulum;
+  int steps;
+  size_t n;
+  double w[MOST];      /* C at the grid */
+  double move[MOST];   /* D there */
+  double off[MOST];    /* E there */
+  double source[MOST]; /* angles that a period brings to those of the grid */
+  pendres_trigonometric curve, moved;
+  double worst; /* largest E */
+} shape;
+
+static double grid(size_t n, size_t i)
+{
+  return two_pi * (double)i / (double)n;
+}
+
+/* All points for a period. */
+static pendres_status run(shape *r)
+{
+  pendres_block block;
+  pendres_status status = pendres_block_open(r->ctx, PENDRES_FLOW_STATE, r->steps, &block);
+  if (status != PENDRES_OK) return status;
+  const size_t most = pendres_block_capacity(&block);
+  for (size_t first = 0, some; first < r->n && status == PENDRES_OK; first += some) {
+    some = r->n - first < most ? r->n - first : most;
+    pendres_block_resize(&block, some);
+    for (size_t i = 0; i < some; i++)
+      pendres_block_load(&block, i, r->pendulum, grid(r->n, first + i), r->w[first + i]);
+    status = pendres_block_period(&block);
+    const pendres_rows rows = pendres_block_rows(&block);
+    for (size_t i = 0; i < some && status == PENDRES_OK; i++) {
+      r->move[first + i] = pendres_rows_get(&rows, PENDRES_ROW_Y, i) - grid(r->n, first + i);
+      r->off[first + i] = pendres_rows_get(&rows, PENDRES_ROW_W, i);
+    }
+  }
+  return status;
+}
+
+/* What is known after a period: curves through the points, and how far they are from invariant. */
+static void look(shape *r)
+{
+  pendres_trigonometric_fit(r->n, r->w, &r->curve);
+  pendres_trigonometric_fit(r->n, r->move, &r->moved);
+  r->worst = 0.0;
+  for (size_t i = 0; i < r->n; i++) {
+    r->off[i] -= pendres_trigonometric_at(&r->curve, grid(r->n, i) + r->move[i], NULL);
+    r->worst = fmax(r->worst, isfinite(r->off[i]) ? fabs(r->off[i]) : INFINITY);
+  }
+}
+
+/* The angles that a period brings to those of the grid; 0 where a period is not one to one. */
+static int invert(shape *r)
+{
+  double y = -r->moved.c[0], slope = 0.0;
+  for (size_t i = 0; i < r->n; i++) {
+    const double wanted = grid(r->n, i);
+    double step = INFINITY;
+    for (int k = 0; k < LOOKS && fabs(step) > 1e-12; k++) {
+      step = wanted - y - pendres_trigonometric_at(&r->moved, y, &slope);
+      if (!(1.0 + slope > least_slope)) return 0;
+      step = fmax(-0.5, fmin(0.5, step / (1.0 + slope)));
+      y += step;
+    }
+    if (!(fabs(step) < 1e-9)) return 0;
+    r->source[i] = y;
+    y += two_pi / (double)r->n / (1.0 + slope);
+  }
+  return 1;
+}
+
+/* basis[i][k]: what coefficient k counts at the angle that comes to i. */
+static void tabulate(const shape *r, double *basis)
+{
+  for (size_t i = 0; i < r->n; i++) {
+    double *b = basis + i * r->n;
+    const double c1 = cos(r->source[i]), s1 = sin(r->source[i]);
+    double c = c1, s = s1;
+    b[0] = 1.0;
+    for (size_t k = 1; k < r->n / 2; k++) {
+      const double next = c * c1 - s * s1;
+      b[2 * k - 1] = c;
+      b[2 * k] = s;
+      s = s * c1 + c * s1;
+      c = next;
+    }
+    b[r->n - 1] = 0.0;
+  }
+}
+
+static double product(size_t n, const double *a, const double *b)
+{
+  double sum[4] = {0.0};
+  for (size_t i = 0; i < n; i += 4)
+    for (size_t k = 0; k < 4; k++) sum[k] += a[i + k] * b[i + k];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/* The correction: c(grid i) = l c(source i) + E(source i), over and over. */
+static int correct(shape *r, double *basis)
+{
+  const pendres_pendulum *p = r->pendulum;
+  const double shrinks = exp(-two_pi * p->damping / p->drive_frequency);
+  double factor[MOST], given[MOST], c[MOST], change = INFINITY;
+  pendres_trigonometric t;
+  if (!invert(r)) return 0;
+  tabulate(r, basis);
+  pendres_trigonometric_fit(r->n, r->off, &t);
+  for (size_t i = 0; i < r->n; i++) {
+    double slope = 0.0;
+    (void)pendres_trigonometric_at(&r->moved, r->source[i], &slope);
+    factor[i] = shrinks / (1.0 + slope);
+    c[i] = given[i] = product(r->n, basis + i * r->n, t.c);
+  }
+  for (int sweep = 0; sweep < SWEEPS && change > solved * r->worst; sweep++) {
+    pendres_trigonometric_fit(r->n, c, &t);
+    change = 0.0;
+    for (size_t i = 0; i < r->n; i++) {
+      const double next = factor[i] * product(r->n, basis + i * r->n, t.c) + given[i];
+      change = fmax(change, isfinite(next) ? fabs(next - c[i]) : INFINITY);
+      c[i] = next;
+    }
+    if (!(change < 1e3 * (hopeless + r->worst))) return 0;
+  }
+  for (size_t i = 0; i < r->n; i++) r->w[i] += c[i];
+  return change <= solved * r->worst;
+}
+
+/* With as many points as r has. */
+static pendres_status converge(shape *r, double tolerance, double *basis, int *found)
+{
+  *found = 0;
+  for (int k = 0; k < ROUNDS; k++) {
+    const pendres_status status = run(r);
+    if (status != PENDRES_OK) return status;
+    look(r);
+    *found = r->worst < tolerance;
+    if (*found || !(r->worst < hopeless) || !correct(r, basis)) return PENDRES_OK;
+  }
+  return PENDRES_OK;
+}
+
+static double tail(const shape *r)
+{
+  return fmax(pendres_trigonometric_tail(&r->curve), pendres_trigonometric_tail(&r->moved));
+}
+
+pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_pendulum *p, int steps,
+                                     double tolerance, const pendres_trigonometric *guess,
+                                     pendres_circle *out, int *found)
+{
+  shape *r = malloc(sizeof *r);
+  double *basis = malloc(MOST * MOST * sizeof *basis);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  *found = 0;
+  if (r == NULL || basis == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for an invariant circle");
+    goto done;
+  }
+  *r = (shape){.ctx = ctx, .pendulum = p, .steps = steps, .curve = *guess};
+  for (r->n = guess->n; r->n <= MOST; r->n *= 2) {
+    for (size_t i = 0; i < r->n; i++)
+      r->w[i] = pendres_trigonometric_at(&r->curve, grid(r->n, i), NULL);
+    status = converge(r, tolerance, basis, found);
+    if (status != PENDRES_OK || (*found && tail(r) < tolerance)) break;
+    /* Too few points: they have to be next to a circle for more to find it. */
+    if (!*found && !(r->worst < hopeless)) break;
+    *found = 0;
+  }
+  if (*found)
+    *out = (pendres_circle){.w = r->curve, .move = r->moved, .error = r->worst + tail(r)};
+done:
+  free(r);
+  free(basis);
+  return status;
+}
+
+/* ---- a guess ------------------------------------------------------------------------------- */
+
+typedef struct place {
+  double y, w;
+} place;
+
+static int by_angle(const void *a, const void *b)
+{
+  const place *p = a, *q = b;
+  return (p->y > q->y) - (p->y < q->y);
+}
+
+/* Straight lines from point to point, around the cylinder. */
+static int connect(place at[POINTS], pendres_trigonometric *out)
+{
+  enum { N = PENDRES_CIRCLE_LEAST };
+  double w[N];
+  size_t next = 0;
+  qsort(at, POINTS, sizeof *at, by_angle);
+  for (size_t i = 0; i < N; i++) {
+    while (next < POINTS && at[next].y <= grid(N, i)) next++;
+    const place *right = &at[next % POINTS], *left = &at[(next + POINTS - 1) % POINTS];
+    const double from = left->y - (next == 0 ? two_pi : 0.0);
+    const double to = right->y + (next == POINTS ? two_pi : 0.0);
+    if (!(to - from < widest_gap)) return 0;
+    const double part = to > from ? (grid(N, i) - from) / (to - from) : 0.0;
+    w[i] = left->w + part * (right->w - left->w);
+  }
+  pendres_trigonometric_fit(N, w, out);
+  return 1;
+}
+
+pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_pendulum *p, int steps,
+                                    double x, double v, pendres_trigonometric *out, int *found)
+{
+  pendres_block block;
+  place at[POINTS], now = {0.0, 0.0};
+  const pendres_place start = pendres_passage_in(p, x, v);
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
+  *found = 0;
+  if (status != PENDRES_OK) return status;
+  pendres_block_resize(&block, 1);
+  pendres_block_load(&block, 0, p, start.y, start.w);
+  for (int k = -ON_THE_WAY; k < POINTS && status == PENDRES_OK; k++) {
+    status = pendres_block_period(&block);
+    const pendres_rows rows = pendres_block_rows(&block);
+    now.w = pendres_rows_get(&rows, PENDRES_ROW_W, 0);
+    now.y = pendres_rows_get(&rows, PENDRES_ROW_Y, 0);
+    now.y -= two_pi * floor(now.y / two_pi);
+    pendres_block_put_state(&block, 0, now.y, now.w);
+    if (k >= 0) at[k] = now;
+  }
+  if (status == PENDRES_OK) *found = connect(at, out);
+  return status;
+}

@@ -1,0 +1,256 @@
+/* circles.c -- the invariant circles that a sweep has met; see circles.h. */
+#include "questions/circles.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/angles.h"
+#include "continuation/continuation_parameter.h"
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+
+enum {
+  CLOSED_BELOW = 1, CLOSED_ABOVE = 2,
+  MOST_BANDS = 4096,
+  LOOKS = 60 /* for the end of a lock */
+};
+
+/* Bands, in the parameter's scale: the first, the widest, and one so narrow that it is not worth
+   making: there the circle is about to break up. */
+static const double first_width = 0.1, widest = 4.0, narrowest = 2e-3;
+/* The next band is a little narrower than what the last one's coefficients allow. */
+static const double careful = 0.8;
+/* Bands follow one another over gaps up to this, in the parameter's scale; and motions from which
+   no circle was found are not tried again so close by. */
+static const double near_by = 2.0, again = 0.05;
+
+pendres_status pendres_circles_create(pendres_context *ctx, const pendres_circle_family *family,
+                                      double low, double high, pendres_circles **out)
+{
+  pendres_circles *c = calloc(1, sizeof *c);
+  *out = c;
+  if (c != NULL) c->table = pendres_circle_table_create();
+  if (c == NULL || c->table == NULL) {
+    pendres_circles_free(c);
+    *out = NULL;
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for circles");
+  }
+  c->ctx = ctx;
+  c->family = *family;
+  c->width = first_width * pendres_parameter_scale(family->parameter);
+  c->low = low;
+  c->high = high;
+  c->failed = NAN;
+  return PENDRES_OK;
+}
+
+void pendres_circles_free(pendres_circles *c)
+{
+  if (c == NULL) return;
+  pendres_circle_table_free(c->table);
+  free(c->band);
+  free(c->closed);
+  free(c);
+}
+
+static pendres_status make_room(pendres_circles *c)
+{
+  if (c->count < c->room) return PENDRES_OK;
+  const size_t room = 2 * c->room + 8;
+  pendres_circle_band *band = realloc(c->band, room * sizeof *band);
+  if (band != NULL) c->band = band;
+  unsigned char *closed = realloc(c->closed, room);
+  if (closed != NULL) c->closed = closed;
+  if (band == NULL || closed == NULL)
+    return pendres_context_fail(c->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for circles");
+  c->room = room;
+  return PENDRES_OK;
+}
+
+/* A band from a value on, as wide as can be: *found is 0 if there is none worth having. */
+static pendres_status grow(pendres_circles *c, double from, int direction,
+                           const pendres_trigonometric *guess, int *found)
+{
+  const double scale = pendres_parameter_scale(c->family.parameter);
+  pendres_status status = make_room(c);
+  *found = 0;
+  if (c->count >= MOST_BANDS) return status;
+  while (status == PENDRES_OK && !*found && c->width >= narrowest * scale) {
+    pendres_circle_band *b = &c->band[c->count];
+    const double end = direction > 0 ? c->high : c->low;
+    const double ahead = fabs(end - from), width = fmin(c->width, ahead);
+    const double to = width < ahead ? from + direction * width : end;
+    if (!(width > 0.0)) return status;
+    status = pendres_circle_band_find(c->ctx, &c->family, from, to, guess, b, found);
+    if (status != PENDRES_OK) return status;
+    /* The last coefficient goes with the width's tenth power. */
+    const double fits = careful * pow(c->family.tolerance / fmax(b->last, 1e-300),
+                                      1.0 / (PENDRES_CIRCLE_NODES - 1.0));
+    if (*found) {
+      c->closed[c->count++] = 0;
+      c->width = fmin(widest * scale, width * fmax(0.7, fmin(3.0, fits)));
+    } else {
+      c->width = width * (b->last > 0.0 ? fmax(0.1, fmin(0.6, fits)) : 0.4);
+    }
+  }
+  if (!*found) c->width = first_width * scale;
+  return status;
+}
+
+pendres_status pendres_circles_begin(pendres_circles *c, double value, double x, double v)
+{
+  const double scale = pendres_parameter_scale(c->family.parameter);
+  pendres_pendulum p = c->family.pendulum;
+  pendres_trigonometric guess;
+  int steps = 0, found = 0;
+  if (fabs(value - c->failed) < again * scale) return PENDRES_OK;
+  pendres_parameter_set(c->family.parameter, value, &p);
+  pendres_status status = pendres_circle_steps(c->ctx, &p, c->family.tolerance, &steps);
+  if (status == PENDRES_OK)
+    status = pendres_circle_guess(c->ctx, &p, steps, x, v, &guess, &found);
+  for (int direction = 1; direction >= -1 && status == PENDRES_OK && found; direction -= 2) {
+    int grown = 0;
+    status = grow(c, value, direction, &guess, &grown);
+    if (grown) return status;
+  }
+  c->failed = value;
+  return status;
+}
+
+/* The band that holds a value; NULL if none. */
+static const pendres_circle_band *band_of(const pendres_circles *c, double value)
+{
+  for (size_t i = 0; i < c->count; i++)
+    if (c->band[i].low <= value && value <= c->band[i].high) return &c->band[i];
+  return NULL;
+}
+
+/* The open end of a band that is nearest to a value: its number; -1 if there is none near by. */
+static long nearest_end(const pendres_circles *c, double value, int *direction)
+{
+  double least = near_by * pendres_parameter_scale(c->family.parameter);
+  long best = -1;
+  for (size_t i = 0; i < c->count; i++) {
+    const int up = value > c->band[i].high;
+    const double gap = up ? value - c->band[i].high : c->band[i].low - value;
+    if (!(gap < least)) continue;
+    least = gap;
+    best = c->closed[i] & (up ? CLOSED_ABOVE : CLOSED_BELOW) ? -1 : (long)i;
+    *direction = up ? 1 : -1;
+  }
+  return best;
+}
+
+pendres_status pendres_circles_seek(pendres_circles *c, double value,
+                                    const pendres_circle_band **out)
+{
+  pendres_status status = PENDRES_OK;
+  *out = NULL;
+  if (value < c->low || value > c->high) return status;
+  while (status == PENDRES_OK && (*out = band_of(c, value)) == NULL) {
+    int direction = 0, found = 0;
+    const long i = nearest_end(c, value, &direction);
+    if (i < 0) return status;
+    const double end = direction > 0 ? c->band[i].high : c->band[i].low;
+    pendres_circle at;
+    pendres_circle_band_at(&c->band[i], end, &at);
+    status = grow(c, end, direction, &at.w, &found);
+    if (status == PENDRES_OK && !found)
+      c->closed[i] |= direction > 0 ? CLOSED_ABOVE : CLOSED_BELOW;
+  }
+  return status;
+}
+
+pendres_status pendres_circles_tell(pendres_circles *c, double value,
+                                    pendres_circles_verdict *out)
+{
+  const pendres_circle_band *b = NULL;
+  *out = (pendres_circles_verdict){.value = value};
+  const pendres_status status = pendres_circles_seek(c, value, &b);
+  if (status != PENDRES_OK || b == NULL) return status;
+  pendres_circle at;
+  pendres_pendulum p = c->family.pendulum;
+  pendres_parameter_set(c->family.parameter, value, &p);
+  pendres_circle_band_at(b, value, &at);
+  pendres_circle_table_set(c->table, &at.move, b->error, &b->wrong);
+  out->found = 1;
+  out->turn = pendres_circle_table_turn(c->table);
+  const double y = out->turn.motion == PENDRES_CIRCLE_LOCKED ? out->turn.y : 0.0;
+  const pendres_place place = {.y = y, .w = pendres_trigonometric_at(&at.w, y, NULL)};
+  pendres_passage_out(&p, &place, &out->x, &out->v);
+  return status;
+}
+
+/* The least shift of a lock at a value, seen from where it is not. */
+static pendres_status edge_at(pendres_circles *c, const pendres_circle_turn *lock, double value,
+                              int sign, double *g, double *error)
+{
+  const pendres_circle_band *b = NULL;
+  const pendres_status status = pendres_circles_seek(c, value, &b);
+  double y = 0.0, worth = 0.0;
+  *g = NAN;
+  if (status != PENDRES_OK || b == NULL) return status;
+  pendres_circle at;
+  pendres_circle_band_at(b, value, &at);
+  pendres_circle_table_set(c->table, &at.move, b->error, &b->wrong);
+  *g = sign *
+       pendres_circle_table_edge(c->table, lock->period, lock->winding, sign, &y, &worth);
+  *error = worth * (b->error + pendres_trigonometric_size(&b->wrong));
+  return status;
+}
+
+pendres_status pendres_circles_edge(pendres_circles *c, const pendres_circle_turn *lock,
+                                    double inside, double outside, double *value, double *error,
+                                    int *found)
+{
+  double g_in = NAN, g_out = NAN, g = NAN, off = 0.0;
+  const pendres_circle_turn *l = lock;
+  pendres_circles_verdict beyond;
+  *found = 0;
+  pendres_status status = pendres_circles_tell(c, outside, &beyond);
+  if (status != PENDRES_OK || !beyond.found) return status;
+  const int sign = beyond.turn.turns * l->period > l->winding ? 1 : -1;
+  status = edge_at(c, l, inside, sign, &g_in, &off);
+  if (status == PENDRES_OK) status = edge_at(c, l, outside, sign, &g_out, &off);
+  if (status != PENDRES_OK || !(g_in < 0.0 && g_out > 0.0)) return status;
+  double slope = (g_out - g_in) / (outside - inside);
+  for (int k = 0, side = 0; k < LOOKS; k++) {
+    const double width = outside - inside;
+    *value = inside - width * g_in / (g_out - g_in);
+    status = edge_at(c, l, *value, sign, &g, &off);
+    if (status != PENDRES_OK || isnan(g)) return status;
+    if (fabs(g) < 0.01 * off || fabs(width) < 1e-14 * fabs(*value)) break;
+    slope = g > 0.0 ? (g - g_in) / (*value - inside) : (g_out - g) / (outside - *value);
+    /* The Illinois rule: an end that stays for long counts half. */
+    if (g > 0.0) {
+      outside = *value;
+      g_out = g;
+      if (side > 0) g_in *= 0.5;
+      side = 1;
+    } else {
+      inside = *value;
+      g_in = g;
+      if (side < 0) g_out *= 0.5;
+      side = -1;
+    }
+  }
+  *error = (fabs(g) + off) / fabs(slope);
+  *found = isfinite(*error);
+  return status;
+}
+
+pendres_status pendres_circles_distance(pendres_circles *c, double value, double x, double v,
+                                        double *distance)
+{
+  const pendres_circle_band *b = NULL;
+  const pendres_status status = pendres_circles_seek(c, value, &b);
+  *distance = INFINITY;
+  if (status != PENDRES_OK || b == NULL) return status;
+  pendres_circle at;
+  pendres_pendulum p = c->family.pendulum;
+  pendres_parameter_set(c->family.parameter, value, &p);
+  const pendres_place place = pendres_passage_in(&p, x, v);
+  pendres_circle_band_at(b, value, &at);
+  *distance = fabs(place.w - pendres_trigonometric_at(&at.w, place.y, NULL));
+  return status;
+}
