@@ -25,8 +25,19 @@
  * once in thousands of periods, goes on with the parameter ten times as far beyond the
  * bifurcation, up to three times.
  *
- * Source: Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; Thompson and Soliman,
- * Proceedings of the Royal Society A 432 (1991) 101, for jumps whose outcome is uncertain.
+ * Such a rotation lies on an invariant circle, a closed curve around the cylinder of states, which
+ * persists where the rotation locks to the drive in narrow steps and unlocks again. Where the
+ * circle can be followed nothing else is integrated: the map on it tells mean velocities, locks,
+ * and where locks begin and end. An orbit whose fold lies on the circle gives way to the rotation
+ * there without any trials. A mean velocity's error is what four orbits of the map differ by, and
+ * what the map is off by, times what the motion makes of it. Points so close to the end of a lock
+ * that the map's error hides it are unresolved. Where there is no circle of sufficient smoothness,
+ * as before it breaks up, averages over the pendulum's own periods tell, as above.
+ *
+ * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
+ * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of
+ * Applied Bifurcation Theory, chapter 4; Thompson and Soliman, Proceedings of the Royal Society A
+ * 432 (1991) 101, for jumps whose outcome is uncertain.
  */
 #ifndef PENDRES_HYSTERESIS_H
 #define PENDRES_HYSTERESIS_H

@@ -39,6 +39,9 @@ double pendres_accuracy_to_sample(const pendres_context *ctx);
    (chaos_walkers.c). */
 double pendres_accuracy_to_average(const pendres_context *ctx);
 
+/* Of the map on an invariant circle, which is interpolated: averages of it are as exact. */
+double pendres_accuracy_of_circles(const pendres_context *ctx);
+
 /* Of noisy trajectories, whose scatter hides errors far larger than rounding. */
 double pendres_accuracy_with_noise(const pendres_context *ctx);
 

@@ -27,7 +27,10 @@ static const double hopeless = 0.5;
 static const double least_slope = 0.02;
 /* Corrections are solved for to this, relative to the residual: what is left of it is as small as
    what Newton's method leaves. */
-static const double solved = 1e-5;
+static const double solved = 1e-4;
+/* How much smaller than the tolerance the residual becomes: it takes few more rounds, and leaves
+   the error to what is not known so well. */
+static const double residual = 0.1;
 /* A pendulum's own points leave no wider gaps. */
 static const double widest_gap = 0.4;
 
@@ -72,7 +75,7 @@ double pendres_trigonometric_size(const pendres_trigonometric *t)
 double pendres_trigonometric_tail(const pendres_trigonometric *t)
 {
   double largest = 0.0;
-  for (size_t i = 3 * t->n / 4; i < t->n; i++) largest = fmax(largest, fabs(t->c[i]));
+  for (size_t i = 7 * t->n / 8; i < t->n; i++) largest = fmax(largest, fabs(t->c[i]));
   return largest;
 }
 
@@ -216,7 +219,7 @@ static pendres_status converge(shape *r, double tolerance, double *basis, int *f
     const pendres_status status = run(r);
     if (status != PENDRES_OK) return status;
     look(r);
-    *found = r->worst < tolerance;
+    *found = r->worst < residual * tolerance;
     if (*found || !(r->worst < hopeless) || !correct(r, basis)) return PENDRES_OK;
   }
   return PENDRES_OK;

@@ -20,7 +20,7 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 256 };
+enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 128 };
 
 /* A trigonometric polynomial of an angle y: c[0] + sum of c[2k - 1] cos ky + c[2k] sin ky, and of n
    values at 2 pi i/n. */
@@ -35,7 +35,7 @@ void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonomet
 double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double *slope);
 /* No less than its largest value. */
 double pendres_trigonometric_size(const pendres_trigonometric *t);
-/* The largest of the last quarter of its coefficients: what is missing is about as large. */
+/* The largest of the last eighth of its coefficients: what is missing is about as large. */
 double pendres_trigonometric_tail(const pendres_trigonometric *t);
 
 typedef struct pendres_circle {

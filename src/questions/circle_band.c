@@ -17,6 +17,9 @@ enum {
 /* More steps, by which the error of the integration is told. */
 static const double more_steps = 1.4;
 
+/* Coefficients that fall more slowly from one degree to the next tell little. */
+static const double slow = 0.5;
+
 /* What a step of the choice of steps is to be good for: the speed of a rotation. */
 static double speed_of(const pendres_pendulum *p)
 {
@@ -27,14 +30,14 @@ static double speed_of(const pendres_pendulum *p)
 pendres_status pendres_circle_steps(pendres_context *ctx, const pendres_pendulum *p,
                                     double tolerance, int *steps)
 {
-  return pendres_steps_choose(ctx, p, speed_of(p), tolerance, steps);
+  return pendres_steps_choose(ctx, p, speed_of(p), 0.1 * tolerance, steps);
 }
 
 /* Coefficients that do not count are left out, so that the next circle takes as few points. */
 static void trim(pendres_trigonometric *t, double tolerance)
 {
   while (t->n > PENDRES_CIRCLE_LEAST) {
-    for (size_t i = 3 * t->n / 8; i < t->n; i++)
+    for (size_t i = 7 * t->n / 16; i < t->n; i++)
       if (!(fabs(t->c[i]) < tolerance)) return;
     t->n /= 2;
     t->c[t->n - 1] = 0.0;
@@ -86,20 +89,34 @@ static pendres_trigonometric extrapolate(const pendres_circle_band *b, size_t k,
   return guess;
 }
 
-/* The last two of Chebyshev's coefficients, of all of the map's: the largest sum. */
-static double last_of(const pendres_circle_band *b)
+/* The largest of Chebyshev's coefficients of some degree, of all of the map's. */
+static double largest_of(const pendres_circle_band *b, int degree)
 {
+  const double once = degree == 0 || degree == NODES - 1 ? 1.0 : 2.0;
   double largest = 0.0;
   for (size_t i = 0; i < b->n; i++) {
-    double last[2] = {0.0};
+    double sum = 0.0;
     for (int k = 0; k < NODES; k++) {
       const double half = k == 0 || k == NODES - 1 ? 0.5 : 1.0;
-      for (int j = 0; j < 2; j++)
-        last[j] += half * cos(pi * k * (NODES - 1 - j) / (NODES - 1)) * b->at[k].move.c[i];
+      sum += half * cos(pi * k * degree / (NODES - 1)) * b->at[k].move.c[i];
     }
-    largest = fmax(largest, (fabs(last[0]) + 2.0 * fabs(last[1])) / (NODES - 1));
+    largest = fmax(largest, once * fabs(sum) / (NODES - 1));
   }
   return largest;
+}
+
+/*
+ * What is missing of the polynomials in the parameter: the coefficients of higher degrees, if they
+ * go on to fall as the last ones do, and as much again for what these do at the nodes. Coefficients
+ * of even degrees may be smaller than those of odd ones: pairs are compared.
+ */
+static double missing(const pendres_circle_band *b)
+{
+  const double last = fmax(largest_of(b, NODES - 1), largest_of(b, NODES - 2));
+  const double before = fmax(largest_of(b, NODES - 3), largest_of(b, NODES - 4));
+  const double falls = sqrt(last / fmax(before, 1e-300));
+  if (!(falls < slow)) return last;
+  return 2.0 * falls * falls / (1.0 - falls) * last;
 }
 
 /* What the circles are off by for their steps: at the last value. */
@@ -146,8 +163,8 @@ pendres_status pendres_circle_band_find(pendres_context *ctx, const pendres_circ
     if (out->at[k].move.n > out->n) out->n = out->at[k].move.n;
   }
   if (status != PENDRES_OK || !*found) return status;
-  out->last = last_of(out);
-  out->error += out->last;
-  *found = out->last < family->tolerance;
+  out->missing = missing(out);
+  out->error += out->missing;
+  *found = out->missing < family->tolerance;
   return *found ? compare(ctx, family, steps, out, found) : status;
 }

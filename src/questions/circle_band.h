@@ -26,7 +26,7 @@ typedef struct pendres_circle_band {
   pendres_circle at[PENDRES_CIRCLE_NODES]; /* at the values, with n points each */
   pendres_trigonometric wrong; /* what the map is off by more steps' */
   double error;                /* of the map besides */
-  double last;                 /* how far the polynomials' coefficients have fallen */
+  double missing;              /* of that, what polynomials of higher degrees would add */
 } pendres_circle_band;
 
 /* What a band is made of. */

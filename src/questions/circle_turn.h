@@ -5,8 +5,8 @@
  * on it is locked to the drive. Nothing is integrated: a step of the map takes nanoseconds.
  *
  * Rotation numbers are weighted Birkhoff averages, over four orbits that start apart: how far their
- * means differ is the error (Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111). A lock to q
- * periods is a place that the map brings back in q steps and p turns; there is one exactly if the
+ * means differ is the error (Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111). A lock to
+ * q periods is a place that the map brings back in q steps and p turns; there is one exactly if the
  * q-th iterate less p turns moves some places forwards and others backwards. All that is in doubt
  * are places that it moves by less than it is wrong by.
  */

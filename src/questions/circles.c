@@ -17,7 +17,7 @@ enum {
 
 /* Bands, in the parameter's scale: the first, the widest, and one so narrow that it is not worth
    making: there the circle is about to break up. */
-static const double first_width = 0.1, widest = 4.0, narrowest = 2e-3;
+static const double first_width = 0.1, widest = 4.0, narrowest = 0.02;
 /* The next band is a little narrower than what the last one's coefficients allow. */
 static const double careful = 0.8;
 /* Bands follow one another over gaps up to this, in the parameter's scale; and motions from which
@@ -83,14 +83,14 @@ static pendres_status grow(pendres_circles *c, double from, int direction,
     if (!(width > 0.0)) return status;
     status = pendres_circle_band_find(c->ctx, &c->family, from, to, guess, b, found);
     if (status != PENDRES_OK) return status;
-    /* The last coefficient goes with the width's tenth power. */
-    const double fits = careful * pow(c->family.tolerance / fmax(b->last, 1e-300),
-                                      1.0 / (PENDRES_CIRCLE_NODES - 1.0));
+    /* What is missing goes with the width's eleventh power. */
+    const double fits = careful * pow(c->family.tolerance / fmax(b->missing, 1e-300),
+                                      1.0 / (PENDRES_CIRCLE_NODES + 1.0));
     if (*found) {
       c->closed[c->count++] = 0;
       c->width = fmin(widest * scale, width * fmax(0.7, fmin(3.0, fits)));
     } else {
-      c->width = width * (b->last > 0.0 ? fmax(0.1, fmin(0.6, fits)) : 0.4);
+      c->width = width * (b->missing > 0.0 ? fmax(0.1, fmin(0.6, fits)) : 0.4);
     }
   }
   if (!*found) c->width = first_width * scale;

@@ -6,9 +6,7 @@
 
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
-#include "questions/hysteresis_jump.h"
-#include "questions/hysteresis_names.h"
-#include "questions/stretch.h"
+#include "questions/hysteresis_circle.h"
 #include "model/model.h"
 
 enum {
@@ -59,71 +57,7 @@ const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t 
 
 /* ---- along the path ---- */
 
-typedef struct path {
-  pendres_context *ctx;
-  pendres_pendulum pendulum; /* but for the parameter */
-  pendres_parameter parameter;
-  size_t n;
-  const double *value;
-  pendres_hysteresis *h;
-  double at;               /* where the parameter is now */
-  pendres_settled state;   /* what the pendulum is on there */
-  pendres_stretch stretch; /* that it is followed along; none: not yet, or not closed */
-} path;
-
-static pendres_pendulum pendulum_at(const path *w, double value)
-{
-  pendres_pendulum p = w->pendulum;
-  pendres_parameter_set(w->parameter, value, &p);
-  return p;
-}
-
-static void put(path *w, size_t i, const pendres_attractor *a)
-{
-  pendres_hysteresis_point *p = &w->h->point[i];
-  const double omega = pendulum_at(w, w->value[i]).drive_frequency;
-  const int closed = pendres_settled_closed(a);
-  p->value = w->value[i];
-  p->attractor = *a;
-  p->x = closed ? a->orbit.x : w->state.x;
-  p->v = closed ? a->orbit.v : w->state.v;
-  w->h->stretch[i] = w->h->stretches;
-  if (closed) {
-    const double turns = (double)a->orbit.winding / a->orbit.period;
-    p->mean_velocity = omega * turns;
-    p->mean_velocity_error = 2.2e-16 * fabs(p->mean_velocity);
-  } else {
-    p->mean_velocity = omega * a->drift;
-    p->mean_velocity_error = omega * a->drift_error;
-  }
-}
-
-static void leave_stretch(path *w)
-{
-  pendres_stretch_free(&w->stretch);
-  w->h->stretches++;
-}
-
-static pendres_status note_jump(path *w, const pendres_jump *j)
-{
-  pendres_hysteresis *h = w->h;
-  if (h->jumps == h->jump_room) {
-    const size_t room = 2 * h->jump_room + 8;
-    pendres_jump *jump = realloc(h->jump, room * sizeof *jump);
-    if (jump != NULL) h->jump = jump;
-    size_t *from = realloc(h->jump_from, room * sizeof *from);
-    if (from != NULL) h->jump_from = from;
-    size_t *to = realloc(h->jump_to, room * sizeof *to);
-    if (to != NULL) h->jump_to = to;
-    if (jump == NULL || from == NULL || to == NULL)
-      return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for jumps");
-    h->jump_room = room;
-  }
-  h->jump[h->jumps] = *j;
-  h->jump_from[h->jumps] = h->stretches;
-  h->jump_to[h->jumps++] = h->stretches + 1;
-  return PENDRES_OK;
-}
+typedef pendres_path path;
 
 /* Whether a stretch ends at one of the later doublings of a cascade. */
 static int cascades(const pendres_stretch *s)
@@ -188,15 +122,18 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
     status = PENDRES_OK;
   } else if (status == PENDRES_NOT_FOUND) {
     const pendres_attractor old = w->state.attractor;
-    status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
+    int done = 0;
+    status = pendres_path_onto_circle(w, &end, s->direction, &j, &done);
+    if (status == PENDRES_OK && !done)
+      status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
     /* What could not be followed further, and goes on, has not ended. */
     goes_on = s->end == PENDRES_STRETCH_LOST && old.orbit.period > 1 &&
               pendres_settled_alike(&old, &w->state.attractor);
   }
-  if (status == PENDRES_OK && !goes_on) status = note_jump(w, &j);
+  if (status == PENDRES_OK && !goes_on) status = pendres_path_note(w, &j);
   if (goes_on) pendres_stretch_free(&w->stretch);
-  else leave_stretch(w);
+  else pendres_path_leave(w);
   w->stretch = next;
   return status;
 }
@@ -224,10 +161,10 @@ static pendres_status put_stretch(path *w, size_t first, size_t last)
   else
     status = pendres_stretch_orbits(w->ctx, &w->stretch, n, w->value + first, orbit, found);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    const pendres_pendulum p = pendulum_at(w, w->value[first + i]);
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[first + i]);
     const pendres_attractor a =
       found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
-    put(w, first + i, &a);
+    pendres_path_put(w, first + i, &a);
     if (!found[i]) continue;
     w->state = (pendres_settled){
       .pendulum = p, .attractor = a, .x = orbit[i].x, .v = orbit[i].v};
@@ -291,7 +228,7 @@ static pendres_status halve(path *w, const pendres_settled *old, double from, do
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
     const double middle = 0.5 * (from + to);
-    const pendres_pendulum p = pendulum_at(w, middle);
+    const pendres_pendulum p = pendres_path_pendulum(w, middle);
     pendres_settled there;
     status = pendres_settled_find(w->ctx, &p, before.x, before.v, &there);
     if (status != PENDRES_OK) break;
@@ -329,8 +266,8 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
     pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, from, &s);
   if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
       fabs(to - s.end_value) > small && fabs(from - s.end_value) > small) {
-    const pendres_pendulum p = pendulum_at(w, s.end_value - direction * small);
-    const pendres_pendulum q = pendulum_at(w, s.end_value + direction * small);
+    const pendres_pendulum p = pendres_path_pendulum(w, s.end_value - direction * small);
+    const pendres_pendulum q = pendres_path_pendulum(w, s.end_value + direction * small);
     status = pendres_settled_find(w->ctx, &p, old->x, old->v, &before);
     if (status == PENDRES_OK)
       status = pendres_settled_find(w->ctx, &q, old->x, old->v, &behind);
@@ -346,7 +283,7 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
   }
   pendres_stretch_free(&s);
   if (status == PENDRES_OK && !j.certain) status = halve(w, old, from, to, &j);
-  return status == PENDRES_OK ? note_jump(w, &j) : status;
+  return status == PENDRES_OK ? pendres_path_note(w, &j) : status;
 }
 
 /*
@@ -361,7 +298,7 @@ static pendres_status follow_rotation(path *w, size_t *i)
   size_t n = 0;
   for (; n < PENDRES_HYSTERESIS_TRIALS && *i + n < w->n; n++) {
     if (n > 0 && fabs(w->value[*i + n] - w->at) > most) break;
-    const pendres_pendulum p = pendulum_at(w, w->value[*i + n]);
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i + n]);
     s[n] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
   }
   const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
@@ -369,7 +306,7 @@ static pendres_status follow_rotation(path *w, size_t *i)
     if (s[k].attractor.label != PENDRES_LABEL_QUASI_PERIODIC) break;
     w->state = s[k];
     w->at = w->value[*i];
-    put(w, *i, &s[k].attractor);
+    pendres_path_put(w, *i, &s[k].attractor);
   }
   return status;
 }
@@ -377,16 +314,16 @@ static pendres_status follow_rotation(path *w, size_t *i)
 /* What the pendulum settles on at a value, from where it is. */
 static pendres_status settle_at(path *w, size_t i)
 {
-  const pendres_pendulum p = pendulum_at(w, w->value[i]);
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
   const pendres_settled old = w->state;
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
   const int same = pendres_settled_closed(&old.attractor) &&
                    pendres_settled_alike(&old.attractor, &w->state.attractor);
   if (status == PENDRES_OK && i > 0 && pendres_settled_closed(&w->state.attractor) && !same) {
     status = end_chaos(w, i, &old);
-    leave_stretch(w);
+    pendres_path_leave(w);
   }
-  if (status == PENDRES_OK) put(w, i, &w->state.attractor);
+  if (status == PENDRES_OK) pendres_path_put(w, i, &w->state.attractor);
   w->at = w->value[i];
   return status;
 }
@@ -399,16 +336,19 @@ static pendres_status follow_path(path *w)
     status = pendres_context_poll(w->ctx);
     if (status != PENDRES_OK) break;
     if (w->value[i] == w->value[i - 1]) {
-      put(w, i, &w->h->point[i - 1].attractor);
+      pendres_path_put(w, i, &w->h->point[i - 1].attractor);
       i++;
       continue;
     }
+    const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
+    if (w->on_circle || rotates) status = pendres_path_circle(w, &i);
+    if (status != PENDRES_OK || i > before) continue;
     if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
-    else if (w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC)
-      status = follow_rotation(w, &i);
+    else if (rotates) status = follow_rotation(w, &i);
     if (status == PENDRES_OK && i == before) status = settle_at(w, i++);
   }
   pendres_stretch_free(&w->stretch);
+  pendres_circles_free(w->circles);
   return status;
 }
 
@@ -431,7 +371,7 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
   w->state = (pendres_settled){.x = x, .v = v};
   for (size_t i = 0; i < w->n; i++) {
     const char *why = NULL;
-    const pendres_pendulum p = pendulum_at(w, w->value[i]);
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
     if (pendres_pendulum_check(&p, &why) == PENDRES_OK && p.damping == 0.0)
       why = "without damping nothing settles";
     if (why != NULL)

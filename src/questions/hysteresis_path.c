@@ -1,0 +1,61 @@
+/* hysteresis_path.c -- a pendulum on its way along a path; see hysteresis_path.h. */
+#include "questions/hysteresis_path.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+
+pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value)
+{
+  pendres_pendulum p = w->pendulum;
+  pendres_parameter_set(w->parameter, value, &p);
+  return p;
+}
+
+void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
+{
+  pendres_hysteresis_point *p = &w->h->point[i];
+  const double omega = pendres_path_pendulum(w, w->value[i]).drive_frequency;
+  const int closed = pendres_settled_closed(a);
+  p->value = w->value[i];
+  p->attractor = *a;
+  p->x = closed ? a->orbit.x : w->state.x;
+  p->v = closed ? a->orbit.v : w->state.v;
+  w->h->stretch[i] = w->h->stretches;
+  if (closed) {
+    const double turns = (double)a->orbit.winding / a->orbit.period;
+    p->mean_velocity = omega * turns;
+    p->mean_velocity_error = 2.2e-16 * fabs(p->mean_velocity);
+  } else {
+    p->mean_velocity = omega * a->drift;
+    p->mean_velocity_error = omega * a->drift_error;
+  }
+}
+
+void pendres_path_leave(pendres_path *w)
+{
+  pendres_stretch_free(&w->stretch);
+  w->h->stretches++;
+}
+
+pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
+{
+  pendres_hysteresis *h = w->h;
+  if (h->jumps == h->jump_room) {
+    const size_t room = 2 * h->jump_room + 8;
+    pendres_jump *jump = realloc(h->jump, room * sizeof *jump);
+    if (jump != NULL) h->jump = jump;
+    size_t *from = realloc(h->jump_from, room * sizeof *from);
+    if (from != NULL) h->jump_from = from;
+    size_t *to = realloc(h->jump_to, room * sizeof *to);
+    if (to != NULL) h->jump_to = to;
+    if (jump == NULL || from == NULL || to == NULL)
+      return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for jumps");
+    h->jump_room = room;
+  }
+  h->jump[h->jumps] = *j;
+  h->jump_from[h->jumps] = h->stretches;
+  h->jump_to[h->jumps++] = h->stretches + 1;
+  return PENDRES_OK;
+}
