@@ -146,6 +146,47 @@ static void rounding_grows_within_a_period(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Few steps, whose order has not set in yet, and two computations of a bifurcation that agree by
+ * chance: once the fold was off by 6.7 times its error here. Each error bounds the distance to the
+ * same bifurcation at a tight tolerance; and none is useless, more than a hundred times as large.
+ */
+static void few_steps_that_agree_by_chance(void **state)
+{
+  (void)state;
+  const double tolerances[] = {2.5264438913264473e-4, 1e-11};
+  const pendres_orbit_guess guess = {
+    .pendulum = {.damping = 0.61003128691180475, .drive_amplitude = 1.3495322401759724,
+                 .drive_frequency = 0.4778065046012655},
+    .x = 2.6803212190358456, .v = 0.13311655939725342, .period = 2, .winding = -1};
+  const pendres_branch_options options = {
+    .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 1.348, .high = 1.352};
+  static const pendres_special kinds[] = {PENDRES_PERIOD_DOUBLING, PENDRES_FOLD};
+  double value[2][2], error[2][2];
+  for (int k = 0; k < 2; k++) {
+    pendres_context *ctx = context_of(tolerances[k], PENDRES_TABLE_DEFAULT);
+    pendres_orbit start;
+    pendres_status outcome;
+    pendres_branch *b = NULL;
+    check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &start, &outcome));
+    check_ok(outcome);
+    check_ok(pendres_branch_follow(ctx, 1, &start, &options, &b));
+    assert_int_equal(pendres_branch_bifurcations(b), 2);
+    for (size_t i = 0; i < 2; i++) {
+      const pendres_bifurcation *at = pendres_branch_bifurcation(b, i);
+      assert_int_equal(at->kind, kinds[i]);
+      value[k][i] = at->value;
+      error[k][i] = at->value_error;
+    }
+    pendres_branch_free(b);
+    pendres_context_free(ctx);
+  }
+  for (size_t i = 0; i < 2; i++) {
+    check_near(value[0][i], value[1][i], error[0][i] + error[1][i]);
+    assert_true(error[0][i] <= 100.0 * fabs(value[0][i] - value[1][i]));
+  }
+}
+
 /* LA at small damping ends by losing its symmetry; the pair that is born doubles its period. */
 static void symmetry_breaks_and_period_doubles(void **state)
 {
@@ -416,6 +457,7 @@ int main(void)
     cmocka_unit_test(tolerances_and_methods_agree),
     cmocka_unit_test(branch_is_an_s),
     cmocka_unit_test(rounding_grows_within_a_period),
+    cmocka_unit_test(few_steps_that_agree_by_chance),
     cmocka_unit_test(branch_crosses_at_three_orbits),
     cmocka_unit_test(symmetry_breaks_and_period_doubles),
     cmocka_unit_test(running_orbits_make_an_isola),
