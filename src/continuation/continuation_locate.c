@@ -60,9 +60,10 @@ static void residuals_of(const pendres_continuation_image *at,
  * that with the finer steps, and by one halfway to them. An order-8 method's errors fall at once
  * from the first to the second, and hardly from there to the third; where its order has not set in
  * yet the last two may differ as much as the first two, or the first and the last agree by chance.
- * So what the last two differ by counts as well, times what it would be less in order 8. Of the
- * trace an eighth of what its parts differ by is left, as of an orbit: that they cancel is what a
- * trace is for, since steps act like a change of coordinates for the most part, but not to the last.
+ * So what the last two differ by counts as well, times what it would be less in order 8.
+ *
+ * Errors of the steps act like a change of coordinates for the most part, which a trace does not
+ * feel: its parts cancel by right. As of an orbit, an eighth of what they differ by is left.
  */
 static pendres_status apart_of(pendres_context *ctx, const pendres_continuation_pair *pair,
                                double off[PENDRES_EQUATIONS_MOST])
