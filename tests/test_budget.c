@@ -194,6 +194,42 @@ static void the_run_goes_on(void **state)
   }
 }
 
+static const struct {
+  const char *text, *told;
+} others[] = {
+  { "&scene kind = 'orbit' /\n"
+    "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_frequency = 0.8 /\n"
+    "&orbit x = 1.0, v = 0.0, periods = 3 /\n", "orbit: ended by its budget" },
+  { "&scene kind = 'hysteresis' /\n&pendulum drive_amplitude = 0.2, damping = 0.12 /\n"
+    "&sweep drive_frequency_range = 0.80, 0.85, 6 /\n&hysteresis x = 1.0, v = 0.0 /\n",
+    "drive_frequency 0.8, upwards: ended by its budget" },
+  { "&scene kind = 'bifurcation_diagram' /\n&pendulum drive_frequency = 0.8, damping = 0.3 /\n"
+    "&sweep drive_amplitude_range = 0.5, 0.6, 3 /\n"
+    "&bifurcation_diagram x = 1.0, v = 0.0, strobes = 4 /\n",
+    "attractors at drive_amplitude 0.5: ended by its budget" },
+  { "&scene kind = 'basins' /\n"
+    "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8.0 /\n"
+    "&sweep x_range = -1.5, 4.7, 8, v_range = -2.0, 2.0, 9 /\n",
+    "the state at x -1.5, v -2: ended by its budget" },
+};
+
+/* All that a first run could not do is marked, the run that goes on does it, and ends in the bytes
+   of a run in peace. */
+static void scenes_without_lines(void **state)
+{
+  (void)state;
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+    write_text("deck.nml", others[i].text);
+    check_code(RUN("-q", "-f", "--budget=1e6", "-o", "whole.h5", "deck.nml"), DONE);
+    check_code(RUN("-f", "--budget=1e-9", "deck.nml"), 3);
+    check_says(err, others[i].told);
+    check_says(err, " ended by --budget; ");
+    check_code(RUN("-f", "--resume", "deck.nml"), DONE);
+    check_same_results("whole.h5", "deck.h5");
+    assert_int_equal(count_names("journal"), 0);
+  }
+}
+
 /* A part that has given up something says so. */
 static void parts_tell(void **state)
 {
@@ -204,7 +240,9 @@ static void parts_tell(void **state)
   check_code(RUN("--budget=0", "deck.nml"), 2);
   check_says(err, "--budget takes seconds, more than 0, not '0'");
   check_code(RUN("--budget=1h", "deck.nml"), 2);
-  check_code(RUN("--budget=2", "orbit.nml"), DONE);
+  write_text("free.nml",
+             "&scene kind = 'free_oscillation' /\n&sweep amplitude = 0.5, 1.0 /\n");
+  check_code(RUN("--budget=2", "free.nml"), DONE);
   check_says(err, "--budget has no effect on scenes of this kind");
 }
 
@@ -212,6 +250,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(ends_at_its_budget), TEST(costly_points_are_told),
                                       TEST(a_bar_names_what_is_long), TEST(the_run_goes_on),
+                                      TEST(scenes_without_lines),
                                       TEST(parts_tell) };
   if (!find_program()) return 77;
   return cmocka_run_group_tests(tests, NULL, NULL);

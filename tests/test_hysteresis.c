@@ -169,12 +169,57 @@ static void running(void **state)
   pendres_hysteresis_free(h);
 }
 
+static int after_some(void *left)
+{
+  return --*(int *)left < 0;
+}
+
+/* A path that is stopped has what it came to, to the same bytes, and says that the rest is not
+   known. */
+static void stopped(void **state)
+{
+  pendres_context *ctx = *state;
+  const pendres_pendulum p = {.damping = 0.12, .drive_amplitude = 0.2};
+  enum { VALUES = 60 };
+  double value[VALUES];
+  size_t reached = 0, first = 0;
+  pendres_hysteresis *whole = NULL, *part = NULL;
+  for (int i = 0; i < VALUES; i++) value[i] = 0.8 + 0.001 * i;
+  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_FREQUENCY, 1.0, 0.0, VALUES, value,
+                                     &whole));
+  for (int questions = 0; reached < VALUES; questions = 2 * questions + 1) {
+    int left = questions;
+    pendres_context_set_interrupt(ctx, after_some, &left);
+    const pendres_status status = pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_FREQUENCY, 1.0,
+                                                            0.0, VALUES, value, &part);
+    pendres_context_set_interrupt(ctx, NULL, NULL);
+    assert_int_equal(status, left < 0 ? PENDRES_INTERRUPTED : PENDRES_OK);
+    assert_int_equal(pendres_hysteresis_count(part), VALUES);
+    for (reached = 0; reached < VALUES; reached++) {
+      const pendres_hysteresis_point *a = pendres_hysteresis_get(part, reached);
+      if (isnan(a->x)) break;
+      assert_memory_equal(a, pendres_hysteresis_get(whole, reached), sizeof *a);
+    }
+    first += reached > 0 && reached < VALUES;
+    for (size_t i = reached; i < VALUES; i++) {
+      const pendres_hysteresis_point *a = pendres_hysteresis_get(part, i);
+      assert_true(a->value == value[i] && isnan(a->x) && isnan(a->mean_velocity));
+      assert_int_equal(a->attractor.label, PENDRES_LABEL_UNRESOLVED);
+      assert_true(a->attractor.orbit.period == 0 && isnan(a->attractor.orbit.amplitude));
+    }
+    pendres_hysteresis_free(part);
+  }
+  assert_true(first > 0);
+  pendres_hysteresis_free(whole);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(loop_of_the_drive_frequency, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(forks, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(running, setup_exact, teardown),
+    cmocka_unit_test_setup_teardown(stopped, setup_exact, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

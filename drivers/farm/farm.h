@@ -50,7 +50,8 @@ typedef pendres_status farm_task(const void *arg, size_t task, pendres_context *
 typedef pendres_status farm_collect(void *arg, size_t task, const farm_record *record);
 
 /*
- * For a task to call: it begins `points` points at once, and what it has begun before is finished.
+ * For a task to call: it begins `points` points at once, and what it has begun before is
+ * finished; 0: something that is no point, has no budget, and is named alone.
  * By this name the user is told what is worked on, and which points are costly beside those before.
  * When they have taken so many times the budget of a point, the library is stopped, as by a signal:
  * a task for which farm_gave_up() then says yes goes on with farm_point() for the next, or for some
@@ -61,6 +62,8 @@ void farm_point(farm_record *record, size_t points, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 int farm_gave_up(const farm_record *record, pendres_status status);
 void farm_lost(farm_record *record, char *words, size_t size);
+/* The same where of the points begun together `lost` are given up, and the others are done. */
+void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size);
 
 /* Tasks of one kind. */
 typedef struct farm_stage {

@@ -108,14 +108,20 @@ int farm_gave_up(const farm_record *record, pendres_status status)
   return status == PENDRES_INTERRUPTED && record->watch != NULL && record->watch->over;
 }
 
-void farm_lost(farm_record *record, char *words, size_t size)
+void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size)
 {
   const farm_watch *w = record->watch;
-  record->lost += w->points;
+  record->lost += lost;
   const double mean = mean_of(w->crew), spent = w->spent / (double)w->points;
   char times[80] = "";
   if (mean > 0.0)
     snprintf(times, sizeof times, ", %.3g times what points took so far", spent / mean);
   snprintf(words, size, "ended by its budget after %.3g s of processor time%s: raise "
            "--budget=SECONDS, or bound its drive periods by precision.period_budget", spent, times);
+}
+
+void farm_lost(farm_record *record, char *words, size_t size)
+{
+  const farm_watch *w = record->watch;
+  farm_lost_some(record, w->points, words, size);
 }

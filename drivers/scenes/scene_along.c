@@ -1,6 +1,5 @@
 /* scene_along.c -- what scenes share in which parameters move; see scene_along.h. */
 #include "scenes/scene_along.h"
-#include "scenes/scene_failed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -134,6 +133,12 @@ void scene_along_path_free(scene_along_path *path)
   *path = (scene_along_path){ .points = 0 };
 }
 
+/* A value that the path has not reached before its budget ended it. */
+static int not_reached(const pendres_hysteresis_point *p)
+{
+  return p->attractor.label == PENDRES_LABEL_UNRESOLVED && isnan(p->x);
+}
+
 static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
 {
   const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jumps(h) };
@@ -146,6 +151,17 @@ static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
     memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
   for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
     memcpy(to, pendres_hysteresis_jump(h, i), sizeof(pendres_jump));
+  return PENDRES_OK;
+}
+
+/* A path that its budget has ended has what it came to. */
+static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
+{
+  char words[SCENE_TOLD];
+  size_t left = 0;
+  for (size_t i = 0; i < pendres_hysteresis_count(h); i++)
+    left += not_reached(pendres_hysteresis_get(h, i)) != 0;
+  farm_lost_some(out, left, words, sizeof words);
   return PENDRES_OK;
 }
 
@@ -163,7 +179,10 @@ pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, co
     x = start.orbit.x;
     v = start.orbit.v;
   }
+  farm_point(out, n, "the path of %zu values of %s from %.10g on", n, deck_axis_name(axis),
+             value[0]);
   status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(axis), x, v, n, value, &h);
+  if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);
   return status;
@@ -185,6 +204,12 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
   return PENDRES_OK;
 }
 
+scene_failure scene_along_failure(const pendres_hysteresis_point *point)
+{
+  if (point->attractor.label != PENDRES_LABEL_UNRESOLVED) return SCENE_FAILURE_NONE;
+  return not_reached(point) ? SCENE_FAILURE_OUT_OF_TIME : SCENE_FAILURE_UNRESOLVED;
+}
+
 int scene_along_closed(const pendres_hysteresis_point *point)
 {
   return point->attractor.orbit.period > 0;
@@ -198,7 +223,7 @@ scene_along_row *scene_along_rows(const scene_along_path *path)
     const pendres_attractor *a = &p->attractor;
     const pendres_orbit *o = &a->orbit;
     const double closed = scene_along_closed(p) ? 0.0 : NAN;
-    const int lost = a->label == PENDRES_LABEL_UNRESOLVED;
+    const scene_failure failed = scene_along_failure(p);
     rows[i] = (scene_along_row){
       .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
       .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
@@ -207,7 +232,7 @@ scene_along_row *scene_along_rows(const scene_along_path *path)
       .lyapunov = a->lyapunov, .lyapunov_error = a->lyapunov_error,
       .period = o->period + closed, .period_error = closed,
       .winding = o->winding + closed, .winding_error = closed, .label = (int)a->label,
-      .failed = lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE};
+      .failed = failed};
   }
   return rows;
 }
@@ -240,9 +265,10 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
   static const char *const words[] = { "upwards", "downwards" };
   const size_t values = path->points / (size_t)ways;
   for (size_t i = 0; i < path->points; i++) {
-    if (path->point[i].attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
+    const scene_failure failed = scene_along_failure(&path->point[i]);
+    if (failed == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
-    scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "%s %.10g, %s", deck_axis_name(axis),
+    scene_failure_tell(run, failed, NULL, "%s %.10g, %s", deck_axis_name(axis),
                        path->point[i].value, words[i / values]);
   }
 }

@@ -8,6 +8,7 @@
 #define SCENE_ALONG_H
 
 #include "scenes/scene_columns.h"
+#include "scenes/scene_failed.h"
 
 /* The deck's pendulum; what moves has its first value. */
 pendres_pendulum scene_along_pendulum(const deck *d);
@@ -38,12 +39,16 @@ typedef struct scene_along_path {
 
 void scene_along_path_free(scene_along_path *path);
 
-/* Follow the deck's pendulum from its start along n values of an axis, and fill a record. */
+/* Follow the deck's pendulum from its start along n values of an axis, and fill a record. The
+   budget is of all values together: where it ends the path, the rest of it stays unresolved. */
 pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, const double *value,
                                   pendres_context *ctx, farm_record *out);
 
 /* Take over such a record. */
 pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
+
+/* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */
+scene_failure scene_along_failure(const pendres_hysteresis_point *point);
 
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);

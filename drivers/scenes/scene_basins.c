@@ -45,6 +45,7 @@ static void describe(const deck *d, FILE *out)
 /* What a task finds: this, then the states of its rows. */
 typedef struct part {
   size_t lost, lost_index[LOST_A_TASK]; /* unresolved: how many, and some of them */
+  size_t given_up, given_up_index[BASINS_NAMED]; /* ended by their budget */
 } part;
 
 typedef struct sweep {
@@ -77,6 +78,69 @@ done:
   return status;
 }
 
+static void name_state(const basins *b, size_t index, char *text, size_t size)
+{
+  snprintf(text, size, "x %.10g, v %.10g", b->grid.x[index / b->grid.nv],
+           b->grid.v[index % b->grid.nv]);
+}
+
+/* Begin n states, of which number `first` is the first. */
+static void begin_states(const basins *b, size_t first, size_t n, farm_record *out)
+{
+  char name[80], more[40] = "";
+  name_state(b, first, name, sizeof name);
+  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
+  farm_point(out, n, "%s%s", name, more);
+}
+
+/* States by their numbers; where their budget ends them, their halves, down to single ones. */
+static pendres_status find_states(const basins *b, size_t n, const size_t *index,
+                                  pendres_context *ctx, farm_record *out,
+                                  pendres_basin_state *state)
+{
+  char words[SCENE_TOLD];
+  const size_t half = n / 2;
+  begin_states(b, index[0], n, out);
+  pendres_status status = pendres_basin_states(ctx, b->set, &b->grid, n, index, state);
+  if (!farm_gave_up(out, status)) return status;
+  if (half == 0) {
+    farm_lost(out, words, sizeof words);
+    *state = (pendres_basin_state){.settling_periods = BASINS_GIVEN_UP,
+                                   .attractor = PENDRES_ATTRACTOR_UNKNOWN,
+                                   .label = PENDRES_LABEL_UNRESOLVED};
+    return PENDRES_OK;
+  }
+  status = find_states(b, half, index, ctx, out, state);
+  if (status != PENDRES_OK) return status;
+  return find_states(b, n - half, index + half, ctx, out, state + half);
+}
+
+/* n states from number `first` on, without those that end their budget. */
+static pendres_status find_apart(const basins *b, size_t first, size_t n, pendres_context *ctx,
+                                 farm_record *out, pendres_basin_state *state)
+{
+  size_t *index = malloc(n * sizeof *index);
+  if (index == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) index[i] = first + i;
+  const pendres_status status = find_states(b, n, index, ctx, out, state);
+  free(index);
+  return status;
+}
+
+/* Unresolved states are remembered, so that attractors are looked for where they go; but not those
+   that take too long. */
+static void note_lost(const pendres_basin_state *state, size_t index, part *p)
+{
+  if (state->attractor != PENDRES_ATTRACTOR_UNKNOWN) return;
+  if (state->settling_periods == BASINS_GIVEN_UP) {
+    if (p->given_up < BASINS_NAMED) p->given_up_index[p->given_up] = index;
+    p->given_up++;
+    return;
+  }
+  if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = index;
+  p->lost++;
+}
+
 static pendres_status compute_rows(const void *arg, size_t task, pendres_context *ctx,
                                    farm_record *out)
 {
@@ -87,16 +151,25 @@ static pendres_status compute_rows(const void *arg, size_t task, pendres_context
   part *p = farm_record_resize(out, sizeof *p + n * sizeof(pendres_basin_state));
   if (p == NULL) return PENDRES_OUT_OF_MEMORY;
   pendres_basin_state *state = (pendres_basin_state *)(p + 1);
+  begin_states(b, first * b->grid.nv, n, out);
   pendres_status status =
     pendres_basin_rows(ctx, b->set, &b->grid, first, rows, state, &deferred);
   if (status == PENDRES_OK && deferred > 0)
     status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, state);
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
-    if (p->lost < LOST_A_TASK) p->lost_index[p->lost] = first * b->grid.nv + i;
-    p->lost++;
-  }
+  if (farm_gave_up(out, status))
+    status = find_apart(b, first * b->grid.nv, n, ctx, out, state);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    note_lost(&state[i], first * b->grid.nv + i, p);
   return status;
+}
+
+/* States that their budget has ended, of which the first are told. */
+static void take_given_up(basins *b, size_t n, const size_t *index)
+{
+  for (size_t k = 0; k < n && k < BASINS_NAMED && b->given_up + k < BASINS_NAMED; k++)
+    b->given_up_index[b->given_up + k] = index[k];
+  b->given_up += n;
+  b->unresolved += n;
 }
 
 static pendres_status collect_rows(void *arg, size_t task, const farm_record *in)
@@ -108,6 +181,7 @@ static pendres_status collect_rows(void *arg, size_t task, const farm_record *in
   pendres_status status = basins_write_rows(s->b, task * s->rows, rows, state);
   if (status == PENDRES_OK) status = pendres_basin_sums_add(s->b->sums, rows, state);
   s->b->unresolved += p->lost;
+  take_given_up(s->b, p->given_up, p->given_up_index);
   for (size_t k = 0; k < p->lost && k < LOST_A_TASK; k++) s->index[s->lost++] = p->lost_index[k];
   return status;
 }
@@ -117,7 +191,7 @@ static pendres_status restart(basins *b)
 {
   pendres_basin_sums_free(b->sums);
   b->sums = NULL;
-  b->unresolved = 0;
+  b->unresolved = b->given_up = 0;
   const pendres_status status =
     pendres_basin_sums_create(&b->grid, pendres_attractors_count(b->set), &b->sums);
   return status == PENDRES_OK ? status : scene_fail(b->run, status, "out of memory for statistics");
@@ -176,7 +250,7 @@ static pendres_status compute_slice(const void *arg, size_t task, pendres_contex
   const size_t n = slice_of(s, task);
   pendres_basin_state *state = farm_record_resize(out, n * sizeof *state);
   if (state == NULL) return PENDRES_OUT_OF_MEMORY;
-  return pendres_basin_states(ctx, s->b->set, &s->b->grid, n, s->index + task * SLICE, state);
+  return find_states(s->b, n, s->index + task * SLICE, ctx, out, state);
 }
 
 static pendres_status collect_slice(void *arg, size_t task, const farm_record *in)
@@ -268,9 +342,14 @@ static pendres_status refine_band(basins *b, size_t first, size_t rows, size_t *
   if (status == PENDRES_OK) status = basins_write_rows(b, first, rows, state);
   if (status == PENDRES_OK) status = pendres_basin_sums_add(b->sums, rows, state);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const size_t number = first * b->grid.nv + i;
     if (state[i].attractor != PENDRES_ATTRACTOR_UNKNOWN) continue;
+    if (state[i].settling_periods == BASINS_GIVEN_UP) {
+      take_given_up(b, 1, &number);
+      continue;
+    }
     b->unresolved++;
-    if (*lost < LOST_A_TASK) index[(*lost)++] = first * b->grid.nv + i;
+    if (*lost < LOST_A_TASK) index[(*lost)++] = number;
   }
 done:
   if (status != PENDRES_OK)
@@ -334,7 +413,13 @@ static void tell_unresolved(const basins *b)
     const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;
     weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
   }
-  scene_failure_unsettled(b->d, b->unresolved, b->grid.nx * b->grid.nv, "states", weakest, words,
+  for (size_t i = 0; i < b->given_up && i < BASINS_NAMED; i++) {
+    name_state(b, b->given_up_index[i], words, sizeof words);
+    scene_failure_tell(b->run, SCENE_FAILURE_OUT_OF_TIME, NULL, "the state at %s", words);
+  }
+  const size_t rest = b->unresolved - b->given_up;
+  if (rest == 0) return;
+  scene_failure_unsettled(b->d, rest, b->grid.nx * b->grid.nv, "states", weakest, words,
                           sizeof words);
   scene_failure_tell(b->run, SCENE_FAILURE_UNRESOLVED, words, "basins");
 }
@@ -376,5 +461,6 @@ const scene_kind scene_basins = {
     "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as 1, 2, 3, "
     "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
     "chapter VIII.6.",
+  .budget = 1,
   .describe = describe,
   .run = run_scene};

@@ -10,7 +10,11 @@
 
 #include "scenes/scene_failed.h"
 
-enum { BASINS_VARIABLES = 6 /* of every state */ };
+enum {
+  BASINS_VARIABLES = 6,      /* of every state */
+  BASINS_GIVEN_UP = -3,      /* settling_periods of a state that its budget has ended */
+  BASINS_NAMED = 4           /* of these, that are told by name */
+};
 
 typedef struct basins {
   scene_run *run;
@@ -21,6 +25,7 @@ typedef struct basins {
   pendres_basin_sums *sums;
   int variable[BASINS_VARIABLES];
   size_t unresolved, uncertain;
+  size_t given_up, given_up_index[BASINS_NAMED]; /* of the unresolved: by their budget */
   size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
   const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
   /* refinement alone: */

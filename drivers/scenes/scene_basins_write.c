@@ -25,7 +25,7 @@ static const scene_column of_states[BASINS_VARIABLES] = {
    .comment = "0 for running and chaotic pendulums"},
   {.name = "settling_periods", .type = SCENE_NUMBER, .value = offsetof(state_row, settling_periods),
    .long_name = "drive periods until the pendulum is inside its attractor's trapping region",
-   .comment = "-1: unresolved; -2: filled in by refinement, not integrated"},
+   .comment = "-1: unresolved; -2: filled in by refinement, not integrated; -3: ended by --budget"},
   {.name = "failed", .long_name = "why there is no label for the state", .type = SCENE_FLAG,
    .value = offsetof(state_row, failed), .names = scene_failure_names},
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
@@ -47,10 +47,13 @@ static void state_rows(size_t n, const pendres_basin_state *state, state_row *ro
   for (size_t i = 0; i < n; i++) {
     const pendres_basin_state *s = &state[i];
     const int unknown = s->attractor == PENDRES_ATTRACTOR_UNKNOWN;
+    const int late = s->settling_periods == BASINS_GIVEN_UP;
     rows[i] = (state_row){
       .label = s->label, .attractor = s->attractor, .well = s->well,
       .settling_periods = s->settling_periods,
-      .failed = unknown ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE,
+      .failed = late      ? SCENE_FAILURE_OUT_OF_TIME
+                : unknown ? SCENE_FAILURE_UNRESOLVED
+                          : SCENE_FAILURE_NONE,
       .uncertain = s->how == PENDRES_BASIN_UNCERTAIN};
   }
 }

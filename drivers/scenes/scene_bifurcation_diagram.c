@@ -18,14 +18,22 @@ typedef struct strobe {
   double x, x_error, v, v_error;
 } strobe;
 
+enum { NO_TIME = -1 };
+
+/* What the last task of the second stage finds. */
+typedef struct cascade_record {
+  pendres_cascade cascade;
+  scene_verdict verdict;
+} cascade_record;
+
 typedef struct work {
   const deck *d;
   deck_axis_id axis;
   size_t values, strobes;
   scene_along_path path;
   strobe *strobe; /* [values][strobes] */
-  int *attractors; /* [values] */
-  pendres_cascade cascade;
+  int *attractors; /* [values]; NO_TIME: the budget has ended what was to be found there */
+  cascade_record cascade;
 } work;
 
 /* What a task of the second stage finds at a value; `strobes` positions, then velocities follow. */
@@ -58,37 +66,53 @@ static pendres_status collect_path(void *arg, size_t task, const farm_record *in
 
 static pendres_status find_cascade(const work *w, pendres_context *ctx, farm_record *out)
 {
-  pendres_cascade *c = farm_record_resize(out, sizeof *c);
+  cascade_record *r = farm_record_resize(out, sizeof *r);
   const pendres_orbit *first = &w->path.point[0].attractor.orbit;
   pendres_status status = PENDRES_NOT_FOUND;
-  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (r == NULL) return PENDRES_OUT_OF_MEMORY;
+  farm_point(out, 1, "the cascade of doublings");
   if (scene_along_closed(&w->path.point[0]))
     status = pendres_cascade_find(ctx, first, scene_along_parameter(w->axis),
-                                  w->path.point[w->values - 1].value, c);
-  if (status == PENDRES_OK || scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
-  *c = (pendres_cascade){.limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
+                                  w->path.point[w->values - 1].value, &r->cascade);
+  const int late = farm_gave_up(out, status);
+  if (late) status = scene_verdict_point(&r->verdict, status, NULL, out);
+  else if (status == PENDRES_OK || scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  r->cascade =
+    (pendres_cascade){.limit = NAN, .limit_error = NAN, .ratio = NAN, .ratio_error = NAN};
   return PENDRES_OK;
+}
+
+/* Attractors at a value, and strobe points of the one that the path is on. */
+static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, record *r, double *x)
+{
+  const pendres_hysteresis_point *point = &w->path.point[i];
+  const pendres_pendulum p = pendulum_at(w, i);
+  pendres_attractors *set = NULL;
+  pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
+  r->attractors = (int64_t)pendres_attractors_count(set);
+  pendres_attractors_free(set);
+  if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED) return status;
+  return pendres_strobe_record(ctx, &p, point->x, point->v, (long)w->strobes - 1, 1, x,
+                               x + w->strobes, NULL, NULL);
 }
 
 static pendres_status find_strobes(const void *arg, size_t task, pendres_context *ctx,
                                    farm_record *out)
 {
   const work *w = arg;
-  pendres_attractors *set = NULL;
+  char words[SCENE_TOLD];
   if (task == w->values) return find_cascade(w, ctx, out);
-  const pendres_hysteresis_point *point = &w->path.point[task];
-  const pendres_pendulum p = pendulum_at(w, task);
   record *r = farm_record_resize(out, sizeof *r + 2 * w->strobes * sizeof(double));
   if (r == NULL) return PENDRES_OUT_OF_MEMORY;
-  double *x = (double *)(r + 1), *v = x + w->strobes;
-  for (size_t k = 0; k < w->strobes; k++) x[k] = v[k] = NAN;
-  pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
-  r->attractors = (int64_t)pendres_attractors_count(set);
-  pendres_attractors_free(set);
-  if (status == PENDRES_OK && point->attractor.label != PENDRES_LABEL_UNRESOLVED)
-    status = pendres_strobe_record(ctx, &p, point->x, point->v, (long)w->strobes - 1, 1, x, v, NULL,
-                                   NULL);
-  return status;
+  double *x = (double *)(r + 1);
+  for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
+  scene_point_begin(out, w->d, task, 1, 1, &w->axis);
+  const pendres_status status = find_at(w, task, ctx, r, x);
+  if (!farm_gave_up(out, status)) return status;
+  farm_lost(out, words, sizeof words);
+  for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
+  r->attractors = NO_TIME;
+  return PENDRES_OK;
 }
 
 /* The well number 0. */
@@ -132,7 +156,8 @@ static const scene_column of_points[] = {
 };
 
 static const scene_column of_attractors = {
-  .name = "attractors", .long_name = "attractors that are found there", .type = SCENE_NUMBER};
+  .name = "attractors", .long_name = "attractors that are found there", .type = SCENE_NUMBER,
+  .comment = "-1: not known"};
 
 static const scene_column of_bifurcations[] = {
   {.name = "kind", .long_name = "what ends the motion there", .type = SCENE_FLAG,
@@ -156,6 +181,23 @@ static const scene_column of_cascade[] = {
 #define WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
+/* What the budget has ended, beside what the path says. */
+static void mark_late(scene_run *run, const work *w, scene_along_row *rows)
+{
+  for (size_t i = 0; i < w->values; i++) {
+    if (w->attractors[i] != NO_TIME) continue;
+    /* What the path has not come to is counted there. */
+    run->failed_points += rows[i].failed == SCENE_FAILURE_NONE;
+    rows[i].failed = SCENE_FAILURE_OUT_OF_TIME;
+    scene_failure_tell(run, SCENE_FAILURE_OUT_OF_TIME, NULL, "attractors at %s %.10g",
+                       deck_axis_name(w->axis), w->path.point[i].value);
+  }
+  if (w->cascade.verdict.reason == SCENE_FAILURE_NONE) return;
+  run->failed_points++;
+  scene_failure_tell(run, (scene_failure)w->cascade.verdict.reason, w->cascade.verdict.words,
+                     "the cascade of doublings");
+}
+
 static pendres_status write_values(scene_run *run, const work *w)
 {
   const char *axis = deck_axis_name(w->axis);
@@ -168,6 +210,7 @@ static pendres_status write_values(scene_run *run, const work *w)
   const scene_table counts = {.dimensions = {axis}, .n = w->values,
                               .stride = sizeof *w->attractors, .rows = w->attractors};
   if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
+  mark_late(run, w, rows);
   pendres_status status = WRITE(run, &strobes, of_strobes);
   if (status == PENDRES_OK) status = WRITE(run, &points, of_points);
   if (status == PENDRES_OK) status = scene_columns_write(run, &counts, 1, &of_attractors);
@@ -195,7 +238,7 @@ static pendres_status write_bifurcations(scene_run *run, const work *w)
 
 static pendres_status write_cascade(scene_run *run, const work *w)
 {
-  const pendres_cascade *c = &w->cascade;
+  const pendres_cascade *c = &w->cascade.cascade;
   const scene_table doublings = {.dimensions = {"cascade"}, .prefix = "cascade",
                                  .n = (size_t)c->doublings, .stride = sizeof c->value[0],
                                  .rows = c};
@@ -230,10 +273,10 @@ static void tabulate(FILE *out, const work *w)
     fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_jump_kind_name(j->kind), j->value,
             j->value_error, j->to_period);
   }
-  if (w->cascade.doublings > 3)
-    fprintf(out, "%d doublings accumulate at %.12g +- %.0e, ratio %.6f +- %.0e\n",
-            w->cascade.doublings, w->cascade.limit, w->cascade.limit_error, w->cascade.ratio,
-            w->cascade.ratio_error);
+  const pendres_cascade *c = &w->cascade.cascade;
+  if (c->doublings > 3)
+    fprintf(out, "%d doublings accumulate at %.12g +- %.0e, ratio %.6f +- %.0e\n", c->doublings,
+            c->limit, c->limit_error, c->ratio, c->ratio_error);
 }
 
 static pendres_status compute(scene_run *run, work *w)
@@ -283,6 +326,7 @@ const scene_kind scene_bifurcation_diagram = {
   .kind = DECK_BIFURCATION_DIAGRAM,
   .references = "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, Journal "
                 "of Statistical Physics 19 (1978) 25",
+  .budget = 1,
   .describe = describe,
   .run = run_scene,
 };

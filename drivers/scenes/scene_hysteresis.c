@@ -186,6 +186,7 @@ const scene_kind scene_hysteresis = {
   .kind = DECK_HYSTERESIS,
   .references = "Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
+  .budget = 1,
   .describe = describe,
   .run = run_scene,
 };

@@ -159,15 +159,27 @@ static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
   return PENDRES_OK;
 }
 
+/* What there is to record. The budget is of this search: a record takes its known time. */
+static pendres_status find(orbit_work *w, pendres_context *ctx, farm_record *out)
+{
+  const int named = w->d->orbit.start[0] != '\0';
+  farm_point(out, 1, "what the pendulum settles on");
+  pendres_status status = named ? find_named(w, ctx, out) : find_from_start(w, ctx);
+  if (farm_gave_up(out, status)) {
+    w->found.label = PENDRES_LABEL_UNRESOLVED;
+    status = scene_verdict_point(&w->found.verdict, status, NULL, out);
+  }
+  farm_point(out, 0, "the record of the orbit");
+  return status;
+}
+
 /* The first task finds what there is to record; the others go on from what was collected. */
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   orbit_work w = *(const orbit_work *)arg;
   record *r = out->data;
   const orbit_samples samples = samples_in(&w, r);
-  const int named = w.d->orbit.start[0] != '\0';
-  pendres_status status = PENDRES_OK;
-  if (task == 0) status = named ? find_named(&w, ctx, out) : find_from_start(&w, ctx);
+  pendres_status status = task == 0 ? find(&w, ctx, out) : PENDRES_OK;
   if (status == PENDRES_OK) status = sample(&w, ctx, task, &samples);
   r->found = w.found;
   memcpy(&r->recording, &w.recording, sizeof r->recording);
@@ -233,6 +245,7 @@ const scene_kind scene_orbit = {
   .kind = DECK_ORBIT,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Figs. 5 and 6",
+  .budget = 1,
   .describe = describe,
   .run = run_scene,
 };

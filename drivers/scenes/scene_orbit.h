@@ -6,7 +6,7 @@
 #ifndef SCENE_ORBIT_H
 #define SCENE_ORBIT_H
 
-#include "scenes/scene.h"
+#include "scenes/scene_failed.h"
 
 /* What the first task finds of the pendulum. */
 typedef struct orbit_found {
@@ -16,6 +16,7 @@ typedef struct orbit_found {
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
   double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
+  scene_verdict verdict;         /* the budget has ended the search */
 } orbit_found;
 
 /* Samples of a chunk, one after the other; those of the last period's end are the next chunk's. */

@@ -84,10 +84,17 @@ static const scene_column of_verdicts[] = {
 
 static pendres_status put_label(scene_run *run, const orbit_work *w)
 {
-  const int lost = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
-  const verdict of = {(int)w->found.label, lost ? SCENE_FAILURE_UNRESOLVED : SCENE_FAILURE_NONE};
+  const scene_verdict *late = &w->found.verdict;
+  const int unresolved = w->found.label == PENDRES_LABEL_UNRESOLVED && !w->transient;
+  const int lost = unresolved || late->reason != SCENE_FAILURE_NONE;
+  const int failed = late->reason != SCENE_FAILURE_NONE ? late->reason
+                     : unresolved                       ? SCENE_FAILURE_UNRESOLVED
+                                                        : SCENE_FAILURE_NONE;
+  const verdict of = {(int)w->found.label, failed};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
-  if (lost) scene_failure_tell(run, SCENE_FAILURE_UNRESOLVED, NULL, "orbit");
+  if (lost)
+    scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
+                       "orbit");
   run->failed_points = (size_t)lost;
   return scene_columns_write(run, &table, sizeof of_verdicts / sizeof *of_verdicts, of_verdicts);
 }

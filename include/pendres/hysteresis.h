@@ -114,7 +114,9 @@ typedef struct pendres_hysteresis pendres_hysteresis;
  * path, by amplitude, and keep their names along the whole stretch that is followed; elsewhere they
  * are named as pendres_label says.
  *
- * p and value are read. *out is to be freed by pendres_hysteresis_free; NULL on failure.
+ * p and value are read. *out is to be freed by pendres_hysteresis_free; NULL on failure, but for
+ * PENDRES_INTERRUPTED on the way: then it has what was met until then, and the points that were not
+ * reached are unresolved, with NaN for x and v.
  * Errors: PENDRES_INVALID_ARGUMENT (the message says which), PENDRES_OUT_OF_MEMORY,
  * PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some points are unresolved.
  * Thread safety: as for the context.

@@ -361,9 +361,21 @@ static pendres_hysteresis *create(size_t n)
   h->count = n;
   h->point = calloc(n + 1, sizeof *h->point);
   h->stretch = calloc(n + 1, sizeof *h->stretch);
+  for (size_t i = 0; i < n && h->point != NULL; i++) h->point[i].value = NAN; /* not reached */
   if (h->point != NULL && h->stretch != NULL) return h;
   pendres_hysteresis_free(h);
   return NULL;
+}
+
+/* Of the values that an interrupted path has not reached nothing is known. */
+static void leave_rest(path *w)
+{
+  for (size_t i = 0; i < w->n; i++) {
+    if (!isnan(w->h->point[i].value)) continue;
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
+    w->state = pendres_settled_nothing_at(&p, NAN, NAN);
+    pendres_path_put(w, i, &w->state.attractor);
+  }
 }
 
 static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hysteresis **out)
@@ -383,8 +395,13 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
     return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
                                 w->n);
   pendres_status status = w->n > 0 ? follow_path(w) : PENDRES_OK;
-  if (status == PENDRES_OK) status = pendres_hysteresis_name(w->ctx, w->h);
-  if (status == PENDRES_OK) *out = w->h;
+  const int interrupted = status == PENDRES_INTERRUPTED;
+  if (interrupted) leave_rest(w);
+  if (status == PENDRES_OK || interrupted) {
+    const pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
+    if (named != PENDRES_OK) status = named;
+  }
+  if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) *out = w->h;
   else pendres_hysteresis_free(w->h);
   return status;
 }
