@@ -64,7 +64,7 @@ static int tangent_of(const pendres_arc *w, const pendres_continuation_equations
     a[n - 1][k] = along[k];
   }
   t[n - 1] = 1.0;
-  if (!pendres_continuation_map_linear(n, a, t)) return 0;
+  if (!pendres_continuation_equations_linear(n, a, t)) return 0;
   for (int k = 0; k < n; k++) length = hypot(length, t[k]);
   for (int k = 0; k < n; k++) tangent[k] = t[k] / length;
   return 1;
@@ -137,7 +137,7 @@ static void correct(candidate *c)
   linearise(c, a);
   for (int r = 0; r < n - 1; r++) d[r] = -c->at.r[r];
   c->state = FAILED;
-  if (!pendres_continuation_map_linear(n, a, d)) return;
+  if (!pendres_continuation_equations_linear(n, a, d)) return;
   for (int k = 0; k < n; k++) length = hypot(length, d[k]);
   if (!(length < 1.0)) return;
   for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_arc_scale[w->unknown[k]] * d[k];
@@ -157,7 +157,7 @@ static double rounding_of(const candidate *c)
     double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
     linearise(c, a);
     b[column] = column < 2 ? unit : 4.0 * unit;
-    if (!pendres_continuation_map_linear(n, a, b)) return NAN;
+    if (!pendres_continuation_equations_linear(n, a, b)) return NAN;
     for (int k = 0; k < n; k++) sum = hypot(sum, b[k]);
   }
   return sum;
@@ -197,10 +197,9 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
-    const pendres_arc *w = c[first].arc;
-    status = pendres_continuation_map_equations(ctx, &w->map, w->condition, c[first].steps,
-                                                w->unknowns, w->unknown, count,
-                                                (const double (*)[PENDRES_U_COUNT])u, at);
+    const pendres_continuation_system system = pendres_arc_system(c[first].arc, c[first].steps);
+    status = pendres_continuation_equations_at(ctx, &system, count,
+                                               (const double (*)[PENDRES_U_COUNT])u, at);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++) c[index[i]].at = at[i];
   }
   return status;
@@ -214,7 +213,7 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
                                  double (*u)[PENDRES_U_COUNT])
 {
   pendres_status status = PENDRES_OK;
-  double(*miss)[2] = malloc((n + 1) * sizeof *miss);
+  pendres_continuation_miss *miss = malloc((n + 1) * sizeof *miss);
   if (miss == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == CONVERGED && c[i].arc->apart;
@@ -222,9 +221,9 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
     if (!c[first].waiting) continue;
     const size_t count = gather(n, c, first, index, u);
     status = pendres_continuation_map_closes(ctx, &c[first].arc->half, c[first].steps, count,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss, NULL);
+                                             (const double (*)[PENDRES_U_COUNT])u, miss);
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-      if (!(hypot(miss[i][0], miss[i][1]) > too_close)) c[index[i]].state = FAILED;
+      if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close)) c[index[i]].state = FAILED;
   }
   free(miss);
   return status;
@@ -338,12 +337,19 @@ static int first_tangent(const pendres_arc *w, const pendres_continuation_equati
   return 1;
 }
 
+pendres_continuation_system pendres_arc_system(const pendres_arc *w, int steps)
+{
+  return (pendres_continuation_system){.map = &w->map, .steps = steps, .condition = w->condition,
+                                       .unknowns = w->unknowns, .unknown = w->unknown};
+}
+
 static pendres_status equations_at(pendres_context *ctx, const pendres_arc *w, int steps,
                                    const double u[PENDRES_U_COUNT],
                                    pendres_continuation_equations *e)
 {
-  return pendres_continuation_map_equations(ctx, &w->map, w->condition, steps, w->unknowns,
-                                            w->unknown, 1, (const double (*)[PENDRES_U_COUNT])u, e);
+  const pendres_continuation_system system = pendres_arc_system(w, steps);
+  return pendres_continuation_equations_at(ctx, &system, 1, (const double (*)[PENDRES_U_COUNT])u,
+                                           e);
 }
 
 pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
@@ -366,10 +372,10 @@ pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
   if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
   if (status == PENDRES_OK && pendres_continuation_map_half(&w->map, 0, &w->half)) {
-    double miss[1][2];
+    pendres_continuation_miss miss;
     status = pendres_continuation_map_closes(ctx, &w->half, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])place, miss, NULL);
-    w->apart = status == PENDRES_OK && hypot(miss[0][0], miss[0][1]) > too_close;
+                                             (const double (*)[PENDRES_U_COUNT])place, &miss);
+    w->apart = status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close;
   }
   if (status != PENDRES_OK) return status;
   memcpy(w->here.u, place[0], sizeof w->here.u);
@@ -382,9 +388,7 @@ pendres_status pendres_arc_describe(pendres_context *ctx, const pendres_arc *w, 
 {
   pendres_continuation_equations e;
   double tangent[PENDRES_ARC_UNKNOWNS], null[2] = {point->null[0], point->null[1]};
-  const pendres_status status = pendres_continuation_map_equations(
-    ctx, &w->map, w->condition, steps, w->unknowns, w->unknown, 1,
-    (const double (*)[PENDRES_U_COUNT])point->u, &e);
+  const pendres_status status = equations_at(ctx, w, steps, point->u, &e);
   if (status != PENDRES_OK) return status;
   describe(w, &e, null, point);
   if (tangent_of(w, &e, point->tangent, tangent)) memcpy(point->tangent, tangent, sizeof tangent);

@@ -13,7 +13,7 @@
 
 #include <pendres/continuation.h>
 
-#include "continuation/continuation_map.h"
+#include "continuation/continuation_equations.h"
 
 enum { PENDRES_ARC_AHEAD = 8, PENDRES_ARC_UNKNOWNS = 4 };
 
@@ -46,6 +46,9 @@ typedef struct pendres_arc {
   pendres_arc_point ahead[PENDRES_ARC_AHEAD]; /* what the latest advance found, in order */
   int found;
 } pendres_arc;
+
+/* Its equations, at so many steps a period. */
+pendres_continuation_system pendres_arc_system(const pendres_arc *arc, int steps);
 
 /* Lengths that count as one in arclength, in the order of u. */
 extern const double pendres_arc_scale[PENDRES_U_COUNT];

@@ -76,12 +76,12 @@ static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
     pendres_continuation_map_steps(ctx, t->kind.map.force, u, pendres_accuracy_first(ctx),
                                    &steps);
   for (int k = 0; !*twice && status == PENDRES_OK; k++) {
-    double miss[1][2] = {{NAN, NAN}};
+    pendres_continuation_miss miss = {.off = {NAN, NAN}};
     if (!pendres_continuation_map_half(&t->kind.map, k, &one)) break;
     status = pendres_continuation_map_closes(ctx, &one, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss,
-                                             &one.winding);
-    *twice = hypot(miss[0][0], miss[0][1]) < 1e-3;
+                                             (const double (*)[PENDRES_U_COUNT])u, &miss);
+    if (status == PENDRES_OK) one.winding = miss.winding;
+    *twice = hypot(miss.off[0], miss.off[1]) < 1e-3;
     if (k == 0 || *twice) *half = one;
   }
   return status;
@@ -96,9 +96,9 @@ static pendres_status locate_birth(pendres_context *ctx, const pendres_trail *t,
   pendres_located flip;
   int twice = 0;
   pendres_status status = half_at(ctx, t, u, &half, &twice);
-  if (status == PENDRES_OK)
-    status = pendres_continuation_locate(ctx, &half, PENDRES_CONDITION_FLIP, t->kind.unknown, u,
-                                         reach, &flip);
+  const pendres_continuation_system flips =
+    pendres_continuation_system_of(&half, PENDRES_CONDITION_FLIP, t->kind.unknown);
+  if (status == PENDRES_OK) status = pendres_continuation_locate(ctx, &flips, u, reach, &flip);
   if (!pendres_located_found(status)) return status;
   m->condition = PENDRES_CONDITION_FLIP;
   m->located = flip;
@@ -120,8 +120,9 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
   /* Rest has no folds: there the other map has a flip. */
   if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && t->kind.map.period <= 2 && !t->kind.apart)
     return locate_birth(ctx, t, u, reach, m);
-  const pendres_status fold = pendres_continuation_locate(
-    ctx, &t->kind.map, PENDRES_CONDITION_FOLD, t->kind.unknown, u, reach, &m->located);
+  const pendres_continuation_system folds =
+    pendres_continuation_system_of(&t->kind.map, m->condition, t->kind.unknown);
+  const pendres_status fold = pendres_continuation_locate(ctx, &folds, u, reach, &m->located);
   if (!pendres_located_found(fold))
     return fold == PENDRES_NOT_CONVERGED ? locate_birth(ctx, t, u, reach, m) : fold;
   const pendres_status asked = half_at(ctx, t, m->located.pair.coarse, &half, &twice);
@@ -135,8 +136,9 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_trail *t,
                                   pendres_course_special *m)
 {
   m->condition = PENDRES_CONDITION_FLIP;
-  return pendres_continuation_locate(ctx, &t->kind.map, m->condition, t->kind.unknown, u, reach,
-                                     &m->located);
+  const pendres_continuation_system flips =
+    pendres_continuation_system_of(&t->kind.map, m->condition, t->kind.unknown);
+  return pendres_continuation_locate(ctx, &flips, u, reach, &m->located);
 }
 
 /* All bifurcations of a trail; births first, at which folds' function may have a zero or two. */

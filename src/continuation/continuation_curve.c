@@ -97,8 +97,9 @@ static pendres_status locate_cusp(pendres_context *ctx, const pendres_trail *t,
                                   pendres_course_special *out)
 {
   out->condition = PENDRES_CONDITION_CUSP;
-  return pendres_continuation_locate(ctx, &t->kind.map, out->condition, t->kind.unknown, u, reach,
-                                     &out->located);
+  const pendres_continuation_system cusps =
+    pendres_continuation_system_of(&t->kind.map, out->condition, t->kind.unknown);
+  return pendres_continuation_locate(ctx, &cusps, u, reach, &out->located);
 }
 
 static pendres_status locate_cusps(pendres_context *ctx, pendres_course *c)
@@ -278,6 +279,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
   const size_t chords = c->count > 1 ? (closed ? c->count : c->count - 1) : 0;
   const int unknown[] = {PENDRES_U_Y, PENDRES_U_W, place_of(c->parameter[0])};
   const int second = place_of(c->parameter[1]);
+  const pendres_continuation_system system =
+    pendres_continuation_system_of(&c->map, c->condition, unknown);
   const pendres_continuation_points points = {
     .count = c->count, .u = (const double (*)[PENDRES_U_COUNT])c->u, .closed = closed,
     .turn = c->map.mirror ? 0.0 : pendres_model_of(c->map.force)->period};
@@ -294,8 +297,8 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
       /* What stays as it is along the curve does so to the last bit. */
       for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++)
         if (k != unknown[2]) guess[k] = k == second ? value : c->u[i][k];
-      pendres_status status = pendres_continuation_locate(ctx, &c->map, c->condition, unknown,
-                                                          guess, 2.0 * s.length + 1e-3, &located);
+      pendres_status status =
+        pendres_continuation_locate(ctx, &system, guess, 2.0 * s.length + 1e-3, &located);
       if (status == PENDRES_NOT_CONVERGED) continue;
       if (!pendres_located_found(status)) return status;
       /* Next to a turn of the curve two guesses may lead to one: it is counted once. */
@@ -327,6 +330,8 @@ pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c,
 /* Go along it until the quadratic term changes its sign. */
 static pendres_status follow_to_cusp(pendres_context *ctx, pendres_arc *w, pendres_located *out)
 {
+  const pendres_continuation_system cusps =
+    pendres_continuation_system_of(&w->map, PENDRES_CONDITION_CUSP, w->unknown);
   pendres_arc_point last = w->here;
   for (int i = 0; i < MOST_ADVANCES; i++) {
     pendres_status status = pendres_arc_advance(ctx, 1, w);
@@ -339,7 +344,7 @@ static pendres_status follow_to_cusp(pendres_context *ctx, pendres_arc *w, pendr
         double u[PENDRES_U_COUNT];
         for (int m = 0; m < PENDRES_U_COUNT; m++)
           u[m] = last.u[m] + part * (p->u[m] - last.u[m]);
-        status = pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_CUSP, w->unknown, u,
+        status = pendres_continuation_locate(ctx, &cusps, u,
                                              2.0 * (p->arclength - last.arclength), out);
         if (status != PENDRES_NOT_CONVERGED) return status;
       }

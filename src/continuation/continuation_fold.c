@@ -22,8 +22,9 @@ static pendres_status between(pendres_context *ctx, const pendres_arc *w,
   const double part = ga / (ga - gb);
   double u[PENDRES_U_COUNT];
   for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  return pendres_continuation_locate(ctx, &w->map, PENDRES_CONDITION_FOLD, w->unknown, u,
-                                     2.0 * (b->arclength - a->arclength), out);
+  const pendres_continuation_system folds =
+    pendres_continuation_system_of(&w->map, PENDRES_CONDITION_FOLD, w->unknown);
+  return pendres_continuation_locate(ctx, &folds, u, 2.0 * (b->arclength - a->arclength), out);
 }
 
 /* Whether the parameter at `place` has left the range in which folds are looked for. */

@@ -13,8 +13,6 @@
 /* Rounding of a step, three times its usual size: errors claim to be bounds. */
 static const double epsilon = 4e-16;
 
-static const int counts[] = {2, 3, 3, 4}; /* unknowns of the conditions */
-
 /* How the unknowns move where each equation is off by so much, whichever way. 0 if singular. */
 static int moved_by(const pendres_continuation_equations *e, const int *unknown,
                     const double off[PENDRES_EQUATIONS_MOST],
@@ -27,7 +25,7 @@ static int moved_by(const pendres_continuation_equations *e, const int *unknown,
     for (int r = 0; r < n; r++)
       for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
     b[column] = off[column];
-    if (!pendres_continuation_map_linear(n, a, b)) return 0;
+    if (!pendres_continuation_equations_linear(n, a, b)) return 0;
     for (int i = 0; i < n; i++) moved[i] = hypot(moved[i], b[i]);
   }
   return 1;
@@ -95,14 +93,15 @@ static pendres_status apart_of(pendres_context *ctx, const pendres_continuation_
  * l N = l and F(z, p) = G - z, p'' = -l . D2F(v, v) / l . dF/dp. D2F by central differences
  * of the derivative N over h.
  */
-static pendres_status curvature_of(pendres_context *ctx, const pendres_continuation_map *map,
-                                   int steps, int parameter, const double u[PENDRES_U_COUNT],
-                                   double h, double *out)
+static pendres_status curvature_of(pendres_context *ctx,
+                                   const pendres_continuation_system *system,
+                                   const double u[PENDRES_U_COUNT], double h, double *out)
 {
+  const int parameter = system->unknown[0];
   pendres_continuation_image image[3];
   double points[3][PENDRES_U_COUNT];
   pendres_status status = pendres_continuation_map_images(
-    ctx, map, steps, 1, &parameter, 1, (const double (*)[PENDRES_U_COUNT])u, image);
+    ctx, system, 1, (const double (*)[PENDRES_U_COUNT])u, image);
   if (status != PENDRES_OK) return status;
   const double a = image[0].j[0][0], b = image[0].j[0][1], c = image[0].j[1][0],
                d = image[0].j[1][1];
@@ -115,8 +114,8 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_continuat
     points[i][PENDRES_U_Y] += (i - 1) * h * v[0] / length;
     points[i][PENDRES_U_W] += (i - 1) * h * v[1] / length;
   }
-  status = pendres_continuation_map_images(ctx, map, steps, 1, &parameter, 3,
-                                           (const double (*)[PENDRES_U_COUNT])points, image);
+  status = pendres_continuation_map_images(
+    ctx, system, 3, (const double (*)[PENDRES_U_COUNT])points, image);
   if (status != PENDRES_OK) return status;
   double top = 0.0, bottom = 0.0;
   for (int i = 0; i < 2; i++) {
@@ -128,33 +127,33 @@ static pendres_status curvature_of(pendres_context *ctx, const pendres_continuat
   return PENDRES_OK;
 }
 
-static pendres_status solve_twice(pendres_context *ctx, const pendres_continuation_map *map,
-                                  pendres_continuation_condition condition, const int *unknown,
-                                  const double u[PENDRES_U_COUNT], double reach, int steps,
+/* With the system's steps, and with more. */
+static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_system system,
+                                  const double u[PENDRES_U_COUNT], double reach,
                                   pendres_located *out)
 {
   pendres_continuation_equations at;
   pendres_continuation_pair *pair = &out->pair;
-  const int n = counts[condition];
+  const int n = system.unknowns, steps = system.steps, *unknown = system.unknown;
   double off[PENDRES_EQUATIONS_MOST];
   double apart[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
 
-  pair->map = *map;
+  pair->map = *system.map;
   pair->critical = 1;
   pair->coarse_steps = steps;
   pair->fine_steps = pendres_steps_rung((int)ceil(1.4 * steps));
   pair->fine_steps += pair->fine_steps % 2;
   memcpy(pair->coarse, u, sizeof pair->coarse);
-  pendres_status status = pendres_continuation_map_solve(
-    ctx, map, condition, pair->coarse_steps, unknown, fmin(reach, 0.1), pair->coarse, &at);
+  pendres_status status =
+    pendres_continuation_equations_solve(ctx, &system, fmin(reach, 0.1), pair->coarse, &at);
   if (status == PENDRES_OK && !(pendres_arc_distance(u, pair->coarse) <= reach))
     status = PENDRES_NOT_CONVERGED;
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
-  status = pendres_continuation_map_solve(ctx, map, condition, pair->fine_steps, unknown, 0.01,
-                                          pair->fine, &at);
+  system.steps = pair->fine_steps;
+  status = pendres_continuation_equations_solve(ctx, &system, 0.01, pair->fine, &at);
   if (status != PENDRES_OK) return status;
-  rounding_of(&at, pair->fine_steps, map->period, off);
+  rounding_of(&at, pair->fine_steps, pair->map.period, off);
   if (!moved_by(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
   status = apart_of(ctx, pair, off);
   if (status != PENDRES_OK) return status;
@@ -170,27 +169,26 @@ static pendres_status solve_twice(pendres_context *ctx, const pendres_continuati
 }
 
 pendres_status pendres_continuation_locate(pendres_context *ctx,
-                                           const pendres_continuation_map *map,
-                                           pendres_continuation_condition condition,
-                                           const int *unknown, const double u[PENDRES_U_COUNT],
-                                           double reach, pendres_located *out)
+                                           const pendres_continuation_system *of,
+                                           const double u[PENDRES_U_COUNT], double reach,
+                                           pendres_located *out)
 {
   enum { MOST_TRIES = 5 };
   const double tolerance = ctx->options.tolerance;
-  int steps = 0;
-  pendres_status status =
-    pendres_continuation_map_steps(ctx, map->force, u, pendres_accuracy_first(ctx), &steps);
+  pendres_continuation_system system = *of;
+  pendres_status status = pendres_continuation_map_steps(
+    ctx, system.map->force, u, pendres_accuracy_first(ctx), &system.steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
   for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
     double worst = 0.0;
-    status = solve_twice(ctx, map, condition, unknown, from, reach, steps, out);
+    status = solve_twice(ctx, system, from, reach, out);
     if (status != PENDRES_OK) return status;
-    for (int i = 2; i < counts[condition]; i++) worst = fmax(worst, out->error[i]);
+    for (int i = 2; i < system.unknowns; i++) worst = fmax(worst, out->error[i]);
     if (worst <= tolerance) return PENDRES_OK;
     if (ctx->options.steps_per_period > 0) break;
     memcpy(from, out->pair.fine, sizeof from);
-    steps = out->pair.fine_steps;
+    system.steps = out->pair.fine_steps;
   }
   return status == PENDRES_OK ? PENDRES_TOLERANCE_UNREACHABLE : status;
 }
@@ -222,11 +220,12 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
   /* Truncation h^2 and rounding 1e-15/h meet here; twice the width tells how large they are. */
   const double h = 1e-4;
   double wide = 0.0, coarse = 0.0;
-  status = curvature_of(ctx, &p->map, p->fine_steps, place, p->fine, h, &out->curvature);
-  if (status == PENDRES_OK)
-    status = curvature_of(ctx, &p->map, p->fine_steps, place, p->fine, 2.0 * h, &wide);
-  if (status == PENDRES_OK)
-    status = curvature_of(ctx, &p->map, p->coarse_steps, place, p->coarse, h, &coarse);
+  pendres_continuation_system at = {
+    .map = &p->map, .steps = p->fine_steps, .unknowns = 1, .unknown = &place};
+  status = curvature_of(ctx, &at, p->fine, h, &out->curvature);
+  if (status == PENDRES_OK) status = curvature_of(ctx, &at, p->fine, 2.0 * h, &wide);
+  at.steps = p->coarse_steps;
+  if (status == PENDRES_OK) status = curvature_of(ctx, &at, p->coarse, h, &coarse);
   out->curvature_error = fabs(wide - out->curvature) +
                          pendres_continuation_orbit_error(coarse, out->curvature,
                                                           1e-10 * fabs(out->curvature));

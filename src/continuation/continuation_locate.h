@@ -8,6 +8,7 @@
 
 #include <pendres/continuation.h>
 
+#include "continuation/continuation_equations.h"
 #include "continuation/continuation_orbit.h"
 
 /* A solution with the errors of its unknowns, in their order. */
@@ -18,16 +19,15 @@ typedef struct pendres_located {
 } pendres_located;
 
 /*
- * Solve the equations of a condition near u, the last unknown(s) being parameters, until the
+ * Solve a system of as many equations as unknowns near u, with steps of its own choice, until the
  * parameters' errors are below the tolerance of the context. PENDRES_NOT_CONVERGED (without a
  * message) if there is nothing within `reach` of u (in the scale of arclength);
  * PENDRES_TOLERANCE_UNREACHABLE with *out complete.
  */
 pendres_status pendres_continuation_locate(pendres_context *ctx,
-                                           const pendres_continuation_map *map,
-                                           pendres_continuation_condition condition,
-                                           const int *unknown, const double u[PENDRES_U_COUNT],
-                                           double reach, pendres_located *out);
+                                           const pendres_continuation_system *system,
+                                           const double u[PENDRES_U_COUNT], double reach,
+                                           pendres_located *out);
 
 /* Whether a status of pendres_continuation_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);

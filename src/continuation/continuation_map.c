@@ -5,21 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_linalg.h>
-
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
-
-/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's: an
-   error of 1e-5 of them costs nothing. So short since second derivatives grow to 1e9 where orbits
-   pass close to the top of the barrier; the determinant's own rounding, 1e-15, does no harm. */
-static const double nudge = 2e-9;
-/* The derivative along the null vector enters the solution itself: central differences of order
-   six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
-static const double stencil_step = 8e-3;
-enum { STENCIL = 6 };
 
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
                                                    const double u[PENDRES_U_COUNT])
@@ -142,6 +131,17 @@ double pendres_continuation_map_growth(const pendres_continuation_image *i)
   return hypot(hypot(i->n[0][0], i->n[0][1]), hypot(i->n[1][0], i->n[1][1]));
 }
 
+void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])
+{
+  /* The larger row of N - I has more digits. */
+  const double *row =
+    hypot(image->j[0][0], image->j[0][1]) > hypot(image->j[1][0], image->j[1][1]) ? image->j[0]
+                                                                                 : image->j[1];
+  const double length = hypot(row[0], row[1]);
+  v[0] = length > 0.0 ? -row[1] / length : 1.0;
+  v[1] = length > 0.0 ? row[0] / length : 0.0;
+}
+
 /* ---- images ---- */
 
 /* Of a map. */
@@ -214,29 +214,28 @@ static pendres_flow_kind kind_of(int unknowns, const int *unknown)
   return kinds[k];
 }
 
-static pendres_status images(pendres_context *ctx, const pendres_continuation_map *map, int steps,
-                             size_t n, const double (*u)[PENDRES_U_COUNT],
-                             pendres_flow_kind kind, pendres_continuation_image *out)
+static pendres_status images(pendres_context *ctx, const pendres_continuation_system *s, size_t n,
+                             const double (*u)[PENDRES_U_COUNT], pendres_flow_kind kind,
+                             pendres_continuation_image *out)
 {
   pendres_block b;
   const int columns = columns_of(kind);
-  pendres_status status = pendres_block_open(ctx, kind, steps, &b);
+  pendres_status status = pendres_block_open(ctx, kind, s->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     const size_t count = n - first < capacity ? n - first : capacity;
-    status = run_block(&b, map, count, u + first, columns, out + first);
+    status = run_block(&b, s->map, count, u + first, columns, out + first);
   }
   return status;
 }
 
 pendres_status pendres_continuation_map_images(pendres_context *ctx,
-                                               const pendres_continuation_map *map, int steps,
-                                               int unknowns, const int *unknown, size_t n,
+                                               const pendres_continuation_system *s, size_t n,
                                                const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  return images(ctx, map, steps, n, u, kind_of(unknowns, unknown), out);
+  return images(ctx, s, n, u, kind_of(s->unknowns, s->unknown), out);
 }
 
 pendres_status pendres_continuation_map_states(pendres_context *ctx,
@@ -244,7 +243,8 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out)
 {
-  return images(ctx, map, steps, n, u, PENDRES_FLOW_VARIATIONAL, out);
+  const pendres_continuation_system s = {.map = map, .steps = steps};
+  return images(ctx, &s, n, u, PENDRES_FLOW_VARIATIONAL, out);
 }
 
 /* ---- half maps ---- */
@@ -284,7 +284,7 @@ int pendres_continuation_map_half(const pendres_continuation_map *map, int which
 pendres_status pendres_continuation_map_closes(pendres_context *ctx,
                                                const pendres_continuation_map *half, int steps,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               double (*miss)[2], int *winding)
+                                               pendres_continuation_miss *miss)
 {
   pendres_continuation_image *image = malloc((n + 1) * sizeof *image);
   if (image == NULL)
@@ -293,208 +293,9 @@ pendres_status pendres_continuation_map_closes(pendres_context *ctx,
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     /* The reflection may be about any multiple of pi. */
     const double turns = half->mirror ? -rint(image[i].f[0] / two_pi) : 0.0;
-    miss[i][0] = image[i].f[0] + two_pi * turns;
-    miss[i][1] = image[i].f[1];
-    if (winding != NULL) *winding = half->winding + (int)turns;
+    miss[i] = (pendres_continuation_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
+                                          half->winding + (int)turns};
   }
   free(image);
   return status;
-}
-
-/* ---- equations ---- */
-
-void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])
-{
-  /* The larger row of N - I has more digits. */
-  const double *row =
-    hypot(image->j[0][0], image->j[0][1]) > hypot(image->j[1][0], image->j[1][1]) ? image->j[0]
-                                                                                 : image->j[1];
-  const double length = hypot(row[0], row[1]);
-  v[0] = length > 0.0 ? -row[1] / length : 1.0;
-  v[1] = length > 0.0 ? row[0] / length : 0.0;
-}
-
-/* Derivative of the fold's determinant along the null vector, from its stencil's images. */
-static double stencil_value(const pendres_continuation_image stencil[STENCIL])
-{
-  static const double weight[STENCIL / 2] = {45.0, -9.0, 1.0};
-  double sum = 0.0;
-  for (int i = 0; i < STENCIL / 2; i++)
-    sum += weight[i] * (pendres_continuation_map_fold(&stencil[2 * i]) -
-                        pendres_continuation_map_fold(&stencil[2 * i + 1]));
-  return sum / (60.0 * stencil_step);
-}
-
-static void stencil_points(const double u[PENDRES_U_COUNT], const double v[2],
-                           double (*points)[PENDRES_U_COUNT])
-{
-  for (int i = 0; i < STENCIL; i++) {
-    const double far = stencil_step * (i / 2 + 1) * (i % 2 == 0 ? 1.0 : -1.0);
-    memcpy(points[i], u, sizeof points[i]);
-    points[i][PENDRES_U_Y] += far * v[0];
-    points[i][PENDRES_U_W] += far * v[1];
-  }
-}
-
-/* Work space: for each point its image and one for each nudged unknown, and their stencils. */
-typedef struct workspace {
-  double (*u)[PENDRES_U_COUNT], (*around)[PENDRES_U_COUNT];
-  pendres_continuation_image *image, *around_image;
-} workspace;
-
-static void workspace_free(workspace *w)
-{
-  free(w->u);
-  free(w->around);
-  free(w->image);
-  free(w->around_image);
-}
-
-static pendres_status workspace_create(pendres_context *ctx, size_t points, size_t around,
-                                       workspace *w)
-{
-  w->u = malloc(points * sizeof *w->u);
-  w->image = malloc(points * sizeof *w->image);
-  if (around > 0) {
-    w->around = malloc(around * sizeof *w->around);
-    w->around_image = malloc(around * sizeof *w->around_image);
-  }
-  if (w->u == NULL || w->image == NULL ||
-      (around > 0 && (w->around == NULL || w->around_image == NULL)))
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  return PENDRES_OK;
-}
-
-static void plain_rows(const pendres_continuation_image *image, pendres_continuation_equations *e)
-{
-  e->equations = 2;
-  e->image = *image;
-  memcpy(e->r, image->f, sizeof image->f);
-  memcpy(e->j, image->j, sizeof image->j);
-}
-
-/* Append an equation with the values it has at the point and at each nudged one. */
-static void append_row(pendres_continuation_equations *e, int unknowns, const int *unknown,
-                       double value, const double *nudged)
-{
-  const int row = e->equations++;
-  e->r[row] = value;
-  for (int k = 0; k < PENDRES_U_COUNT; k++) e->j[row][k] = 0.0;
-  for (int k = 0; k < unknowns; k++) e->j[row][unknown[k]] = (nudged[k] - value) / nudge;
-}
-
-pendres_status pendres_continuation_map_equations(pendres_context *ctx,
-                                                  const pendres_continuation_map *map,
-                                                  pendres_continuation_condition condition,
-                                                  int steps, int unknowns, const int *unknown,
-                                                  size_t n, const double (*u)[PENDRES_U_COUNT],
-                                                  pendres_continuation_equations *out)
-{
-  const size_t each = condition == PENDRES_CONDITION_NONE ? 1 : (size_t)unknowns + 1;
-  const int cusp = condition == PENDRES_CONDITION_CUSP;
-  workspace w = {0};
-  pendres_status status =
-    workspace_create(ctx, n * each + 1, cusp ? n * each * STENCIL + 1 : 0, &w);
-  if (status != PENDRES_OK) goto done;
-  for (size_t i = 0; i < n; i++)
-    for (size_t k = 0; k < each; k++) {
-      memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
-      if (k > 0) w.u[i * each + k][unknown[k - 1]] += nudge;
-    }
-  status = pendres_continuation_map_images(ctx, map, steps, unknowns, unknown, n * each,
-                                           (const double (*)[PENDRES_U_COUNT])w.u, w.image);
-  if (status != PENDRES_OK) goto done;
-  if (cusp) {
-    for (size_t i = 0; i < n * each; i++) {
-      double v[2];
-      pendres_continuation_map_null(&w.image[i], v);
-      /* One sign for all, or differences of the derivative mean nothing. */
-      double first[2];
-      pendres_continuation_map_null(&w.image[i / each * each], first);
-      if (v[0] * first[0] + v[1] * first[1] < 0.0) {
-        v[0] = -v[0];
-        v[1] = -v[1];
-      }
-      stencil_points(w.u[i], v, w.around + i * STENCIL);
-    }
-    status =
-      pendres_continuation_map_states(ctx, map, steps, n * each * STENCIL,
-                                      (const double (*)[PENDRES_U_COUNT])w.around, w.around_image);
-    if (status != PENDRES_OK) goto done;
-  }
-  for (size_t i = 0; i < n; i++) {
-    const pendres_continuation_image *image = w.image + i * each;
-    double value[PENDRES_U_COUNT + 1] = {0.0};
-    plain_rows(image, &out[i]);
-    if (condition == PENDRES_CONDITION_NONE) continue;
-    for (size_t k = 0; k < each; k++)
-      value[k] = condition == PENDRES_CONDITION_FLIP ? pendres_continuation_map_flip(&image[k])
-                                                     : pendres_continuation_map_fold(&image[k]);
-    append_row(&out[i], unknowns, unknown, value[0], value + 1);
-    if (!cusp) continue;
-    for (size_t k = 0; k < each; k++)
-      value[k] = stencil_value(w.around_image + (i * each + k) * STENCIL);
-    append_row(&out[i], unknowns, unknown, value[0], value + 1);
-  }
-done:
-  workspace_free(&w);
-  return status;
-}
-
-/* ---- solving ---- */
-
-int pendres_continuation_map_linear(int n, double a[][PENDRES_U_COUNT], double *b)
-{
-  double dense[PENDRES_U_COUNT * PENDRES_U_COUNT];
-  size_t order[PENDRES_U_COUNT];
-  gsl_permutation permutation = {.size = (size_t)n, .data = order};
-  int sign = 0;
-  for (int i = 0; i < n; i++)
-    for (int k = 0; k < n; k++) {
-      if (!isfinite(a[i][k])) return 0;
-      dense[i * n + k] = a[i][k];
-    }
-  gsl_matrix_view m = gsl_matrix_view_array(dense, (size_t)n, (size_t)n);
-  gsl_vector_view x = gsl_vector_view_array(b, (size_t)n);
-  gsl_permutation_init(&permutation);
-  if (gsl_linalg_LU_decomp(&m.matrix, &permutation, &sign) != 0) return 0;
-  /* GSL's own check of this calls its error handler, which ends the program. */
-  for (int i = 0; i < n; i++)
-    if (!(fabs(dense[i * n + i]) > 1e-300)) return 0;
-  return gsl_linalg_LU_svx(&m.matrix, &permutation, &x.vector) == 0;
-}
-
-pendres_status pendres_continuation_map_solve(pendres_context *ctx,
-                                              const pendres_continuation_map *map,
-                                              pendres_continuation_condition condition, int steps,
-                                              const int *unknown, double longest,
-                                              double u[PENDRES_U_COUNT],
-                                              pendres_continuation_equations *at)
-{
-  enum { MOST = 20 };
-  static const int counts[] = {2, 3, 3, 4};
-  const int n = counts[condition];
-  double last = INFINITY;
-
-  for (int i = 0; i < MOST; i++) {
-    double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
-    const pendres_status status = pendres_continuation_map_equations(
-      ctx, map, condition, steps, n, unknown, 1, (const double (*)[PENDRES_U_COUNT])u, at);
-    if (status != PENDRES_OK) return status;
-    for (int r = 0; r < n; r++) {
-      d[r] = -at->r[r];
-      for (int k = 0; k < n; k++) a[r][k] = at->j[r][unknown[k]];
-    }
-    if (!pendres_continuation_map_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
-    for (int k = 0; k < n; k++) length = hypot(length, d[k]);
-    if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
-    const double part = length > longest ? longest / length : 1.0;
-    for (int k = 0; k < n; k++) u[unknown[k]] += part * d[k];
-    const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u);
-    if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
-    /* The next step would be of its square, or of rounding. */
-    if (length < 1e-8 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
-    last = length;
-  }
-  return PENDRES_NOT_CONVERGED;
 }

@@ -1,8 +1,8 @@
 /*
- * continuation_map.h -- the map whose fixed points are followed, and systems of equations on it.
+ * continuation_map.h -- the map whose fixed points are followed.
  *
  * Owns: evaluating, side by side in lanes, the stroboscopic map with its derivatives by state and
- * parameters, and Newton's method on the equations of fixed points, folds, flips and cusps.
+ * parameters, and which other maps its fixed points may be fixed points of.
  *
  * An unknown point is u = (y, w, omega, gamma, F0, I, b, a1, ..., a5), y = x - pi/2 (with a
  * polynomial force x) and w = v/omega at drive phase 0. The map G is
@@ -67,7 +67,7 @@ typedef struct pendres_continuation_image {
   double trace, determinant;    /* of DG; the latter from Liouville's formula */
 } pendres_continuation_image;
 
-/* Equations beside G(z) = z. */
+/* An equation beside G(z) = z. */
 typedef enum pendres_continuation_condition {
   PENDRES_CONDITION_NONE,
   PENDRES_CONDITION_FOLD, /* det(N - I) = 0 */
@@ -75,15 +75,15 @@ typedef enum pendres_continuation_condition {
   PENDRES_CONDITION_CUSP  /* fold, and its quadratic term is 0 */
 } pendres_continuation_condition;
 
-enum { PENDRES_EQUATIONS_MOST = 4 };
-
-/* The equations at a point: r[i] = 0, i < equations. */
-typedef struct pendres_continuation_equations {
-  int equations;
-  double r[PENDRES_EQUATIONS_MOST];
-  double j[PENDRES_EQUATIONS_MOST][PENDRES_U_COUNT];
-  pendres_continuation_image image;
-} pendres_continuation_equations;
+/* Equations on a map, and what is unknown in them: the first two of `unknown[unknowns]` are y and
+   w, the others parameters. */
+typedef struct pendres_continuation_system {
+  const pendres_continuation_map *map;
+  int steps; /* a period */
+  pendres_continuation_condition condition;
+  int unknowns;
+  const int *unknown;
+} pendres_continuation_system;
 
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
                                                    const double u[PENDRES_U_COUNT]);
@@ -105,10 +105,9 @@ pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_forc
                                               int *steps);
 
 /* The map at n points of any parameters, all of the given kind, period and steps, with the
-   derivatives by the unknowns listed, and by others that cost nothing more. */
+   derivatives by the system's unknowns, and by others that cost nothing more. */
 pendres_status pendres_continuation_map_images(pendres_context *ctx,
-                                               const pendres_continuation_map *map, int steps,
-                                               int unknowns, const int *unknown, size_t n,
+                                               const pendres_continuation_system *system, size_t n,
                                                const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
@@ -129,22 +128,16 @@ int pendres_continuation_map_half(const pendres_continuation_map *map, int which
 /* The map over all of an orbit's period: the one whose flip is a period doubling. */
 void pendres_continuation_map_unfold(pendres_continuation_map *map);
 
-/* By what vector (y, w) n points miss being fixed points of such a half map, whichever place it
-   reflects about, the bottom of a well or the top of a barrier: *winding (may be NULL) is that of
-   the last point. */
+/* By what vector (y, w) a point misses being a fixed point of such a half map, whichever place that
+   reflects about, the bottom of a well or the top of a barrier; the winding tells the place. */
+typedef struct pendres_continuation_miss {
+  double off[2];
+  int winding;
+} pendres_continuation_miss;
 pendres_status pendres_continuation_map_closes(pendres_context *ctx,
                                                const pendres_continuation_map *half, int steps,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
-                                               double (*miss)[2], int *winding);
-
-/* The equations of a condition at n points. Only the derivatives by unknowns listed in
-   `unknown[unknowns]` are computed. */
-pendres_status pendres_continuation_map_equations(pendres_context *ctx,
-                                                  const pendres_continuation_map *map,
-                                                  pendres_continuation_condition condition,
-                                                  int steps, int unknowns, const int *unknown,
-                                                  size_t n, const double (*u)[PENDRES_U_COUNT],
-                                                  pendres_continuation_equations *out);
+                                               pendres_continuation_miss *miss);
 
 /* det(N -+ I). */
 double pendres_continuation_map_fold(const pendres_continuation_image *image);
@@ -155,20 +148,5 @@ double pendres_continuation_map_growth(const pendres_continuation_image *image);
 
 /* The null vector of N - I at a fold, of unit length; its sign is arbitrary. */
 void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2]);
-
-/*
- * Solve as many equations for as many unknowns (2 + those of the condition) from u on, by Newton's
- * method; u is replaced. *reach (may be NULL) gets the length of the last step. Steps
- * are cut at `longest`. PENDRES_NOT_CONVERGED without a message if there is no solution near.
- */
-pendres_status pendres_continuation_map_solve(pendres_context *ctx,
-                                              const pendres_continuation_map *map,
-                                              pendres_continuation_condition condition, int steps,
-                                              const int *unknown, double longest,
-                                              double u[PENDRES_U_COUNT],
-                                              pendres_continuation_equations *at);
-
-/* a x = b for n <= 5, by GSL's LU decomposition; a and b are overwritten, b by x. 0 if singular. */
-int pendres_continuation_map_linear(int n, double a[][PENDRES_U_COUNT], double *b);
 
 #endif

@@ -78,8 +78,9 @@ static pendres_status land(pendres_context *ctx, const pendres_arc *w,
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
     point->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
-  status = pendres_continuation_map_images(ctx, &w->map, steps, w->unknowns, w->unknown, 1,
-                                           (const double (*)[PENDRES_U_COUNT])u, &point->image);
+  const pendres_continuation_system system = pendres_arc_system(w, steps);
+  status = pendres_continuation_map_images(ctx, &system, 1, (const double (*)[PENDRES_U_COUNT])u,
+                                           &point->image);
   *landed = status == PENDRES_OK;
   return status;
 }

@@ -137,7 +137,8 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
   pendres_status status = PENDRES_OK;
   *count = 0;
   if (!t->kind.apart || n < 2) return status;
-  double(*u)[PENDRES_U_COUNT] = malloc(n * sizeof *u), (*miss)[2] = malloc(n * sizeof *miss);
+  double(*u)[PENDRES_U_COUNT] = malloc(n * sizeof *u);
+  pendres_continuation_miss *miss = malloc(n * sizeof *miss);
   int steps = 0;
   if (u == NULL || miss == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
@@ -149,9 +150,9 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
   }
   if (status == PENDRES_OK)
     status = pendres_continuation_map_closes(ctx, &t->kind.half, steps, n,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss, NULL);
+                                             (const double (*)[PENDRES_U_COUNT])u, miss);
   for (size_t i = 0; i < chords && *count < room && status == PENDRES_OK; i++) {
-    const double *a = miss[i], *b = miss[(i + 1) % n];
+    const double *a = miss[i].off, *b = miss[(i + 1) % n].off;
     const double from = hypot(a[0], a[1]), to = hypot(b[0], b[1]);
     if (a[0] * b[0] + a[1] * b[1] < 0.0)
       zeros[(*count)++] = (pendres_trail_zero){.i = i, .part = from / (from + to)};

@@ -75,8 +75,10 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
   /* The whole period also where half of one would do: sides are kept then. */
   const pendres_continuation_map map = {
     .force = saddle->pendulum.force, .period = saddle->period, .winding = saddle->winding};
-  pendres_status status = pendres_continuation_map_solve(ctx, &map, PENDRES_CONDITION_NONE, steps,
-                                                         unknown, 0.01, u, &at);
+  pendres_continuation_system closing =
+    pendres_continuation_system_of(&map, PENDRES_CONDITION_NONE, unknown);
+  closing.steps = steps;
+  pendres_status status = pendres_continuation_equations_solve(ctx, &closing, 0.01, u, &at);
   if (status == PENDRES_NOT_CONVERGED)
     return pendres_context_fail(ctx, status, "the saddle is not an orbit at %d steps a period",
                                 steps);
