@@ -4,6 +4,8 @@
  */
 #include "scene_fixture.h"
 
+#include <string.h>
+
 #include <pendres/pendres.h>
 
 #define PENDULUM "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
@@ -117,9 +119,52 @@ static void chaos_by_number(void **state)
   pendres_store_free(store);
 }
 
+/* An attribute of a variable is a text, and a word is in it or not. */
+static void check_text(pendres_store *store, const char *name, const char *attribute,
+                       const char *text, const char *never)
+{
+  char *got = NULL;
+  check_ok(pendres_store_read_attribute_text(store, "", name, attribute, &got));
+  if (text != NULL) assert_string_equal(got, text);
+  if (never != NULL) assert_null(strstr(got, never));
+  free(got);
+}
+
+/* The scene, and what every file has beside it. */
+static pendres_status run_whole(scene_run *run)
+{
+  const pendres_status status = scene_find(run->deck->kind)->run(run);
+  return status == PENDRES_OK ? scene_write_identity(run) : status;
+}
+
+/* An oscillator's coordinate is no angle: only phases are in rad, and no word tells of an angle or
+   of a pendulum's units. A junction's in a ring is one. */
+static void units_of_the_coordinate(void **state)
+{
+  static const struct {
+    const char *name, *oscillator, *ring;
+  } units[] = {{"x", "1", "rad"}, {"x_error", "1", "rad"}, {"amplitude", "1", "rad"},
+               {"phase_lag", "rad", "rad"}, {"drive_phase", "rad", "rad"}};
+  (void)state;
+  for (int ring = 0; ring < 2; ring++) {
+    char text[300];
+    snprintf(text, sizeof text, "&scene kind = 'orbit' /\n&pendulum drive_amplitude = 0.2, damping "
+             "= 0.4, drive_frequency = 1,\n  force = '%s', force_coefficients = 1 /\n"
+             "&orbit x = 0.1, periods = 1, samples = 4 /\n", ring ? "squid" : "polynomial");
+    scene_run_deck_by(run_whole, text, 1, "units");
+    pendres_store *store = scene_open("units");
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+      check_text(store, units[i].name, "units", ring ? units[i].ring : units[i].oscillator, NULL);
+    check_text(store, "amplitude", "long_name", ring ? NULL : "half peak to peak of x", NULL);
+    check_text(store, "loop_area", "comment", NULL, ring ? NULL : "m g l");
+    pendres_store_free(store);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(parts), cmocka_unit_test(spectrum),
-                                     cmocka_unit_test(chaos_by_number)};
+                                     cmocka_unit_test(chaos_by_number),
+                                     cmocka_unit_test(units_of_the_coordinate)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

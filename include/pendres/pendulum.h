@@ -66,6 +66,7 @@ typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
   double period;     /**< of the coordinate: 2 pi; 0 where x and no x + period are the same */
   double origin;     /**< of the pendulum's angle y = x - origin: pi/2; of a polynomial 0 */
+  int angle;         /**< whether x is an angle, in rad; else a length in units of its own */
   int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
   const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
 } pendres_model;

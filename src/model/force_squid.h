@@ -18,7 +18,7 @@
 
 /* The ring's spring pulls y back however often it has turned over: y has no period. */
 static const pendres_model pendres_force_squid_model = {
-  .name = "squid", .coefficients = 1, .coefficient_names = {"a1"}};
+  .name = "squid", .angle = 1, .coefficients = 1, .coefficient_names = {"a1"}};
 
 PENDRES_FORCE_INLINE void pendres_force_squid(const double *a, double y, double *force,
                                               double *slope)

@@ -10,7 +10,8 @@
  * PENDRES_FORCE_COEFFICIENTS, and y = x - origin:
  *
  *   pendres_force_NAME_model      its name in decks, the period of y (2 pi or, where y and y + 2 pi
- *                                 are not the same, 0), origin, coefficients and their names
+ *                                 are not the same, 0), origin, whether y is an angle (in rad),
+ *                                 coefficients and their names
  *   pendres_force_NAME            f and df/dy; f(0) need not be 0
  *   pendres_force_NAME_by         df/da_k, k from 0 on
  *   pendres_force_NAME_potential  V, dV/dy = f, up to a constant

@@ -8,7 +8,7 @@
 #include "model/forces.h"
 
 static const pendres_model pendulum = {
-  .name = "pendulum", .period = 2.0 * PENDRES_PI, .origin = 0.5 * PENDRES_PI};
+  .name = "pendulum", .period = 2.0 * PENDRES_PI, .origin = 0.5 * PENDRES_PI, .angle = 1};
 static const pendres_model polynomial = {.name = "polynomial",
                                          .coefficients = PENDRES_FORCE_COEFFICIENTS,
                                          .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}};
