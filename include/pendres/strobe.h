@@ -27,7 +27,8 @@ extern "C" {
  * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice what is
  * between the first run and better ones, which are taken to be off by up to half as much. That is
  * one with twice the steps a period; or, where the method's steps are adaptive, two with a tenth
- * and a hundredth of the tolerance (1e-6 at most). It covers discretisation and rounding, amplified
+ * and a hundredth of the tolerance (1e-6 at most), and, but for CVODE's methods, at least 1.4 times
+ * and twice the steps. It covers discretisation and rounding, amplified
  * along each trajectory as that itself amplifies them; where runs lose each other on the way, even
  * if they meet again, the estimate says so (infinite: nothing is known), it is not an error of
  * the function. With fixed steps all of it takes three times as long as without an estimate. Runs

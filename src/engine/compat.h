@@ -120,6 +120,7 @@ static inline int pendres_compat_set_pid(void *arkode_mem)
 #define ERKStepSetMaxGrowth ARKodeSetMaxGrowth
 #define ERKStepSetMaxHnilWarns ARKodeSetMaxHnilWarns
 #define ERKStepSetMaxNumSteps ARKodeSetMaxNumSteps
+#define ERKStepSetMaxStep ARKodeSetMaxStep
 #define ERKStepSetPostprocessStepFn ARKodeSetPostprocessStepFn
 #define ERKStepSetSafetyFactor ARKodeSetSafetyFactor
 #define ERKStepSetStopTime ARKodeSetStopTime

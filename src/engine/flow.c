@@ -145,6 +145,12 @@ void pendres_flow_free(pendres_flow *flow)
   free(flow);
 }
 
+pendres_status pendres_flow_set_longest_step(pendres_flow *flow, double longest)
+{
+  if (!(longest >= 0.0) || flow->tolerance == 0.0) return PENDRES_INVALID_ARGUMENT;
+  return ERKStepSetMaxStep(flow->arkode, longest) == 0 ? PENDRES_OK : PENDRES_INTERNAL;
+}
+
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
 {
   if (steps < 1 || flow->tolerance != 0.0) return PENDRES_INVALID_ARGUMENT;

@@ -42,6 +42,9 @@ void pendres_flow_free(pendres_flow *flow);
 /* Steps a period from the next period on (fixed steps only). */
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
 
+/* The longest step from now on, of drive phase; 0: any (adaptive steps only). */
+pendres_status pendres_flow_set_longest_step(pendres_flow *flow, double longest);
+
 /*
  * Use `lanes` lanes (at most the capacity) from now on; the states of lanes below are kept.
  */

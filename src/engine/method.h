@@ -23,6 +23,9 @@ typedef struct pendres_strobe_lane {
                                        are not carried. Fixed steps only */
   pendres_flow_error off;           /* what y and w are off by */
   double worst;                     /* largest variance at a strobe so far, of y and w together */
+  double longest;                   /* step of drive phase that block_adaptive and single may take;
+                                       0: any */
+  double taken;                     /* steps that they took, in a block on average */
 } pendres_strobe_lane;
 
 /* Look at lane number `index` after one more period; nonzero: it is done. */

@@ -7,11 +7,18 @@
 static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
 {
   pendres_flow *flow = NULL;
+  double longest = 0.0;
   pendres_status status = pendres_context_flow_adaptive(ctx, job->tolerance, &flow);
   if (status != PENDRES_OK) return status;
-  status = pendres_method_block_run(ctx, flow, 0, job);
+  for (size_t i = 0; i < job->n; i++)
+    if (longest == 0.0 || (job->lanes[i].longest > 0.0 && job->lanes[i].longest < longest))
+      longest = job->lanes[i].longest;
+  status = pendres_flow_set_longest_step(flow, longest);
+  if (status == PENDRES_OK) status = pendres_method_block_run(ctx, flow, 0, job);
   ctx->cost.rhs_evaluations += pendres_flow_evaluations(flow);
   ctx->cost.steps += pendres_flow_steps(flow);
+  for (size_t i = 0; i < job->n; i++)
+    job->lanes[i].taken += pendres_flow_steps(flow) / (double)job->n;
   pendres_flow_free(flow);
   return status;
 }

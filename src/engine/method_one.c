@@ -123,10 +123,13 @@ pendres_status pendres_one_run(pendres_context *ctx, const pendres_strobe_job *j
 {
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < job->n && status == PENDRES_OK; i++) {
-    pendres_one b = {.ctx = ctx, .tolerance = job->tolerance};
+    pendres_one b = {.ctx = ctx, .tolerance = job->tolerance, .longest = job->lanes[i].longest};
     long steps = 0;
     status = run_one(&b, solver, job, i);
-    if (b.memory != NULL && solver->steps(&b, &steps) == 0) ctx->cost.steps += (double)steps;
+    if (b.memory != NULL && solver->steps(&b, &steps) == 0) {
+      ctx->cost.steps += (double)steps;
+      job->lanes[i].taken += (double)steps;
+    }
     solver->close(&b);
     if (b.state != NULL) N_VDestroy(b.state);
   }

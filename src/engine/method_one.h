@@ -19,6 +19,7 @@ typedef struct pendres_one {
   pendres_context *ctx;
   const pendres_pendulum *p;
   double tolerance;
+  double longest; /* step over drive phase; 0: any. Heeded by `single` alone */
   N_Vector state; /* y and w over drive phase, unless the solver says otherwise */
   void *memory;   /* the solver's */
   int stopped;

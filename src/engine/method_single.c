@@ -23,6 +23,7 @@ static int open(pendres_one *b)
           ERKStepSetPostprocessStepFn(b->memory, after_step) != 0 ||
           ERKStepWFtolerances(b->memory, pendres_one_weights) != 0 ||
           ERKStepSetMaxNumSteps(b->memory, 100000000L) != 0 ||
+          ERKStepSetMaxStep(b->memory, b->longest) != 0 ||
           pendres_flow_set_controller(b->memory) != 0;
   }
   ARKodeButcherTable_Free(table);
