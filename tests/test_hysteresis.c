@@ -213,6 +213,37 @@ static void stopped(void **state)
   pendres_hysteresis_free(whole);
 }
 
+/*
+ * A junction comes out of chaos into a cascade of doublings from its far end. Strobe points of an
+ * integration by Runge and Kutta's method repeat themselves after 4 periods at 1.301, 8 at 1.302,
+ * not at all at 1.303: chaos ends between the latter two, and not where the orbit of period 2
+ * begins, which the pendulum is on at the next value.
+ */
+static void out_of_chaos(void **state)
+{
+  static const double value[2] = {1.33, 1.295};
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-6});
+  const pendres_pendulum p = {.damping = 0.30411976749339553, .drive_frequency = 0.394660232831564,
+                              .torque = -0.6113300743};
+  pendres_hysteresis *h = NULL;
+  (void)state;
+  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 1.3, 0.0, 2, value, &h));
+  assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label, PENDRES_LABEL_CHAOTIC);
+  assert_int_equal(pendres_hysteresis_get(h, 1)->attractor.orbit.period, 2);
+  const size_t n = pendres_hysteresis_jumps(h);
+  assert_true(n >= 2);
+  for (size_t k = 0; k < n; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    if (j->from == PENDRES_LABEL_CHAOTIC) assert_true(j->value + j->value_error > 1.302);
+    assert_true(k == 0 || j->value < pendres_hysteresis_jump(h, k - 1)->value);
+  }
+  const pendres_jump *last = pendres_hysteresis_jump(h, n - 1);
+  assert_int_equal(last->kind, PENDRES_JUMP_FLIP);
+  assert_int_equal(last->to_period, 2);
+  pendres_hysteresis_free(h);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -220,6 +251,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(forks, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(running, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(stopped, setup_exact, teardown),
+    cmocka_unit_test(out_of_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

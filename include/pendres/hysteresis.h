@@ -17,7 +17,10 @@
  * period. Where they do not all go to the same state, what happens depends on distances that no
  * experiment and no rounding controls, and the jump is marked as uncertain.
  *
- * While the state is chaotic, the pendulum is settled anew at each value, from where it was.
+ * While the state is chaotic, the pendulum is settled anew at each value, from where it was. Where
+ * it is on an orbit then, the way there is halved down to where it comes to an orbit first, and
+ * that is followed from there; after four such in turn with chaos, the end of chaos is somewhere in
+ * what is left of the way.
  *
  * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive:
  * its states off the stretches are told by averages, as in lyapunov.h, with its words on what is

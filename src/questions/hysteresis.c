@@ -6,12 +6,13 @@
 
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "questions/hysteresis_chaos.h"
 #include "questions/hysteresis_circle.h"
 #include "model/model.h"
 
 enum {
   MOST_JUMPS = 256, /* between two values of the path */
-  HALVINGS = 8      /* of the distance of two values between which chaos ends */
+  MOST_TRIES = 4    /* to come from chaos to an orbit on the way from one value to the next */
 };
 
 /* Rotations without a lock are looked for side by side at values this close, in the parameter's
@@ -217,72 +218,23 @@ static pendres_status follow_closed(path *w, size_t *i)
   return PENDRES_OK;
 }
 
-/*
- * Where the pendulum leaves for an orbit between two values, at the latter of which it is on it: by
- * halving. What happens in windows of other motions on the way is not told.
- */
-static pendres_status halve(path *w, const pendres_settled *old, double from, double to,
-                            pendres_jump *j)
-{
-  pendres_settled before = *old;
-  pendres_status status = PENDRES_OK;
-  for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
-    const double middle = 0.5 * (from + to);
-    const pendres_pendulum p = pendres_path_pendulum(w, middle);
-    pendres_settled there;
-    status = pendres_settled_find(w->ctx, &p, before.x, before.v, &there);
-    if (status != PENDRES_OK) break;
-    const pendres_orbit *a = &there.attractor.orbit, *b = &w->state.attractor.orbit;
-    if (pendres_settled_closed(&there.attractor) && a->period == b->period &&
-        abs(a->winding) == abs(b->winding)) {
-      to = middle;
-    } else {
-      from = middle;
-      if (!pendres_settled_closed(&there.attractor)) before = there;
-    }
-  }
-  j->value = 0.5 * (from + to);
-  j->value_error = 0.5 * fabs(to - from);
-  return status;
-}
-
-/*
- * Chaos has ended between the last value and this one, at which the pendulum is on an orbit. If
- * that is born between them, and the pendulum goes to it just beyond and does not just before, that
- * is where chaos ends.
- */
+/* Chaos has ended between the last value and this one, at which the pendulum is on an orbit:
+   w->state becomes the first orbit that it goes to, at this value or one before. */
 static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
 {
-  const double to = w->value[step], from = w->at;
-  const int direction = to > from ? 1 : -1;
-  const double small = 1e-4 * pendres_parameter_scale(w->parameter);
-  pendres_settled before, behind;
-  pendres_stretch s = pendres_stretch_none;
-  pendres_jump j = {.step = step, .direction = direction, .kind = PENDRES_JUMP_OTHER,
-                    .value = 0.5 * (from + to), .value_error = 0.5 * fabs(to - from),
-                    .from = old->attractor.label, .to = w->state.attractor.label,
-                    .to_period = w->state.attractor.orbit.period, .share = NAN};
-  pendres_status status =
-    pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, from, &s);
-  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
-      fabs(to - s.end_value) > small && fabs(from - s.end_value) > small) {
-    const pendres_pendulum p = pendres_path_pendulum(w, s.end_value - direction * small);
-    const pendres_pendulum q = pendres_path_pendulum(w, s.end_value + direction * small);
-    status = pendres_settled_find(w->ctx, &p, old->x, old->v, &before);
-    if (status == PENDRES_OK)
-      status = pendres_settled_find(w->ctx, &q, old->x, old->v, &behind);
-    const pendres_orbit *born = &pendres_stretch_last(&s)->orbit;
-    if (status == PENDRES_OK && !pendres_settled_closed(&before.attractor) &&
-        pendres_settled_closed(&behind.attractor) &&
-        behind.attractor.orbit.period == born->period) {
-      j.value = s.end_value;
-      j.value_error = s.end_error;
-      j.certain = 1;
-      j.share = 1.0;
-    }
+  const double to = w->value[step];
+  pendres_jump j = {
+    .step = step, .direction = to > w->at ? 1 : -1, .kind = PENDRES_JUMP_OTHER, .share = NAN};
+  pendres_status status = PENDRES_OK;
+  if (w->tries <= MOST_TRIES) {
+    status = pendres_chaos_end(w->ctx, w->parameter, old, w->at, &w->state, &j);
+  } else { /* chaos and windows of orbits in turn: somewhere in what is left */
+    j.from = old->attractor.label;
+    j.to = w->state.attractor.label;
+    j.to_period = w->state.attractor.orbit.period;
+    j.value = 0.5 * (w->at + to);
+    j.value_error = 0.5 * fabs(to - w->at);
   }
-  pendres_stretch_free(&s);
-  if (status == PENDRES_OK && !j.certain) status = halve(w, old, from, to, &j);
   return status == PENDRES_OK ? pendres_path_note(w, &j) : status;
 }
 
@@ -311,27 +263,33 @@ static pendres_status follow_rotation(path *w, size_t *i)
   return status;
 }
 
-/* What the pendulum settles on at a value, from where it is. */
-static pendres_status settle_at(path *w, size_t i)
+/* What the pendulum settles on at value number *i, from where it is; or the orbit that it goes to
+   on the way there, which is to be followed first. */
+static pendres_status settle_at(path *w, size_t *i)
 {
-  const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
   const pendres_settled old = w->state;
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
   const int same = pendres_settled_closed(&old.attractor) &&
                    pendres_settled_alike(&old.attractor, &w->state.attractor);
-  if (status == PENDRES_OK && i > 0 && pendres_settled_closed(&w->state.attractor) && !same) {
-    status = end_chaos(w, i, &old);
+  if (status == PENDRES_OK && *i > 0 && pendres_settled_closed(&w->state.attractor) && !same) {
+    if (w->tried != *i) w->tries = 0;
+    w->tried = *i;
+    w->tries++;
+    status = end_chaos(w, *i, &old);
     pendres_path_leave(w);
   }
-  if (status == PENDRES_OK) pendres_path_put(w, i, &w->state.attractor);
-  w->at = w->value[i];
+  w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
+  if (status == PENDRES_OK && w->at == w->value[*i])
+    pendres_path_put(w, (*i)++, &w->state.attractor);
   return status;
 }
 
 static pendres_status follow_path(path *w)
 {
-  pendres_status status = settle_at(w, 0);
-  for (size_t i = 1; i < w->n && status == PENDRES_OK;) {
+  size_t i = 0;
+  pendres_status status = settle_at(w, &i);
+  while (i < w->n && status == PENDRES_OK) {
     const size_t before = i;
     status = pendres_context_poll(w->ctx);
     if (status != PENDRES_OK) break;
@@ -345,7 +303,7 @@ static pendres_status follow_path(path *w)
     if (status != PENDRES_OK || i > before) continue;
     if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
     else if (rotates) status = follow_rotation(w, &i);
-    if (status == PENDRES_OK && i == before) status = settle_at(w, i++);
+    if (status == PENDRES_OK && i == before) status = settle_at(w, &i);
   }
   pendres_stretch_free(&w->stretch);
   pendres_circles_free(w->circles);

@@ -21,6 +21,8 @@ typedef struct pendres_path {
   double at;               /* where the parameter is now */
   pendres_settled state;   /* what the pendulum is on there */
   pendres_stretch stretch; /* that it is followed along; none: not yet, or not closed */
+  size_t tried;            /* the value to which it was last tried to come from chaos, ... */
+  int tries;               /* ... so often */
   pendres_circles *circles; /* NULL: not met yet */
   int on_circle;            /* it is on one of them, locked or not, ... */
   pendres_circles_verdict last; /* ... as was told here for the last time */
