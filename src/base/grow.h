@@ -8,8 +8,9 @@
 #include <stdlib.h>
 
 /*
- * An array of `count` elements with room for one more: itself, or a larger one in its place, and
- * *capacity is then what that has room for. NULL: out of memory; the array is as it was.
+ * Make room for one more in an array of `count` elements. Returns the array or, where it was full,
+ * a larger one in its place, whose room is then in *capacity. NULL: out of memory; the array is as
+ * it was.
  */
 static inline void *pendres_grow(void *array, size_t count, size_t *capacity, size_t size)
 {

@@ -29,18 +29,20 @@ typedef struct pendres_guard {
 void pendres_guard_init(pendres_guard *g);
 
 /*
- * Begin to use a handle; 0: refused, since g is NULL, another thread uses it, or the caller is a
- * function which the handle itself has called. Functions of the library may call one another.
+ * Begin to use a handle. It is refused, with 0, if g is NULL, if another thread uses the handle, or
+ * if the caller is a function which the handle itself has called. Functions of the library may call
+ * one another.
  */
 int pendres_guard_enter(pendres_guard *g);
 
 /* What a refusal is to return. */
 pendres_status pendres_guard_refusal(const pendres_guard *g);
 
-/* End what was begun: a success has no sentence, and a failure its own or at least its kind's. */
+/* End the use. After a success the handle has no sentence, after a failure its own or, if nothing
+   was said, that of its status. */
 pendres_status pendres_guard_leave(pendres_guard *g, pendres_status status);
 
-/* Around every call of a function of the caller's. */
+/* To be called before and after every call of a function that the caller has handed over. */
 void pendres_guard_ask(pendres_guard *g, int asking);
 
 /* Whether another thread, or the call that asks this very function, uses the handle. */

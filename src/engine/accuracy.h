@@ -9,7 +9,7 @@
 
 #include <pendres/context.h>
 
-/* What stands for 0 in options, and the least that can be asked for. */
+/* The tolerance that 0 stands for in options, and the smallest that can be asked for. */
 #define PENDRES_ACCURACY_DEFAULT 1e-8
 #define PENDRES_ACCURACY_TIGHTEST 1e-13
 
@@ -23,13 +23,13 @@ double pendres_accuracy_first(const pendres_context *ctx);
 /* Of a run over many periods, `that_count` of whose errors add up. */
 double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
 
-/* Of pendulums on their way to an attractor: an error of the size of the tolerance moves a basin's
-   boundary by about as much, and a loose one would leave most labels in doubt. */
+/* Of pendulums on their way to an attractor. An error as large as the tolerance moves a basin's
+   boundary by about as much, and with a loose tolerance most labels would be in doubt. */
 double pendres_accuracy_to_settle(const pendres_context *ctx);
 
 /* The same for a picture of basins whose nearest states are so far apart. A picture does not show
-   a boundary that is off by a thousandth of that, but who asks for more than the default of
-   tolerances means it. */
+   that a boundary is off by a thousandth of this distance; but a tolerance below the default is
+   kept, since it was asked for. */
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing);
 
 /* The same for states drawn at random, whose neighbours may be as near as they like. */

@@ -32,9 +32,10 @@ struct pendres_context {
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;
   pendres_cost cost;
-  double probed_periods; /* those of the cost that went into choosing steps: once a lattice cell,
-                            so that they depend on what the context did before */
-  double probed_slopes;  /* the same of evaluations of the slope */
+  double probed_periods; /* the periods of the cost that went into choosing steps. That is done once
+                            for a cell of the lattice, so they depend on what the context did before
+                            */
+  double probed_slopes;  /* likewise the evaluations of the slope */
   int (*stop)(void *arg);
   void *stop_arg;
 };
@@ -48,9 +49,9 @@ struct pendres_context {
   pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s must not be NULL", names)
 
 /*
- * Evaluations of the slope so far, one a lane, without those that went into choosing steps: a
- * measure of work that is the same whatever the context did before, and whatever its blocks. About
- * 2.5e-9 seconds each, of all that a lane costs.
+ * Evaluations of the slope so far, counted for each lane, without those that went into choosing
+ * steps. This measure of work does not depend on what the context did before, nor on the size of
+ * its blocks. An evaluation and all that goes with it take about 2.5e-9 seconds.
  */
 double pendres_context_slopes(const pendres_context *ctx);
 
@@ -69,7 +70,7 @@ pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolera
 
 /* PENDRES_INTERRUPTED when the caller asked to stop. */
 pendres_status pendres_context_poll(pendres_context *ctx);
-/* The same as a function to hand on; ctx is a context. */
+/* The same as a function that can be handed to others; ctx is a context. */
 int pendres_context_stops(void *ctx);
 
 /* Record a failure of the integrator. */

@@ -14,7 +14,8 @@
 #include "engine/lanes_tape.h"
 #include "engine/tables.h"
 
-/* Of all lanes together, between two questions whether to go on: some hundredths of a second. */
+/* So many steps, of all lanes together, lie between two questions whether to go on: they take some
+   hundredths of a second. */
 static const double steps_between = 300000.0;
 
 static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *arg)
@@ -25,7 +26,8 @@ static int right_hand_side(sunrealtype theta, N_Vector y, N_Vector slope, void *
   return 0;
 }
 
-/* Steps have been taken; nonzero: somebody wants the block to stop. */
+/* Count steps that have been taken, and ask now and then whether to go on; nonzero: the block is to
+   stop. */
 static int count_steps(pendres_flow *flow, int steps)
 {
   flow->steps_taken += (double)steps * (double)flow->lanes;
@@ -53,7 +55,7 @@ static int after_step(sunrealtype theta, N_Vector y, void *arg)
   return count_steps(flow, 1);
 }
 
-/* With fixed steps nobody reads the weights: leave them at one. */
+/* With fixed steps ARKODE does not read the weights: they stay at one. */
 static int unit_weights(N_Vector y, N_Vector weights, void *arg)
 {
   (void)y;
@@ -90,7 +92,7 @@ static pendres_status arkode_setup(pendres_flow *flow, pendres_table table, SUNC
   else if (!bad)
     bad = ERKStepSStolerances(flow->arkode, flow->tolerance, flow->tolerance) != 0 ||
           pendres_flow_set_controller(flow->arkode) != 0;
-  if (bad) status = PENDRES_OUT_OF_MEMORY; /* nothing else is wrong with what is set */
+  if (bad) status = PENDRES_OUT_OF_MEMORY; /* nothing else can be wrong with these settings */
   ARKodeButcherTable_Free(butcher);
   return status;
 }
@@ -160,7 +162,8 @@ pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps)
   flow->failure = ERKStepSetFixedStep(flow->arkode, h);
   if (flow->failure != 0) return PENDRES_INTEGRATION_FAILED;
   flow->drive.steps = steps;
-  /* A stop at 2 pi itself would cut the last step, or add one, by what the clock is off. */
+  /* A stop at 2 pi itself would shorten the last step, or add a tiny one, since the clock is off by
+     rounding. */
   flow->end = 0.0;
   for (int i = 0; i < steps; i++) {
     if (2 * i == steps) flow->half = flow->end;
@@ -195,8 +198,8 @@ static pendres_lanes_replay_kind kind_of(const pendres_flow *flow, int span)
     .driven = flow->load != PENDRES_FLOW_NOTHING && flow->shape.model != PENDRES_MODEL_PLAIN};
 }
 
-/* What is known of such a period. In wide blocks nothing would be gained, and nobody be asked
-   whether to stop. */
+/* The record of such a period; NULL: there is none. Wide blocks have none: they would gain nothing,
+   and the question whether to go on would come too seldom. */
 static const pendres_lanes_replay *known(pendres_flow *flow, int span)
 {
   const int steps = flow->drive.steps;
@@ -209,14 +212,14 @@ static const pendres_lanes_replay *known(pendres_flow *flow, int span)
   return NULL;
 }
 
-/* The numbers as they are now, for everybody else: a part of the period is over. */
+/* A part of the period is over: let the others see the numbers as they are now. */
 static void show(pendres_flow *flow)
 {
   pendres_lanes_read(flow->state, flow->rows);
   pendres_lanes_replays_part(flow->replays);
 }
 
-/* The end of a period that ARKODE was asked for. */
+/* ARKODE has come to the end of a period: its record is complete. */
 static void learn(pendres_flow *flow, int span)
 {
   const pendres_lanes_replay_kind kind = kind_of(flow, span);

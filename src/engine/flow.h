@@ -29,8 +29,10 @@ typedef struct pendres_flow_options {
   size_t rows;      /* one of PENDRES_ROWS_... */
   size_t lanes;     /* capacity */
   pendres_table table;
-  double tolerance; /* 0: fixed steps; else adaptive, this relative and absolute tolerance */
-  int (*stop)(void *arg); /* NULL, or: asked within long periods; nonzero ends the period */
+  double tolerance; /* 0: fixed steps; else adaptive steps with this relative and absolute tolerance
+                       */
+  int (*stop)(void *arg); /* asked now and then within long periods: nonzero ends the period; may be
+                             NULL */
   void *stop_arg;
 } pendres_flow_options;
 
@@ -39,7 +41,7 @@ pendres_status pendres_flow_create(const pendres_flow_options *options, SUNConte
                                    pendres_flow **out);
 void pendres_flow_free(pendres_flow *flow);
 
-/* Steps a period from the next period on (fixed steps only). */
+/* Set the number of steps a period, from the next period on (fixed steps only). */
 pendres_status pendres_flow_set_steps(pendres_flow *flow, int steps);
 
 /* The longest step from now on, of drive phase; 0: any (adaptive steps only). */
@@ -51,11 +53,12 @@ pendres_status pendres_flow_set_longest_step(pendres_flow *flow, double longest)
 void pendres_flow_resize(pendres_flow *flow, size_t lanes);
 size_t pendres_flow_capacity(const pendres_flow *flow);
 
-/* No lanes from now on, and none before them that those to come are to be computed like. */
+/* Take all lanes out. Those that come next decide anew by which model's kernels the block is
+   computed. */
 void pendres_flow_clear(pendres_flow *flow);
 
-/* Put a pendulum into a lane, those of a polynomial force and others not in one block; variational
-   rows start as the identity, sensitivities as 0. */
+/* Put a pendulum into a lane. Pendulums with a polynomial force and others do not share a block.
+   Variational rows start as the identity, sensitivities as 0. */
 void pendres_flow_set_lane(pendres_flow *flow, size_t lane, const pendres_pendulum *p, double y,
                            double w);
 
@@ -73,14 +76,14 @@ pendres_status pendres_flow_carry(pendres_flow *flow, pendres_flow_load load);
 void pendres_flow_set_error(pendres_flow *flow, size_t lane, const pendres_flow_error *error,
                             double added);
 pendres_flow_error pendres_flow_get_error(const pendres_flow *flow, size_t lane);
-/* which: 0 by the block's steps, 1 by steps twice as long. */
+/* which: 0 for the tangent by the block's steps, 1 for that by steps twice as long. */
 void pendres_flow_set_tangent(pendres_flow *flow, size_t lane, int which, const double tangent[2]);
 void pendres_flow_get_tangent(const pendres_flow *flow, size_t lane, int which, double tangent[2]);
 
 /* Copy a lane with all its coefficients. */
 void pendres_flow_move_lane(pendres_flow *flow, size_t from, size_t to);
 
-/* Rows of the block, valid until the next call that advances or resizes. */
+/* The rows of the block, valid until the next call that advances or resizes it. */
 pendres_rows pendres_flow_rows(const pendres_flow *flow);
 /* Set the state of a lane, and nothing else of it. */
 void pendres_flow_put_state(pendres_flow *flow, size_t lane, double y, double w);
@@ -107,7 +110,7 @@ double pendres_flow_evaluations(const pendres_flow *flow);
 /* Steps taken so far, likewise; those that an adaptive block rejected do not count. */
 double pendres_flow_steps(const pendres_flow *flow);
 
-/* ARKODE's words on the last failure, its return code. */
+/* ARKODE's return code at the last failure. */
 int pendres_flow_failure(const pendres_flow *flow);
 
 #endif

@@ -7,8 +7,8 @@
 #include "base/angles.h"
 
 /*
- * ARKODE adds its clock up step by step, always rounding the same way: after 3e5 steps it is off by
- * 1e-10. What is meant is the end of a whole number of steps and a stage's node.
+ * ARKODE adds its clock up step by step and always rounds the same way: after 3e5 steps it is off
+ * by 1e-10. The phase that it means is a whole number of steps and the node of a stage.
  */
 double pendres_flow_drive_phase(const pendres_flow_drive *d, double theta)
 {

@@ -15,12 +15,12 @@ typedef struct pendres_flow_drive {
   int steps;                               /* a period; 0: adaptive */
   int stages;
   double node[PENDRES_TABLES_MOST_STAGES]; /* of the stages of a step */
-  double *theta, *cosine; /* at the right-hand sides of one period, in their order: the same every
-                             period */
+  double *theta, *cosine; /* at the right-hand sides of a period, in their order, which is the same
+                             every period */
   size_t size, next;
 } pendres_flow_drive;
 
-/* The phase that is meant by one of ARKODE's clock. */
+/* The phase that ARKODE means when its clock shows theta. */
 double pendres_flow_drive_phase(const pendres_flow_drive *drive, double theta);
 
 /* cos(theta) at the next right-hand side of a period. */

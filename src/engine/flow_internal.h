@@ -44,7 +44,7 @@ struct pendres_flow {
   double tolerance;
   double end, half;       /* ARKODE's clock after a period and half of one */
   N_Vector state;
-  double *rows;           /* the state for everybody else, row after row */
+  double *rows;           /* the state as all others see it, row after row */
   double *coefficient[COEFFICIENTS];
   pendres_flow_load load; /* what is carried, */
   double *off[CARRIED];   /* in these; NULL until anything is */
@@ -52,16 +52,16 @@ struct pendres_flow {
   pendres_lanes_replays *replays; /* of periods with fixed steps */
   void *arkode;
   double evaluations, steps_taken;
-  int (*stop)(void *arg); /* asked now and then within a period; NULL: nobody is */
+  int (*stop)(void *arg); /* asked now and then within a period; may be NULL */
   void *stop_arg;
-  double next_asked;      /* once so many steps have been taken */
+  double next_asked;      /* when so many steps have been taken */
   int stopped;
   size_t lanes; /* in use */
   int failure;
 };
 
-/* Arrays for the coefficients of all lanes. 0, or -1 out of memory: pendres_flow_free takes back
-   what there is. */
+/* Make the arrays for the coefficients of all lanes and for the rows. 0, or -1 without memory:
+   pendres_flow_free then frees what there is. */
 int pendres_flow_lanes_open(struct pendres_flow *flow);
 void pendres_flow_lanes_close(struct pendres_flow *flow);
 

@@ -134,7 +134,7 @@ PENDRES_VECTOR_INLINE void slope_vectors(pendres_model_terms model, int count,
   accelerate(model, count, &s->k, lane, o->cos_theta, y, o->slope + at_y, o->slope + at_w);
 }
 
-/* What a lane feels: w's slope of the state, and what multiplies an error of y in it. */
+/* What a lane feels: the slope of w, and the factor by which an error of y enters it. */
 typedef struct felt {
   double slope, spring;
   double force; /* f (1 + b cos theta) */

@@ -157,14 +157,14 @@ typedef struct pendres_tangents {
   const double *keep; /* exp(-friction step / 2) */
 } pendres_tangents;
 
-/* Which of them a block carries. */
+/* What a block carries along beside its states. */
 typedef enum pendres_flow_load {
   PENDRES_FLOW_NOTHING,
   PENDRES_FLOW_ERRORS,
   PENDRES_FLOW_TANGENTS
 } pendres_flow_load;
 
-/* What one lane is off by, in the same words. */
+/* The same for one lane. */
 typedef struct pendres_flow_error {
   double yy, yw, ww;
 } pendres_flow_error;

@@ -194,7 +194,8 @@ static sunrealtype wrms_norm(N_Vector x, N_Vector w)
     lanes = pendres_lanes_strip(s, lane);
     for (size_t i = 0; i < lanes; i++) {
       const double sum = sum_of_squares(px + i, pw + i, s->rows, lanes);
-      if (isnan(sum)) return sum; /* or a lost lane would pass as a perfect one */
+      if (isnan(sum)) return sum; /* otherwise a lane that is no number would pass as a perfect one
+                                     */
       if (sum > largest) largest = sum;
     }
     px += s->rows * lanes;

@@ -19,13 +19,13 @@
 /* Memory for n doubles on a 64-byte boundary, all zero; NULL if there is none. Free with free(). */
 double *pendres_lanes_allocate(size_t n);
 
-/* A shape of that many rows and lanes, all in use; nonzero if out of memory. */
+/* Make a shape of so many rows and lanes, all of them in use; nonzero without memory. */
 int pendres_lanes_open(pendres_lanes_shape *shape, size_t rows, size_t lanes,
                        const pendres_kernels *kernels);
-/* After its last vector is gone. */
+/* To be called when the shape's last vector has been freed. */
 void pendres_lanes_close(pendres_lanes_shape *shape);
 
-/* From now on this many lanes, at most the capacity. Vectors keep no values. */
+/* Use so many lanes from now on, at most the capacity. Vectors lose their values. */
 void pendres_lanes_resize(pendres_lanes_shape *shape, size_t lanes);
 
 /*

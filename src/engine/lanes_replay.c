@@ -5,17 +5,19 @@
 #include <string.h>
 
 enum {
-  MOST_OPERATIONS = 16384, /* of one record: a thousand steps; longer periods are not kept */
-  MOST_SUMS = 64,          /* different ones: a few steps' worth, as the last is its own */
+  MOST_OPERATIONS = 16384, /* operations of one record, a thousand steps; longer periods are not
+                              kept */
+  MOST_SUMS = 64,          /* different sums of one record: those of a few steps, as the last step
+                              of a period is unlike the others */
   MOST_KINDS = 64,
   MOST_KEPT = 65536,       /* operations of all records together, 4 MB */
-  MOST_TRIES = 4           /* periods recorded that differ before a kind is given up */
+  MOST_TRIES = 4           /* a kind is given up after so many records that differ */
 };
 
 typedef struct entry {
   pendres_lanes_replay_kind kind;
   pendres_lanes_replay replay; /* of the latest period that was recorded */
-  int agreed;                  /* two periods in a row did the same */
+  int agreed;                  /* two periods one after the other have done the same */
   int tries;
 } entry;
 

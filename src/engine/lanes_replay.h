@@ -17,7 +17,7 @@ typedef struct pendres_lanes_replay {
   size_t slopes; /* right-hand sides among the operations */
   pendres_operation *operation;
   pendres_sum *sum; /* those of the operations */
-  size_t *end;      /* of each part: operations up to there */
+  size_t *end;      /* how many operations come before the end of each part */
 } pendres_lanes_replay;
 
 /* Periods that ask for the same. */
@@ -44,7 +44,7 @@ void pendres_lanes_replays_begin(pendres_lanes_replays *r);
 void pendres_lanes_replays_add(pendres_lanes_replays *r, const pendres_operation *operations,
                                size_t n);
 void pendres_lanes_replays_part(pendres_lanes_replays *r);
-/* The period is over. `whole`: it has come to its end as periods of this kind should. */
+/* The period is over. `whole`: it has not been cut short. */
 void pendres_lanes_replays_end(pendres_lanes_replays *r, const pendres_lanes_replay_kind *kind,
                                int whole);
 

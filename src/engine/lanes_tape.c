@@ -26,7 +26,7 @@ struct pendres_lanes_tape {
   const request *latest[PENDRES_KERNELS_TERMS + 1]; /* by the number of terms */
   pendres_operation operation[MOST_OPERATIONS];
   pendres_sum sum[MOST_SUMS];
-  pendres_lanes_replays *record; /* not owned; NULL: nobody keeps what is done */
+  pendres_lanes_replays *record; /* the record of what is done, not owned; NULL: there is none */
   request request[MOST_SUMS];
 };
 
@@ -74,7 +74,8 @@ static pendres_operation *next(pendres_lanes_shape *s)
   return &s->tape->operation[s->tape->operations++];
 }
 
-/* Note that o reads some vectors and then writes v, and what is in vain by that. */
+/* Note that o reads some vectors and then writes v, and which earlier writing is in vain because of
+   that. */
 static void note(pendres_lanes_tape *t, pendres_operation *o, uint64_t reads, N_Vector v)
 {
   const uint64_t bit = pendres_lanes_of(v)->bit;

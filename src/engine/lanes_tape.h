@@ -59,10 +59,10 @@ void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, d
 /* Do all that was put off: before anybody looks at a number or changes one. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);
 
-/* From now on add what is done to this record, which is not owned; NULL: no longer. */
+/* Add all that is done from now on to this record, which is not owned; NULL: to none. */
 void pendres_lanes_tape_record(pendres_lanes_shape *s, pendres_lanes_replays *record);
 
-/* Forget all sums known: before the memory of a vector is given back. */
+/* Forget all sums that are known; to be called before a vector is freed. */
 void pendres_lanes_tape_forget(pendres_lanes_shape *s);
 
 #endif

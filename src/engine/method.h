@@ -20,7 +20,7 @@ typedef struct pendres_strobe_lane {
   long period;                      /* strobes so far */
   int steps;                        /* a period; unused by adaptive methods */
   double added;                     /* variance that a step adds to y's error (flow.h); 0: errors
-                                       are not carried. Fixed steps only */
+                                       are not carried. With fixed steps only */
   pendres_flow_error off;           /* what y and w are off by */
   double worst;                     /* largest variance at a strobe so far, of y and w together */
   double longest;                   /* step of drive phase that block_adaptive and single may take;
@@ -42,8 +42,10 @@ typedef struct pendres_strobe_job {
 
 typedef struct pendres_method_functions {
   const char *name;    /* in decks and messages */
-  int fixed_steps;     /* as many as a lane says; others choose their own by the tolerance */
-  int running_clock;   /* not put back at a period's end, so that its rounding adds up */
+  int fixed_steps;     /* steps are as many as a lane says; other methods choose their own by the
+                          tolerance */
+  int running_clock;   /* the clock is not put back at a period's end, so that its rounding adds up
+                          */
   /* Run lanes until visit() has declared each of them done; they keep their final state. */
   pendres_status (*run)(pendres_context *ctx, const pendres_strobe_job *job);
 } pendres_method_functions;

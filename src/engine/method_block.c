@@ -37,7 +37,8 @@ static int look(block *b, size_t slot)
   if (b->carry) {
     l->off = pendres_flow_get_error(b->flow, slot);
     const double off = l->off.yy + l->off.ww;
-    if (!(off <= l->worst)) l->worst = off; /* no number is no error to live with */
+    /* An error that is no number is as bad as an infinite one. */
+    if (!(off <= l->worst)) l->worst = off;
   }
   return b->job->visit(b->job->arg, b->slot[slot], l);
 }
@@ -71,7 +72,7 @@ static pendres_status run_class(block *b, const pendres_rank *queue, size_t n)
       } else if (next < n) {
         put(b, slot++, queue[next++].index);
       } else {
-        /* Nobody waits: close the gap with the last lane, which is yet to be looked at. */
+        /* No lane waits for the place: the last lane, which is yet to be looked at, takes it. */
         b->filled--;
         if (slot < b->filled) {
           b->slot[slot] = b->slot[b->filled];

@@ -10,7 +10,8 @@
 #include "engine/passage.h"
 #include "model/model.h"
 
-/* Between two questions whether to go on: some hundredths of a second. */
+/* So many evaluations lie between two questions whether to go on: they take some hundredths of a
+   second. */
 enum { EVALUATIONS_BETWEEN = 300000 };
 
 int pendres_one_slope(sunrealtype theta, N_Vector state, N_Vector out, void *one)

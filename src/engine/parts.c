@@ -34,7 +34,7 @@ static void say(char *message, size_t size, const char *text)
   if (size > 0) (void)snprintf(message, size, "%s", text);
 }
 
-/* The next part; 0 if there is none, or one has failed. */
+/* Take the next part; 0 if there is none left, or one has failed. */
 static int begin(crew *c, size_t *part)
 {
   (void)pthread_mutex_lock(&c->lock);
@@ -57,7 +57,8 @@ static void fail(crew *c, size_t part, pendres_status status, const char *why)
   (void)pthread_mutex_unlock(&c->lock);
 }
 
-/* Parts until there are none. Only a context that cannot be made is told to the caller. */
+/* Do parts until there are none. Of a thread's own failures only that no context can be made is
+   told. */
 static pendres_status labour(crew *c)
 {
   pendres_context *ctx = NULL;

@@ -8,7 +8,7 @@
 
 /* 2 pi in two parts, so that taking out many turns costs no digits. */
 static const double two_pi_high = 2.0 * PENDRES_PI, two_pi_low = 2.4492935982947064e-16;
-/* A position beyond is not known to a tenth of a radian. */
+/* A position beyond this is not known to a tenth of a radian. */
 static const double farthest = 1e15;
 
 /* ---- states ---- */
@@ -153,7 +153,7 @@ void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, d
   pendres_flow_get_tangent(b->flow, lane, which, tangent);
 }
 
-/* What comes after a run of this many periods. */
+/* After a run of so many periods: count its cost, or say how it failed. */
 static pendres_status ran(pendres_block *b, double periods, pendres_status status)
 {
   if (status != PENDRES_OK) return pendres_context_flow_failed(b->ctx, b->flow, status);

@@ -25,7 +25,7 @@ typedef struct pendres_place {
   long turns;
 } pendres_place;
 
-/* NULL, or why double precision cannot follow a pendulum from a state: a static sentence. */
+/* Why double precision cannot follow a pendulum from a state, a static sentence; NULL if it can. */
 const char *pendres_passage_refuses(const pendres_pendulum *p, double x, double v);
 
 /* In, with whole turns taken out: -pi <= y <= pi. y is NaN beyond 1e15, where an angle is not
@@ -65,7 +65,7 @@ typedef struct pendres_block {
 pendres_status pendres_block_open(pendres_context *ctx, pendres_flow_kind kind, int steps,
                                   pendres_block *out);
 
-/* The most lanes that it holds. */
+/* How many lanes it can hold. */
 size_t pendres_block_capacity(const pendres_block *b);
 
 /* Use so many lanes from now on; those that were in use before and still are keep their states. */
@@ -97,11 +97,12 @@ pendres_status pendres_block_carry_tangents(pendres_block *b, int on);
 void pendres_block_put_tangent(pendres_block *b, size_t lane, int which, const double tangent[2]);
 void pendres_block_get_tangent(const pendres_block *b, size_t lane, int which, double tangent[2]);
 
-/* One drive period, or its first half, of all lanes: asks whether to go on, and counts the cost. */
+/* Advance all lanes by one drive period, or by the first half of one; asks whether to go on, and
+   counts the cost. */
 pendres_status pendres_block_period(pendres_block *b);
 pendres_status pendres_block_half_period(pendres_block *b);
 
-/* A period whose steps 1..n are looked at, one after the other. */
+/* Advance by a period, and hand over the rows after each of its steps 1..n. */
 typedef void pendres_block_sample(void *arg, int step, const pendres_rows *rows);
 pendres_status pendres_block_period_sampled(pendres_block *b, pendres_block_sample *sample,
                                             void *arg);

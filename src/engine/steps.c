@@ -50,7 +50,7 @@ static const double frequency_least = 1e-4, frequency_ratio = 1.06;
 static const double drive_least = 0.25, drive_ratio = 1.25;
 static const double speed_least = 2.0, speed_ratio = 1.5;
 
-/* Of terms that most pendulums do not have: -1 for none. */
+/* The index of a term that most pendulums do not have; -1 if it is 0. */
 static int lattice_or_none(double value)
 {
   return value != 0.0 ? lattice(fabs(value), drive_least, drive_ratio) : -1;
@@ -89,7 +89,7 @@ static void worst_of(const pendres_steps_cell *c, pendres_pendulum *p, double *s
     .force = c->force};
   for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
     p->force_coefficients[i] = c->coefficients[i];
-  /* Up to the least damping the cell has none. */
+  /* Below the least damping the corner of the cell has none. */
   if (c->damping == 0) p->damping = 0.0;
   *speed = lattice_upper(c->speed, speed_least, speed_ratio);
   *tolerance = c->tolerance > 0 ? lattice_upper(c->tolerance - 1, 1e-18, 1.25) : 1e-18;
@@ -102,7 +102,7 @@ static int open_ended(const pendres_pendulum *p)
   return !(pendres_model_of(p->force)->period > 0.0);
 }
 
-/* How far out a speed leads, at most where the force is that of its terms added up. */
+/* How far out a speed can lead at most, if all terms of the force added up. */
 static double reach_of(const pendres_pendulum *p, double speed)
 {
   const double energy = 0.5 * speed * speed;

@@ -12,7 +12,8 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-/* The steps a period that can be chosen from are a ladder, 1.12 apart: the rung at or above n. */
+/* Steps a period are chosen from a ladder whose rungs are a factor of about 1.12 apart: the rung at
+   or above n. */
 int pendres_steps_rung(int n);
 
 /*

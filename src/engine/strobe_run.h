@@ -19,7 +19,7 @@
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
-/* The same at another tolerance, by which methods go that choose their own steps. */
+/* The same at another tolerance, which counts for methods that choose their own steps. */
 pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);
@@ -38,7 +38,7 @@ void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v)
  */
 double pendres_strobe_doubt(double distance);
 
-/* The failure of a pendulum whose state is no number after some periods. */
+/* Say that the state of a pendulum is no number after some periods. */
 pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period);
 
 #endif

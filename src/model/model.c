@@ -133,9 +133,11 @@ double pendres_model_origin(const pendres_pendulum *p)
 
 /* ---- the scale of a force ---- */
 
-enum { SAMPLES = 64 /* of a force that is not a sum of powers, to each side */ };
+/* Points of Simpson's rule on each side, for a force that is not a sum of powers. */
+enum { SAMPLES = 64 };
 
-/* Of a polynomial, as if all its terms added up; of others the larger side, by Simpson's rule. */
+/* For a polynomial as if all its terms added up; for other forces the larger of both sides, by
+   Simpson's rule. */
 double pendres_model_climb(const pendres_pendulum *p, double reach)
 {
   double sum = 0.0, side[2] = {0.0, 0.0};

@@ -33,16 +33,16 @@ const char *pendres_model_check(const pendres_pendulum *p);
 void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope);
 
 /*
- * A turn: what y and y + turn have in common is everything. Where the coordinate has no period this
- * is so much that y never is a part of it, so that y - turn rint(y / turn) is y.
+ * The period of the coordinate: y and y + turn are the same. Where it has none this is so large
+ * that y - turn rint(y / turn) is always y.
  */
 double pendres_model_turn(const pendres_pendulum *p);
 
 /* Where y is counted from. */
 double pendres_model_origin(const pendres_pendulum *p);
 
-/* What steps are chosen by: upper estimates of the energy that it takes to come from y = 0 to
-   `reach` to either side, and of the spring's stiffness on the way. */
+/* Steps are chosen by these upper estimates: of the energy that it takes to come from y = 0 to
+   `reach` on either side, and of the spring's stiffness on the way. */
 double pendres_model_climb(const pendres_pendulum *p, double reach);
 double pendres_model_stiffest(const pendres_pendulum *p, double reach);
 

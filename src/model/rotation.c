@@ -21,7 +21,7 @@ static const double least_damping = 1e-9, most_damping = 100.0;
 
 enum { ORDER = 28 /* of series */, ITERATIONS = 200 };
 
-/* How finely: the order of series, and what their last terms are, relative to the velocity. */
+/* The order of series, and how small their last terms are relative to the velocity. */
 typedef struct finesse {
   int order;
   double rest;
@@ -271,7 +271,7 @@ pendres_status pendres_rotation_most_damping(double *damping, double *error)
 
 /* ---- rotations ---- */
 
-/* What a turn adds to the velocity at y = 0. */
+/* By how much a turn changes the velocity at y = 0. */
 static double gain(double v, void *params)
 {
   const motion *m = params;
