@@ -32,8 +32,6 @@ typedef struct accuracy accuracy;
 
 const accuracy_options *accuracy_get_options(const accuracy *a);
 
-/* Items [first, last) of a section that has `items` of them. */
-void accuracy_range(const accuracy *a, long items, long *first, long *last);
 
 /* ---- draws ---- */
 
@@ -51,6 +49,22 @@ int accuracy_choice(accuracy_random *r, int n);
 pendres_pendulum accuracy_pendulum(accuracy_random *r);
 /* 1e-12 to 1e-3, by its logarithm. */
 double accuracy_tolerance(accuracy_random *r);
+
+/*
+ * The items of a section: how many, how many of them side by side by threads, the size of one, and
+ * what is done with each. compute() draws and computes into an item that is zero, alone; note() is
+ * called one after another, in order.
+ */
+typedef struct accuracy_work {
+  long items, at_once;
+  size_t size;
+  void (*compute)(accuracy_random *r, void *item, long number);
+  void (*note)(accuracy *a, const void *item, long number, void *tally);
+  void *tally; /* of note(), or NULL */
+} accuracy_work;
+
+/* Compute and note all items, or the one that was asked for; how many they are. */
+long accuracy_each(accuracy *a, const accuracy_work *work);
 
 /* ---- notes ---- */
 

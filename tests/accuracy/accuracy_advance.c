@@ -13,7 +13,7 @@
 static const long double two_pi = 6.28318530717958647692528676655900577L;
 static const long double half_pi = 1.57079632679489661923132169163975144L;
 
-enum { BATCH = 256, HOW = 300, SAMPLES = 4 };
+enum { HOW = 300, SAMPLES = 4 };
 
 typedef struct item {
   pendres_pendulum pendulum;
@@ -49,10 +49,13 @@ static double off_by(const item *t, double x, double v, int *there)
   return (double)fmaxl(fabsl((long double)x - angle), fabsl((long double)v - w));
 }
 
-static void compute(item *t)
+static void compute(accuracy_random *r, void *of, long number)
 {
   enum { MOST = 41 * SAMPLES + 1 };
+  item *t = of;
   pendres_context *ctx = NULL;
+  (void)number;
+  draw(r, t);
   const pendres_options options = {.tolerance = t->tolerance, .method = t->method,
                                    .block_lanes = 8};
   double x = t->x, v = t->v, xs[MOST], vs[MOST], x_error[MOST], v_error[MOST];
@@ -70,10 +73,13 @@ static void compute(item *t)
   t->recorded_claim = fmax(x_error[last], v_error[last]);
 }
 
-static void note(accuracy *a, const item *t, long number)
+static void note(accuracy *a, const void *of, long number, void *tally)
 {
+  const item *t = of;
   const pendres_pendulum *p = &t->pendulum;
   char how[HOW], kind[64];
+  (void)tally;
+  if (!t->there) return;
   snprintf(how, sizeof how,
            "item %ld: F0 %.17g, damping %.17g, frequency %.17g, x %.17g, v %.17g, %ld periods, "
            "tolerance %.17g", number, p->drive_amplitude, p->damping, p->drive_frequency, t->x,
@@ -85,19 +91,6 @@ static void note(accuracy *a, const item *t, long number)
 
 void accuracy_advance(accuracy *a)
 {
-  long first, last;
-  accuracy_range(a, accuracy_get_options(a)->orbits, &first, &last);
-  for (long base = first; base < last; base += BATCH) {
-    static item items[BATCH];
-    const long n = last - base < BATCH ? last - base : BATCH;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      draw(&r, &items[i]);
-      compute(&items[i]);
-    }
-    for (long i = 0; i < n; i++)
-      if (items[i].there) note(a, &items[i], base + i);
-  }
+  accuracy_each(a, &(accuracy_work){.items = accuracy_get_options(a)->orbits, .at_once = 256,
+                                    .size = sizeof(item), .compute = compute, .note = note});
 }

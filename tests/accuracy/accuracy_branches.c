@@ -16,7 +16,7 @@
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
-enum { BATCH = 64, POINTS = 6, BIFURCATIONS = 6, HOW = 400 };
+enum { POINTS = 6, BIFURCATIONS = 6, HOW = 400 };
 
 /* A point, or a bifurcation, and what is true of it. */
 typedef struct place {
@@ -184,8 +184,11 @@ static void look(accuracy_random *r, const pendres_branch *b, item *t)
   }
 }
 
-static void compute(accuracy_random *r, item *t)
+static void compute(accuracy_random *r, void *of, long number)
 {
+  item *t = of;
+  (void)number;
+  if (!draw(r, t)) return;
   pendres_context *ctx = context_with(t->tolerance);
   pendres_status outcome = PENDRES_NOT_CONVERGED;
   pendres_orbit start;
@@ -242,10 +245,12 @@ static void note_bifurcation(accuracy *a, const place *at, const char *how)
   accuracy_note_error(a, kind, accuracy_multipliers_apart(o, &e), o->multiplier_error, how);
 }
 
-static void note(accuracy *a, const item *t, long number)
+static void note(accuracy *a, const void *of, long number, void *tally)
 {
+  const item *t = of;
   const pendres_pendulum *p = &t->guess.pendulum;
   char how[HOW];
+  (void)tally;
   for (int k = 0; k < POINTS + BIFURCATIONS; k++) {
     const place *at = k < POINTS ? &t->points[k] : &t->bifurcations[k - POINTS];
     const pendres_orbit *o = k < POINTS ? &at->point.orbit : &at->bifurcation.orbit;
@@ -263,17 +268,6 @@ static void note(accuracy *a, const item *t, long number)
 
 void accuracy_branches(accuracy *a)
 {
-  long first, last;
-  accuracy_range(a, 2 * accuracy_get_options(a)->points, &first, &last);
-  for (long base = first; base < last; base += BATCH) {
-    static item items[BATCH];
-    const long n = last - base < BATCH ? last - base : BATCH;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      if (draw(&r, &items[i])) compute(&r, &items[i]);
-    }
-    for (long i = 0; i < n; i++) note(a, &items[i], base + i);
-  }
+  accuracy_each(a, &(accuracy_work){.items = 2 * accuracy_get_options(a)->points, .at_once = 64,
+                                    .size = sizeof(item), .compute = compute, .note = note});
 }

@@ -12,7 +12,7 @@ static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
 /* A stretch is no multiple of an orbit's period: so it meets all its strobe points in turn. */
-enum { MEMBERS = 20, HOW = 240, AT_ONCE = 64, STRETCHES = 40, STRETCH = 11 };
+enum { MEMBERS = 20, HOW = 240, STRETCHES = 40, STRETCH = 11 };
 
 typedef struct item {
   pendres_pendulum pendulum;
@@ -58,9 +58,12 @@ static int true_state(const item *t, double x)
   return -1;
 }
 
-static void compute(item *t)
+static void compute(accuracy_random *r, void *of, long number)
 {
+  item *t = of;
   pendres_context *ctx = NULL;
+  (void)number;
+  draw(r, t);
   const pendres_options options = {.tolerance = t->tolerance};
   pendres_status status = pendres_context_create(&options, &ctx);
   if (status == PENDRES_OK)
@@ -79,10 +82,21 @@ static void compute(item *t)
   }
 }
 
-static void note(accuracy *a, const item *t, long number)
+/* Items beside the reference, and what they are. */
+typedef struct tally {
+  long known, mixed, uncertain;
+} tally;
+
+static void note(accuracy *a, const void *of, long number, void *counts)
 {
+  const item *t = of;
+  tally *c = counts;
   const pendres_response *r = &t->found;
   char how[HOW];
+  if (!t->known) return;
+  c->known++;
+  c->mixed += r->states > 1;
+  c->uncertain += r->uncertain > 0;
   snprintf(how, sizeof how,
            "item %ld: F0 %.17g, damping %.17g, frequency %.17g, v %.17g, %d members, "
            "tolerance %.17g", number, t->pendulum.drive_amplitude, t->pendulum.damping,
@@ -104,26 +118,11 @@ static void note(accuracy *a, const item *t, long number)
 
 void accuracy_ensembles(accuracy *a)
 {
-  long first, last, known = 0, mixed = 0, uncertain = 0;
-  accuracy_range(a, 2 * accuracy_get_options(a)->points, &first, &last);
-  for (long base = first; base < last; base += AT_ONCE) {
-    static item items[AT_ONCE];
-    const long n = last - base < AT_ONCE ? last - base : AT_ONCE;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      draw(&r, &items[i]);
-      compute(&items[i]);
-    }
-    for (long i = 0; i < n; i++) {
-      if (!items[i].known) continue;
-      known++;
-      mixed += items[i].found.states > 1;
-      uncertain += items[i].found.uncertain > 0;
-      note(a, &items[i], base + i);
-    }
-  }
+  tally c = {0};
+  const long all =
+    accuracy_each(a, &(accuracy_work){.items = 2 * accuracy_get_options(a)->points, .at_once = 64,
+                                      .size = sizeof(item), .compute = compute, .note = note,
+                                      .tally = &c});
   printf("\nensembles: %ld of %ld beside the reference, %ld of them on several states, %ld with "
-         "uncertain members\n", known, last - first, mixed, uncertain);
+         "uncertain members\n", c.known, all, c.mixed, c.uncertain);
 }

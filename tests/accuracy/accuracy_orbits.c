@@ -14,7 +14,7 @@
 static const double two_pi = 6.28318530717958647693;
 static const double half_pi = 1.57079632679489661923;
 
-enum { BATCH = 256, LONGEST = 8 /* periods */, HOW = 400 };
+enum { LONGEST = 8 /* periods */, HOW = 400 };
 
 /* One item: what was drawn, found and is true. */
 typedef struct item {
@@ -100,8 +100,11 @@ static void settle(pendres_context *ctx, item *t)
   pendres_attractors_free(found);
 }
 
-static void compute(item *t, int settles)
+/* Every fourth is settled as well. */
+static void compute(accuracy_random *r, void *of, long number)
 {
+  item *t = of;
+  draw(r, t);
   pendres_context *ctx = context_with(t->tolerance);
   pendres_status outcome = PENDRES_NOT_CONVERGED;
   const pendres_orbit_guess *g = &t->guess;
@@ -113,7 +116,7 @@ static void compute(item *t, int settles)
     t->there = status == PENDRES_OK;
     t->false_ = status == PENDRES_NOT_CONVERGED;
   }
-  if (ctx != NULL && settles && t->closes) settle(ctx, t);
+  if (ctx != NULL && number % 4 == 0 && t->closes) settle(ctx, t);
   pendres_context_free(ctx);
 }
 
@@ -167,17 +170,20 @@ static void note_samples(accuracy *a, const item *t, const char *how)
   pendres_context_free(ctx);
 }
 
-static void note(accuracy *a, const item *t, long number)
+static void note(accuracy *a, const void *of, long number, void *tally)
 {
+  const item *t = of;
   const pendres_orbit *o = &t->orbit;
   const pendres_reference_cycle *e = &t->exact;
   const pendres_pendulum *p = &t->guess.pendulum;
   char how[HOW];
+  (void)tally;
   snprintf(how, sizeof how,
            "item %ld: F0 %.17g, damping %.17g, frequency %.17g, q %d, winding %d, x %.17g, v %.17g,"
            " tolerance %.17g",
            number, p->drive_amplitude, p->damping, p->drive_frequency, t->guess.period,
            t->guess.winding, t->guess.x, t->guess.v, t->tolerance);
+  if (t->false_) accuracy_complain(a, "an orbit where the reference has none", how);
   if (t->settled) note_attractor(a, t, how);
   if (!t->there) return;
   note_samples(a, t, how);
@@ -203,29 +209,6 @@ static void note(accuracy *a, const item *t, long number)
 
 void accuracy_orbits(accuracy *a)
 {
-  long first, last;
-  accuracy_range(a, accuracy_get_options(a)->orbits, &first, &last);
-  item *items = calloc(BATCH, sizeof *items);
-  if (items == NULL) {
-    accuracy_complain(a, "out of memory", "");
-    return;
-  }
-  for (long base = first; base < last; base += BATCH) {
-    const long n = last - base < BATCH ? last - base : BATCH;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      draw(&r, &items[i]);
-      compute(&items[i], (base + i) % 4 == 0);
-    }
-    for (long i = 0; i < n; i++) {
-      const item *t = &items[i];
-      char how[HOW];
-      snprintf(how, sizeof how, "item %ld", base + i);
-      note(a, t, base + i);
-      if (t->false_) accuracy_complain(a, "an orbit where the reference has none", how);
-    }
-  }
-  free(items);
+  accuracy_each(a, &(accuracy_work){.items = accuracy_get_options(a)->orbits, .at_once = 256,
+                                    .size = sizeof(item), .compute = compute, .note = note});
 }

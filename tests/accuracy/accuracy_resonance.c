@@ -12,7 +12,7 @@
 
 static const double half_pi = 1.57079632679489661923;
 
-enum { HOW = 240, AT_ONCE = 64 };
+enum { HOW = 240 };
 
 typedef struct item {
   pendres_pendulum pendulum;
@@ -40,9 +40,12 @@ static int is_alone(const pendres_response *r)
          r->state[0].orbit.winding == 0;
 }
 
-static void compute(item *t)
+static void compute(accuracy_random *r, void *of, long number)
 {
+  item *t = of;
   pendres_context *ctx = NULL;
+  (void)number;
+  draw(r, t);
   const pendres_options options = {.tolerance = t->tolerance};
   t->status = pendres_context_create(&options, &ctx);
   if (t->status == PENDRES_OK)
@@ -64,10 +67,12 @@ static void compute(item *t)
     }
 }
 
-static void note(accuracy *a, const item *t, long number)
+static void note(accuracy *a, const void *of, long number, void *tally)
 {
+  const item *t = of;
   const pendres_resonance *f = &t->found;
   char how[HOW];
+  (void)tally;
   snprintf(how, sizeof how, "item %ld: F0 %.17g, damping %.17g, range %.17g to %.17g, tolerance "
            "%.17g", number, t->pendulum.drive_amplitude, t->pendulum.damping, t->lowest, t->highest,
            t->tolerance);
@@ -89,18 +94,6 @@ static void note(accuracy *a, const item *t, long number)
 
 void accuracy_resonance(accuracy *a)
 {
-  long first, last;
-  accuracy_range(a, accuracy_get_options(a)->points, &first, &last);
-  for (long base = first; base < last; base += AT_ONCE) {
-    static item items[AT_ONCE];
-    const long n = last - base < AT_ONCE ? last - base : AT_ONCE;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      draw(&r, &items[i]);
-      compute(&items[i]);
-    }
-    for (long i = 0; i < n; i++) note(a, &items[i], base + i);
-  }
+  accuracy_each(a, &(accuracy_work){.items = accuracy_get_options(a)->points, .at_once = 64,
+                                    .size = sizeof(item), .compute = compute, .note = note});
 }

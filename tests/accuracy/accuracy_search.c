@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { FREQUENCIES = 400, PART = 20, HOW = 200, AT_ONCE = 8 };
+enum { FREQUENCIES = 400, PART = 20, HOW = 200 };
 
 /* Where every member is chaotic a response takes seconds: what this long is not enough for stays
  * unseen, and is counted. */
@@ -68,9 +68,12 @@ static void look_everywhere(pendres_context *ctx, item *t)
   free(r);
 }
 
-static void compute(item *t)
+static void compute(accuracy_random *r, void *of, long number)
 {
+  item *t = of;
   pendres_context *ctx = NULL;
+  (void)number;
+  draw(r, t);
   t->status = pendres_context_create(NULL, &ctx);
   if (t->status == PENDRES_OK)
     t->status = pendres_resonance_find(ctx, &t->pendulum, t->lowest, t->highest, &t->found);
@@ -78,40 +81,37 @@ static void compute(item *t)
   pendres_context_free(ctx);
 }
 
+typedef struct tally {
+  long peaks, ragged, cut, none;
+} tally;
+
+static void note(accuracy *a, const void *of, long number, void *counts)
+{
+  const item *t = of;
+  tally *c = counts;
+  const pendres_resonance *f = &t->found;
+  char how[HOW];
+  snprintf(how, sizeof how, "item %ld: F0 %.17g, damping %.17g, range %.17g to %.17g: at %.17g",
+           number, t->pendulum.drive_amplitude, t->pendulum.damping, t->lowest, t->highest, t->at);
+  if (t->status != PENDRES_OK) {
+    c->none++;
+    if (t->status != PENDRES_NOT_FOUND && t->status != PENDRES_NOT_CONVERGED)
+      accuracy_complain(a, "the search failed", how);
+    return;
+  }
+  c->peaks++;
+  c->ragged += f->peak == PENDRES_PEAK_RAGGED;
+  c->cut += t->seen < FREQUENCIES;
+  if (!(t->largest - t->largest_error <= f->loop_area + f->loop_area_error))
+    accuracy_complain(a, "a larger loop area than the largest", how);
+}
+
 void accuracy_search(accuracy *a)
 {
-  long first, last, peaks = 0, ragged = 0, cut = 0, none = 0;
-  accuracy_range(a, accuracy_get_options(a)->points / 5, &first, &last);
-  for (long base = first; base < last; base += AT_ONCE) {
-    static item items[AT_ONCE];
-    const long n = last - base < AT_ONCE ? last - base : AT_ONCE;
-#pragma omp parallel for schedule(dynamic)
-    for (long i = 0; i < n; i++) {
-      accuracy_random r = accuracy_item(a, base + i);
-      items[i] = (item){0};
-      draw(&r, &items[i]);
-      compute(&items[i]);
-    }
-    for (long i = 0; i < n; i++) {
-      const item *t = &items[i];
-      const pendres_resonance *f = &t->found;
-      char how[HOW];
-      snprintf(how, sizeof how, "item %ld: F0 %.17g, damping %.17g, range %.17g to %.17g: at %.17g",
-               base + i, t->pendulum.drive_amplitude, t->pendulum.damping, t->lowest, t->highest,
-               t->at);
-      if (t->status != PENDRES_OK) {
-        none++;
-        if (t->status != PENDRES_NOT_FOUND && t->status != PENDRES_NOT_CONVERGED)
-          accuracy_complain(a, "the search failed", how);
-        continue;
-      }
-      peaks++;
-      ragged += f->peak == PENDRES_PEAK_RAGGED;
-      cut += t->seen < FREQUENCIES;
-      if (!(t->largest - t->largest_error <= f->loop_area + f->loop_area_error))
-        accuracy_complain(a, "a larger loop area than the largest", how);
-    }
-  }
+  tally c = {0};
+  accuracy_each(a, &(accuracy_work){.items = accuracy_get_options(a)->points / 5, .at_once = 8,
+                                    .size = sizeof(item), .compute = compute, .note = note,
+                                    .tally = &c});
   printf("\nsearch: %ld resonances, %ld of them ragged, %ld not beside all %d frequencies; %ld "
-         "ranges without one\n", peaks, ragged, cut, (int)FREQUENCIES, none);
+         "ranges without one\n", c.peaks, c.ragged, c.cut, (int)FREQUENCIES, c.none);
 }

@@ -82,15 +82,6 @@ const accuracy_options *accuracy_get_options(const accuracy *a)
   return &a->options;
 }
 
-void accuracy_range(const accuracy *a, long items, long *first, long *last)
-{
-  *first = 0;
-  *last = items;
-  if (a->options.item < 0) return;
-  *first = a->options.item;
-  *last = a->options.item + 1;
-}
-
 /* ---- draws: splitmix64 ---- */
 
 static uint64_t mixed(uint64_t z)
@@ -142,6 +133,31 @@ pendres_pendulum accuracy_pendulum(accuracy_random *r)
 double accuracy_tolerance(accuracy_random *r)
 {
   return accuracy_logarithmic(r, 1e-12, 1e-3);
+}
+
+/* ---- items ---- */
+
+long accuracy_each(accuracy *a, const accuracy_work *w)
+{
+  const long asked = a->options.item;
+  const long first = asked >= 0 ? asked : 0, last = asked >= 0 ? asked + 1 : w->items;
+  char *items = malloc((size_t)w->at_once * w->size);
+  if (items == NULL) {
+    accuracy_complain(a, "out of memory", a->section);
+    return 0;
+  }
+  for (long base = first; base < last; base += w->at_once) {
+    const long n = last - base < w->at_once ? last - base : w->at_once;
+    memset(items, 0, (size_t)n * w->size);
+#pragma omp parallel for schedule(dynamic)
+    for (long i = 0; i < n; i++) {
+      accuracy_random r = accuracy_item(a, base + i);
+      w->compute(&r, items + (size_t)i * w->size, base + i);
+    }
+    for (long i = 0; i < n; i++) w->note(a, items + (size_t)i * w->size, base + i, w->tally);
+  }
+  free(items);
+  return last - first;
 }
 
 /* ---- notes ---- */
