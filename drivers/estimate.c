@@ -19,7 +19,7 @@ typedef struct rule {
 static const rule rules[DECK_KIND_COUNT] = {
   [DECK_FREE_OSCILLATION] = { 26e3, 40.0, 100.0, 1.0, 1.0, 1e-5 },
   [DECK_RESONANCE_CURVE] = { 32e3, 240.0, 2e3, 1.0, 1.0, 0.02 },
-  [DECK_RESPONSE] = { 50e3, 128.0, 7e3, 2.0, 1.0, 4e-4 },
+  [DECK_RESPONSE] = { 50e3, 128.0, 300.0, 2.0, 1.0, 4e-4 },
   [DECK_ORBIT] = { 45e3, 36.0, 60.0, 1.0, 1.0, 1e-5 },
   [DECK_BASINS] = { 75e3, 0.12, 30.0, 1.0, 1.2, 4e-6 },
   [DECK_PHASE_DIAGRAM] = { 60e3, 17.0, 300.0, 3.0, 1.2, 1e-3 },
@@ -121,6 +121,8 @@ static double estimate_memory(const deck *d, const farm_trial *t, int threads)
   double grid = rules[d->kind].memory * points_of(d);
   /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
   if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
+  /* Whole points are in memory as long as they are few (scene_spill.h). */
+  if (d->kind == DECK_RESPONSE) grid += fmin(7e3 * points_of(d), 64e6);
   if (d->kind == DECK_PHASE_DIAGRAM && t != NULL) grid += record_memory * t->journal;
   return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);
 }

@@ -18,6 +18,7 @@
 enum { CHUNK = 16 /* points a task */ };
 
 typedef struct grid {
+  scene_run *run;
   const deck *d;
   pendres_sweep sweep;
   pendres_ensemble ensemble;
@@ -26,7 +27,8 @@ typedef struct grid {
   size_t lines, values;       /* and points of a line */
   size_t chunks;              /* tasks a line */
   int peaked;                 /* whether lines have resonances: along the drive's frequency */
-  pendres_response *points;   /* [line][value] */
+  scene_spill points;         /* [line][value] of pendres_response, until its line has names */
+  scene_response_row *rows;   /* [line][value] */
   scene_peak *peaks;          /* [line] */
   int8_t *no_peak;            /* [line] not 0: there is none */
   scene_failures failed;      /* [line][value] */
@@ -199,6 +201,14 @@ static scene_peak peak_of(const grid *g, size_t line, const peak_record *r)
   return p;
 }
 
+static pendres_status keep_points(const grid *g, size_t first, size_t n,
+                                  const pendres_response *points)
+{
+  char why[200];
+  const pendres_status status = scene_spill_put(&g->points, first, n, points, why, sizeof why);
+  return status == PENDRES_OK ? status : scene_fail(g->run, status, "%s", why);
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
@@ -213,9 +223,17 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   }
   const point_record *r = in->data;
   const size_t first = first_of(g, task, &n);
-  memcpy(g->points + first, r->point, n * sizeof *r->point);
   for (size_t k = 0; k < n; k++) scene_failures_take(&g->failed, first + k, &r->verdict[k]);
-  return PENDRES_OK;
+  return keep_points(g, first, n, r->point);
+}
+
+static scene_response_row row_of(const pendres_response *p)
+{
+#define PAIR(field) .field = p->field, .field##_error = p->field##_error
+  return (scene_response_row){PAIR(mean_loop_area), PAIR(mean_loop_amplitude), PAIR(mean_amplitude),
+                              PAIR(phase_lag), PAIR(mean_power), PAIR(sa_fraction),
+                              PAIR(la_fraction), .uncertain = p->uncertain};
+#undef PAIR
 }
 
 /* States that are alone at a point have their names from the others of its line: the record is the
@@ -224,36 +242,41 @@ static pendres_status name_states(const void *arg, size_t task, pendres_context 
                                   farm_record *out)
 {
   const grid *g = arg;
-  memcpy(out->data, g->points + task * g->values, out->size);
-  return pendres_response_name(ctx, g->values, out->data);
+  const pendres_status status = scene_spill_get(&g->points, task * g->values, g->values, out->data,
+                                                out->message, sizeof out->message);
+  return status == PENDRES_OK ? pendres_response_name(ctx, g->values, out->data) : status;
 }
 
 static pendres_status collect_names(void *arg, size_t task, const farm_record *in)
 {
-  grid *g = arg;
-  memcpy(g->points + task * g->values, in->data, in->size);
-  return PENDRES_OK;
+  const grid *g = arg;
+  const pendres_response *points = in->data;
+  const size_t first = task * g->values;
+  for (size_t i = 0; i < g->values; i++) g->rows[first + i] = row_of(&points[i]);
+  /* Noise begins from the whole of a point. */
+  if (g->d->axis[DECK_AXIS_TEMPERATURE].count == 0) return PENDRES_OK;
+  return keep_points(g, first, g->values, points);
 }
 
 static const scene_column columns[] = {
-  SCENE_COLUMN(pendres_response, mean_loop_area, "mean loop area of the ensemble", "1"),
-  SCENE_COLUMN(pendres_response, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
+  SCENE_COLUMN(scene_response_row, mean_loop_area, "mean loop area of the ensemble", "1"),
+  SCENE_COLUMN(scene_response_row, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
                "rad"),
-  SCENE_COLUMN(pendres_response, mean_amplitude, "mean of the members' amplitudes", "rad"),
-  SCENE_COLUMN(pendres_response, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
-  SCENE_COLUMN(pendres_response, mean_power, "mean power taken up from the drive", "1"),
-  SCENE_COLUMN(pendres_response, sa_fraction, "share of the members on the small-amplitude state",
+  SCENE_COLUMN(scene_response_row, mean_amplitude, "mean of the members' amplitudes", "rad"),
+  SCENE_COLUMN(scene_response_row, phase_lag, "phase lag of the ensemble-averaged loop", "rad"),
+  SCENE_COLUMN(scene_response_row, mean_power, "mean power taken up from the drive", "1"),
+  SCENE_COLUMN(scene_response_row, sa_fraction, "share of the members on the small-amplitude state",
                "1"),
-  SCENE_COLUMN(pendres_response, la_fraction, "share of the members on the large-amplitude state",
+  SCENE_COLUMN(scene_response_row, la_fraction, "share of the members on the large-amplitude state",
                "1"),
 };
 
-static const scene_column uncertain = SCENE_UNCERTAIN(pendres_response, uncertain);
+static const scene_column uncertain = SCENE_UNCERTAIN(scene_response_row, uncertain);
 
 static pendres_status write_points(scene_run *run, const grid *g, size_t count,
                                    const scene_column *some)
 {
-  scene_table table = {.n = g->lines * g->values, .stride = sizeof *g->points, .rows = g->points};
+  scene_table table = {.n = g->lines * g->values, .stride = sizeof *g->rows, .rows = g->rows};
   for (int i = 0; i < g->axes; i++) table.dimensions[i] = deck_axis_name(g->axis[i]);
   return scene_columns_write(run, &table, count, some);
 }
@@ -321,7 +344,8 @@ static pendres_status write_results(scene_run *run, const grid *g)
 {
   const scene_response_grid noisy = {
     .dampings = g->lines, .drives = g->values, .damping = deck_axis_name(g->axis[0]),
-    .drive = deck_axis_name(g->axis[1]), .points = g->points};
+    .drive = deck_axis_name(g->axis[1]), .points = &g->points,
+    .rows = g->rows};
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < g->axes && status == PENDRES_OK; i++) status = write_axis(run, g->axis[i]);
   if (status == PENDRES_OK)
@@ -365,10 +389,24 @@ static void print_table(FILE *out, const grid *g)
                         scene_peak_instead);
 }
 
+static pendres_status compute_all(scene_run *run, grid *g)
+{
+  const size_t peaks = g->peaked ? g->lines : 0;
+  const farm_stage points = {.what = "chunks", .tasks = g->lines * g->chunks + peaks,
+                             .task = compute, .collect = collect, .arg = g};
+  const farm_stage names = {.what = "lines", .tasks = g->lines, .cheap = 1, .task = name_states,
+                            .record_size = g->values * sizeof(pendres_response),
+                            .collect = collect_names, .arg = g};
+  pendres_status status = scene_spill_create(run, g->lines * g->values, sizeof(pendres_response),
+                                             SCENE_SPILL_MEMORY, &g->points);
+  if (status == PENDRES_OK) status = scene_compute(run, &points);
+  return status == PENDRES_OK ? scene_compute(run, &names) : status;
+}
+
 static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
-  grid g = {.d = d,
+  grid g = {.run = run, .d = d,
             .sweep = scene_sweep(d),
             .ensemble = scene_ensemble(d),
             .axis = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_FREQUENCY}, .lines = 1};
@@ -379,28 +417,22 @@ static pendres_status run_scene(scene_run *run)
   g.values = d->axis[g.axis[g.axes - 1]].count;
   g.peaked = deck_searches(d);
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
-  g.points = calloc(g.lines * g.values, sizeof *g.points);
+  g.rows = malloc(g.lines * g.values * sizeof *g.rows);
   g.peaks = calloc(g.lines, sizeof *g.peaks);
   g.no_peak = calloc(g.lines, 1);
-  if (g.points == NULL || g.peaks == NULL || g.no_peak == NULL ||
+  if (g.rows == NULL || g.peaks == NULL || g.no_peak == NULL ||
       scene_failures_create(g.lines * g.values, &g.failed) != PENDRES_OK ||
       scene_failures_create(g.lines, &g.peak_failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu points", g.lines * g.values);
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = "chunks", .task = compute,
-                                             .tasks = g.lines * (g.chunks + (g.peaked ? 1 : 0)),
-                                             .collect = collect, .arg = &g });
-  if (status == PENDRES_OK)
-    status = scene_compute(run, &(farm_stage){ .what = "lines", .tasks = g.lines, .cheap = 1,
-                                               .task = name_states, .collect = collect_names,
-                                               .record_size = g.values * sizeof *g.points,
-                                               .arg = &g });
+  status = compute_all(run, &g);
   if (status == PENDRES_OK) status = write_results(run, &g);
   if (status == PENDRES_OK) status = write_paper(run, &g);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
 done:
-  free(g.points);
+  scene_spill_free(&g.points);
+  free(g.rows);
   free(g.peaks);
   free(g.no_peak);
   scene_failures_free(&g.failed);

@@ -33,9 +33,13 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   point *p = out->data;
   scene_plane(w->d, &axis[1]);
   scene_point_begin(out, w->d, task, 1, 3, axis);
-  const pendres_status status = pendres_response_add_noise(
-    ctx, &w->grid->points[task % plane], temperature, (size_t)w->d->noise.trajectories,
-    (long)w->d->noise.periods, &p->response);
+  pendres_response still;
+  pendres_status status = scene_spill_get(w->grid->points, task % plane, 1, &still, out->message,
+                                          sizeof out->message);
+  if (status != PENDRES_OK) return status;
+  status =
+    pendres_response_add_noise(ctx, &still, temperature, (size_t)w->d->noise.trajectories,
+                               (long)w->d->noise.periods, &p->response);
   return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
 }
 
@@ -77,7 +81,8 @@ static const scene_column steps = {
 /* What is known without noise alone. */
 #define STILL(field, words, unit)                                                             \
   {.name = #field, .long_name = words, .units = unit, .comment = "at temperature 0 alone",    \
-   .value = offsetof(pendres_response, field), .error = offsetof(pendres_response, field##_error)}
+   .value = offsetof(scene_response_row, field),                                              \
+   .error = offsetof(scene_response_row, field##_error)}
 static const scene_column still[] = {
   STILL(mean_loop_amplitude, "amplitude of the ensemble-averaged loop", "rad"),
   STILL(mean_amplitude, "mean of the members' amplitudes", "rad"),
@@ -89,7 +94,7 @@ static pendres_status write_still(scene_run *run, const work *w, const scene_tab
 {
   const size_t plane = w->grid->dampings * w->grid->drives;
   const double *temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value;
-  pendres_response *rows = malloc(table->n * sizeof *rows);
+  scene_response_row *rows = malloc(table->n * sizeof *rows);
   int8_t *warm = malloc(table->n);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (rows == NULL || warm == NULL) {
@@ -97,7 +102,7 @@ static pendres_status write_still(scene_run *run, const work *w, const scene_tab
     goto done;
   }
   for (size_t i = 0; i < table->n; i++) {
-    rows[i] = w->grid->points[i % plane];
+    rows[i] = w->grid->rows[i % plane];
     warm[i] = temperature[i / plane] > 0.0;
   }
   scene_table without = *table;
@@ -127,9 +132,11 @@ static pendres_status write_results(scene_run *run, const work *w)
 static void print_table(FILE *out, const work *w)
 {
   const size_t plane = w->grid->dampings * w->grid->drives, at = w->grid->drives / 2;
-  const pendres_pendulum *p = &w->grid->points[at].pendulum;
-  fprintf(out, "damping %g, drive period %g:\n", p->damping,
-          2.0 * PENDRES_PI / p->drive_frequency);
+  pendres_response still;
+  char why[200];
+  if (scene_spill_get(w->grid->points, at, 1, &still, why, sizeof why) != PENDRES_OK) return;
+  fprintf(out, "damping %g, drive period %g:\n", still.pendulum.damping,
+          2.0 * PENDRES_PI / still.pendulum.drive_frequency);
   fprintf(out, "temperature  loop area     +-        phase lag   +-        amplitude   +-\n");
   for (size_t i = 0; i < w->temperatures; i++) {
     const pendres_response_noise *q = &w->points[i * plane + at];

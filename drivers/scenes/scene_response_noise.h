@@ -5,13 +5,23 @@
 #ifndef SCENE_RESPONSE_NOISE_H
 #define SCENE_RESPONSE_NOISE_H
 
-#include "scenes/scene.h"
+#include "scenes/scene_spill.h"
+
+/* What is written of a point: see pendres_response. */
+typedef struct scene_response_row {
+  double mean_loop_area, mean_loop_area_error, mean_loop_amplitude, mean_loop_amplitude_error;
+  double mean_amplitude, mean_amplitude_error, phase_lag, phase_lag_error;
+  double mean_power, mean_power_error, sa_fraction, sa_fraction_error;
+  double la_fraction, la_fraction_error;
+  size_t uncertain;
+} scene_response_row;
 
 /* The response without noise at all points of the scene. */
 typedef struct scene_response_grid {
   size_t dampings, drives;
   const char *damping, *drive;   /* names of the dimensions */
-  const pendres_response *points; /* [damping][drive] */
+  const scene_spill *points;      /* [damping][drive] of pendres_response */
+  const scene_response_row *rows; /* [damping][drive] */
 } scene_response_grid;
 
 /*

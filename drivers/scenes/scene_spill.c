@@ -1,0 +1,83 @@
+/* scene_spill.c -- see scene_spill.h. */
+#define _POSIX_C_SOURCE 200809L /* mkstemp, pread */
+#include "scenes/scene_spill.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A file without a name, beside the output or in TMPDIR. */
+static pendres_status open_file(scene_run *run, scene_spill *s)
+{
+  char path[DECK_PATH + 32];
+  const char *folder = getenv("TMPDIR"), *output = run->deck->output;
+  const char *slash = strrchr(output, '/');
+  if (folder != NULL && *folder != '\0')
+    snprintf(path, sizeof path, "%.1000s/resonance-XXXXXX", folder);
+  else
+    snprintf(path, sizeof path, "%.*s.resonance-XXXXXX",
+             slash != NULL ? (int)(slash - output) + 1 : 0, output);
+  s->file = mkstemp(path);
+  if (s->file >= 0 && unlink(path) == 0) return PENDRES_OK;
+  return scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(errno));
+}
+
+pendres_status scene_spill_create(scene_run *run, size_t n, size_t element, size_t memory,
+                                  scene_spill *out)
+{
+  *out = (scene_spill){.element = element, .file = -1};
+  if (n > memory / element) return open_file(run, out);
+  out->memory = calloc(n + 1, element);
+  return out->memory != NULL ? PENDRES_OK
+                             : scene_fail(run, PENDRES_OUT_OF_MEMORY,
+                                          "out of memory for %zu points", n);
+}
+
+void scene_spill_free(scene_spill *s)
+{
+  if (s->element == 0) return;
+  free(s->memory);
+  if (s->file >= 0) (void)close(s->file);
+  *s = (scene_spill){.element = 0};
+}
+
+static pendres_status fail(int error, char *why, size_t size)
+{
+  snprintf(why, size, "the temporary file of results: %s", strerror(error));
+  return PENDRES_IO;
+}
+
+pendres_status scene_spill_put(const scene_spill *s, size_t first, size_t n, const void *data,
+                               char *why, size_t size)
+{
+  const char *from = data;
+  size_t at = first * s->element, left = n * s->element;
+  if (s->memory != NULL) memcpy(s->memory + at, from, left);
+  while (s->memory == NULL && left > 0) {
+    const ssize_t done = pwrite(s->file, from, left, (off_t)at);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return fail(done < 0 ? errno : ENOSPC, why, size);
+    from += done;
+    at += (size_t)done;
+    left -= (size_t)done;
+  }
+  return PENDRES_OK;
+}
+
+pendres_status scene_spill_get(const scene_spill *s, size_t first, size_t n, void *data, char *why,
+                               size_t size)
+{
+  char *to = data;
+  size_t at = first * s->element, left = n * s->element;
+  if (s->memory != NULL) memcpy(to, s->memory + at, left);
+  while (s->memory == NULL && left > 0) {
+    const ssize_t done = pread(s->file, to, left, (off_t)at);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return fail(done < 0 ? errno : EIO, why, size);
+    to += done;
+    at += (size_t)done;
+    left -= (size_t)done;
+  }
+  return PENDRES_OK;
+}
