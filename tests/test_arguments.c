@@ -234,6 +234,7 @@ static void ensembles(void **state)
   pendres_response r;
   pendres_resonance peak;
   pendres_resonance_turn turn;
+  pendres_resonance_search search = {.pendulum = good, .lowest = 0.7, .highest = 0.9};
   pendres_phase_point point;
   pendres_branches *all = NULL;
   pendres_phase_options line = {.ensemble = some};
@@ -257,6 +258,8 @@ static void ensembles(void **state)
   REFUSED(pendres_resonance_find_ensemble(f->ctx, NULL, 0.7, 0.9, &some, &peak));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, NULL, &peak));
   REFUSED(pendres_resonance_find_ensemble(f->ctx, &good, 0.7, 0.9, &some, NULL));
+  REFUSED(pendres_resonance_find_many(f->ctx, 1, NULL, &some));
+  REFUSED(pendres_resonance_find_many(f->ctx, 1, &search, NULL));
   REFUSED(pendres_resonance_turn_find(f->ctx, NULL, 0.7, 0.9, &some, &turn));
   REFUSED(pendres_resonance_turn_find(f->ctx, &good, 0.7, 0.9, NULL, &turn));
   REFUSED(pendres_resonance_turn_find(f->ctx, &good, 0.7, 0.9, &some, NULL));

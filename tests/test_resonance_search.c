@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/context_internal.h"
-#include "questions/resonance_search.h"
+#include "questions/resonance_work.h"
 
 enum { FREQUENCIES = 100 };
 
@@ -105,14 +105,18 @@ static void work_that_is_counted(void **state)
   pendres_context *ctx = context();
   pendres_search s;
   (void)state;
-  check_ok(pendres_search_create(ctx, &p, &twelve, 9.0, &s));
-  check_ok(pendres_search_add(&s, 1, &omega));
+  pendres_search_budget budget = pendres_search_budget_of(ctx, 9.0);
+  pendres_search *const one = &s;
+  check_ok(pendres_search_create(&budget, &p, &twelve, &s));
+  s.wishes = 1;
+  s.wish[0] = omega;
+  check_ok(pendres_search_add(1, &one));
   const double slopes = pendres_context_slopes(ctx);
   pendres_cost cost;
   pendres_context_cost(ctx, &cost);
   /* The rest is that of Newton's method: 4e-4 seconds a step at a frequency of one. */
   const double of_newton = 4e-4 / omega * cost.newton_steps;
-  assert_true(slopes > 1e6 && s.work - of_newton >= 2e-9 * slopes);
+  assert_true(slopes > 1e6 && budget.work - of_newton >= 2e-9 * slopes);
   pendres_search_free(&s);
   pendres_context_free(ctx);
 }

@@ -1,9 +1,9 @@
 /*
  * scene_resonance_curve.c -- resonance frequency against amplitude, a point a damping.
  *
- * The paper's Fig. 2 and its inset. One task a damping: pendres_resonance_find. With drive
- * amplitudes, torques or parametric amplitudes in &sweep there is a point each of these instead, at
- * one damping.
+ * The paper's Fig. 2 and its inset. One task a few dampings next to each other, which are searched
+ * side by side: pendres_resonance_find_many. With drive amplitudes, torques or parametric
+ * amplitudes in &sweep there is a point each of these instead, at one damping.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,6 +16,7 @@ typedef struct curve {
   pendres_sweep sweep;
   pendres_ensemble ensemble;
   deck_axis_id axis;         /* damping or another parameter */
+  size_t group;              /* points of a task */
   scene_peak *points;        /* one a value of the axis */
   int8_t *no_peak;           /* not 0: the point has none */
   scene_failures failed;
@@ -36,6 +37,15 @@ static const char *many(deck_axis_id axis)
                                              : "parametric amplitudes";
 }
 
+/* Some of them next to each other, as the progress line calls tasks. */
+static const char *groups(deck_axis_id axis)
+{
+  return axis == DECK_AXIS_DAMPING           ? "groups of dampings"
+         : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "groups of drive amplitudes"
+         : axis == DECK_AXIS_TORQUE          ? "groups of torques"
+                                             : "groups of parametric amplitudes";
+}
+
 static void describe(const deck *d, FILE *out)
 {
   const deck_axis *a = &d->axis[axis_of(d)];
@@ -49,35 +59,82 @@ static void describe(const deck *d, FILE *out)
           (long long)d->ensemble.members, d->search[0], d->search[1]);
 }
 
-/* What a task finds. */
+/*
+ * Points of a task: neighbours side by side take less time, but few tasks keep few processors busy,
+ * and a search may take some hundred times as long as others. By the deck alone, so that a journal
+ * fits whatever the threads are.
+ */
+static size_t group_of(size_t points)
+{
+  enum { MOST = 8, TASKS = 12 };
+  const size_t group = points / TASKS;
+  return group < 1 ? 1 : group < MOST ? group : MOST;
+}
+
+/* What a task finds of each of its points. */
 typedef struct record {
   pendres_status outcome;
   pendres_resonance point;
   scene_verdict verdict;
 } record;
 
+static size_t points_of(const curve *c, size_t task)
+{
+  const size_t left = c->d->axis[c->axis].count - task * c->group;
+  return left < c->group ? left : c->group;
+}
+
+static pendres_status judge(record *r, const pendres_resonance_search *s, farm_record *out)
+{
+  r->outcome = s->outcome;
+  r->point = s->resonance;
+  if (r->outcome == PENDRES_OK && !r->point.complete)
+    scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
+  /* A pendulum whose area has no peak in the range is a point without a result, not a failure. */
+  return scene_verdict_point(&r->verdict, r->outcome, s->message, out);
+}
+
+/* Look for n resonances next to each other, the first of which has the number `first`. */
+static pendres_status find(const curve *c, size_t first, size_t n, pendres_context *ctx,
+                           pendres_resonance_search *s, farm_record *out)
+{
+  scene_point_begin(out, c->d, first, n, 1, &c->axis);
+  for (size_t i = 0; i < n; i++) {
+    s[i].pendulum = pendres_sweep_pendulum(&c->sweep, first + i, NULL, NULL);
+    s[i].lowest = s[i].pendulum.drive_frequency = c->d->search[0];
+    s[i].highest = c->d->search[1];
+  }
+  return pendres_resonance_find_many(ctx, n, s, &c->ensemble);
+}
+
 static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
 {
   const curve *c = arg;
   record *r = out->data;
-  pendres_pendulum p = pendres_sweep_pendulum(&c->sweep, task, NULL, NULL);
-  p.drive_frequency = c->d->search[0];
-  scene_point_begin(out, c->d, task, 1, 1, &c->axis);
-  r->outcome = pendres_resonance_find_ensemble(ctx, &p, c->d->search[0], c->d->search[1],
-                                               &c->ensemble, &r->point);
-  if (r->outcome == PENDRES_OK && !r->point.complete)
-    scene_verdict_mark(&r->verdict, SCENE_FAILURE_BUDGET, NULL);
-  /* A pendulum whose area has no peak in the range is a point without a result, not a failure. */
-  return scene_verdict_point(&r->verdict, r->outcome, pendres_context_message(ctx), out);
+  const size_t first = task * c->group, n = points_of(c, task);
+  pendres_resonance_search *s = calloc(n, sizeof *s);
+  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = find(c, first, n, ctx, s, out);
+  const int alone = n > 1 && farm_gave_up(out, status);
+  if (alone) status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    if (alone) status = find(c, first + i, 1, ctx, &s[i], out);
+    if (status == PENDRES_OK || farm_gave_up(out, status)) status = judge(&r[i], &s[i], out);
+  }
+  free(s);
+  return status;
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   curve *c = arg;
   const record *r = in->data;
-  c->points[task] = scene_peak_of(c->d->axis[c->axis].value[task], r->outcome, &r->point);
-  c->no_peak[task] = r->outcome != PENDRES_OK;
-  scene_failures_take(&c->failed, task, &r->verdict);
+  for (size_t i = 0; i < points_of(c, task); i++) {
+    const size_t point = task * c->group + i;
+    c->points[point] = scene_peak_of(c->d->axis[c->axis].value[point], r[i].outcome, &r[i].point);
+    c->no_peak[point] = r[i].outcome != PENDRES_OK;
+    scene_failures_take(&c->failed, point, &r[i].verdict);
+  }
   return PENDRES_OK;
 }
 
@@ -230,6 +287,7 @@ static pendres_status run_scene(scene_run *run)
              .ensemble = scene_ensemble(run->deck),
              .axis = axis_of(run->deck)};
   const size_t n = run->deck->axis[c.axis].count;
+  c.group = group_of(n);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   c.points = calloc(n, sizeof *c.points);
   c.no_peak = calloc(n, 1);
@@ -237,9 +295,11 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu resonances", n);
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = many(c.axis), .last = 1,
-                                             .tasks = n, .task = compute,
-                                             .record_size = sizeof(record), .collect = collect,
+  status = scene_compute(run, &(farm_stage){ .what = c.group > 1 ? groups(c.axis) : many(c.axis),
+                                             .last = 1,
+                                             .tasks = (n + c.group - 1) / c.group,
+                                             .task = compute, .collect = collect,
+                                             .record_size = c.group * sizeof(record),
                                              .arg = &c });
   if (status == PENDRES_OK) status = write_results(run, &c);
   if (status == PENDRES_OK) status = write_paper(run, &c);

@@ -83,6 +83,34 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out);
 
+enum { PENDRES_RESONANCE_MESSAGE = 512 /**< bytes of a search's message */ };
+
+/** One of several searches. */
+typedef struct pendres_resonance_search {
+  pendres_pendulum pendulum;   /**< what is searched for; its drive frequency is not read */
+  double lowest, highest;      /**< the range of drive frequencies */
+  pendres_status outcome;      /**< written: what pendres_resonance_find_ensemble() would return */
+  pendres_resonance resonance; /**< written: all NaN unless the outcome is PENDRES_OK */
+  char message[PENDRES_RESONANCE_MESSAGE]; /**< written: why the outcome is not PENDRES_OK, as
+                                                pendres_context_message() tells it; else empty */
+} pendres_resonance_search;
+
+/**
+ * Resonances of many pendulums, with one ensemble each. Searches go side by side, which takes less
+ * time than one after another, the less the more alike neighbours in the list are. What each finds
+ * is bit by bit what pendres_resonance_find_ensemble() finds, whoever is beside it.
+ *
+ * @param ctx      belongs to one thread at a time
+ * @param n        how many
+ * @param searches n of them; outcome, resonance and message are written
+ * @param ensemble starts of the members of each
+ * @return PENDRES_OK if all searches have an outcome, whatever it is; PENDRES_INTERRUPTED or
+ *         PENDRES_OUT_OF_MEMORY if not all have; PENDRES_INVALID_ARGUMENT if a pointer is NULL
+ */
+pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
+                                           pendres_resonance_search *searches,
+                                           const pendres_ensemble *ensemble);
+
 /** Where the resonance frequency is largest over damping: the curve of resonance frequency against
     amplitude turns there. */
 typedef struct pendres_resonance_turn {

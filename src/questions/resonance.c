@@ -1,17 +1,16 @@
-/* resonance.c -- the search for the largest mean loop area; see resonance.h. */
+/* resonance.c -- searches for the largest mean loop area; see resonance.h. */
 #include <pendres/resonance.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "engine/context_internal.h"
-#include "model/model.h"
+#include "engine/strobe_run.h"
+#include "questions/resonance_work.h"
 #include "questions/response_members.h"
 #include "questions/response_sampling.h"
-#include "questions/resonance_gap.h"
-#include "questions/resonance_search.h"
-#include "questions/response_name.h"
 
 const char *pendres_peak_name(pendres_peak peak)
 {
@@ -19,275 +18,12 @@ const char *pendres_peak_name(pendres_peak peak)
   return (unsigned)peak < PENDRES_PEAK_COUNT ? names[peak] : NULL;
 }
 
-enum { SECTIONS = 4 /* a gap is cut into */ };
-
 /*
- * A gap with a jump is cut until it is this narrow, beside the force's rate; then its fold is
- * located, or the jump halved down to. Where members change to larger areas and to smaller ones it
- * is cut until they are apart, or so close that they are not told apart.
+ * What one search may cost. Several that go side by side may cost as much together: who has spent
+ * what of a common budget is not known, but none has spent more than its own while that lasts. Then
+ * those that have not ended are begun anew, each with a budget of its own.
  */
-static const double narrow = 2e-5, narrowest = 1e-7;
-
-/* What one search may cost. */
 static const double most_work = 9.0;
-
-/* A search with its gaps. */
-typedef struct work {
-  pendres_search s;
-  pendres_gap *gap; /* gap[i] lies between points i and i + 1 */
-} work;
-
-static void look_at_gaps(work *w)
-{
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    pendres_gap_look(&w->s.points[i], &w->s.points[i + 1], w->s.ensemble->members, &w->gap[i]);
-}
-
-/* What is certain of a point's area: members that did not settle may be on any state. */
-static double certain_area(const pendres_scan_point *p)
-{
-  return p->response.mean_loop_area - p->response.mean_loop_area_error;
-}
-
-/* The point whose area is certain to be largest. */
-static const pendres_scan_point *best_point(const pendres_search *s)
-{
-  const pendres_scan_point *best = &s->points[0];
-  for (size_t i = 1; i < s->count; i++)
-    if (!(certain_area(best) >= certain_area(&s->points[i]))) best = &s->points[i];
-  return best;
-}
-
-/* A gap that cannot hold more than this is of no interest: the error of the best says as much. */
-static double threshold_of(const pendres_search *s)
-{
-  const pendres_response *r = &best_point(s)->response;
-  return r->mean_loop_area + r->mean_loop_area_error;
-}
-
-/* Whether a gap has to be looked into further. */
-static int open_gap(const work *w, size_t i, double threshold)
-{
-  const pendres_gap *g = &w->gap[i];
-  const double width = g->width / w->s.rate;
-  if (!(g->bound > threshold)) return 0;
-  if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
-  return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > narrow);
-}
-
-/* The largest bound of all gaps that are open; minus infinity if none is. */
-static double largest_bound(const work *w, double threshold)
-{
-  double largest = -INFINITY;
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (open_gap(w, i, threshold)) largest = fmax(largest, w->gap[i].bound);
-  return largest;
-}
-
-/*
- * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes
- * the place of the many frequencies close to it, where a ghost slows everything down. *sought:
- * there was such a gap; *found: one was added.
- */
-static pendres_status add_fold(work *w, int *sought, int *found)
-{
-  pendres_search *s = &w->s;
-  double largest = threshold_of(s);
-  size_t gap = s->count;
-  *found = 0;
-  for (size_t i = 0; i + 1 < s->count; i++) {
-    const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    if (w->gap[i].kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
-    if (w->gap[i].bound > largest) {
-      largest = w->gap[i].bound;
-      gap = i;
-    }
-  }
-  *sought = gap < s->count;
-  if (!*sought) return PENDRES_OK;
-  pendres_scan_point at, *a = &s->points[gap], *b = &s->points[gap + 1];
-  double beside;
-  a->fold_sought = 1;
-  pendres_status status =
-    pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &at, &beside, found);
-  pendres_search_account(s, pendres_scan_frequency(a));
-  if (status != PENDRES_OK || !*found) return status;
-  if (s->count + 2 > PENDRES_SEARCH_POINTS) {
-    s->crowded = 1;
-    return PENDRES_OK;
-  }
-  status = pendres_search_insert(s, &at, at.at_fold < 0 ? b : a);
-  if (status == PENDRES_OK) status = pendres_search_add(s, 1, &beside);
-  return status;
-}
-
-/*
- * Cut the gaps that may hold more than the best value known, the most promising first, until none
- * is left but narrow ones, or room or budget are spent.
- */
-static pendres_status resolve_gaps(work *w)
-{
-  pendres_search *s = &w->s;
-  for (;;) {
-    double omega[PENDRES_SEARCH_POINTS];
-    size_t n = 0;
-    int sought = 0, found = 0;
-    look_at_gaps(w);
-    if (pendres_search_over(s)) return PENDRES_OK;
-    pendres_status status = add_fold(w, &sought, &found);
-    if (status != PENDRES_OK) return status;
-    if (found) continue;
-    const double threshold = threshold_of(s), largest = largest_bound(w, threshold);
-    if (largest == -INFINITY && sought) continue;
-    if (largest == -INFINITY) return PENDRES_OK;
-    for (size_t i = 0; i + 1 < s->count; i++) {
-      const double first = pendres_scan_frequency(&s->points[i]), width = w->gap[i].width;
-      /* Those that promise little may be ruled out by what the others turn up. */
-      if (!open_gap(w, i, threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
-        continue;
-      for (int k = 1; k < SECTIONS && n < PENDRES_SEARCH_POINTS; k++)
-        omega[n++] = first + width * k / SECTIONS;
-    }
-    status = pendres_search_add(s, n, omega);
-    if (status != PENDRES_OK) return status;
-  }
-}
-
-/*
- * The resonance of one gap, or at the fold before it; jumps alone, or all else. *again: a jump
- * turned up in it.
- */
-static pendres_status choose_from(work *w, size_t i, int jumps, pendres_resonance *out, int *again)
-{
-  pendres_search *s = &w->s;
-  pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-  const pendres_gap *g = &w->gap[i];
-  const double best = certain_area(best_point(s));
-  pendres_resonance one;
-  pendres_status status = PENDRES_OK;
-  if (jumps != (g->kind == PENDRES_GAP_JUMP) && !a->at_fold) return status;
-  if (jumps && a->at_fold && certain_area(a) >= best) {
-    status = pendres_resonance_at_fold(s->ctx, a, &one);
-    /* As large: the gap before it was cut down to the same fold, less exactly. */
-    if (status == PENDRES_OK && !(one.loop_area < out->loop_area)) *out = one;
-  }
-  if (status != PENDRES_OK || g->kind == PENDRES_GAP_PLAIN) return status;
-  if (jumps != (g->kind == PENDRES_GAP_JUMP)) return status;
-  if (g->bound < best || g->bound < out->loop_area || pendres_search_ended(s)) return status;
-  status = g->kind == PENDRES_GAP_PEAK
-             ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
-             : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
-  pendres_search_account(s, pendres_scan_frequency(a));
-  if (status == PENDRES_NOT_FOUND) {
-    /* The slope changes its sign without a zero: there is a jump in between after all. */
-    a->jump_to_next = 1;
-    *again = 1;
-    return PENDRES_OK;
-  }
-  if (status == PENDRES_OK && !(one.loop_area - one.loop_area_error <= out->loop_area)) *out = one;
-  return status;
-}
-
-/* ---- what is left open ---- */
-
-/* Whether a gap that may hold more than an area was not resolved. */
-static int unresolved(const work *w, size_t i, double area)
-{
-  const pendres_gap *g = &w->gap[i];
-  if (!(g->bound > area)) return 0;
-  if (open_gap(w, i, area) || g->mixed) return 1;
-  return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
-}
-
-/* The largest area that gaps which were not resolved may hold; minus infinity if there are none. */
-static double left_open(const work *w, double area)
-{
-  double largest = -INFINITY;
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (unresolved(w, i, area)) largest = fmax(largest, w->gap[i].bound);
-  return largest;
-}
-
-/* Raise an error to the distance between two values. */
-static void spread(double *error, double a, double b)
-{
-  const double off = fabs(a - b);
-  if (off > *error) *error = off;
-}
-
-/*
- * A peak among gaps that were not resolved: the largest value lies in one of them, and is at most
- * `largest`. Errors are what the points around these gaps differ by.
- */
-static void make_ragged(const work *w, double largest, pendres_resonance *out)
-{
-  pendres_response *r = &out->response;
-  out->peak = PENDRES_PEAK_RAGGED;
-  out->loop_area_error += largest - out->loop_area;
-  for (size_t i = 0; i + 1 < w->s.count; i++) {
-    if (!unresolved(w, i, out->loop_area)) continue;
-    for (size_t k = i; k <= i + 1; k++) {
-      const pendres_response *q = &w->s.points[k].response;
-      spread(&out->frequency_error, q->pendulum.drive_frequency, out->frequency);
-      spread(&r->mean_loop_amplitude_error, q->mean_loop_amplitude, r->mean_loop_amplitude);
-      spread(&r->mean_amplitude_error, q->mean_amplitude, r->mean_amplitude);
-      spread(&r->phase_lag_error, q->phase_lag, r->phase_lag);
-      spread(&r->mean_power_error, q->mean_power, r->mean_power);
-      spread(&r->sa_fraction_error, q->sa_fraction, r->sa_fraction);
-      spread(&r->la_fraction_error, q->la_fraction, r->la_fraction);
-    }
-  }
-  r->mean_loop_area_error = out->loop_area_error;
-}
-
-/* A point of the scan as it is: no better is known. */
-static pendres_resonance as_scanned(const pendres_scan_point *p)
-{
-  return (pendres_resonance){.peak = PENDRES_PEAK_RAGGED,
-                             .frequency = pendres_scan_frequency(p),
-                             .loop_area = p->response.mean_loop_area,
-                             .loop_area_error = p->response.mean_loop_area_error,
-                             .response = p->response,
-                             .fold_frequency = NAN,
-                             .fold_frequency_error = NAN};
-}
-
-static pendres_status at_the_end(const work *w, const pendres_scan_point *p)
-{
-  const int low = p == &w->s.points[0];
-  return pendres_context_fail(
-    w->s.ctx, PENDRES_NOT_FOUND,
-    "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
-    "drive frequency %g", w->s.pendulum.damping, w->s.pendulum.drive_amplitude,
-    low ? "lower" : "upper", pendres_scan_frequency(p));
-}
-
-/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
-static pendres_status choose(work *w, pendres_resonance *out, int *again)
-{
-  const pendres_search *s = &w->s;
-  pendres_status status = PENDRES_OK;
-  *again = 0;
-  out->loop_area = NAN;
-  look_at_gaps(w);
-  /* Smooth peaks first: they cost little, and leave fewer jumps to look into. */
-  const int open = largest_bound(w, threshold_of(s)) > -INFINITY;
-  for (int jumps = 0; jumps < 2 && !open; jumps++)
-    for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK && !*again; i++)
-      status = choose_from(w, i, jumps, out, again);
-  if (status != PENDRES_OK || *again) return status;
-  const pendres_scan_point *best = best_point(s), *first = &s->points[0];
-  const pendres_scan_point *last = &s->points[s->count - 1];
-  if (!(out->loop_area >= best->response.mean_loop_area)) {
-    if (best == first || best == last) return at_the_end(w, best);
-    *out = as_scanned(best);
-  }
-  const double largest = left_open(w, out->loop_area + out->loop_area_error);
-  if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
-    make_ragged(w, fmax(largest, out->loop_area), out);
-  out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
-  return PENDRES_OK;
-}
 
 /* Nothing is known: NaN, not 0. */
 static void clear(pendres_resonance *out)
@@ -296,42 +32,6 @@ static void clear(pendres_resonance *out)
   pendres_response_average(&out->response);
   out->frequency = out->frequency_error = out->loop_area = out->loop_area_error = NAN;
   out->fold_frequency = out->fold_frequency_error = NAN;
-}
-
-/* A state that is alone at the resonance has its name from the other frequencies. */
-static pendres_status name_states(const pendres_search *s, pendres_response *r)
-{
-  const pendres_response *line[PENDRES_SEARCH_POINTS];
-  pendres_small_end end;
-  if (!pendres_response_nameless(r)) return PENDRES_OK;
-  for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
-  const pendres_status status =
-    pendres_response_small_end(s->ctx, s->count, line, PENDRES_DRIVE_FREQUENCY, &end);
-  if (status == PENDRES_OK) pendres_response_name_by(&end, r);
-  return status;
-}
-
-static pendres_status no_area(pendres_context *ctx, const pendres_pendulum *p)
-{
-  return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
-                              "damping %g, drive amplitude %g: the loop area is zero at all drive "
-                              "frequencies%s", p->damping, p->drive_amplitude,
-                              p->parametric_amplitude == 0.0
-                                ? "" : "; the work of a parametric drive does not count");
-}
-
-static pendres_status search(work *w, double lowest, double highest, pendres_resonance *out)
-{
-  const pendres_pendulum *p = &w->s.pendulum;
-  pendres_status status = pendres_search_scan(&w->s, lowest, highest);
-  if (status != PENDRES_OK) return status;
-  if (!(best_point(&w->s)->response.mean_loop_area > 0.0)) return no_area(w->s.ctx, p);
-  for (int again = 1; again && status == PENDRES_OK;) {
-    status = resolve_gaps(w);
-    if (status == PENDRES_OK) status = choose(w, out, &again);
-  }
-  if (status == PENDRES_OK) status = name_states(&w->s, &out->response);
-  return status;
 }
 
 /*
@@ -351,6 +51,29 @@ static pendres_status add_sampling(pendres_context *ctx, const pendres_ensemble 
   return PENDRES_OK;
 }
 
+/* Why no resonance can be looked for there; NULL: it can. */
+static const char *refuses(const pendres_pendulum *p, double lowest, double highest,
+                           const pendres_ensemble *ensemble)
+{
+  const char *why = NULL;
+  if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
+    return "the range of frequencies must be positive and ascending";
+  (void)pendres_ensemble_check(ensemble, &why);
+  for (int i = 0; i < 2 && why == NULL; i++) {
+    pendres_pendulum at = *p;
+    at.drive_frequency = i == 0 ? lowest : highest;
+    if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
+      why = pendres_response_refuses(&at, ensemble);
+  }
+  return why;
+}
+
+/* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
+static int is_at_rest(const pendres_pendulum *p)
+{
+  return p->drive_amplitude == 0.0 && p->damping > 0.0;
+}
+
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
                                              double lowest, double highest,
                                              const pendres_ensemble *ensemble, double most_work,
@@ -359,29 +82,23 @@ pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres
   if (p == NULL || ensemble == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, ensemble and out");
   clear(out);
-  if (!(lowest > 0.0 && highest > lowest && isfinite(highest)))
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "the range of frequencies must be positive and ascending");
-  const char *why = NULL;
-  (void)pendres_ensemble_check(ensemble, &why);
-  for (int i = 0; i < 2 && why == NULL; i++) {
-    pendres_pendulum at = *p;
-    at.drive_frequency = i == 0 ? lowest : highest;
-    if (pendres_pendulum_check(&at, &why) == PENDRES_OK)
-      why = pendres_response_refuses(&at, ensemble);
-  }
+  const char *why = refuses(p, lowest, highest, ensemble);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
-  /* Without a drive there is nothing to scan, and a pendulum on its head would stay there. */
-  if (p->drive_amplitude == 0.0 && p->damping > 0.0) return no_area(ctx, p);
-  work w = {.gap = malloc(PENDRES_SEARCH_POINTS * sizeof *w.gap)};
-  pendres_status status = pendres_search_create(ctx, p, ensemble, most_work, &w.s);
-  if (status == PENDRES_OK && w.gap == NULL)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
-  if (status == PENDRES_OK) status = search(&w, lowest, highest, out);
+  if (is_at_rest(p)) return pendres_resonance_no_area(ctx, p);
+  pendres_resonance_work w;
+  pendres_search *s = &w.s;
+  pendres_search_budget budget = pendres_search_budget_of(ctx, most_work);
+  pendres_status status = pendres_resonance_work_create(&budget, p, ensemble, &w);
+  s->lowest = lowest;
+  s->highest = highest;
+  while (status == PENDRES_OK) {
+    status = pendres_resonance_work_next(&w, out);
+    if (status != PENDRES_OK || s->wishes == 0) break;
+    status = pendres_search_add(1, &s);
+  }
   if (status == PENDRES_OK) status = add_sampling(ctx, ensemble, out);
   if (status != PENDRES_OK) clear(out);
-  pendres_search_free(&w.s);
-  free(w.gap);
+  pendres_resonance_work_free(&w);
   return status;
 }
 
@@ -392,6 +109,133 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
 {
   return PENDRES_CONTEXT_CALL(
     ctx, pendres_resonance_find_within(ctx, p, lowest, highest, ensemble, most_work, out));
+}
+
+/* ---- side by side ---- */
+
+enum { TOGETHER = 8 /* searches: more would not make blocks much fuller */ };
+
+/* Some searches that share a budget. */
+typedef struct party {
+  const pendres_ensemble *ensemble;
+  pendres_search_budget budget;
+  size_t n;
+  struct seeker {
+    enum { SEEKER_ALONE, SEEKER_TOGETHER, SEEKER_ENDED } state;
+    pendres_resonance_work work;
+    pendres_resonance_search *of;
+  } seeker[TOGETHER];
+} party;
+
+/* What a search has ended with. Returned is what is no matter of one search. */
+static pendres_status end(pendres_context *ctx, pendres_status status, struct seeker *k)
+{
+  pendres_resonance_search *of = k->of;
+  k->state = SEEKER_ENDED;
+  of->outcome = status;
+  of->message[0] = '\0';
+  if (status == PENDRES_OK) return status;
+  clear(&of->resonance);
+  snprintf(of->message, sizeof of->message, "%s", pendres_context_message(ctx));
+  return status == PENDRES_INTERRUPTED || status == PENDRES_OUT_OF_MEMORY ? status : PENDRES_OK;
+}
+
+/* A search's next step: either it has wishes then, or it has ended. */
+static pendres_status step(pendres_context *ctx, const party *p, struct seeker *k)
+{
+  pendres_resonance *out = &k->of->resonance;
+  pendres_status status =
+    PENDRES_CONTEXT_CALL(ctx, pendres_resonance_work_next(&k->work, out));
+  /* With a budget of its own it might have gone on. */
+  if (p->budget.exhausted && status != PENDRES_INTERRUPTED) return PENDRES_OK;
+  if (status == PENDRES_OK && k->work.s.wishes > 0) return status;
+  if (status == PENDRES_OK)
+    status = PENDRES_CONTEXT_CALL(ctx, add_sampling(ctx, p->ensemble, out));
+  return end(ctx, status, k);
+}
+
+/* Until all have ended, or the budget has, or what is evaluated fails: due to one of them, which
+   will say so alone. */
+static pendres_status go_together(pendres_context *ctx, party *p)
+{
+  for (;;) {
+    pendres_search *wishing[TOGETHER];
+    size_t count = 0;
+    for (size_t i = 0; i < p->n; i++) {
+      if (p->seeker[i].state != SEEKER_TOGETHER) continue;
+      const pendres_status status = step(ctx, p, &p->seeker[i]);
+      if (status != PENDRES_OK || p->budget.exhausted) return status;
+      if (p->seeker[i].state == SEEKER_TOGETHER) wishing[count++] = &p->seeker[i].work.s;
+    }
+    if (count == 0) return PENDRES_OK;
+    const pendres_status status = PENDRES_CONTEXT_CALL(ctx, pendres_search_add(count, wishing));
+    if (status == PENDRES_INTERRUPTED) return status;
+    if (status != PENDRES_OK || p->budget.exhausted) return PENDRES_OK;
+  }
+}
+
+/* Those that can go side by side, which adaptive steps would make depend on each other, do. */
+static pendres_status begin(pendres_context *ctx, party *p, double most_together)
+{
+  pendres_status status = PENDRES_OK;
+  if (p->n < 2 || !pendres_method_of(ctx)->fixed_steps) return status;
+  p->budget = pendres_search_budget_of(ctx, most_together);
+  for (size_t i = 0; i < p->n && status == PENDRES_OK; i++) {
+    struct seeker *k = &p->seeker[i];
+    const pendres_resonance_search *of = k->of;
+    if (is_at_rest(&of->pendulum) ||
+        refuses(&of->pendulum, of->lowest, of->highest, p->ensemble) != NULL)
+      continue;
+    status = pendres_resonance_work_create(&p->budget, &of->pendulum, p->ensemble, &k->work);
+    k->state = SEEKER_TOGETHER;
+    k->work.s.lowest = of->lowest;
+    k->work.s.highest = of->highest;
+  }
+  return status == PENDRES_OK ? go_together(ctx, p) : status;
+}
+
+static pendres_status find_some(pendres_context *ctx, party *p, double most_together)
+{
+  pendres_status status = begin(ctx, p, most_together);
+  for (size_t i = 0; i < p->n; i++) pendres_resonance_work_free(&p->seeker[i].work);
+  for (size_t i = 0; i < p->n && status == PENDRES_OK; i++) {
+    pendres_resonance_search *of = p->seeker[i].of;
+    if (p->seeker[i].state == SEEKER_ENDED) continue;
+    const pendres_status alone = pendres_resonance_find_ensemble(
+      ctx, &of->pendulum, of->lowest, of->highest, p->ensemble, &of->resonance);
+    status = end(ctx, alone, &p->seeker[i]);
+  }
+  return status;
+}
+
+pendres_status pendres_resonance_find_together(pendres_context *ctx, size_t n,
+                                               pendres_resonance_search *searches,
+                                               const pendres_ensemble *ensemble,
+                                               double most_together)
+{
+  pendres_status status = PENDRES_OK;
+  if (ensemble == NULL || (n > 0 && searches == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "searches and ensemble");
+  party *p = malloc(sizeof *p);
+  if (p == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu resonances", n);
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += TOGETHER) {
+    memset(p, 0, sizeof *p);
+    p->ensemble = ensemble;
+    p->n = n - first < TOGETHER ? n - first : TOGETHER;
+    for (size_t i = 0; i < p->n; i++) p->seeker[i].of = &searches[first + i];
+    status = find_some(ctx, p, most_together);
+  }
+  free(p);
+  return status;
+}
+
+pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
+                                           pendres_resonance_search *searches,
+                                           const pendres_ensemble *ensemble)
+{
+  return PENDRES_CONTEXT_CALL(
+    ctx, pendres_resonance_find_together(ctx, n, searches, ensemble, most_work));
 }
 
 static pendres_status resonance_find(pendres_context *ctx, const pendres_pendulum *p, double lowest,

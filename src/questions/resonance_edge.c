@@ -69,8 +69,9 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
     const double middle = 0.5 * (lower + upper);
     if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
     pendres_scan_point m;
-    const pendres_status status =
-      pendres_scan_evaluate(ctx, &a->response.pendulum, ensemble, 1, &middle, NULL, &m);
+    pendres_pendulum p = a->response.pendulum;
+    p.drive_frequency = middle;
+    const pendres_status status = pendres_scan_evaluate(ctx, 1, &p, ensemble, NULL, &m);
     if (status != PENDRES_OK) return status;
     if (jump_is_right(a, &m, b))
       *a = m;

@@ -71,29 +71,19 @@ static void average_slope(pendres_scan_point *p)
   }
 }
 
-pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, size_t n,
-                                     const double *omega, signed char *where,
+pendres_status pendres_scan_evaluate(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums,
+                                     const pendres_ensemble *ensemble, signed char *where,
                                      pendres_scan_point *out)
 {
-  pendres_status status = PENDRES_OK;
-  pendres_pendulum *pendulums = calloc(n, sizeof *pendulums);
   pendres_response *responses = malloc(n * sizeof *responses);
-  if (pendulums == NULL || responses == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a scan");
-    goto done;
-  }
-  for (size_t i = 0; i < n; i++) {
-    pendulums[i] = *p;
-    pendulums[i].drive_frequency = omega[i];
-  }
-  status = pendres_response_members(ctx, n, pendulums, ensemble, where, responses);
-  if (status != PENDRES_OK) goto done;
-  for (size_t i = 0; i < n; i++) out[i] = (pendres_scan_point){.response = responses[i]};
-  status = add_slopes(ctx, n, out, NULL);
+  if (responses == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a scan");
+  pendres_status status = pendres_response_members(ctx, n, pendulums, ensemble, where, responses);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+    out[i] = (pendres_scan_point){.response = responses[i]};
+  if (status == PENDRES_OK) status = add_slopes(ctx, n, out, NULL);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) average_slope(&out[i]);
-done:
-  free(pendulums);
   free(responses);
   return status;
 }

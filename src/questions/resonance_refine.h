@@ -18,10 +18,10 @@ typedef struct pendres_scan_point {
   signed char *where;        /* the state that each member is on, -1: none; NULL: not asked for */
 } pendres_scan_point;
 
-/* Responses with slopes at n frequencies; where[n * members] may be NULL, and is not kept. */
-pendres_status pendres_scan_evaluate(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, size_t n,
-                                     const double *omega, signed char *where,
+/* Responses with slopes of n pendulums; where[n * members] may be NULL, and is not kept. */
+pendres_status pendres_scan_evaluate(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums,
+                                     const pendres_ensemble *ensemble, signed char *where,
                                      pendres_scan_point *out);
 
 /* A point's states, with the same members, at a nearby frequency. */

@@ -9,10 +9,7 @@
 #include "engine/context_internal.h"
 #include "model/model.h"
 
-enum {
-  COARSE_POINTS = 19, /* over the range at first: 0.04 apart in the default range */
-  BATCH = 32          /* frequencies evaluated side by side */
-};
+enum { BATCH = 32 /* frequencies evaluated side by side */ };
 
 /* What is taken for a slope of a pendulum's equation and for a step of
    Newton's method: about seconds of one processor, but the same number on all. Periods would not
@@ -21,17 +18,26 @@ static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
 /* What a period takes at least, for a guess. */
 static const double work_of_period = 2e-7;
 
-pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, double most_work,
-                                     pendres_search *out)
+pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most)
 {
-  *out = (pendres_search){.ctx = ctx, .pendulum = *p, .ensemble = ensemble,
-                          .most_work = most_work, .rate = pendres_model_units_of(p).rate};
-  out->slopes = pendres_context_slopes(ctx);
-  out->newton = ctx->cost.newton_steps;
+  return (pendres_search_budget){.ctx = ctx,
+                                 .most = most,
+                                 .slopes = pendres_context_slopes(ctx),
+                                 .newton = ctx->cost.newton_steps};
+}
+
+pendres_status pendres_search_create(pendres_search_budget *budget, const pendres_pendulum *p,
+                                     const pendres_ensemble *ensemble, pendres_search *out)
+{
+  memset(out, 0, sizeof *out);
+  out->ctx = budget->ctx;
+  out->pendulum = *p;
+  out->ensemble = ensemble;
+  out->budget = budget;
+  out->rate = pendres_model_units_of(p).rate;
   out->points = malloc(PENDRES_SEARCH_POINTS * sizeof *out->points);
   if (out->points == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
+    return pendres_context_fail(out->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
   return PENDRES_OK;
 }
 
@@ -59,45 +65,95 @@ static int by_frequency(const void *a, const void *b)
 
 void pendres_search_account(pendres_search *s, double omega)
 {
-  const double slopes = pendres_context_slopes(s->ctx), newton = s->ctx->cost.newton_steps;
+  pendres_search_budget *b = s->budget;
+  const double slopes = pendres_context_slopes(b->ctx), newton = b->ctx->cost.newton_steps;
   /* Slow drives take more steps a period, each of Newton's steps some periods. */
-  s->work += work_of_slope * (slopes - s->slopes) +
-             fmax(1.0, s->rate / omega) * work_of_newton * (newton - s->newton);
-  s->slopes = slopes;
-  s->newton = newton;
-  if (s->work > s->most_work) s->exhausted = 1;
+  b->work += work_of_slope * (slopes - b->slopes) +
+             fmax(1.0, s->rate / omega) * work_of_newton * (newton - b->newton);
+  b->slopes = slopes;
+  b->newton = newton;
+  if (b->work > b->most) b->exhausted = 1;
 }
 
 int pendres_search_over(const pendres_search *s)
 {
-  return s->exhausted || s->crowded;
+  return s->budget->exhausted || s->crowded;
 }
 
 int pendres_search_ended(const pendres_search *s)
 {
-  return s->work > 1.5 * s->most_work;
+  return s->budget->work > 1.5 * s->budget->most;
 }
 
-static pendres_status add_batch(pendres_search *s, size_t n, const double *omega)
+/* What is to be evaluated, and for whom. */
+typedef struct wanted {
+  size_t n;
+  pendres_pendulum *pendulum;
+  pendres_search **by;
+} wanted;
+
+/*
+ * One wish of each search, then the next of each, as far as they have room: neighbours in this
+ * order are alike, take equally many steps a period and so share blocks.
+ */
+static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
 {
-  const size_t members = s->ensemble->members;
-  pendres_scan_point *new = s->points + s->count;
-  signed char *where = malloc(n * members);
-  if (where == NULL)
-    return pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
-  pendres_status status =
-    pendres_scan_evaluate(s->ctx, &s->pendulum, s->ensemble, n, omega, where, new);
+  size_t all = 0, most = 0;
+  for (size_t i = 0; i < n; i++) {
+    all += s[i]->wishes;
+    most = s[i]->wishes > most ? s[i]->wishes : most;
+  }
+  *out = (wanted){.pendulum = malloc((all + 1) * sizeof *out->pendulum),
+                  .by = malloc((all + 1) * sizeof *out->by)};
+  if (out->pendulum == NULL || out->by == NULL)
+    return pendres_context_fail(s[0]->ctx, PENDRES_OUT_OF_MEMORY,
+                                "out of memory for %zu frequencies", all);
+  for (size_t k = 0; k < most; k++)
+    for (size_t i = 0; i < n; i++) {
+      if (k >= s[i]->wishes || s[i]->crowded) continue;
+      if (s[i]->count + k >= PENDRES_SEARCH_POINTS) {
+        s[i]->crowded = 1;
+        continue;
+      }
+      out->pendulum[out->n] = s[i]->pendulum;
+      out->pendulum[out->n].drive_frequency = s[i]->wish[k];
+      out->by[out->n++] = s[i];
+    }
+  return PENDRES_OK;
+}
+
+static pendres_status out_of_memory(pendres_context *ctx)
+{
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
+}
+
+/* Evaluate n of what is wanted, from number `first` on. */
+static pendres_status add_batch(const wanted *w, size_t first, size_t n)
+{
+  pendres_search *const *by = w->by + first;
+  const pendres_pendulum *p = w->pendulum + first;
+  const pendres_ensemble *e = by[0]->ensemble;
+  pendres_status status = PENDRES_OK;
+  signed char *where = malloc(n * e->members);
+  pendres_scan_point *new = malloc(n * sizeof *new);
+  if (where == NULL || new == NULL)
+    status = out_of_memory(by[0]->ctx);
+  else
+    status = pendres_scan_evaluate(by[0]->ctx, n, p, e, where, new);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    new[i].where = malloc(members);
-    if (new[i].where == NULL) {
-      status = pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for members");
+    pendres_scan_point *to = &by[i]->points[by[i]->count];
+    *to = new[i];
+    to->where = malloc(e->members);
+    if (to->where == NULL) {
+      status = out_of_memory(by[0]->ctx);
       break;
     }
-    memcpy(new[i].where, where + i * members, members);
-    s->count++;
+    memcpy(to->where, where + i * e->members, e->members);
+    by[i]->count++;
   }
   free(where);
-  pendres_search_account(s, omega[n / 2]);
+  free(new);
+  pendres_search_account(by[n / 2], p[n / 2].drive_frequency);
   return status;
 }
 
@@ -112,25 +168,26 @@ static double expected_work(const pendres_search *s, double omega)
          fmax(1.0, s->rate / omega);
 }
 
-pendres_status pendres_search_add(pendres_search *s, size_t n, const double *omega)
+pendres_status pendres_search_add(size_t n, pendres_search *const *s)
 {
-  pendres_status status = PENDRES_OK;
-  size_t done = 0;
-  double cost = n > 0 ? expected_work(s, omega[0]) : 0.0;
-  while (done < n && status == PENDRES_OK && !pendres_search_over(s)) {
-    const double affordable = (s->most_work - s->work) / cost, before = s->work;
-    size_t batch = n - done < BATCH ? n - done : BATCH;
+  wanted w;
+  pendres_status status = gather(n, s, &w);
+  const pendres_search_budget *b = s[0]->budget;
+  double cost = status == PENDRES_OK && w.n > 0
+                  ? expected_work(w.by[0], w.pendulum[0].drive_frequency) : 0.0;
+  for (size_t done = 0, batch; done < w.n && status == PENDRES_OK && !b->exhausted; done += batch) {
+    const double affordable = (b->most - b->work) / cost, before = b->work;
+    batch = w.n - done < BATCH ? w.n - done : BATCH;
     if (affordable < (double)batch) batch = affordable < 1.0 ? 1 : (size_t)affordable;
-    if (s->count + batch > PENDRES_SEARCH_POINTS) {
-      s->crowded = 1;
-      batch = PENDRES_SEARCH_POINTS - s->count;
-    }
-    if (batch == 0) break;
-    status = add_batch(s, batch, omega + done);
-    done += batch;
-    cost = (s->work - before) / (double)batch;
+    status = add_batch(&w, done, batch);
+    cost = (b->work - before) / (double)batch;
   }
-  qsort(s->points, s->count, sizeof *s->points, by_frequency);
+  for (size_t i = 0; i < n; i++) {
+    qsort(s[i]->points, s[i]->count, sizeof *s[i]->points, by_frequency);
+    s[i]->wishes = 0;
+  }
+  free(w.pendulum);
+  free(w.by);
   return status;
 }
 
@@ -195,38 +252,51 @@ static size_t cut(const pendres_pendulum *p, double lower, double upper, double 
   return n;
 }
 
-pendres_status pendres_search_scan(pendres_search *s, double lowest, double highest)
+/* Where the coarse scan's gaps are cut: all of them, at most as many as there is room for. */
+static void find_cuts(pendres_search *s)
 {
   enum { MOST = PENDRES_SEARCH_POINTS / 2 };
-  double omega[COARSE_POINTS], fine[MOST + COARSE_POINTS], level[MOST + COARSE_POINTS];
   double widths[PARTS + 1], share = 0.7, all = 0.0;
-  size_t n = 0, stride = 1;
-  for (int i = 0; i < COARSE_POINTS; i++)
-    omega[i] = lowest + (highest - lowest) * i / (COARSE_POINTS - 1);
-  pendres_status status = pendres_search_add(s, COARSE_POINTS, omega);
-  if (status != PENDRES_OK) return status;
-  if (s->count < COARSE_POINTS)
-    return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
-                                "damping %g, drive amplitude %g: the budget of a resonance's "
-                                "search is spent after %zu frequencies", s->pendulum.damping,
-                                s->pendulum.drive_amplitude, s->count);
-  for (int i = 0; i + 1 < COARSE_POINTS; i++) {
-    count_widths(&s->pendulum, omega[i], omega[i + 1], widths);
+  for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++) {
+    count_widths(&s->pendulum, s->wish[i], s->wish[i + 1], widths);
     all += widths[PARTS];
   }
   /* Below a damping of some thousandths not all widths can be looked at. */
   s->coarse = all / share > MOST;
   if (s->coarse) share = all / MOST;
-  for (int i = 0; i + 1 < COARSE_POINTS; i++)
-    n += cut(&s->pendulum, omega[i], omega[i + 1], share, fine + n);
-  while (stride < n) stride *= 2;
-  /* Every so many at first: a budget that ends early leaves no part of the range out. */
-  for (; stride > 0 && n > 0 && status == PENDRES_OK; stride /= 2) {
-    size_t count = 0;
-    for (size_t i = stride - 1; i < n; i += stride)
-      if ((i + 1) / stride % 2 == 1) level[count++] = fine[i];
-    status = pendres_search_add(s, count, level);
+  for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++)
+    s->cuts += cut(&s->pendulum, s->wish[i], s->wish[i + 1], share, s->cut + s->cuts);
+  s->stride = s->cuts > 0;
+  while (s->stride < s->cuts) s->stride *= 2;
+}
+
+/* Every so many at first: a budget that ends early leaves no part of the range out. */
+static void next_level(pendres_search *s)
+{
+  for (; s->stride > 0 && s->wishes == 0; s->stride /= 2)
+    for (size_t i = s->stride - 1; i < s->cuts; i += s->stride)
+      if ((i + 1) / s->stride % 2 == 1) s->wish[s->wishes++] = s->cut[i];
+}
+
+pendres_status pendres_search_scan(pendres_search *s)
+{
+  if (s->stage == PENDRES_SCAN_COARSE) {
+    s->wishes = PENDRES_SEARCH_COARSE;
+    for (int i = 0; i < PENDRES_SEARCH_COARSE; i++)
+      s->wish[i] = s->lowest + (s->highest - s->lowest) * i / (PENDRES_SEARCH_COARSE - 1);
+    find_cuts(s);
+    s->stage = PENDRES_SCAN_LEVELS;
+    return PENDRES_OK;
   }
+  if (s->stage == PENDRES_SCAN_DONE) return PENDRES_OK;
+  if (s->count < PENDRES_SEARCH_COARSE)
+    return pendres_context_fail(s->ctx, PENDRES_NOT_CONVERGED,
+                                "damping %g, drive amplitude %g: the budget of a resonance's "
+                                "search is spent after %zu frequencies", s->pendulum.damping,
+                                s->pendulum.drive_amplitude, s->count);
+  if (!pendres_search_over(s)) next_level(s);
+  if (s->wishes > 0) return PENDRES_OK;
   if (pendres_search_over(s)) s->coarse = 1;
-  return status;
+  s->stage = PENDRES_SCAN_DONE;
+  return PENDRES_OK;
 }

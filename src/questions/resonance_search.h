@@ -2,50 +2,63 @@
  * resonance_search.h -- the frequencies that a search for a resonance has looked at.
  *
  * Owns: the points of a search in ascending frequency, the first scan of the range, and the budget
- * of work: what a point may cost is bounded, whatever its parameters.
+ * of work: what a point may cost is bounded, whatever its parameters. Searches may share a budget;
+ * what they wish to look at is then evaluated side by side.
  */
 #ifndef PENDRES_RESONANCE_SEARCH_H
 #define PENDRES_RESONANCE_SEARCH_H
 
 #include "questions/resonance_refine.h"
 
-/* pendres_resonance_find_ensemble with a budget of work of the caller's: about seconds of one
-   processor. */
-pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
-                                             double lowest, double highest,
-                                             const pendres_ensemble *ensemble, double most_work,
-                                             pendres_resonance *out);
+enum {
+  PENDRES_SEARCH_POINTS = 1500,                        /* most frequencies of one search */
+  PENDRES_SEARCH_COARSE = 19,                          /* over the range at first */
+  PENDRES_SEARCH_CUTS = PENDRES_SEARCH_POINTS / 2 + 19 /* most of those that follow in the scan */
+};
 
-enum { PENDRES_SEARCH_POINTS = 1500 /* most frequencies of one search */ };
+/* What searches may cost, and have cost so far: about seconds of a processor. */
+typedef struct pendres_search_budget {
+  pendres_context *ctx;
+  double most;           /* no more is begun when it is spent */
+  double work;           /* spent so far */
+  double slopes, newton; /* the context's cost when work was last added up */
+  int exhausted;         /* it is spent */
+} pendres_search_budget;
 
 typedef struct pendres_search {
   pendres_context *ctx;
   pendres_pendulum pendulum;
   const pendres_ensemble *ensemble;
+  pendres_search_budget *budget; /* not owned */
   size_t count;
-  pendres_scan_point *points; /* ascending in omega */
-  double most_work;           /* the budget: no more is begun when it is spent */
-  double work;                /* spent so far, about seconds of a processor */
-  double rate;                /* of the force: frequencies are measured by it */
-  double slopes, newton;      /* the context's cost when work was last added up */
-  int exhausted;              /* the budget of work is spent */
-  int crowded;                /* no room for further frequencies */
-  int coarse;                 /* the first scan is coarser than resonances may be narrow */
+  pendres_scan_point *points;    /* ascending in omega */
+  double lowest, highest;        /* the range */
+  double rate;                   /* of the force: frequencies are measured by it */
+  int crowded;                   /* no room for further frequencies */
+  int coarse;                    /* the first scan is coarser than resonances may be narrow */
+  enum { PENDRES_SCAN_COARSE, PENDRES_SCAN_LEVELS, PENDRES_SCAN_DONE } stage;
+  size_t cuts, stride;           /* of the first scan's finer part: every so many at a time */
+  double cut[PENDRES_SEARCH_CUTS];
+  size_t wishes;                 /* frequencies to be looked at next */
+  double wish[PENDRES_SEARCH_POINTS];
 } pendres_search;
 
+/* A budget of which nothing is spent. */
+pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most);
+
 /* Free it in any case. */
-pendres_status pendres_search_create(pendres_context *ctx, const pendres_pendulum *p,
-                                     const pendres_ensemble *ensemble, double most_work,
-                                     pendres_search *out);
+pendres_status pendres_search_create(pendres_search_budget *budget, const pendres_pendulum *p,
+                                     const pendres_ensemble *ensemble, pendres_search *out);
 void pendres_search_free(pendres_search *s);
 
 double pendres_scan_frequency(const pendres_scan_point *p);
 
 /*
- * Evaluate n more frequencies and sort them in, as far as room and budget go: `crowded` or
- * `exhausted` is set if that was not all the way.
+ * Evaluate what n searches wish, which have one budget and one ensemble, and sort it in, as far as
+ * room and budget go: `crowded` or `exhausted` is set if that was not all the way. Each search gets
+ * what it would get alone.
  */
-pendres_status pendres_search_add(pendres_search *s, size_t n, const double *omega);
+pendres_status pendres_search_add(size_t n, pendres_search *const *s);
 
 /* Sort a point in whose members are where those of `like` are; room is not checked. */
 pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point *point,
@@ -63,7 +76,8 @@ int pendres_search_ended(const pendres_search *s);
 /* Width over which a response may change at a frequency: that of the resonances there. */
 double pendres_search_width(const pendres_pendulum *p, double omega);
 
-/* Evaluate the range as finely as damping demands, coarse frequencies first. */
-pendres_status pendres_search_scan(pendres_search *s, double lowest, double highest);
+/* Wish what comes next of the first scan, which looks at the range as finely as damping demands,
+   coarse frequencies first; no wishes: it is done. */
+pendres_status pendres_search_scan(pendres_search *s);
 
 #endif

@@ -1,0 +1,323 @@
+/* resonance_work.c -- gaps that are cut, and the best of what they hold; see resonance_work.h. */
+#include "questions/resonance_work.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "questions/response_name.h"
+
+enum { SECTIONS = 4 /* a gap is cut into */ };
+
+/*
+ * A gap with a jump is cut until it is this narrow, beside the force's rate; then its fold is
+ * located, or the jump halved down to. Where members change to larger areas and to smaller ones it
+ * is cut until they are apart, or so close that they are not told apart.
+ */
+static const double narrow = 2e-5, narrowest = 1e-7;
+
+pendres_status pendres_resonance_work_create(pendres_search_budget *budget,
+                                             const pendres_pendulum *p,
+                                             const pendres_ensemble *ensemble,
+                                             pendres_resonance_work *out)
+{
+  const pendres_status status = pendres_search_create(budget, p, ensemble, &out->s);
+  out->gap = malloc(PENDRES_SEARCH_POINTS * sizeof *out->gap);
+  if (status != PENDRES_OK || out->gap != NULL) return status;
+  return pendres_context_fail(budget->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
+}
+
+void pendres_resonance_work_free(pendres_resonance_work *w)
+{
+  pendres_search_free(&w->s);
+  free(w->gap);
+}
+
+static void look_at_gaps(pendres_resonance_work *w)
+{
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    pendres_gap_look(&w->s.points[i], &w->s.points[i + 1], w->s.ensemble->members, &w->gap[i]);
+}
+
+/* What is certain of a point's area: members that did not settle may be on any state. */
+static double certain_area(const pendres_scan_point *p)
+{
+  return p->response.mean_loop_area - p->response.mean_loop_area_error;
+}
+
+/* The point whose area is certain to be largest. */
+static const pendres_scan_point *best_point(const pendres_search *s)
+{
+  const pendres_scan_point *best = &s->points[0];
+  for (size_t i = 1; i < s->count; i++)
+    if (!(certain_area(best) >= certain_area(&s->points[i]))) best = &s->points[i];
+  return best;
+}
+
+/* A gap that cannot hold more than this is of no interest: the error of the best says as much. */
+static double threshold_of(const pendres_search *s)
+{
+  const pendres_response *r = &best_point(s)->response;
+  return r->mean_loop_area + r->mean_loop_area_error;
+}
+
+/* Whether a gap has to be looked into further. */
+static int open_gap(const pendres_resonance_work *w, size_t i, double threshold)
+{
+  const pendres_gap *g = &w->gap[i];
+  const double width = g->width / w->s.rate;
+  if (!(g->bound > threshold)) return 0;
+  if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
+  return g->loose || (g->kind == PENDRES_GAP_PLAIN && width > narrow);
+}
+
+/* The largest bound of all gaps that are open; minus infinity if none is. */
+static double largest_bound(const pendres_resonance_work *w, double threshold)
+{
+  double largest = -INFINITY;
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    if (open_gap(w, i, threshold)) largest = fmax(largest, w->gap[i].bound);
+  return largest;
+}
+
+/*
+ * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes
+ * the place of the many frequencies close to it, where a ghost slows everything down. *sought:
+ * there was such a gap; *found: one was added, and a frequency beside it is wished for.
+ */
+static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *found)
+{
+  pendres_search *s = &w->s;
+  double largest = threshold_of(s);
+  size_t gap = s->count;
+  *found = 0;
+  for (size_t i = 0; i + 1 < s->count; i++) {
+    const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+    if (w->gap[i].kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
+    if (w->gap[i].bound > largest) {
+      largest = w->gap[i].bound;
+      gap = i;
+    }
+  }
+  *sought = gap < s->count;
+  if (!*sought) return PENDRES_OK;
+  pendres_scan_point at, *a = &s->points[gap], *b = &s->points[gap + 1];
+  double beside;
+  a->fold_sought = 1;
+  pendres_status status =
+    pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &at, &beside, found);
+  pendres_search_account(s, pendres_scan_frequency(a));
+  if (status != PENDRES_OK || !*found) return status;
+  if (s->count + 2 > PENDRES_SEARCH_POINTS) {
+    s->crowded = 1;
+    return PENDRES_OK;
+  }
+  s->wishes = 1;
+  s->wish[0] = beside;
+  return pendres_search_insert(s, &at, at.at_fold < 0 ? b : a);
+}
+
+/*
+ * Wish to cut the gaps that may hold more than the best value known, the most promising first; no
+ * wishes: none is left but narrow ones, or room or budget are spent.
+ */
+static pendres_status resolve_gaps(pendres_resonance_work *w)
+{
+  pendres_search *s = &w->s;
+  for (;;) {
+    int sought = 0, found = 0;
+    look_at_gaps(w);
+    if (pendres_search_over(s)) return PENDRES_OK;
+    pendres_status status = add_fold(w, &sought, &found);
+    if (status != PENDRES_OK || s->wishes > 0) return status;
+    if (found) continue;
+    const double threshold = threshold_of(s), largest = largest_bound(w, threshold);
+    if (largest == -INFINITY && sought) continue;
+    if (largest == -INFINITY) return PENDRES_OK;
+    for (size_t i = 0; i + 1 < s->count; i++) {
+      const double first = pendres_scan_frequency(&s->points[i]), width = w->gap[i].width;
+      /* Those that promise little may be ruled out by what the others turn up. */
+      if (!open_gap(w, i, threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
+        continue;
+      for (int k = 1; k < SECTIONS && s->wishes < PENDRES_SEARCH_POINTS; k++)
+        s->wish[s->wishes++] = first + width * k / SECTIONS;
+    }
+    return PENDRES_OK;
+  }
+}
+
+/*
+ * The resonance of one gap, or at the fold before it; jumps alone, or all else. *again: a jump
+ * turned up in it.
+ */
+static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps, pendres_resonance *out, int *again)
+{
+  pendres_search *s = &w->s;
+  pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
+  const pendres_gap *g = &w->gap[i];
+  const double best = certain_area(best_point(s));
+  pendres_resonance one;
+  pendres_status status = PENDRES_OK;
+  if (jumps != (g->kind == PENDRES_GAP_JUMP) && !a->at_fold) return status;
+  if (jumps && a->at_fold && certain_area(a) >= best) {
+    status = pendres_resonance_at_fold(s->ctx, a, &one);
+    /* As large: the gap before it was cut down to the same fold, less exactly. */
+    if (status == PENDRES_OK && !(one.loop_area < out->loop_area)) *out = one;
+  }
+  if (status != PENDRES_OK || g->kind == PENDRES_GAP_PLAIN) return status;
+  if (jumps != (g->kind == PENDRES_GAP_JUMP)) return status;
+  if (g->bound < best || g->bound < out->loop_area || pendres_search_ended(s)) return status;
+  status = g->kind == PENDRES_GAP_PEAK
+             ? pendres_resonance_refine_peak(s->ctx, s->ensemble, a, b, &one)
+             : pendres_resonance_refine_edge(s->ctx, s->ensemble, a, b, &one);
+  pendres_search_account(s, pendres_scan_frequency(a));
+  if (status == PENDRES_NOT_FOUND) {
+    /* The slope changes its sign without a zero: there is a jump in between after all. */
+    a->jump_to_next = 1;
+    *again = 1;
+    return PENDRES_OK;
+  }
+  if (status == PENDRES_OK && !(one.loop_area - one.loop_area_error <= out->loop_area)) *out = one;
+  return status;
+}
+
+/* ---- what is left open ---- */
+
+/* Whether a gap that may hold more than an area was not resolved. */
+static int unresolved(const pendres_resonance_work *w, size_t i, double area)
+{
+  const pendres_gap *g = &w->gap[i];
+  if (!(g->bound > area)) return 0;
+  if (open_gap(w, i, area) || g->mixed) return 1;
+  return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
+}
+
+/* The largest area that gaps which were not resolved may hold; minus infinity if there are none. */
+static double left_open(const pendres_resonance_work *w, double area)
+{
+  double largest = -INFINITY;
+  for (size_t i = 0; i + 1 < w->s.count; i++)
+    if (unresolved(w, i, area)) largest = fmax(largest, w->gap[i].bound);
+  return largest;
+}
+
+/* Raise an error to the distance between two values. */
+static void spread(double *error, double a, double b)
+{
+  const double off = fabs(a - b);
+  if (off > *error) *error = off;
+}
+
+/*
+ * A peak among gaps that were not resolved: the largest value lies in one of them, and is at most
+ * `largest`. Errors are what the points around these gaps differ by.
+ */
+static void make_ragged(const pendres_resonance_work *w, double largest, pendres_resonance *out)
+{
+  pendres_response *r = &out->response;
+  out->peak = PENDRES_PEAK_RAGGED;
+  out->loop_area_error += largest - out->loop_area;
+  for (size_t i = 0; i + 1 < w->s.count; i++) {
+    if (!unresolved(w, i, out->loop_area)) continue;
+    for (size_t k = i; k <= i + 1; k++) {
+      const pendres_response *q = &w->s.points[k].response;
+      spread(&out->frequency_error, q->pendulum.drive_frequency, out->frequency);
+      spread(&r->mean_loop_amplitude_error, q->mean_loop_amplitude, r->mean_loop_amplitude);
+      spread(&r->mean_amplitude_error, q->mean_amplitude, r->mean_amplitude);
+      spread(&r->phase_lag_error, q->phase_lag, r->phase_lag);
+      spread(&r->mean_power_error, q->mean_power, r->mean_power);
+      spread(&r->sa_fraction_error, q->sa_fraction, r->sa_fraction);
+      spread(&r->la_fraction_error, q->la_fraction, r->la_fraction);
+    }
+  }
+  r->mean_loop_area_error = out->loop_area_error;
+}
+
+/* A point of the scan as it is: no better is known. */
+static pendres_resonance as_scanned(const pendres_scan_point *p)
+{
+  return (pendres_resonance){.peak = PENDRES_PEAK_RAGGED,
+                             .frequency = pendres_scan_frequency(p),
+                             .loop_area = p->response.mean_loop_area,
+                             .loop_area_error = p->response.mean_loop_area_error,
+                             .response = p->response,
+                             .fold_frequency = NAN,
+                             .fold_frequency_error = NAN};
+}
+
+static pendres_status at_the_end(const pendres_resonance_work *w, const pendres_scan_point *p)
+{
+  const int low = p == &w->s.points[0];
+  return pendres_context_fail(
+    w->s.ctx, PENDRES_NOT_FOUND,
+    "damping %g, drive amplitude %g: the loop area is largest at the %s end of the range, "
+    "drive frequency %g", w->s.pendulum.damping, w->s.pendulum.drive_amplitude,
+    low ? "lower" : "upper", pendres_scan_frequency(p));
+}
+
+/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
+static pendres_status choose(pendres_resonance_work *w, pendres_resonance *out, int *again)
+{
+  const pendres_search *s = &w->s;
+  pendres_status status = PENDRES_OK;
+  *again = 0;
+  out->loop_area = NAN;
+  look_at_gaps(w);
+  /* Smooth peaks first: they cost little, and leave fewer jumps to look into. */
+  const int open = largest_bound(w, threshold_of(s)) > -INFINITY;
+  for (int jumps = 0; jumps < 2 && !open; jumps++)
+    for (size_t i = 0; i + 1 < s->count && status == PENDRES_OK && !*again; i++)
+      status = choose_from(w, i, jumps, out, again);
+  if (status != PENDRES_OK || *again) return status;
+  const pendres_scan_point *best = best_point(s), *first = &s->points[0];
+  const pendres_scan_point *last = &s->points[s->count - 1];
+  if (!(out->loop_area >= best->response.mean_loop_area)) {
+    if (best == first || best == last) return at_the_end(w, best);
+    *out = as_scanned(best);
+  }
+  const double largest = left_open(w, out->loop_area + out->loop_area_error);
+  if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
+    make_ragged(w, fmax(largest, out->loop_area), out);
+  out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
+  return PENDRES_OK;
+}
+
+/* A state that is alone at the resonance has its name from the other frequencies. */
+static pendres_status name_states(const pendres_search *s, pendres_response *r)
+{
+  const pendres_response *line[PENDRES_SEARCH_POINTS];
+  pendres_small_end end;
+  if (!pendres_response_nameless(r)) return PENDRES_OK;
+  for (size_t i = 0; i < s->count; i++) line[i] = &s->points[i].response;
+  const pendres_status status =
+    pendres_response_small_end(s->ctx, s->count, line, PENDRES_DRIVE_FREQUENCY, &end);
+  if (status == PENDRES_OK) pendres_response_name_by(&end, r);
+  return status;
+}
+
+pendres_status pendres_resonance_no_area(pendres_context *ctx, const pendres_pendulum *p)
+{
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
+                              "damping %g, drive amplitude %g: the loop area is zero at all drive "
+                              "frequencies%s", p->damping, p->drive_amplitude,
+                              p->parametric_amplitude == 0.0
+                                ? "" : "; the work of a parametric drive does not count");
+}
+
+pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_resonance *out)
+{
+  pendres_search *s = &w->s;
+  if (s->stage != PENDRES_SCAN_DONE) {
+    const pendres_status status = pendres_search_scan(s);
+    if (status != PENDRES_OK || s->wishes > 0) return status;
+    if (!(best_point(s)->response.mean_loop_area > 0.0))
+      return pendres_resonance_no_area(s->ctx, &s->pendulum);
+  }
+  for (int again = 1; again;) {
+    pendres_status status = resolve_gaps(w);
+    if (status != PENDRES_OK || s->wishes > 0) return status;
+    status = choose(w, out, &again);
+    if (status != PENDRES_OK) return status;
+  }
+  return name_states(s, &out->response);
+}

@@ -1,0 +1,47 @@
+/*
+ * resonance_work.h -- one search for a resonance, step by step.
+ *
+ * Owns: what a search looks at next, given what it has seen, and what it has found in the end.
+ * Between two steps somebody evaluates the frequencies that it wishes (pendres_search_add): so
+ * several searches go side by side.
+ */
+#ifndef PENDRES_RESONANCE_WORK_H
+#define PENDRES_RESONANCE_WORK_H
+
+#include "questions/resonance_gap.h"
+#include "questions/resonance_search.h"
+
+/* A search with its gaps. */
+typedef struct pendres_resonance_work {
+  pendres_search s;
+  pendres_gap *gap; /* gap[i] lies between points i and i + 1 */
+} pendres_resonance_work;
+
+/* Free it in any case; the range in `s` is set by the caller. */
+pendres_status pendres_resonance_work_create(pendres_search_budget *budget,
+                                             const pendres_pendulum *p,
+                                             const pendres_ensemble *ensemble,
+                                             pendres_resonance_work *out);
+void pendres_resonance_work_free(pendres_resonance_work *w);
+
+/* The next wishes; none: the search is over, and *out its resonance. */
+pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_resonance *out);
+
+/* pendres_resonance_find_ensemble with a budget of work of the caller's: about seconds of one
+   processor. */
+pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
+                                             double lowest, double highest,
+                                             const pendres_ensemble *ensemble, double most_work,
+                                             pendres_resonance *out);
+
+/* pendres_resonance_find_many; what searches side by side may cost together before they are begun
+   anew one by one. */
+pendres_status pendres_resonance_find_together(pendres_context *ctx, size_t n,
+                                               pendres_resonance_search *searches,
+                                               const pendres_ensemble *ensemble,
+                                               double most_together);
+
+/* PENDRES_NOT_FOUND, and why: there is no area to be largest. */
+pendres_status pendres_resonance_no_area(pendres_context *ctx, const pendres_pendulum *p);
+
+#endif
