@@ -150,7 +150,8 @@ static pendres_status resolve_gaps(pendres_resonance_work *w)
  * The resonance of one gap, or at the fold before it; jumps alone, or all else. *again: a jump
  * turned up in it.
  */
-static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps, pendres_resonance *out, int *again)
+static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps,
+                                  pendres_resonance *out, int *again)
 {
   pendres_search *s = &w->s;
   pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
