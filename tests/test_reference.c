@@ -200,7 +200,8 @@ static void test_derivatives(void **state)
 /* End of one period with given order and number of steps. */
 static long double fixed_end(int order, int steps)
 {
-  const pendres_reference_model model = { 0.125L, 0.25L, 0.8125L };
+  const pendres_reference_model model = { .damping = 0.125L, .drive_amplitude = 0.25L,
+                                          .drive_frequency = 0.8125L, .sine = 1, .turns = 1 };
   pendres_reference_run run;
   pendres_reference_taylor_init(&run, &model, 0.7L, -0.4L);
   if (order > 0) run.order = order;
@@ -243,7 +244,10 @@ static void test_mirror(void **state)
   /* An orbit of mirror symmetry is at minus its start half a period later, where the mirror
      image of the equation takes over. */
   const pendres_reference_cycle *c = &golden_orbits[7];
-  const pendres_reference_model model = { c->damping, c->drive_amplitude, c->drive_frequency };
+  const pendres_reference_model model = { .damping = c->damping,
+                                          .drive_amplitude = c->drive_amplitude,
+                                          .drive_frequency = c->drive_frequency,
+                                          .sine = 1, .turns = 1 };
   pendres_reference_run run;
   pendres_reference_taylor_init(&run, &model, c->y, c->v);
   check_ok(pendres_reference_taylor_advance_half(&run));

@@ -116,7 +116,7 @@ static void test_slopes(void **state)
 static void test_extremes(void **state)
 {
   (void)state;
-  const pendres_reference_model model = { 0.0L, 0.0L, 0.3L };
+  const pendres_reference_model model = { .drive_frequency = 0.3L, .sine = 1, .turns = 1 };
   pendres_reference_run run;
   pendres_reference_taylor_init(&run, &model, 0.4L, 1.2L);
   run.measures = 1;

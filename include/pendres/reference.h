@@ -13,6 +13,15 @@
  *
  *     dy/dt = v,   dv/dt = -sin y - damping v + drive_amplitude cos theta
  *
+ * or, with torque, parametric drive and other forces f, y = x - origin,
+ *
+ *     dv/dt = -f(y) (1 + parametric_amplitude cos theta) + torque - damping v
+ *             + drive_amplitude cos theta
+ *
+ * A force of one's own (PENDRES_FORCE_LIST) is PENDRES_INVALID_ARGUMENT unless its series is known
+ * here, as that of the squid is. Where y has no period, turns and windings are 0, and y is not
+ * wrapped.
+ *
  * States are given and returned at drive phase 0. Angles are in rad, times dimensionless.
  *
  * Accuracy: truncation below 1e-20 a step and sums carried in two words, so that a state

@@ -263,12 +263,3 @@ int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
     same = same && a->force_coefficients[i] == b->force_coefficients[i];
   return same;
 }
-
-pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why)
-{
-  const pendres_status status = pendres_pendulum_check(p, why);
-  if (status != PENDRES_OK || pendres_model_kind(p) == PENDRES_MODEL_PLAIN) return status;
-  if (why != NULL)
-    *why = "only the pendulum without torque and parametric drive is served here so far";
-  return PENDRES_INVALID_ARGUMENT;
-}

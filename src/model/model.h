@@ -72,7 +72,4 @@ int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 
-/* As pendres_pendulum_check where only the plain pendulum is served. */
-pendres_status pendres_model_check_plain(const pendres_pendulum *p, const char **why);
-
 #endif

@@ -6,30 +6,22 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "model/model.h"
-
 #include "reference/reference_taylor.h"
 
 static pendres_status check_start(const pendres_pendulum *p, long double y, long double v,
-                                  long periods)
+                                  long periods, pendres_reference_model *model)
 {
-  if (pendres_model_check_plain(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
   if (!(fabsl(y) <= 1e9L) || !isfinite(v) || periods < 0) return PENDRES_INVALID_ARGUMENT;
-  return PENDRES_OK;
-}
-
-static pendres_reference_model model_of(const pendres_pendulum *p)
-{
-  return (pendres_reference_model){ p->damping, p->drive_amplitude, p->drive_frequency };
+  return pendres_reference_model_of(p, model);
 }
 
 pendres_status pendres_reference_advance(const pendres_pendulum *p, long double *y,
                                          long double *v, long *turns, long periods)
 {
   if (y == NULL || v == NULL) return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = check_start(p, *y, *v, periods);
+  pendres_reference_model model;
+  pendres_status status = check_start(p, *y, *v, periods, &model);
   if (status != PENDRES_OK) return status;
-  const pendres_reference_model model = model_of(p);
   pendres_reference_run run;
   const long start = pendres_reference_taylor_init(&run, &model, *y, *v);
   status = pendres_reference_taylor_advance(&run, periods);
@@ -44,9 +36,9 @@ pendres_status pendres_reference_map(const pendres_pendulum *p, long double y, l
                                      long periods, pendres_reference_image *out)
 {
   if (out == NULL) return PENDRES_INVALID_ARGUMENT;
-  pendres_status status = check_start(p, y, v, periods);
+  pendres_reference_model model;
+  pendres_status status = check_start(p, y, v, periods, &model);
   if (status != PENDRES_OK) return status;
-  const pendres_reference_model model = model_of(p);
   pendres_reference_run run;
   const long start = pendres_reference_taylor_init(&run, &model, y, v);
   run.columns = PENDRES_REFERENCE_COLUMNS;

@@ -14,7 +14,6 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "model/model.h"
 
 #include "reference/reference_orbit.h"
 
@@ -151,24 +150,28 @@ static pendres_status solve(pendres_reference_target *target, int n, pendres_ref
   return PENDRES_NOT_CONVERGED;
 }
 
-static int valid_guess(const pendres_pendulum *p, long double frequency, long double damping,
-                       long double y, long double v)
+/* The orbit of period one near a guess; 0 if a parameter is no good. */
+static int target_of(const pendres_pendulum *p, long double frequency, long double damping,
+                     long double y, long double v, pendres_reference_target *out)
 {
   if (p == NULL || !(fabsl(y) <= 1e9L) || !isfinite(v)) return 0;
   pendres_pendulum checked = *p;
   checked.drive_frequency = (double)frequency;
   checked.damping = (double)damping;
-  return pendres_model_check_plain(&checked, NULL) == PENDRES_OK;
+  *out = (pendres_reference_target){.y = y, .v = v, .period = 1};
+  if (pendres_reference_model_of(&checked, &out->model) != PENDRES_OK) return 0;
+  out->model.drive_frequency = frequency;
+  out->model.damping = damping;
+  return 1;
 }
 
 pendres_status pendres_reference_fold(const pendres_pendulum *p, long double frequency,
                                       long double y, long double v,
                                       pendres_reference_cycle *out)
 {
-  if (p == NULL || out == NULL || !valid_guess(p, frequency, p->damping, y, v))
+  pendres_reference_target target;
+  if (p == NULL || out == NULL || !target_of(p, frequency, p->damping, y, v, &target))
     return PENDRES_INVALID_ARGUMENT;
-  pendres_reference_target target = { { p->damping, p->drive_amplitude, frequency },
-                                      y, v, 1, 0, 0 };
   return solve(&target, 3, out);
 }
 
@@ -176,10 +179,11 @@ pendres_status pendres_reference_symmetry_breaking(const pendres_pendulum *p,
                                                    long double frequency, long double y,
                                                    long double v, pendres_reference_cycle *out)
 {
-  if (p == NULL || out == NULL || !valid_guess(p, frequency, p->damping, y, v))
+  pendres_reference_target target;
+  if (p == NULL || out == NULL || !target_of(p, frequency, p->damping, y, v, &target) ||
+      !pendres_pendulum_symmetric(p))
     return PENDRES_INVALID_ARGUMENT;
-  pendres_reference_target target = { { p->damping, p->drive_amplitude, frequency },
-                                      y, v, 1, 0, 1 };
+  target.mirror = 1;
   return solve(&target, 3, out);
 }
 
@@ -187,7 +191,8 @@ pendres_status pendres_reference_cusp(const pendres_pendulum *p, long double fre
                                       long double damping, long double y, long double v,
                                       pendres_reference_cycle *out)
 {
-  if (out == NULL || !valid_guess(p, frequency, damping, y, v)) return PENDRES_INVALID_ARGUMENT;
-  pendres_reference_target target = { { damping, p->drive_amplitude, frequency }, y, v, 1, 0, 0 };
+  pendres_reference_target target;
+  if (out == NULL || !target_of(p, frequency, damping, y, v, &target))
+    return PENDRES_INVALID_ARGUMENT;
   return solve(&target, 4, out);
 }

@@ -13,8 +13,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "model/model.h"
-
 int pendres_reference_orbit_solve(int n, long double a[][4], long double b[])
 {
   for (int i = 0; i < n; i++) {
@@ -59,7 +57,8 @@ static pendres_status mirror_defect(pendres_reference_run *run, long double star
   const long double start_y = run->y.hi;
   const pendres_status status = pendres_reference_taylor_advance_half(run);
   if (status != PENDRES_OK) return status;
-  const long double off = -rintl((start_y + run->y.hi) / two_pi.hi);
+  const long double off =
+    run->model.turns ? -rintl((start_y + run->y.hi) / two_pi.hi) : 0.0L;
   defect[0] = (run->y.hi + (start_y + off * two_pi.hi)) + run->y.lo + off * two_pi.lo;
   defect[1] = (run->v.hi + start_v) + run->v.lo;
   return PENDRES_OK;
@@ -132,7 +131,8 @@ static pendres_status close_orbit(pendres_reference_target *target)
     if (i == MOST - 1) return PENDRES_NOT_CONVERGED;
   }
   const long double two_pi = pendres_reference_taylor_two_pi().hi;
-  if (fabsl(target->y) > two_pi / 2.0L) target->y -= two_pi * rintl(target->y / two_pi);
+  if (target->model.turns && fabsl(target->y) > two_pi / 2.0L)
+    target->y -= two_pi * rintl(target->y / two_pi);
   return PENDRES_OK;
 }
 
@@ -179,7 +179,10 @@ static void fill_measures(const pendres_reference_run *run, pendres_reference_cy
   const long double b = omega * run->sine.hi / (pi * cycles);
   out->loop_area = run->area.hi / cycles;
   out->dissipation = out->damping * run->square.hi / cycles;
-  out->energy_residual = fabsl(out->loop_area - out->dissipation);
+  const long double others =
+    run->parametric.hi / cycles +
+    run->model.torque * 2.0L * pi * (long double)out->winding / cycles;
+  out->energy_residual = fabsl(out->loop_area + others - out->dissipation);
   out->amplitude = 0.5L * (run->highest - run->lowest);
   out->first_harmonic_amplitude = hypotl(a, b);
   /* Behind the force: with a drive of negative sign, of minus the angle. */
@@ -230,23 +233,23 @@ static pendres_status close_and_measure(pendres_reference_target *target,
 pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y, long double v,
                                        long period, long winding, pendres_reference_cycle *out)
 {
-  if (out == NULL || pendres_model_check_plain(p, NULL) != PENDRES_OK || period < 1 ||
-      !(fabsl(y) <= 1e9L) || !isfinite(v))
+  pendres_reference_target target = {.y = y, .v = v, .period = period, .winding = winding};
+  if (out == NULL || pendres_reference_model_of(p, &target.model) != PENDRES_OK || period < 1 ||
+      (winding != 0 && !target.model.turns) || !(fabsl(y) <= 1e9L) || !isfinite(v))
     return PENDRES_INVALID_ARGUMENT;
-  pendres_reference_target target = {
-    { p->damping, p->drive_amplitude, p->drive_frequency }, y, v, period, winding, 0 };
   return close_and_measure(&target, out);
 }
 
 /* From `here` to another drive frequency, along the branch's tangent, then closed. */
-static pendres_status move_to(const pendres_reference_cycle *here, long double frequency,
+static pendres_status move_to(const pendres_reference_model *model,
+                              const pendres_reference_cycle *here, long double frequency,
                               pendres_reference_cycle *out)
 {
   const long double change = frequency - here->drive_frequency;
   pendres_reference_target target = {
-    { here->damping, here->drive_amplitude, frequency },
-    here->y + change * here->state_slope[0], here->v + change * here->state_slope[1],
+    *model, here->y + change * here->state_slope[0], here->v + change * here->state_slope[1],
     here->period, here->winding, 0 };
+  target.model.drive_frequency = frequency;
   return close_and_measure(&target, out);
 }
 
@@ -266,17 +269,18 @@ pendres_status pendres_reference_resonance(const pendres_pendulum *p, long doubl
   enum { MOST = 200 };
   pendres_pendulum checked = p != NULL ? *p : (pendres_pendulum){ .damping = 0.0 };
   checked.drive_frequency = (double)frequency;
-  if (p == NULL || out == NULL || pendres_model_check_plain(&checked, NULL) != PENDRES_OK ||
+  pendres_reference_target target = {.y = y, .v = v, .period = 1};
+  if (p == NULL || out == NULL ||
+      pendres_reference_model_of(&checked, &target.model) != PENDRES_OK ||
       !(fabsl(y) <= 1e9L) || !isfinite(v))
     return PENDRES_INVALID_ARGUMENT;
-  pendres_reference_target target = { { p->damping, p->drive_amplitude, frequency }, y, v, 1, 0,
-                                      0 };
+  target.model.drive_frequency = frequency;
   pendres_reference_cycle here, next;
   pendres_status status = close_and_measure(&target, &here);
   if (status != PENDRES_OK) return status;
   long double change = copysignl(1e-3L, here.loop_area_slope), last = HUGE_VALL;
   for (int i = 0; i < MOST; i++) {
-    status = move_to(&here, here.drive_frequency + change, &next);
+    status = move_to(&target.model, &here, here.drive_frequency + change, &next);
     if (status != PENDRES_OK) {
       /* Past the end of the branch, or too far for Newton. */
       change *= 0.25L;

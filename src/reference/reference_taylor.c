@@ -9,7 +9,9 @@
  *     (k+1) d_k+1 = -omega e_k          (k+1) e_k+1 = omega d_k
  *
  * where * is the Cauchy product, (k+1) y_k+1 = v_k having been used in the usual recurrences
- * for sine and cosine. A column (u, w) of the variational equation, at fixed drive phase:
+ * for sine and cosine. Of other forces s becomes f (1 + b d) - I, with powers of y as products, and
+ * c in what follows becomes f' (1 + b d). A column (u, w) of the variational equation, at fixed
+ * drive phase:
  *
  *     (k+1) u_k+1 = w_k + a_k           (k+1) w_k+1 = -(c * u)_k - damping w_k + b_k
  *
@@ -63,12 +65,31 @@ pendres_reference_pair pendres_reference_taylor_two_pi(void)
   return sum;
 }
 
+pendres_status pendres_reference_model_of(const pendres_pendulum *p, pendres_reference_model *out)
+{
+  if (pendres_pendulum_check(p, NULL) != PENDRES_OK) return PENDRES_INVALID_ARGUMENT;
+  *out = (pendres_reference_model){.damping = p->damping, .drive_amplitude = p->drive_amplitude,
+                                   .drive_frequency = p->drive_frequency, .torque = p->torque,
+                                   .parametric_amplitude = p->parametric_amplitude};
+  switch (p->force) {
+  case PENDRES_FORCE_PENDULUM: out->sine = out->turns = 1; break;
+  case PENDRES_FORCE_SQUID: out->sine = 1; break;
+  case PENDRES_FORCE_POLYNOMIAL: break;
+  default: return PENDRES_INVALID_ARGUMENT;
+  }
+  for (int k = 0; k < PENDRES_FORCE_COEFFICIENTS; k++) {
+    out->power[k] = p->force_coefficients[k];
+    if (out->power[k] != 0.0L) out->powers = k + 1;
+  }
+  return PENDRES_OK;
+}
+
 /* Take whole turns off y until it is in (-pi, pi], and count them. */
 static void wrap(pendres_reference_run *run)
 {
   const long double two_pi = pendres_reference_taylor_two_pi().hi;
   const long double half = two_pi / 2.0L;
-  while (run->y.hi > half || run->y.hi <= -half) {
+  while (run->model.turns && (run->y.hi > half || run->y.hi <= -half)) {
     long double n = rintl(run->y.hi / two_pi);
     if (n == 0.0L) n = run->y.hi > 0.0L ? 1.0L : -1.0L;
     for (int i = 0; i < 3; i++) {
@@ -129,6 +150,28 @@ static long double slope(const long double *c, int order, long double h)
   return sum;
 }
 
+/* Terms k of the force's series, from those of y, sine and cosine up to k. */
+static void expand_force(pendres_reference_run *run, int k)
+{
+  const pendres_reference_model *m = &run->model;
+  long double f = 0.0L, slope = 0.0L;
+  run->spower[0][k] = k == 0 ? 1.0L : 0.0L;
+  for (int j = 1; j <= m->powers; j++) {
+    run->spower[j][k] = cauchy(run->sy, run->spower[j - 1], k);
+    f += m->power[j - 1] * run->spower[j][k];
+    slope += (long double)j * m->power[j - 1] * run->spower[j - 1][k];
+  }
+  if (k == 0) f += slope * run->y.lo; /* the sine knows of it */
+  run->sbare[k] = m->sine ? f + run->ssin[k] : f;
+  run->sbare_slope[k] = m->sine ? slope + run->scos[k] : slope;
+  run->sforce[k] = run->sbare[k];
+  run->sslope[k] = run->sbare_slope[k];
+  if (m->parametric_amplitude == 0.0L) return;
+  run->sdriven[k] = cauchy(run->sdrive, run->sbare, k);
+  run->sforce[k] += m->parametric_amplitude * run->sdriven[k];
+  run->sslope[k] += m->parametric_amplitude * cauchy(run->sdrive, run->sbare_slope, k);
+}
+
 static void expand_state(pendres_reference_run *run)
 {
   const long double damping = run->model.damping, omega = run->model.drive_frequency;
@@ -143,9 +186,10 @@ static void expand_state(pendres_reference_run *run)
   d[0] = cosl(run->theta);
   e[0] = sinl(run->theta);
   for (int k = 0; k < run->order; k++) {
-    const long double n = k + 1;
+    const long double n = k + 1, torque = k == 0 ? run->model.torque : 0.0L;
+    expand_force(run, k);
     y[k + 1] = v[k] / n;
-    v[k + 1] = (force * d[k] - s[k] - damping * v[k]) / n;
+    v[k + 1] = (force * d[k] - (run->sforce[k] - torque) - damping * v[k]) / n;
     s[k + 1] = cauchy(v, c, k) / n;
     c[k + 1] = -cauchy(v, s, k) / n;
     d[k + 1] = -omega * e[k] / n;
@@ -171,7 +215,7 @@ static void expand_column(pendres_reference_run *run, int column)
       b = run->sdrive[k];
     }
     u[k + 1] = (w[k] + a) / n;
-    w[k + 1] = (b - cauchy(run->scos, u, k) - damping * w[k]) / n;
+    w[k + 1] = (b - cauchy(run->sslope, u, k) - damping * w[k]) / n;
   }
 }
 
@@ -179,7 +223,7 @@ static void expand_column(pendres_reference_run *run, int column)
 static long double relative_term(const pendres_reference_run *run, int k)
 {
   const long double scale = fabsl(run->sy[0]) + fabsl(run->sv[0]) +
-                            fabsl(run->model.drive_amplitude);
+                            fabsl(run->model.drive_amplitude) + fabsl(run->model.torque);
   if (scale == 0.0L) return 0.0L;
   long double largest = fmaxl(fabsl(run->sy[k]), fabsl(run->sv[k])) / scale;
   for (int i = 0; i < run->columns; i++) {
@@ -262,6 +306,8 @@ static void measure(pendres_reference_run *run, pendres_reference_pair t)
   integrate(run, steady, run->squad, 1.0L, t, &run->sine);
   integrate(run, run->sv, run->sv, 1.0L, t, &run->square);
   integrate(run, run->sv, run->sdrive, force, t, &run->area);
+  if (run->model.parametric_amplitude != 0.0L)
+    integrate(run, run->sv, run->sdriven, -run->model.parametric_amplitude, t, &run->parametric);
   for (int i = 0; i < run->columns; i++)
     integrate(run, run->sw[i], run->sdrive, force, t, &run->area_by[i]);
   if (run->columns > PENDRES_REFERENCE_BY_FREQUENCY)

@@ -23,8 +23,15 @@ typedef struct pendres_reference_pair {
 
 /* Parameters as the solvers move them: in long double. */
 typedef struct pendres_reference_model {
-  long double damping, drive_amplitude, drive_frequency;
+  long double damping, drive_amplitude, drive_frequency, torque, parametric_amplitude;
+  int sine;       /* the force has a sine of y, */
+  int powers;     /* and as many powers of y, 0 to 5, */
+  long double power[PENDRES_FORCE_COEFFICIENTS]; /* of which these are the coefficients */
+  int turns;      /* y and y + 2 pi are the same */
 } pendres_reference_model;
+
+/* Of a pendulum. PENDRES_INVALID_ARGUMENT if it is none, or no series of its force is known. */
+pendres_status pendres_reference_model_of(const pendres_pendulum *p, pendres_reference_model *out);
 
 /* Columns of the variational equation: derivatives with respect to ... */
 enum {
@@ -55,6 +62,7 @@ typedef struct pendres_reference_run {
   /* Integrals over t since init. */
   pendres_reference_pair area;    /* F v */
   pendres_reference_pair square;  /* v^2 */
+  pendres_reference_pair parametric; /* -b f cos(theta) v */
   pendres_reference_pair cosine;  /* (y - drift theta) cos theta */
   pendres_reference_pair sine;    /* (y - drift theta) sin theta */
   pendres_reference_pair area_by[PENDRES_REFERENCE_COLUMNS];
@@ -63,6 +71,10 @@ typedef struct pendres_reference_run {
   long periods; /* run so far */
   long double theta;
   pendres_reference_series sy, sv, ssin, scos, sdrive, squad; /* squad: sine of the phase */
+  pendres_reference_series spower[PENDRES_FORCE_COEFFICIENTS + 1]; /* y^0, y^1, ... */
+  pendres_reference_series sbare, sbare_slope; /* f and df/dy, */
+  pendres_reference_series sdriven;            /* f cos(theta), */
+  pendres_reference_series sforce, sslope;     /* and f and df/dy times 1 + b cos(theta) */
   pendres_reference_series su[PENDRES_REFERENCE_COLUMNS], sw[PENDRES_REFERENCE_COLUMNS];
 } pendres_reference_run;
 
