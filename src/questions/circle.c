@@ -28,9 +28,6 @@ static const double least_slope = 0.02;
 /* Corrections are solved for to this, relative to the residual: what is left of it is as small as
    what Newton's method leaves. */
 static const double solved = 1e-4;
-/* How much smaller than the tolerance the residual becomes: it takes few more rounds, and leaves
-   the error to what is not known so well. */
-static const double residual = 0.1;
 /* A pendulum's own points leave no wider gaps. */
 static const double widest_gap = 0.4;
 
@@ -79,13 +76,22 @@ double pendres_trigonometric_tail(const pendres_trigonometric *t)
   return largest;
 }
 
+void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance)
+{
+  while (t->n > PENDRES_CIRCLE_LEAST) {
+    for (size_t i = 7 * t->n / 16; i < t->n; i++)
+      if (!(fabs(t->c[i]) < tolerance)) return;
+    t->n /= 2;
+    t->c[t->n - 1] = 0.0;
+  }
+}
+
 /* ---- Newton's method ----------------------------------------------------------------------- */
 
 /* The points of a circle and what becomes of them. */
 typedef struct shape {
   pendres_context *ctx;
-  const pendres_pendulum *pendulum;
-  int steps;
+  const pendres_circle_way *way;
   size_t n;
   double w[MOST];      /* C at the grid */
   double move[MOST];   /* D there */
@@ -104,14 +110,14 @@ static double grid(size_t n, size_t i)
 static pendres_status run(shape *r)
 {
   pendres_block block;
-  pendres_status status = pendres_block_open(r->ctx, PENDRES_FLOW_STATE, r->steps, &block);
+  pendres_status status = pendres_block_open(r->ctx, PENDRES_FLOW_STATE, r->way->steps, &block);
   if (status != PENDRES_OK) return status;
   const size_t most = pendres_block_capacity(&block);
   for (size_t first = 0, some; first < r->n && status == PENDRES_OK; first += some) {
     some = r->n - first < most ? r->n - first : most;
     pendres_block_resize(&block, some);
     for (size_t i = 0; i < some; i++)
-      pendres_block_load(&block, i, r->pendulum, grid(r->n, first + i), r->w[first + i]);
+      pendres_block_load(&block, i, &r->way->pendulum, grid(r->n, first + i), r->w[first + i]);
     status = pendres_block_period(&block);
     const pendres_rows rows = pendres_block_rows(&block);
     for (size_t i = 0; i < some && status == PENDRES_OK; i++) {
@@ -184,7 +190,7 @@ static double product(size_t n, const double *a, const double *b)
 /* The correction: c(grid i) = l c(source i) + E(source i), over and over. */
 static int correct(shape *r, double *basis)
 {
-  const pendres_pendulum *p = r->pendulum;
+  const pendres_pendulum *p = &r->way->pendulum;
   const double shrinks = exp(-two_pi * p->damping / p->drive_frequency);
   double factor[MOST], given[MOST], c[MOST], change = INFINITY;
   pendres_trigonometric t;
@@ -212,14 +218,14 @@ static int correct(shape *r, double *basis)
 }
 
 /* With as many points as r has. */
-static pendres_status converge(shape *r, double tolerance, double *basis, int *found)
+static pendres_status converge(shape *r, double *basis, int *found)
 {
   *found = 0;
   for (int k = 0; k < ROUNDS; k++) {
     const pendres_status status = run(r);
     if (status != PENDRES_OK) return status;
     look(r);
-    *found = r->worst < residual * tolerance;
+    *found = r->worst < r->way->residual;
     if (*found || !(r->worst < hopeless) || !correct(r, basis)) return PENDRES_OK;
   }
   return PENDRES_OK;
@@ -230,9 +236,9 @@ static double tail(const shape *r)
   return fmax(pendres_trigonometric_tail(&r->curve), pendres_trigonometric_tail(&r->moved));
 }
 
-pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_pendulum *p, int steps,
-                                     double tolerance, const pendres_trigonometric *guess,
-                                     pendres_circle *out, int *found)
+pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_way *way,
+                                     const pendres_trigonometric *guess, pendres_circle *out,
+                                     int *found)
 {
   shape *r = malloc(sizeof *r);
   double *basis = malloc(MOST * MOST * sizeof *basis);
@@ -242,12 +248,12 @@ pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_pendulu
     (void)pendres_context_fail(ctx, status, "out of memory for an invariant circle");
     goto done;
   }
-  *r = (shape){.ctx = ctx, .pendulum = p, .steps = steps, .curve = *guess};
+  *r = (shape){.ctx = ctx, .way = way, .curve = *guess};
   for (r->n = guess->n; r->n <= MOST; r->n *= 2) {
     for (size_t i = 0; i < r->n; i++)
       r->w[i] = pendres_trigonometric_at(&r->curve, grid(r->n, i), NULL);
-    status = converge(r, tolerance, basis, found);
-    if (status != PENDRES_OK || (*found && tail(r) < tolerance)) break;
+    status = converge(r, basis, found);
+    if (status != PENDRES_OK || (*found && tail(r) < way->tolerance)) break;
     /* Too few points: they have to be next to a circle for more to find it. */
     if (!*found && !(r->worst < hopeless)) break;
     *found = 0;
@@ -292,13 +298,14 @@ static int connect(place at[POINTS], pendres_trigonometric *out)
   return 1;
 }
 
-pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_pendulum *p, int steps,
-                                    double x, double v, pendres_trigonometric *out, int *found)
+pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_circle_way *way, double x,
+                                    double v, pendres_trigonometric *out, int *found)
 {
+  const pendres_pendulum *p = &way->pendulum;
   pendres_block block;
   place at[POINTS], now = {0.0, 0.0};
   const pendres_place start = pendres_passage_in(p, x, v);
-  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, way->steps, &block);
   *found = 0;
   if (status != PENDRES_OK) return status;
   pendres_block_resize(&block, 1);

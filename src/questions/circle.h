@@ -20,7 +20,7 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 128 };
+enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 256 };
 
 /* A trigonometric polynomial of an angle y: c[0] + sum of c[2k - 1] cos ky + c[2k] sin ky, and of n
    values at 2 pi i/n. */
@@ -37,6 +37,8 @@ double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double
 double pendres_trigonometric_size(const pendres_trigonometric *t);
 /* The largest of the last eighth of its coefficients: what is missing is about as large. */
 double pendres_trigonometric_tail(const pendres_trigonometric *t);
+/* As few coefficients as will do: those left out are below the tolerance. */
+void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance);
 
 typedef struct pendres_circle {
   pendres_trigonometric w;    /* C: dy/dtheta over the angle y of passage.h */
@@ -44,17 +46,25 @@ typedef struct pendres_circle {
   double error; /* bound for that of D, but for what the integration is off by */
 } pendres_circle;
 
+/* How a circle is computed. */
+typedef struct pendres_circle_way {
+  pendres_pendulum pendulum;
+  int steps;        /* a period */
+  double tolerance; /* to which coefficients fall */
+  double residual;  /* what E may be */
+} pendres_circle_way;
+
 /*
- * The circle next to a guess, by so many steps a period; n points at first, and more until the
- * coefficients have fallen to `tolerance`. Found is 0 where there is no circle of that smoothness:
- * it is about to break up, or is no graph. A failure is one of the integration.
+ * The circle next to a guess, with as many points as that at first, and more until its coefficients
+ * have fallen to the tolerance. Found is 0 where there is no circle of that smoothness: it is about
+ * to break up, or is no graph. A failure is one of the integration.
  */
-pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_pendulum *p, int steps,
-                                     double tolerance, const pendres_trigonometric *guess,
-                                     pendres_circle *out, int *found);
+pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_way *way,
+                                     const pendres_trigonometric *guess, pendres_circle *out,
+                                     int *found);
 
 /* A guess from a pendulum's own motion, in which it is on the circle at a state (x, v). */
-pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_pendulum *p, int steps,
-                                    double x, double v, pendres_trigonometric *out, int *found);
+pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_circle_way *way, double x,
+                                    double v, pendres_trigonometric *out, int *found);
 
 #endif

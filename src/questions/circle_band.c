@@ -14,9 +14,16 @@ enum {
   GUESSED_FROM = 4 /* circles that the next one is extrapolated from */
 };
 
+/* Circles are guessed from the band before up to this part of its width beyond its end. */
+static const double near_by = 0.2;
 /* More steps, by which the error of the integration is told. */
 static const double more_steps = 1.4;
 
+/* The probes that choose steps are harder than circles are, and what these are wrong by is told. */
+static const double probed = 10.0;
+/* How much smaller than the tolerance residuals are: it takes few more rounds, and leaves the error
+   to what is not known so well; and those of two circles that are compared. */
+static const double residual = 0.1, least_residual = 1e-13;
 /* Coefficients that fall more slowly from one degree to the next tell little. */
 static const double slow = 0.5;
 
@@ -27,21 +34,14 @@ static double speed_of(const pendres_pendulum *p)
   return 2.0 + driven + fabs(p->torque) / p->damping;
 }
 
-pendres_status pendres_circle_steps(pendres_context *ctx, const pendres_pendulum *p,
-                                    double tolerance, int *steps)
+pendres_status pendres_circle_way_at(pendres_context *ctx, const pendres_circle_family *family,
+                                     double value, pendres_circle_way *out)
 {
-  return pendres_steps_choose(ctx, p, speed_of(p), 0.1 * tolerance, steps);
-}
-
-/* Coefficients that do not count are left out, so that the next circle takes as few points. */
-static void trim(pendres_trigonometric *t, double tolerance)
-{
-  while (t->n > PENDRES_CIRCLE_LEAST) {
-    for (size_t i = 7 * t->n / 16; i < t->n; i++)
-      if (!(fabs(t->c[i]) < tolerance)) return;
-    t->n /= 2;
-    t->c[t->n - 1] = 0.0;
-  }
+  *out = (pendres_circle_way){.pendulum = family->pendulum, .tolerance = family->tolerance,
+                              .residual = residual * family->tolerance};
+  pendres_parameter_set(family->parameter, value, &out->pendulum);
+  return pendres_steps_choose(ctx, &out->pendulum, speed_of(&out->pendulum),
+                              probed * family->tolerance, &out->steps);
 }
 
 static void widen(pendres_trigonometric *t, size_t n)
@@ -79,14 +79,31 @@ void pendres_circle_band_at(const pendres_circle_band *b, double value, pendres_
 }
 
 /* A guess for circle number k from those before it. */
-static pendres_trigonometric extrapolate(const pendres_circle_band *b, size_t k, double tolerance)
+static pendres_trigonometric extrapolate(const pendres_circle_band *b, size_t k)
 {
   const size_t n = k < GUESSED_FROM ? k : GUESSED_FROM, first = k - n;
   pendres_trigonometric guess = {.n = PENDRES_CIRCLE_LEAST};
   for (size_t i = 0; i < n; i++)
     add(&guess, share(n, b->value + first, i, b->value[k]), &b->at[first + i].w);
-  trim(&guess, tolerance);
   return guess;
+}
+
+/* The same from a band that ends where this one begins, as long as it is near. */
+static pendres_trigonometric guess_of(const pendres_circle_start *start,
+                                      const pendres_circle_band *b, size_t k, double tolerance)
+{
+  pendres_circle at;
+  const pendres_circle_band *before = start->before;
+  const double beyond = fabs(b->value[k] - b->value[0]);
+  if (before != NULL && beyond < near_by * (before->high - before->low)) {
+    pendres_circle_band_at(before, b->value[k], &at);
+  } else if (k == 0) {
+    return start->guess;
+  } else {
+    at.w = extrapolate(b, k);
+  }
+  pendres_trigonometric_trim(&at.w, tolerance);
+  return at.w;
 }
 
 /* The largest of Chebyshev's coefficients of some degree, of all of the map's. */
@@ -120,51 +137,48 @@ static double missing(const pendres_circle_band *b)
 }
 
 /* What the circles are off by for their steps: at the last value. */
-static pendres_status compare(pendres_context *ctx, const pendres_circle_family *family, int steps,
+static pendres_status compare(pendres_context *ctx, pendres_circle_way *way,
                               pendres_circle_band *b, int *found)
 {
-  pendres_circle better;
-  pendres_pendulum p = family->pendulum;
-  pendres_parameter_set(family->parameter, b->value[NODES - 1], &p);
-  const pendres_status status =
-    pendres_circle_refine(ctx, &p, (int)ceil(more_steps * steps), family->tolerance,
-                          &b->at[NODES - 1].w, &better, found);
+  const pendres_trigonometric *guess = &b->at[NODES - 1].w;
+  pendres_circle less, more;
+  way->residual = fmax(least_residual, residual * residual * way->residual);
+  pendres_status status = pendres_circle_refine(ctx, way, guess, &less, found);
+  way->steps = (int)ceil(more_steps * way->steps);
+  if (status == PENDRES_OK && *found)
+    status = pendres_circle_refine(ctx, way, &less.w, &more, found);
   if (status != PENDRES_OK || !*found) return status;
-  b->wrong = better.move;
-  add(&b->wrong, -1.0, &b->at[NODES - 1].move);
-  trim(&b->wrong, INFINITY);
+  b->wrong = more.move;
+  add(&b->wrong, -1.0, &less.move);
+  pendres_trigonometric_trim(&b->wrong, INFINITY);
   return status;
 }
 
 pendres_status pendres_circle_band_find(pendres_context *ctx, const pendres_circle_family *family,
-                                        double from, double to, const pendres_trigonometric *guess,
+                                        const pendres_circle_start *start, double to,
                                         pendres_circle_band *out, int *found)
 {
-  pendres_pendulum p = family->pendulum;
-  int steps = 0, other = 0;
+  const double from = start->value;
+  pendres_circle_way way, other;
   *found = 0;
-  *out = (pendres_circle_band){.low = fmin(from, to), .high = fmax(from, to)};
-  pendres_parameter_set(family->parameter, from, &p);
-  pendres_status status = pendres_circle_steps(ctx, &p, family->tolerance, &steps);
+  *out = (pendres_circle_band){.low = fmin(from, to), .high = fmax(from, to), .reached = from};
+  pendres_status status = pendres_circle_way_at(ctx, family, from, &other);
+  if (status == PENDRES_OK) status = pendres_circle_way_at(ctx, family, to, &way);
   if (status != PENDRES_OK) return status;
-  pendres_parameter_set(family->parameter, to, &p);
-  status = pendres_circle_steps(ctx, &p, family->tolerance, &other);
-  if (other > steps) steps = other;
-  *found = 1;
-  for (size_t k = 0; k < NODES && status == PENDRES_OK && *found; k++) {
+  if (other.steps > way.steps) way.steps = other.steps;
+  for (size_t k = 0; k < NODES; k++) {
     const double part = k == NODES - 1 ? 1.0 : 0.5 - 0.5 * cos(pi * (double)k / (NODES - 1));
     out->value[k] = from + part * (to - from);
-    pendres_parameter_set(family->parameter, out->value[k], &p);
-    const pendres_trigonometric next =
-      k == 0 ? *guess : extrapolate(out, k, family->tolerance);
-    status = pendres_circle_refine(ctx, &p, steps, family->tolerance, &next, &out->at[k], found);
-    if (status != PENDRES_OK || !*found) break;
+    pendres_parameter_set(family->parameter, out->value[k], &way.pendulum);
+    const pendres_trigonometric next = guess_of(start, out, k, family->tolerance);
+    status = pendres_circle_refine(ctx, &way, &next, &out->at[k], found);
+    if (status != PENDRES_OK || !*found) return status;
+    out->reached = out->value[k];
     out->error = fmax(out->error, out->at[k].error);
     if (out->at[k].move.n > out->n) out->n = out->at[k].move.n;
   }
-  if (status != PENDRES_OK || !*found) return status;
   out->missing = missing(out);
   out->error += out->missing;
   *found = out->missing < family->tolerance;
-  return *found ? compare(ctx, family, steps, out, found) : status;
+  return *found ? compare(ctx, &way, out, found) : status;
 }

@@ -26,6 +26,7 @@ typedef struct pendres_circle_band {
   pendres_circle at[PENDRES_CIRCLE_NODES]; /* at the values, with n points each */
   pendres_trigonometric wrong; /* what the map is off by more steps' */
   double error;                /* of the map besides */
+  double reached;              /* the last value at which there was a circle */
   double missing;              /* of that, what polynomials of higher degrees would add */
 } pendres_circle_band;
 
@@ -36,19 +37,26 @@ typedef struct pendres_circle_family {
   double tolerance;            /* of the map */
 } pendres_circle_family;
 
+/* Where a band begins: a value, and a guess of the circle there, or the band that ends there. */
+typedef struct pendres_circle_start {
+  double value;
+  pendres_trigonometric guess;
+  const pendres_circle_band *before; /* NULL: none */
+} pendres_circle_start;
+
 /*
- * The band from one value to another, the first circle next to a guess. Found is 0 where some
- * circle is not, or where they do not follow a polynomial.
+ * The band from its start to another value. Found is 0 where some circle is not, or where they do
+ * not follow a polynomial: out->reached and out->missing tell how far that is.
  */
 pendres_status pendres_circle_band_find(pendres_context *ctx, const pendres_circle_family *family,
-                                        double from, double to, const pendres_trigonometric *guess,
+                                        const pendres_circle_start *start, double to,
                                         pendres_circle_band *out, int *found);
 
 /* The circle at a value of it, or not far beyond its ends, where it is a guess. */
 void pendres_circle_band_at(const pendres_circle_band *b, double value, pendres_circle *out);
 
-/* Steps a period for the circles of a pendulum. */
-pendres_status pendres_circle_steps(pendres_context *ctx, const pendres_pendulum *p,
-                                    double tolerance, int *steps);
+/* How the circle at a value is computed. */
+pendres_status pendres_circle_way_at(pendres_context *ctx, const pendres_circle_family *family,
+                                     double value, pendres_circle_way *out);
 
 #endif

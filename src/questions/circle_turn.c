@@ -15,6 +15,7 @@ enum {
   CHAINS = 4,
   FIRST_LENGTH = 1024, /* steps of the first averages, ... */
   LENGTHS = 4,         /* ... each four times as long as the one before */
+  TOGETHER = 4,        /* steps whose growth is averaged as that of one */
   SLIPS = 3,           /* past a lock that is near, for a mean to be known */
   SAMPLES = 24,        /* of shifts between neighbouring places of an orbit */
   CLOSER = 6,          /* parabolas through the three least ones */
@@ -114,8 +115,10 @@ static inline double advance(const pendres_circle_table *t, double *u)
 {
   const long whole = (long)*u;
   const size_t i = (size_t)whole & (t->cells - 1);
-  const double *c = t->map[i].c, s = *u - (double)whole;
-  const double moved = c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * (c[4] + s * c[5]))));
+  const double *c = t->map[i].c, s = *u - (double)whole, s2 = s * s;
+  /* In pairs, which wait for one another less than one term after the other would. */
+  const double moved =
+    (c[0] + s * c[1]) + s2 * ((c[2] + s * c[3]) + s2 * (c[4] + s * c[5]));
   *u = (double)i + s + moved;
   return moved;
 }
@@ -125,7 +128,8 @@ static inline double stretches(const pendres_circle_table *t, double u)
 {
   const long whole = (long)u;
   const double *c = t->map[(size_t)whole & (t->cells - 1)].c, s = u - (double)whole;
-  return 1.0 + c[1] + s * (2.0 * c[2] + s * (3.0 * c[3] + s * (4.0 * c[4] + s * 5.0 * c[5])));
+  return (1.0 + c[1] + s * (2.0 * c[2])) +
+         s * s * ((3.0 * c[3] + s * (4.0 * c[4])) + s * s * (5.0 * c[5]));
 }
 
 static const double *weights(pendres_circle_table *t, int length, size_t n)
@@ -169,15 +173,19 @@ static void doubt(pendres_circle_table *t, int length, size_t n, pendres_circle_
 {
   const double *w = weights(t, length, n);
   double u = 0.0, vector = 1.0, lengths = 0.0, counts = 0.0, off = 0.0, growth = 0.0, all = 0.0;
-  for (size_t k = 0; k < n; k++) {
-    const double by = stretches(t, u), wrong = t->wrong[(size_t)u & (t->cells - 1)];
-    growth += w[k] * log(by);
-    all += w[k];
-    (void)advance(t, &u);
+  for (size_t k = 0; k < n; k += TOGETHER) {
+    double by = 1.0;
+    for (size_t i = 0; i < TOGETHER; i++) {
+      const double wrong = t->wrong[(size_t)u & (t->cells - 1)];
+      by *= stretches(t, u);
+      (void)advance(t, &u);
+      lengths += vector * by;
+      counts += 1.0 / (vector * by);
+      off += fabs(wrong) / (vector * by);
+    }
     vector *= by;
-    lengths += vector;
-    counts += 1.0 / vector;
-    off += fabs(wrong) / vector;
+    growth += w[k + TOGETHER / 2] * log(by);
+    all += TOGETHER * w[k + TOGETHER / 2];
   }
   const double mean = lengths / ((double)n * (double)n);
   out->growth = growth / all;
@@ -186,16 +194,12 @@ static void doubt(pendres_circle_table *t, int length, size_t n, pendres_circle_
 
 /* ---- locks --------------------------------------------------------------------------------- */
 
-/* How far q steps move a place, less p turns, in cells; *slope: what they multiply a vector by. */
-static double shift(const pendres_circle_table *t, int q, int p, double u, double *slope)
+/* How far q steps move a place, less p turns, in cells. */
+static double shift(const pendres_circle_table *t, int q, int p, double u)
 {
-  double moved = -((double)p - t->base * q) * (double)t->cells, product = 1.0;
+  double moved = -((double)p - t->base * q) * (double)t->cells;
   u -= (double)t->cells * floor(u / (double)t->cells);
-  for (int k = 0; k < q; k++) {
-    if (slope != NULL) product *= stretches(t, u);
-    moved += advance(t, &u);
-  }
-  if (slope != NULL) *slope = product;
+  for (int k = 0; k < q; k++) moved += advance(t, &u);
   return moved;
 }
 
@@ -218,19 +222,19 @@ static double least_place(const pendres_circle_table *t, int q, int p, int sign,
   double best = 0.0, least = INFINITY, step = h;
   *most = -INFINITY;
   for (int i = 0; i < SAMPLES; i++) {
-    const double g = sign * shift(t, q, p, i * h, NULL);
+    const double g = sign * shift(t, q, p, i * h);
     *most = fmax(*most, g);
     if (!(g < least)) continue;
     least = g;
     best = i * h;
   }
   for (int k = 0; k < CLOSER; k++, step *= 0.25) {
-    const double behind = sign * shift(t, q, p, best - step, NULL);
-    const double ahead = sign * shift(t, q, p, best + step, NULL);
+    const double behind = sign * shift(t, q, p, best - step);
+    const double ahead = sign * shift(t, q, p, best + step);
     const double bend = behind - 2.0 * least + ahead;
     double to = behind < ahead ? -step : step;
     if (bend > 0.0) to = fmax(-step, fmin(step, 0.5 * step * (behind - ahead) / bend));
-    const double g = sign * shift(t, q, p, best + to, NULL);
+    const double g = sign * shift(t, q, p, best + to);
     if (!(g < least)) continue;
     least = g;
     best += to;
@@ -238,20 +242,33 @@ static double least_place(const pendres_circle_table *t, int q, int p, int sign,
   return best;
 }
 
-double pendres_circle_table_edge(const pendres_circle_table *t, int q, int p, int sign, double *y,
-                                 double *worth)
+/* An extreme shift: its place, in cells, what an error of the map counts therein, itself in
+   radians, and the other extreme of the samples, likewise. */
+typedef struct extreme {
+  double at, worth, shift, other;
+} extreme;
+
+static extreme find_extreme(const pendres_circle_table *t, int q, int p, int sign)
 {
   const double h = two_pi / (double)t->cells;
-  double most = 0.0;
-  const double at = least_place(t, q, p, sign, &most);
-  double u = at - (double)t->cells * floor(at / (double)t->cells), carried = 0.0;
+  extreme e = {.worth = 0.0};
+  e.at = least_place(t, q, p, sign, &e.other);
+  e.other *= h * sign;
+  e.shift = h * shift(t, q, p, e.at);
+  double u = e.at - (double)t->cells * floor(e.at / (double)t->cells);
   for (int k = 0; k < q; k++) {
-    carried = carried * stretches(t, u) + 1.0;
+    e.worth = e.worth * stretches(t, u) + 1.0;
     (void)advance(t, &u);
   }
-  *worth = carried;
-  *y = h * at;
-  return h * shift(t, q, p, at, NULL);
+  return e;
+}
+
+double pendres_circle_table_edge(const pendres_circle_table *t, int q, int p, int sign,
+                                 double *worth)
+{
+  const extreme e = find_extreme(t, q, p, sign);
+  *worth = e.worth;
+  return e.shift;
 }
 
 /* The stable place between one that is moved forwards and the next behind it that is moved back. */
@@ -262,7 +279,7 @@ static double stable_place(const pendres_circle_table *t, int q, int p, double f
   while (back - forwards > arc(t, q)) back -= arc(t, q);
   for (int k = 0; k < HALVINGS; k++) {
     const double middle = 0.5 * (forwards + back);
-    if (shift(t, q, p, middle, NULL) > 0.0) forwards = middle;
+    if (shift(t, q, p, middle) > 0.0) forwards = middle;
     else back = middle;
   }
   return 0.5 * (forwards + back);
@@ -274,18 +291,17 @@ static pendres_circle_motion try_lock(const pendres_circle_table *t, int q, int 
                                       pendres_circle_turn *out, int *even)
 {
   const double h = two_pi / (double)t->cells;
-  double y = 0.0, worth = 0.0, most = 0.0, off = 0.0;
+  double most = 0.0, off = 0.0;
   for (size_t i = 0; i < t->cells; i++) off = fmax(off, fabs(t->wrong[i]));
   const int sign = out->turns * q >= p ? 1 : -1;
-  const double g = sign * pendres_circle_table_edge(t, q, p, sign, &y, &worth);
-  const double error = worth * (t->error + off);
-  const double other = least_place(t, q, p, -sign, &most);
-  const double largest = h * sign * shift(t, q, p, other, NULL);
-  *even = g > error && largest < uneven * g;
+  const extreme e = find_extreme(t, q, p, sign);
+  const double g = sign * e.shift, error = e.worth * (t->error + off);
+  *even = g > error && sign * e.other < uneven * g;
   if (g > error) return PENDRES_CIRCLE_UNLOCKED;
-  if (g > -error || largest < error) return PENDRES_CIRCLE_UNKNOWN;
-  out->y = h * (sign > 0 ? stable_place(t, q, p, other, y / h)
-                         : stable_place(t, q, p, y / h, other));
+  const double other = least_place(t, q, p, -sign, &most);
+  if (g > -error || h * sign * shift(t, q, p, other) < error) return PENDRES_CIRCLE_UNKNOWN;
+  out->y = h * (sign > 0 ? stable_place(t, q, p, other, e.at)
+                         : stable_place(t, q, p, e.at, other));
   out->period = q;
   out->winding = p;
   out->turns = (double)p / q;

@@ -48,10 +48,10 @@ pendres_circle_turn pendres_circle_table_turn(pendres_circle_table *t);
 
 /*
  * How far the least moved place goes in q steps less p turns, as seen from ahead (sign 1: the
- * smallest shift) or behind (sign -1: the largest one): zero where a lock begins or ends. *y
- * becomes the angle, *worth what an error of the map counts therein.
+ * smallest shift) or behind (sign -1: the largest one): zero where a lock begins or ends.
+ * *worth becomes what an error of the map counts therein.
  */
-double pendres_circle_table_edge(const pendres_circle_table *t, int q, int p, int sign, double *y,
+double pendres_circle_table_edge(const pendres_circle_table *t, int q, int p, int sign,
                                  double *worth);
 
 #endif

@@ -2,9 +2,11 @@
 #include "questions/circles.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "base/angles.h"
+#include "base/mix.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
@@ -17,7 +19,9 @@ enum {
 
 /* Bands, in the parameter's scale: the first, the widest, and one so narrow that it is not worth
    making: there the circle is about to break up. */
-static const double first_width = 0.1, widest = 4.0, narrowest = 0.02;
+static const double first_width = 0.1, widest = 4.0, narrowest = 0.005;
+/* Coefficients of a map that are not worth a step's time, in the tolerance. */
+static const double negligible = 0.01;
 /* The next band is a little narrower than what the last one's coefficients allow. */
 static const double careful = 0.8;
 /* Bands follow one another over gaps up to this, in the parameter's scale; and motions from which
@@ -50,6 +54,7 @@ void pendres_circles_free(pendres_circles *c)
   pendres_circle_table_free(c->table);
   free(c->band);
   free(c->closed);
+  free(c->verdict);
   free(c);
 }
 
@@ -67,30 +72,40 @@ static pendres_status make_room(pendres_circles *c)
   return PENDRES_OK;
 }
 
-/* A band from a value on, as wide as can be: *found is 0 if there is none worth having. */
-static pendres_status grow(pendres_circles *c, double from, int direction,
-                           const pendres_trigonometric *guess, int *found)
+/* By how much wider a band might have been: what is missing goes with its width's power. */
+static double fit(const pendres_circles *c, const pendres_circle_band *b)
+{
+  return careful * pow(c->family.tolerance / fmax(b->missing, 1e-300),
+                       1.0 / (PENDRES_CIRCLE_NODES + 1.0));
+}
+
+/* The width of the next band to try, after one that there is not. */
+static double narrower(const pendres_circles *c, const pendres_circle_band *b, double from)
+{
+  const double width = b->high - b->low, fits = fit(c, b);
+  if (b->missing > 0.0) return width * fmax(0.1, fmin(0.6, fits));
+  return fmin(0.7 * width, 0.9 * fabs(b->reached - from));
+}
+
+/* A band from a start on, as wide as can be: *found is 0 if there is none worth having. */
+static pendres_status grow(pendres_circles *c, const pendres_circle_start *start, int direction,
+                           int *found)
 {
   const double scale = pendres_parameter_scale(c->family.parameter);
-  pendres_status status = make_room(c);
+  const double end = direction > 0 ? c->high : c->low, ahead = fabs(end - start->value);
+  pendres_status status = PENDRES_OK;
   *found = 0;
-  if (c->count >= MOST_BANDS) return status;
-  while (status == PENDRES_OK && !*found && c->width >= narrowest * scale) {
+  while (c->count < MOST_BANDS && ahead > 0.0 && c->width >= narrowest * scale && !*found) {
+    const double width = fmin(c->width, ahead);
+    const double to = width < ahead ? start->value + direction * width : end;
     pendres_circle_band *b = &c->band[c->count];
-    const double end = direction > 0 ? c->high : c->low;
-    const double ahead = fabs(end - from), width = fmin(c->width, ahead);
-    const double to = width < ahead ? from + direction * width : end;
-    if (!(width > 0.0)) return status;
-    status = pendres_circle_band_find(c->ctx, &c->family, from, to, guess, b, found);
+    status = pendres_circle_band_find(c->ctx, &c->family, start, to, b, found);
     if (status != PENDRES_OK) return status;
-    /* What is missing goes with the width's eleventh power. */
-    const double fits = careful * pow(c->family.tolerance / fmax(b->missing, 1e-300),
-                                      1.0 / (PENDRES_CIRCLE_NODES + 1.0));
     if (*found) {
       c->closed[c->count++] = 0;
-      c->width = fmin(widest * scale, width * fmax(0.7, fmin(3.0, fits)));
+      c->width = fmin(widest * scale, width * fmax(0.7, fmin(3.0, fit(c, b))));
     } else {
-      c->width = width * (b->missing > 0.0 ? fmax(0.1, fmin(0.6, fits)) : 0.4);
+      c->width = narrower(c, b, start->value);
     }
   }
   if (!*found) c->width = first_width * scale;
@@ -100,17 +115,17 @@ static pendres_status grow(pendres_circles *c, double from, int direction,
 pendres_status pendres_circles_begin(pendres_circles *c, double value, double x, double v)
 {
   const double scale = pendres_parameter_scale(c->family.parameter);
-  pendres_pendulum p = c->family.pendulum;
-  pendres_trigonometric guess;
-  int steps = 0, found = 0;
+  pendres_circle_start start = {.value = value};
+  pendres_circle_way way;
+  int found = 0;
   if (fabs(value - c->failed) < again * scale) return PENDRES_OK;
-  pendres_parameter_set(c->family.parameter, value, &p);
-  pendres_status status = pendres_circle_steps(c->ctx, &p, c->family.tolerance, &steps);
+  pendres_status status = pendres_circle_way_at(c->ctx, &c->family, value, &way);
   if (status == PENDRES_OK)
-    status = pendres_circle_guess(c->ctx, &p, steps, x, v, &guess, &found);
+    status = pendres_circle_guess(c->ctx, &way, x, v, &start.guess, &found);
   for (int direction = 1; direction >= -1 && status == PENDRES_OK && found; direction -= 2) {
     int grown = 0;
-    status = grow(c, value, direction, &guess, &grown);
+    status = make_room(c);
+    if (status == PENDRES_OK) status = grow(c, &start, direction, &grown);
     if (grown) return status;
   }
   c->failed = value;
@@ -151,14 +166,60 @@ pendres_status pendres_circles_seek(pendres_circles *c, double value,
     int direction = 0, found = 0;
     const long i = nearest_end(c, value, &direction);
     if (i < 0) return status;
-    const double end = direction > 0 ? c->band[i].high : c->band[i].low;
-    pendres_circle at;
-    pendres_circle_band_at(&c->band[i], end, &at);
-    status = grow(c, end, direction, &at.w, &found);
+    status = make_room(c); /* which moves bands */
+    const pendres_circle_band *before = &c->band[i];
+    const pendres_circle_start start = {
+      .value = direction > 0 ? before->high : before->low, .before = before};
+    if (status == PENDRES_OK) status = grow(c, &start, direction, &found);
     if (status == PENDRES_OK && !found)
       c->closed[i] |= direction > 0 ? CLOSED_ABOVE : CLOSED_BELOW;
   }
   return status;
+}
+
+static void judge(pendres_circles *c, const pendres_circle_band *b, double value,
+                  pendres_circles_verdict *out)
+{
+  pendres_circle at;
+  pendres_pendulum p = c->family.pendulum;
+  pendres_parameter_set(c->family.parameter, value, &p);
+  pendres_circle_band_at(b, value, &at);
+  pendres_trigonometric_trim(&at.move, negligible * c->family.tolerance);
+  pendres_circle_table_set(c->table, &at.move, at.error + negligible * c->family.tolerance,
+                           &b->wrong);
+  out->found = 1;
+  out->value = value;
+  out->turn = pendres_circle_table_turn(c->table);
+  const double y = out->turn.motion == PENDRES_CIRCLE_LOCKED ? out->turn.y : 0.0;
+  const pendres_place place = {.y = y, .w = pendres_trigonometric_at(&at.w, y, NULL)};
+  pendres_passage_out(&p, &place, &out->x, &out->v);
+}
+
+/* The place of the verdict on a value among `places`, a power of two: its own or a free one. */
+static size_t place_of(const pendres_circles_verdict *verdict, size_t places, double value)
+{
+  uint64_t bits;
+  memcpy(&bits, &value, sizeof bits);
+  size_t i = (size_t)pendres_mix(bits) & (places - 1);
+  while (verdict[i].found && verdict[i].value != value) i = (i + 1) & (places - 1);
+  return i;
+}
+
+/* Room for one more, half of the places being free. */
+static pendres_status make_places(pendres_circles *c)
+{
+  if (2 * c->told + 2 <= c->places) return PENDRES_OK;
+  const size_t places = c->places > 0 ? 2 * c->places : 256;
+  pendres_circles_verdict *verdict = calloc(places, sizeof *verdict);
+  if (verdict == NULL)
+    return pendres_context_fail(c->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for circles");
+  for (size_t i = 0; i < c->places; i++)
+    if (c->verdict[i].found)
+      verdict[place_of(verdict, places, c->verdict[i].value)] = c->verdict[i];
+  free(c->verdict);
+  c->verdict = verdict;
+  c->places = places;
+  return PENDRES_OK;
 }
 
 pendres_status pendres_circles_tell(pendres_circles *c, double value,
@@ -166,18 +227,16 @@ pendres_status pendres_circles_tell(pendres_circles *c, double value,
 {
   const pendres_circle_band *b = NULL;
   *out = (pendres_circles_verdict){.value = value};
-  const pendres_status status = pendres_circles_seek(c, value, &b);
-  if (status != PENDRES_OK || b == NULL) return status;
-  pendres_circle at;
-  pendres_pendulum p = c->family.pendulum;
-  pendres_parameter_set(c->family.parameter, value, &p);
-  pendres_circle_band_at(b, value, &at);
-  pendres_circle_table_set(c->table, &at.move, b->error, &b->wrong);
-  out->found = 1;
-  out->turn = pendres_circle_table_turn(c->table);
-  const double y = out->turn.motion == PENDRES_CIRCLE_LOCKED ? out->turn.y : 0.0;
-  const pendres_place place = {.y = y, .w = pendres_trigonometric_at(&at.w, y, NULL)};
-  pendres_passage_out(&p, &place, &out->x, &out->v);
+  pendres_status status = make_places(c);
+  if (status != PENDRES_OK) return status;
+  pendres_circles_verdict *known = &c->verdict[place_of(c->verdict, c->places, value)];
+  if (!known->found) {
+    status = pendres_circles_seek(c, value, &b);
+    if (status != PENDRES_OK || b == NULL) return status;
+    judge(c, b, value, known);
+    c->told++;
+  }
+  *out = *known;
   return status;
 }
 
@@ -187,26 +246,25 @@ static pendres_status edge_at(pendres_circles *c, const pendres_circle_turn *loc
 {
   const pendres_circle_band *b = NULL;
   const pendres_status status = pendres_circles_seek(c, value, &b);
-  double y = 0.0, worth = 0.0;
+  double worth = 0.0;
   *g = NAN;
   if (status != PENDRES_OK || b == NULL) return status;
   pendres_circle at;
   pendres_circle_band_at(b, value, &at);
   pendres_circle_table_set(c->table, &at.move, b->error, &b->wrong);
   *g = sign *
-       pendres_circle_table_edge(c->table, lock->period, lock->winding, sign, &y, &worth);
+       pendres_circle_table_edge(c->table, lock->period, lock->winding, sign, &worth);
   *error = worth * (b->error + pendres_trigonometric_size(&b->wrong));
   return status;
 }
 
 pendres_status pendres_circles_edge(pendres_circles *c, const pendres_circle_turn *lock,
-                                    double inside, double outside, double *value, double *error,
-                                    int *found)
+                                    double inside, double outside, pendres_circles_end *out)
 {
   double g_in = NAN, g_out = NAN, g = NAN, off = 0.0;
   const pendres_circle_turn *l = lock;
   pendres_circles_verdict beyond;
-  *found = 0;
+  *out = (pendres_circles_end){.found = 0};
   pendres_status status = pendres_circles_tell(c, outside, &beyond);
   if (status != PENDRES_OK || !beyond.found) return status;
   const int sign = beyond.turn.turns * l->period > l->winding ? 1 : -1;
@@ -216,26 +274,26 @@ pendres_status pendres_circles_edge(pendres_circles *c, const pendres_circle_tur
   double slope = (g_out - g_in) / (outside - inside);
   for (int k = 0, side = 0; k < LOOKS; k++) {
     const double width = outside - inside;
-    *value = inside - width * g_in / (g_out - g_in);
-    status = edge_at(c, l, *value, sign, &g, &off);
+    out->value = inside - width * g_in / (g_out - g_in);
+    status = edge_at(c, l, out->value, sign, &g, &off);
     if (status != PENDRES_OK || isnan(g)) return status;
-    if (fabs(g) < 0.01 * off || fabs(width) < 1e-14 * fabs(*value)) break;
-    slope = g > 0.0 ? (g - g_in) / (*value - inside) : (g_out - g) / (outside - *value);
+    if (fabs(g) < 0.01 * off || fabs(width) < 1e-14 * fabs(out->value)) break;
+    slope = g > 0.0 ? (g - g_in) / (out->value - inside) : (g_out - g) / (outside - out->value);
     /* The Illinois rule: an end that stays for long counts half. */
     if (g > 0.0) {
-      outside = *value;
+      outside = out->value;
       g_out = g;
       if (side > 0) g_in *= 0.5;
       side = 1;
     } else {
-      inside = *value;
+      inside = out->value;
       g_in = g;
       if (side < 0) g_out *= 0.5;
       side = -1;
     }
   }
-  *error = (fabs(g) + off) / fabs(slope);
-  *found = isfinite(*error);
+  out->error = (fabs(g) + off) / fabs(slope);
+  out->found = isfinite(out->error);
   return status;
 }
 

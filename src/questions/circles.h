@@ -10,6 +10,14 @@
 
 #include "questions/circle_band.h"
 
+/* The circle and what a pendulum does on it: `found` is 0 where there is no band. */
+typedef struct pendres_circles_verdict {
+  int found;
+  double value;
+  pendres_circle_turn turn;
+  double x, v; /* on the circle, on the stable orbit if it is locked */
+} pendres_circles_verdict;
+
 typedef struct pendres_circles {
   pendres_context *ctx;
   pendres_circle_family family;
@@ -19,6 +27,8 @@ typedef struct pendres_circles {
   pendres_circle_table *table;
   double width;                /* of the next band */
   double low, high;            /* no band goes beyond */
+  size_t told, places;         /* verdicts so far, at places that their values tell */
+  pendres_circles_verdict *verdict; /* `found` is 0 where there is none */
   double failed;               /* value of the last motion from which there was none; or NaN */
 } pendres_circles;
 
@@ -35,22 +45,19 @@ pendres_status pendres_circles_begin(pendres_circles *c, double value, double x,
 pendres_status pendres_circles_seek(pendres_circles *c, double value,
                                     const pendres_circle_band **out);
 
-/* The circle and what a pendulum does on it: `found` is 0 where there is no band. */
-typedef struct pendres_circles_verdict {
-  int found;
-  double value;
-  pendres_circle_turn turn;
-  double x, v; /* on the circle, on the stable orbit if it is locked */
-} pendres_circles_verdict;
-
+/* What a pendulum on the circle at a value does: told once for each value. */
 pendres_status pendres_circles_tell(pendres_circles *c, double value,
                                     pendres_circles_verdict *out);
 
-/* Where a lock ends between a value at which it is there and one at which it is not: the value, and
-   its error. Found is 0 if that is in doubt. */
+/* Where a lock ends: `found` is 0 if that is in doubt. */
+typedef struct pendres_circles_end {
+  double value, error;
+  int found;
+} pendres_circles_end;
+
+/* The end of a lock between a value at which it is there and one at which it is not. */
 pendres_status pendres_circles_edge(pendres_circles *c, const pendres_circle_turn *lock,
-                                    double inside, double outside, double *value, double *error,
-                                    int *found);
+                                    double inside, double outside, pendres_circles_end *out);
 
 /* How far a state is from the circle at a value; infinite where there is none. */
 pendres_status pendres_circles_distance(pendres_circles *c, double value, double x, double v,

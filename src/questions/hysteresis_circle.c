@@ -91,11 +91,13 @@ static pendres_status note_change(pendres_path *w, size_t step, const pendres_ci
                     .from = was ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_QUASI_PERIODIC,
                     .to = a->label, .to_period = is ? v->turn.period : 0,
                     .share = 1.0, .certain = 1};
-  int found = 0;
+  pendres_circles_end end;
   const pendres_circles_verdict *in = was ? &last : v, *out = was ? v : &last;
   pendres_status status = pendres_circles_edge(w->circles, &in->turn, in->value, out->value,
-                                               &j.value, &j.value_error, &found);
-  if (!found) {
+                                               &end);
+  j.value = end.value;
+  j.value_error = end.error;
+  if (!end.found) {
     j.value = 0.5 * (v->value + last.value);
     j.value_error = 0.5 * fabs(v->value - last.value);
   }
