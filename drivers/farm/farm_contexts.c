@@ -25,7 +25,8 @@ static int processors(void)
 {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* more than the set has room for */
+  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* there are more processors than the set has
+                                                        room for */
   return online > 0 && online <= FARM_MOST_THREADS ? (int)online : 1;
 }
 

@@ -10,10 +10,11 @@
 struct farm {
   farm_options options;
   int threads;
-  int short_of;              /* threads that could be had, when there were fewer; else 0 */
+  int short_of;              /* how many threads could be had, if there were fewer than asked for;
+                                else 0 */
   pthread_mutex_t lock;      /* of `spent` */
   pendres_cost spent;        /* but for what the contexts have in their own books */
-  pendres_context **context; /* one a thread, made at its first task */
+  pendres_context **context; /* one for each thread, made at its first task */
   journal *journal;          /* NULL: none */
   farm_share share;
   struct farm_trial *trial;  /* NULL: a run proper */
@@ -34,7 +35,7 @@ void farm_spend(farm *f, const pendres_cost *cost);
 
 /* trial.c: try a stage that has tasks, in the place of running it. */
 pendres_status trial_run(farm *f, const farm_stage *stage);
-/* Is there no more time for that? */
+/* Whether the time of the trial is over. */
 int trial_over(const struct farm_trial *t);
 
 /* A thread with a stack of FARM_STACK bytes, whatever the limits of the process; 0 or an errno. */

@@ -15,12 +15,12 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What a machine that fails may lose, s. */
+/* At most the records of so many seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
 
 /* Where a record stands. */
 typedef struct slot {
-  int file;   /* 1 + the number of its file; 0: there is none */
+  int file;   /* 1 + the number of the file that holds the record; 0: there is none */
   off_t at;   /* of its head */
 } slot;
 
@@ -40,9 +40,9 @@ struct journal {
   size_t stages, count;
   size_t own;       /* records in the first file */
   int broken;       /* it takes no more */
-  int dirty;        /* not all of it is known to be on disk */
+  int dirty;        /* some of it may not be on disk yet */
   double synced;
-  pthread_mutex_t lock; /* of writing, and of the index from then on */
+  pthread_mutex_t lock; /* guards the file and, once threads append to it, the index */
 };
 
 static double now(void)
@@ -68,7 +68,7 @@ static int make_room(void **array, size_t *count, size_t index, size_t size)
   return 1;
 }
 
-/* A record that is there twice is the same twice. */
+/* A record may be there twice: both have the same bytes. */
 static pendres_status note(journal *j, size_t file, const journal_entry *e, off_t at)
 {
   void *stages = j->stage;
@@ -157,7 +157,7 @@ static void drop_own(journal *j)
   j->files = 0;
 }
 
-/* A journal that is not to be gone on from. */
+/* Refuse a journal that the run cannot go on from. */
 static pendres_status set_aside(const journal *j, char *words)
 {
   if (rename(j->path, j->aside) == 0 || errno == ENOENT) return PENDRES_OK;
@@ -245,7 +245,7 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
   snprintf(j->aside, length + 2, "%s~", path);
   strcpy(j->head, head);
   pendres_status status = open_own(j, words);
-  /* Only now is it known that no other run has it. */
+  /* Only now it is known that no other run uses it. */
   if (status == PENDRES_OK && !resume && size_of(j->file[0]) > 0) status = begin_anew(j, words);
   if (status == PENDRES_OK) status = settle_head(j, words);
   if (status == PENDRES_OK) status = load_own(j, words);

@@ -15,13 +15,13 @@ enum { RANKS_WORDS = 256 };
    launcher has started several processes that know nothing of each other. */
 int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS]);
 
-/* The last call; on the main thread. */
+/* To be called last, on the main thread. */
 void ranks_end(void);
 
 int ranks_own(void);   /* from 0 */
 int ranks_count(void); /* 1: no others */
 
-/* All ranks call it, and get what rank 0 has in data[size]. */
+/* Copy what rank 0 has in data[size] to all ranks, which all call this. */
 void ranks_broadcast(void *data, size_t size);
 
 /* Bytes with a tag from 0 to 32000, in order between two ranks for each tag; it waits until `data`

@@ -12,14 +12,15 @@
 /* What a task hands over. */
 typedef struct farm_record {
   void *data;        /* zero at first; the farm's */
-  size_t size;       /* bytes: as the stage says, unless the task has asked for another size */
-  pendres_cost cost; /* of the task, as its context tells: the farm's to fill in */
+  size_t size;       /* in bytes: the stage's record_size, unless the task has asked for another
+                        size */
+  pendres_cost cost; /* the cost of the task, as its context tells; the farm fills it in */
   struct farm_watch *watch; /* of its points, see farm_point(): the farm's; NULL: nobody watches */
   size_t lost;       /* points that were given up, see farm_lost() */
   char message[512]; /* why the task has failed, where its context cannot tell; "" at first */
 } farm_record;
 
-/* A size of its own for a record; new bytes are zero. Returns data, NULL: out of memory. */
+/* Give a record a size of its own; new bytes are zero. Returns its data; NULL: out of memory. */
 void *farm_record_resize(farm_record *record, size_t size);
 
 #endif

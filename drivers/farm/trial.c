@@ -13,13 +13,13 @@
 /* Of a task's record in the journal, beside its data. */
 enum { ENTRY = sizeof(journal_entry) };
 
-/* A record, where it was tried. */
+/* The record of a task that was tried. */
 typedef struct trial_record {
   void *data;
   size_t size;
 } trial_record;
 
-/* All that is tried of a stage. */
+/* The tasks of a stage that are tried. */
 typedef struct stage_trial {
   farm *farm;
   const farm_stage *stage;

@@ -7,8 +7,9 @@
 #include <pendres/orbit.h>
 
 /*
- * Measures of orbits that lie on one branch differ from those interpolated along a chord by less
- * than this; those of different branches at one parameter by more, unless they meet right there.
+ * An orbit that lies on a branch has measures that differ by less than this from those interpolated
+ * along the branch's chord. Orbits of different branches at one parameter differ by more, unless
+ * the branches meet right there.
  */
 static const double alike = 5e-3;
 

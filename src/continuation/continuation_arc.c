@@ -47,9 +47,9 @@ static const double farthest_miss = 0.25;
    points were stepped over. */
 static const double farthest_off = 0.08;
 static const double shortest_step = 1e-6;
-static const int widest_gap = 3; /* from one point to the next, in steps */
-/* An orbit that misses closing by half by less does close: next to where its branch was born, one
-   that does not is as near only within half of this. */
+static const int widest_gap = 3; /* how many steps lie between one point and the next */
+/* An orbit closes by half if it misses that by less than this. Next to where a branch was born, one
+   of its orbits that does not close by half comes as near only within half of this distance. */
 static const double too_close = 1e-6;
 
 /* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
@@ -70,7 +70,8 @@ static int tangent_of(const pendres_arc *w, const pendres_continuation_equations
   return 1;
 }
 
-/* What a point is beside its place; `like` (or NULL) decides the sign of the null vector. */
+/* Set all of a point but its place; the null vector takes the sign of `like`, unless that is
+   NULL. */
 static void describe(const pendres_arc *w, const pendres_continuation_equations *e,
                     const double *like, pendres_arc_point *point)
 {
@@ -79,7 +80,7 @@ static void describe(const pendres_arc *w, const pendres_continuation_equations 
   for (int r = 2; r < e->equations; r++)
     for (int k = 0; k < w->unknowns; k++)
       slope = hypot(slope, e->j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]]);
-  /* The determinant has two factors that grow as errors do, and its slope three or more. */
+  /* The determinant has two factors that grow as errors do, and its derivative three or more. */
   point->growth = fmax(pendres_continuation_map_growth(&e->image), sqrt(slope));
   if (w->condition != PENDRES_CONDITION_FOLD) return;
   double *v = point->null;
@@ -174,7 +175,8 @@ static int same_block(const candidate *a, const candidate *b)
                 (size_t)a->arc->unknowns * sizeof *a->arc->unknown) == 0;
 }
 
-/* Those that wait and are of one map and steps with the first; returns their number. */
+/* Gather the candidates that wait and have the map and the steps of the first; returns their
+   number. */
 static size_t gather(size_t n, candidate *c, size_t first, size_t *index,
                      double (*u)[PENDRES_U_COUNT])
 {

@@ -21,10 +21,10 @@ enum { PENDRES_ARC_AHEAD = 8, PENDRES_ARC_UNKNOWNS = 4 };
 typedef struct pendres_arc_point {
   double u[PENDRES_U_COUNT];
   double tangent[PENDRES_ARC_UNKNOWNS]; /* unit vector of the scaled unknowns */
-  int held; /* 1 + the number of an unknown that stays as it is in corrections; 0: none */
+  int held; /* 1 + the number of an unknown that corrections leave as it is; 0: none */
   double arclength;                      /* from the arc's start, of the scaled unknowns */
   pendres_continuation_image image;
-  double growth;  /* how sensitive the equations are here: what arcs give up at */
+  double growth;  /* how sensitive the equations are here; arcs give up where it is too large */
   double null[2]; /* on a curve of folds: the null vector of N - I, its sign kept along the arc, */
   double bending; /* and the derivative of det(N - I) along it, whose zero is a cusp */
 } pendres_arc_point;
@@ -33,11 +33,13 @@ typedef struct pendres_arc {
   pendres_continuation_map map;
   pendres_continuation_condition condition;
   int unknowns, unknown[PENDRES_ARC_UNKNOWNS]; /* one more than equations */
-  double tolerance;                             /* of a period: decides the steps */
-  double longest;                               /* spacing of points at most, scaled arclength */
+  double tolerance;                             /* the error of a period that steps are chosen for
+                                                   */
+  double longest;                               /* the largest spacing of points, in scaled
+                                                   arclength */
   /* The arc's own: */
-  int apart; /* it began off the orbits that close by `half` already, and stays off them: where it
-                meets the branch that its own was born from, it goes on on its own */
+  int apart; /* the arc began off the orbits that already close by `half`, and stays off them: where
+                its branch meets the one that it was born from, the arc stays on its own */
   pendres_continuation_map half;
   int stuck;
   double step; /* spacing of the points ahead */
@@ -47,13 +49,13 @@ typedef struct pendres_arc {
   int found;
 } pendres_arc;
 
-/* Its equations, at so many steps a period. */
+/* The equations of an arc at so many steps a period. */
 pendres_continuation_system pendres_arc_system(const pendres_arc *arc, int steps);
 
-/* Lengths that count as one in arclength, in the order of u. */
+/* The lengths that count as one in arclength, in the order of u. */
 extern const double pendres_arc_scale[PENDRES_U_COUNT];
 
-/* Distance in the scale of arclength; what is held does not count, as it does not differ. */
+/* Distance in the scale of arclength. What is the same in both points does not count. */
 double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
 
 /*

@@ -16,7 +16,7 @@
 
 enum { MOST_ITERATIONS = 30 };
 
-/* A pendulum on its way: a secant for the lag over the frequency. */
+/* A pendulum whose frequency is sought, by the secant method for the lag over the frequency. */
 typedef struct search {
   int trials;                    /* so far */
   double omega, before;          /* frequencies of this and the last trial */
@@ -71,7 +71,7 @@ static double start_amplitude(const pendres_pendulum *p)
 static void finish(const pendres_context *ctx, const search *s, const pendres_orbit *o,
                    pendres_status refined)
 {
-  /* How fast the lag grows with the frequency turns its error into one of the frequency. */
+  /* The slope of the lag over the frequency turns the error of the lag into that of the other. */
   const double slope = (s->off - s->off_before) / (s->omega - s->before);
   const double e = fabs(s->off / slope) + fabs(o->phase_lag_error / slope);
   const int good = refined == PENDRES_OK && e <= ctx->options.tolerance;

@@ -63,7 +63,7 @@ static double test_flip(const pendres_arc_point *p)
   return pendres_continuation_map_flip(&p->image);
 }
 
-/* The half map about a place by which an orbit there closes, nearly; the first if there is none. */
+/* Find the half map by which an orbit at a place nearly closes; the first one if there is none. */
 static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
                               const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
                               int *twice)
@@ -141,7 +141,8 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_trail *t,
   return pendres_continuation_locate(ctx, &flips, u, reach, &m->located);
 }
 
-/* All bifurcations of a trail; births first, at which folds' function may have a zero or two. */
+/* Locate all bifurcations of a trail. Births come first, since the test function of folds may have
+   a zero or two there. */
 static pendres_status locate_all(pendres_context *ctx, pendres_course *c)
 {
   pendres_trail_zero zeros[MOST_BIFURCATIONS];

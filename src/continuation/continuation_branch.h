@@ -24,7 +24,7 @@ struct pendres_branches {
   pendres_branch **branch;
 };
 
-/* NULL, or what is wrong with options and starts: a static sentence. */
+/* What is wrong with options and starts, a static sentence; NULL if nothing is. */
 const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,
                                    const pendres_orbit *starts);
 

@@ -28,7 +28,7 @@ static int regular(const pendres_branch *b, size_t i)
   return b->point[i].bifurcation < 0;
 }
 
-/* Sign of (s - m1)(s - m2), s = 1 or -1; 0 where that does not tell: right at a bifurcation, or
+/* Sign of (s - m1)(s - m2), s = 1 or -1; 0 where the sign is not known: right at a bifurcation, or
    within the error. */
 static int sign_of(const pendres_orbit *o, double s)
 {
@@ -135,7 +135,7 @@ static pendres_branch_part part_from(const pendres_branch *b, size_t i, size_t *
     if (regular(b, k)) part.last = k;
     k++;
   }
-  /* Beyond the last stable point: the bifurcation next to it, if there is one. */
+  /* The bifurcation next to the last stable point, on the far side, if there is one. */
   if (part.last + 1 < b->count && !regular(b, part.last + 1)) part.last++;
   part.begins = kind_at(b, part.first);
   part.ends = kind_at(b, part.last);

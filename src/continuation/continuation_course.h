@@ -18,7 +18,7 @@ typedef struct pendres_course_special {
   pendres_located located;
 } pendres_course_special;
 
-/* A point of a course: that of the trail, or a special one next behind it. */
+/* A point of a course: one of the trail, or a special one that follows upon it. */
 typedef struct pendres_course_point {
   size_t i;         /* number of the trail's point */
   int special;      /* number of the special point, -1: none */
@@ -29,7 +29,8 @@ typedef struct pendres_course {
   const pendres_trail *trail;
   size_t specials, room;
   pendres_course_special *special;
-  /* Of each point of the trail: what it was corrected to, its orbit, errors of the parameters. */
+  /* For each point of the trail: what it was corrected to, its orbit, and the errors of its
+     parameters. */
   pendres_continuation_pair *pair;
   pendres_orbit *orbit;
   double (*error)[2];

@@ -20,7 +20,7 @@ double pendres_branch_value(const pendres_branch *b, size_t i)
   return pendres_parameter_get(b->parameter, &b->point[i].orbit.pendulum);
 }
 
-/* The Poincaré point on the chord; the well of x may differ by whole turns from end to end. */
+/* The Poincaré point on a chord, between whose ends x may differ by whole turns. */
 static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, double part,
                                    double value)
 {
@@ -134,8 +134,8 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
     status = pendres_trail_polish(ctx, &twice, &pair, error);
     if (status != PENDRES_OK) return status;
     if (error[0][0] > 1e-6 || fabs(pair.fine[PENDRES_U_Y] - point.u[PENDRES_U_Y]) > away) continue;
-    /* Not the branch that it came from, which the plane meets as well: the other one's orbits are
-       on the far side after one map, twice as far away. */
+    /* Keep away from the branch that it came from, which the plane meets as well. Orbits of the
+       other branch are on the far side after one map, and so twice as far away. */
     status = pendres_continuation_map_states(ctx, &one.map, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])pair.fine, &image);
     if (status != PENDRES_OK) return status;

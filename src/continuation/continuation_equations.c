@@ -9,9 +9,10 @@
 
 #include "engine/context_internal.h"
 
-/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's: an
-   error of 1e-5 of them costs nothing. So short since second derivatives grow to 1e9 where orbits
-   pass close to the top of the barrier; the determinant's own rounding, 1e-15, does no harm. */
+/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
+   method, where a relative error of 1e-5 costs nothing. The step is so short since second
+   derivatives grow to 1e9 where orbits pass close to the top of the barrier; the determinant's own
+   rounding, 1e-15, does no harm. */
 static const double nudge = 2e-9;
 /* The derivative along the null vector enters the solution itself: central differences of order
    six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
@@ -204,7 +205,7 @@ pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
     const pendres_pendulum p = pendres_continuation_map_pendulum(s->map->force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
-    /* The next step would be of its square, or of rounding. */
+    /* The next step would be as small as the square of this one, or as rounding. */
     if (length < 1e-8 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
     last = length;
   }

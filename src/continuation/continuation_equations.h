@@ -18,7 +18,8 @@ typedef struct pendres_continuation_equations {
   pendres_continuation_image image;
 } pendres_continuation_equations;
 
-/* As many equations as unknowns, the first of `unknown`; the steps are not chosen yet. */
+/* A system of as many equations as unknowns, which are the first of `unknown`. Its steps are not
+   chosen yet. */
 pendres_continuation_system pendres_continuation_system_of(const pendres_continuation_map *map,
                                                            pendres_continuation_condition condition,
                                                            const int *unknown);

@@ -76,7 +76,7 @@ static pendres_status add_curve(pendres_context *ctx, const pendres_bifurcation 
   pendres_curve *c = NULL;
   const pendres_status status = pendres_curve_follow(ctx, 1, &all[number], options, &c);
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  /* Of a bifurcation among wild orbits nothing but itself can be followed. */
+  /* Nothing can be followed from a bifurcation among wild orbits: it stands for itself. */
   if (pendres_curve_count(c) < 3) {
     pendres_curve_free(c);
     return PENDRES_OK;
@@ -158,7 +158,7 @@ static int sign(double difference)
   return (difference > 0.0) - (difference < 0.0);
 }
 
-/* What on_curve() asks for first, and what does not tell mirror images and kinds of flips apart. */
+/* What on_curve() asks for first, without what would tell mirror images or kinds of flips apart. */
 int pendres_family_order(const pendres_bifurcation *a, const pendres_bifurcation *b)
 {
   const int period = sign((double)b->orbit.period - (double)a->orbit.period);

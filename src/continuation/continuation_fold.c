@@ -80,7 +80,7 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
     if (status != PENDRES_OK) return status;
     ahead[i] = arc[i];
   }
-  /* Which way does the leading multiplier go to +1? */
+  /* Choose the direction in which the leading multiplier goes to +1. */
   status = pendres_arc_advance(ctx, 2, ahead);
   if (status != PENDRES_OK) return status;
   for (int i = 0; i < 2; i++) {

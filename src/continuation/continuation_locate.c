@@ -10,10 +10,12 @@
 #include "continuation/continuation_arc.h"
 #include "engine/steps.h"
 
-/* Rounding of a step, three times its usual size: errors claim to be bounds. */
+/* The rounding of a step, taken three times as large as it usually is, since errors claim to be
+   bounds. */
 static const double epsilon = 4e-16;
 
-/* How the unknowns move where each equation is off by so much, whichever way. 0 if singular. */
+/* By how much the unknowns move when each equation is off by so much, with either sign. 0 if
+   singular. */
 static int moved_by(const pendres_continuation_equations *e, const int *unknown,
                     const double off[PENDRES_EQUATIONS_MOST],
                     double moved[PENDRES_EQUATIONS_MOST])
@@ -31,8 +33,9 @@ static int moved_by(const pendres_continuation_equations *e, const int *unknown,
   return 1;
 }
 
-/* What rounding of the map leaves of each equation. The derivatives of the map are a few times less
-   exact than the map; the third one of a cusp comes from differences over a hundredth. */
+/* What rounding of the map adds to each equation. The derivatives of the map are a few times less
+   exact than the map itself; the third equation of a cusp comes from differences over a
+   hundredth. */
 static void rounding_of(const pendres_continuation_equations *e, int steps, int period,
                         double off[PENDRES_EQUATIONS_MOST])
 {
@@ -127,7 +130,7 @@ static pendres_status curvature_of(pendres_context *ctx,
   return PENDRES_OK;
 }
 
-/* With the system's steps, and with more. */
+/* Solve a system with its own steps, and again with more. */
 static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_system system,
                                   const double u[PENDRES_U_COUNT], double reach,
                                   pendres_located *out)

@@ -36,7 +36,7 @@ void pendres_continuation_map_point(const pendres_pendulum *p, double y, double 
   memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
 }
 
-/* Whether pendulums lose any mirror symmetry as an unknown changes. */
+/* Whether pendulums lose every mirror symmetry when an unknown changes. */
 static int breaks_symmetry(int place)
 {
   return place == PENDRES_U_TORQUE || place == PENDRES_U_POWERS + 1 ||
@@ -66,7 +66,7 @@ static int reflected_after(int period)
   return period == 1 ? 1 : period % 2 == 0 ? period / 2 : 0;
 }
 
-/* Whether an orbit is so: averaged over its drive cycles nothing is left of it. */
+/* Whether an orbit is its own mirror image in this way: averaged over its drive cycles it is 0. */
 static int is_own_reflection(const pendres_orbit *o)
 {
   const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;

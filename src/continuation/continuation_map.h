@@ -48,8 +48,8 @@ enum {
 
 typedef struct pendres_continuation_map {
   pendres_force force;
-  int symmetric; /* all pendulums that it is asked for have the mirror symmetry */
-  int reflects;  /* or that with a parametric drive alone, at the same phase */
+  int symmetric; /* all pendulums on the way have the mirror symmetry */
+  int reflects;  /* or have that of a parametric drive alone, at the same phase */
   enum {
     PENDRES_MIRROR_NONE,
     PENDRES_MIRROR_HALF, /* q half periods and the reflection; q is odd */
@@ -99,7 +99,8 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *orbit,
                                                      const int *unknown,
                                                      double u[PENDRES_U_COUNT]);
 
-/* Steps a period at a point, for an error of about `tolerance` a period. Always even. */
+/* Choose the steps a period at a point for an error of about `tolerance` a period; the number is
+   even. */
 pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
                                               const double u[PENDRES_U_COUNT], double tolerance,
                                               int *steps);
@@ -111,16 +112,17 @@ pendres_status pendres_continuation_map_images(pendres_context *ctx,
                                                const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
-/* The same without the derivatives by the parameters, which become NaN. */
+/* The same without the derivatives by parameters, which become NaN. */
 pendres_status pendres_continuation_map_states(pendres_context *ctx,
                                                const pendres_continuation_map *map, int steps,
                                                size_t n, const double (*u)[PENDRES_U_COUNT],
                                                pendres_continuation_image *out);
 
 /*
- * The map of which a fixed point of `map` may be one twice over, as where the one's orbits are born
- * from the other's: that with a reflection for an odd period, half the period of an even one, or
- * that with a reflection of it. There may be two (which = 0, 1). 0 if there is none.
+ * The half map: one whose second iterate is `map`, so that its fixed points are those of `map` as
+ * well, as where orbits of the latter are born from those of the former. For an odd period it has a
+ * reflection; for an even period it is the map of half the period, with a reflection or without.
+ * There may be two (which = 0, 1). 0 if there is none.
  */
 int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half);
@@ -143,7 +145,7 @@ pendres_status pendres_continuation_map_closes(pendres_context *ctx,
 double pendres_continuation_map_fold(const pendres_continuation_image *image);
 double pendres_continuation_map_flip(const pendres_continuation_image *image);
 
-/* Norm of DG: how much an error of the state grows in one map. */
+/* Norm of DG: by how much the map may enlarge an error of the state. */
 double pendres_continuation_map_growth(const pendres_continuation_image *image);
 
 /* The null vector of N - I at a fold, of unit length; its sign is arbitrary. */

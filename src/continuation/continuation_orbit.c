@@ -13,7 +13,7 @@
 
 /* What one computation of an orbit found. */
 typedef struct reading {
-  double within; /* the point may be moved by so little to close the orbit: what rounding makes */
+  double within; /* the point may be moved by this little, as rounding does, to close the orbit */
   double m[2][2], m_by[2][2][2];
   pendres_newton_noise noise; /* of the finer one */
   pendres_orbit_measures measures;
@@ -138,7 +138,7 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
       : pendres_orbit_apart_beside(a->m, b->m, a->m_by, from, b->measures.amplitude);
   const double apart = fmax(fmax(hypot(from[0], from[1]), along), beside);
 
-  /* A velocity: the two computations may differ in the drive frequency. */
+  /* Velocities are compared, since the two computations may differ in the drive frequency. */
   const double clocks = pair->coarse[PENDRES_U_OMEGA] / pair->fine[PENDRES_U_OMEGA];
   pendres_orbit_twice two = {
     .pendulum = pendres_continuation_map_pendulum(pair->map.force, pair->fine),

@@ -34,7 +34,7 @@ void pendres_continuation_orbit_set_critical(pendres_special kind, int parameter
                                              const pendres_parameter *parameter,
                                              const double *error, pendres_orbit *o);
 
-/* Error of the finer of two computations, with the rounding. */
+/* The error of the finer of two computations, rounding included. */
 double pendres_continuation_orbit_error(double coarse, double fine, double rounding);
 
 #endif

@@ -51,7 +51,7 @@ void pendres_branches_pack(const pendres_branches *branches, void *bytes)
   for (size_t i = 0; i < head.count; i++) {
     const pendres_branch *b = branches->branch[i];
     branch_head h;
-    memset(&h, 0, sizeof h); /* the same bytes for the same branches, padding included */
+    memset(&h, 0, sizeof h); /* so that the same branches give the same bytes, padding included */
     h.parameter = b->parameter;
     h.map = b->map;
     h.end[0] = b->end[0], h.end[1] = b->end[1];
@@ -78,7 +78,7 @@ static int get(source *s, void *to, size_t size)
   return 1;
 }
 
-/* An array of n elements; NULL and *status if there are not so many, or no memory. */
+/* Read an array of n elements; NULL and a *status if there are fewer, or no memory. */
 static void *get_array(source *s, size_t n, size_t size, pendres_status *status)
 {
   void *array = NULL;
@@ -138,7 +138,7 @@ pendres_status pendres_branches_unpack(size_t size, const void *bytes, pendres_b
 
 /* ---- curves ---- */
 
-/* A curve without its arrays: what stands before them. */
+/* The head of a curve, which stands before its arrays. */
 static pendres_curve head_of(const pendres_curve *c)
 {
   pendres_curve h;

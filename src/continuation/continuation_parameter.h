@@ -10,7 +10,7 @@
 /* Lengths that count as one in arclength. */
 double pendres_parameter_scale(pendres_parameter parameter);
 
-/* NULL, or why an orbit cannot be followed in a parameter: a static sentence. */
+/* Why an orbit cannot be followed in a parameter, a static sentence; NULL if it can. */
 const char *pendres_continuation_refuses(const pendres_orbit *orbit, pendres_parameter parameter);
 
 #endif

@@ -8,7 +8,7 @@
 
 enum { PARTS = 16, SAMPLES = 2 * PARTS, BISECTIONS = 40 };
 
-/* Point number k, in the turn that the one at hand is in. */
+/* Point number k, moved by whole turns next to the point at hand. */
 static void next_to(const pendres_continuation_points *p, size_t k,
                     const double here[PENDRES_U_COUNT], double u[PENDRES_U_COUNT])
 {
@@ -79,7 +79,7 @@ static int sample(const pendres_continuation_stencil *s, int place, double value
   double even[PARTS + 1];
   int n = 0;
   for (int j = 1; j < PARTS; j++) even[j] = off(s, place, value, j * h);
-  /* The ends are points of the curve: to the last digit, so that neighbouring chords agree. */
+  /* The ends are the curve's own points to the last digit, so that neighbouring chords agree. */
   even[0] = s->u[0][place] - value;
   even[PARTS] = s->u[1][place] - value;
   for (int j = 0; j <= PARTS; j++) {

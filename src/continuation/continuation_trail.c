@@ -29,7 +29,7 @@ static int add(way *w, const pendres_arc_point *point)
   return 0;
 }
 
-/* The parameter among the unknowns that is out of its bounds, -1 if none; its bound. */
+/* Find the parameter among the unknowns that is out of its bounds, and that bound; -1: none is. */
 static int out_of_bounds(const pendres_arc *w, const pendres_trail_bounds *b,
                          const double u[PENDRES_U_COUNT], double *bound)
 {
@@ -85,8 +85,8 @@ static pendres_status land(pendres_context *ctx, const pendres_arc *w,
   return status;
 }
 
-/* By what y of a point is larger than that of another in whole turns: of a half map, whose mirror
-   stands in one place, and without a period of the coordinate nothing. */
+/* By how many whole turns, as an angle, y of a point is larger than that of another. It is 0 for a
+   half map, whose mirror stands in one place, and where the coordinate has no period. */
 static double turns_between(const pendres_arc *w, const double from[PENDRES_U_COUNT],
                             const double to[PENDRES_U_COUNT])
 {
@@ -173,7 +173,7 @@ static pendres_status join(pendres_context *ctx, const pendres_arc *kind,
                            const pendres_arc_point *start, way ways[2], pendres_trail *t)
 {
   *t = (pendres_trail){.kind = *kind, .closed = ways[0].end == PENDRES_END_CLOSED};
-  if (t->closed) ways[1].count = 0; /* it is the same curve the other way round */
+  if (t->closed) ways[1].count = 0; /* it is the same curve in the other direction */
   t->count = ways[0].count + ways[1].count + 1;
   t->point = malloc(t->count * sizeof *t->point);
   if (t->point == NULL)
@@ -373,7 +373,7 @@ static pendres_status correct(pendres_context *ctx, polish *w, int fine)
                                  w->rounding + first);
   for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
     pendres_continuation_pair *p = &w->pairs[w->index[i]];
-    /* What cannot be corrected stays where the arc left it, with an error that says so. */
+    /* A point that cannot be corrected stays where the arc left it, with an error that says so. */
     memcpy(fine ? p->fine : p->coarse, w->u[i], sizeof w->u[i]);
     p->rounding = isnan(w->rounding[i]) ? kind->tolerance : w->rounding[i];
   }
@@ -393,7 +393,7 @@ static double errors_at(const pendres_trail *t, size_t i, const pendres_continua
   double worst = 0.0;
   for (int k = 0; k < w->unknowns; k++) {
     const int place = w->unknown[k];
-    /* Where two values of a parameter agree by chance it is not known better than its point. */
+    /* Two values of a parameter may agree by chance: it is not known better than the point is. */
     const double e = pendres_continuation_orbit_error(
       p->coarse[place], p->fine[place],
       pendres_arc_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));

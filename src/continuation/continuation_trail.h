@@ -67,8 +67,8 @@ typedef struct pendres_trail_zero {
 pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *trail,
                                     pendres_trail_test *test);
 
-/* Up to `room` of them, in order; returns their number. A least value of about 0 counts: where a
-   branch is born from another the determinant touches 0. */
+/* Find up to `room` zeros, in order; returns their number. A minimum of about 0 counts as one:
+   where a branch is born from another the determinant touches 0. */
 size_t pendres_trail_zeros(const pendres_trail *trail, pendres_trail_test *test, size_t room,
                            pendres_trail_zero *zeros);
 
@@ -77,7 +77,7 @@ size_t pendres_trail_zeros(const pendres_trail *trail, pendres_trail_test *test,
 pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *trail, size_t room,
                                     pendres_trail_zero *zeros, size_t *count);
 
-/* The point between, linearly, and the length of the chord. */
+/* The point at a zero, by linear interpolation, and the length of the chord. */
 double pendres_trail_between(const pendres_trail *trail, const pendres_trail_zero *zero,
                              double u[PENDRES_U_COUNT]);
 

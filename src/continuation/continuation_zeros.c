@@ -8,10 +8,10 @@
 #include "engine/context_internal.h"
 #include "continuation/continuation_trail.h"
 
-/* A least value above this share of its neighbours' is no zero that the points missed. */
+/* A minimum above this share of its neighbours' values is no zero that the points missed. */
 static const double suspicious = 0.3;
-/* A least value below this share of them may be a zero that is touched, not crossed: where branches
-   cross points are hard to correct, and the search ends early. */
+/* A minimum below this share of them may be a zero that is touched and not crossed: where branches
+   cross, points are hard to correct, and the search ends early. */
 static const double touching = 0.05;
 static const double narrowest = 1e-9; /* of a search, in arclength */
 enum { MOST_TRIALS = 24 };
@@ -259,7 +259,8 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *t,
     const pendres_status status = descend(ctx, t, test, points, &beyond, &found);
     if (status != PENDRES_OK) return status;
     if (!found) continue;
-    /* The least one, and the one of the other sign, in order; what was there is kept. */
+    /* Insert the point of the minimum and the one of the other sign in order; the points that were
+       there stay. */
     pendres_arc_point more[2] = {found == 1 ? beyond : points[1], found == 1 ? points[1] : beyond};
     for (int m = 0; m < 2; m++) {
       size_t at = i - 1;
