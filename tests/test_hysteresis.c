@@ -244,6 +244,33 @@ static void out_of_chaos(void **state)
   pendres_context_free(ctx);
 }
 
+/* A ship that capsizes stays so: x'' + 0.3 x' + x - x^2 = F cos(0.8 t) lets go of every pendulum at
+   F = 0.5, where the well's barrier is 1/6 high, and of none at 0.05. */
+static void escaped(void **state)
+{
+  enum { VALUES = 4, AWAY = 1 };
+  static const double value[VALUES] = {0.05, 0.5, 0.1, 0.05};
+  pendres_context *ctx = context_with(&(pendres_options){.tolerance = 1e-6});
+  const pendres_pendulum p = {.damping = 0.3, .drive_frequency = 0.8,
+                              .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}};
+  pendres_hysteresis *h = NULL;
+  (void)state;
+  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 0.1, 0.0, VALUES, value,
+                                     &h));
+  for (size_t i = 0; i < VALUES; i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    assert_int_equal(point->attractor.label == PENDRES_LABEL_ESCAPE, i >= AWAY);
+    assert_true(isnan(point->mean_velocity) == (i >= AWAY));
+  }
+  const size_t n = pendres_hysteresis_jumps(h);
+  assert_true(n >= 1);
+  const pendres_jump *last = pendres_hysteresis_jump(h, n - 1);
+  assert_int_equal(last->to, PENDRES_LABEL_ESCAPE);
+  assert_true(last->value > 0.05 && last->value < 0.5 && last->direction == 1);
+  pendres_hysteresis_free(h);
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -252,6 +279,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(running, setup_exact, teardown),
     cmocka_unit_test_setup_teardown(stopped, setup_exact, teardown),
     cmocka_unit_test(out_of_chaos),
+    cmocka_unit_test(escaped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

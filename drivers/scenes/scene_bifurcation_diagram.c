@@ -91,7 +91,9 @@ static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, rec
   pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
   r->attractors = (int64_t)pendres_attractors_count(set);
   pendres_attractors_free(set);
-  if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED) return status;
+  if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED ||
+      point->attractor.label == PENDRES_LABEL_ESCAPE)
+    return status;
   return pendres_strobe_record(ctx, &p, point->x, point->v, (long)w->strobes - 1, 1, x,
                                x + w->strobes, NULL, NULL);
 }

@@ -21,6 +21,7 @@
  * it is on an orbit then, the way there is halved down to where it comes to an orbit first, and
  * that is followed from there; after four such in turn with chaos, the end of chaos is somewhere in
  * what is left of the way.
+ * A pendulum that has escaped to infinity is gone for the rest of the path.
  *
  * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive:
  * its states off the stretches are told by averages, as in lyapunov.h, with its words on what is

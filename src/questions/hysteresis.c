@@ -263,6 +263,16 @@ static pendres_status follow_rotation(path *w, size_t *i)
   return status;
 }
 
+/* A pendulum that has escaped is gone, whatever the parameter does. */
+static void stay_away(path *w, size_t *i)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
+  w->state = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  w->state.attractor.label = PENDRES_LABEL_ESCAPE;
+  w->at = w->value[*i];
+  pendres_path_put(w, (*i)++, &w->state.attractor);
+}
+
 /* What the pendulum settles on at value number *i, from where it is; or the orbit that it goes to
    on the way there, which is to be followed first. */
 static pendres_status settle_at(path *w, size_t *i)
@@ -301,6 +311,10 @@ static pendres_status follow_path(path *w)
     const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
     if (w->on_circle || rotates) status = pendres_path_circle(w, &i);
     if (status != PENDRES_OK || i > before) continue;
+    if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
+      stay_away(w, &i);
+      continue;
+    }
     if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
     else if (rotates) status = follow_rotation(w, &i);
     if (status == PENDRES_OK && i == before) status = settle_at(w, &i);

@@ -128,6 +128,8 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
     const size_t number = outcome[k].attractor >= 0 ? (size_t)outcome[k].attractor : (size_t)-1;
     const pendres_attractor *a = pendres_attractors_get(found, number);
     if (a != NULL) s[which[k]].attractor = *a;
+    if (outcome[k].attractor == PENDRES_ATTRACTOR_ESCAPED)
+      s[which[k]].attractor.label = PENDRES_LABEL_ESCAPE;
   }
   pendres_attractors_free(found);
   return status;
@@ -163,6 +165,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
     s->v = s->attractor.orbit.v;
     return PENDRES_OK;
   }
+  if (s->attractor.label == PENDRES_LABEL_ESCAPE) return PENDRES_OK; /* there is none */
   if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
