@@ -1,7 +1,7 @@
 #!/bin/sh
 # ranks_check.sh -- the program over MPI: the same bytes from 1, 2 and 4 ranks of one thread and of
-# two, a point that a budget ends in any of them is told and computed later, and a program without MPI
-# refuses to be started several times. Skipped where there is no MPI, or no h5py to compare with.
+# two, a point that a budget ends in any of them is told and computed later, a rank that is killed
+# costs what was under way and no more, and a program without MPI refuses to be started several times. Skipped where there is no MPI, or no h5py to compare with.
 set -u
 mpirun=$(command -v mpirun) && command -v mpicc >/dev/null || { echo "no MPI here"; exit 77; }
 python=${PYTHON:-/usr/bin/python3}
@@ -54,6 +54,34 @@ timeout 100 "$mpirun" -n 2 "$program" -t1 --budget=1e-9 -o budget.h5 curve.nml >
 grep -q "4 points were ended by --budget" err.txt || { complain "not told of a budget"; cat err.txt; }
 timeout 100 "$mpirun" -n 2 "$program" -q -t1 --resume -o budget.h5 curve.nml >out.txt 2>err.txt
 "$python" "$same" whole.h5 budget.h5 >same.txt || { complain "after a budget"; cat same.txt; }
+
+# One of four ranks is killed as soon as some tasks are done (if the run has not ended by then): the
+# run ends, and what was finished is gone on from, to the same bytes.
+cat >killed.nml <<'DECK'
+&scene kind = 'response' /
+&pendulum drive_amplitude = 0.2 /
+&sweep damping = 0.24, 0.3, 0.5, drive_period_range = 6, 8, 100 /
+&ensemble members = 40 /
+DECK
+"$RESONANCE" -q -o whole.h5 killed.nml >table.txt || complain "killed fails without MPI"
+"$mpirun" -n 4 "$program" -q -t1 -o killed.h5 killed.nml >out.txt 2>err.txt &
+launcher=$!
+until [ "$(wc -c <killed.h5.journal 2>/dev/null || echo 0)" -gt 20000 ]; do
+  kill -0 $launcher 2>/dev/null || break
+  sleep 0.02
+done
+one=$(pgrep -P $launcher | tail -n 1)
+[ -z "$one" ] || kill -9 "$one" 2>/dev/null
+wait $launcher
+code=$?
+if [ $code -ne 0 ]; then
+  [ ! -e killed.h5 ] || complain "a run that lost a rank left results"
+  [ -s killed.h5.journal ] || complain "a run that lost a rank left no journal"
+fi
+timeout 100 "$mpirun" -n 2 "$program" -t1 -f --resume -o killed.h5 killed.nml >ranks.txt 2>err.txt ||
+  { complain "no resuming after a lost rank"; cat err.txt; }
+[ $code -eq 0 ] || grep -q "going on from" err.txt || complain "nothing was kept of a lost rank's run"
+"$python" "$same" whole.h5 killed.h5 >same.txt || { complain "after a lost rank"; cat same.txt; }
 
 # What rank 0 refuses ends all; a program without MPI does not start the same run twice.
 echo "&scene kind = 'nothing' /" >bad.nml
