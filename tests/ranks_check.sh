@@ -66,7 +66,7 @@ DECK
 "$RESONANCE" -q -o whole.h5 killed.nml >table.txt || complain "killed fails without MPI"
 "$mpirun" -n 4 "$program" -q -t1 -o killed.h5 killed.nml >out.txt 2>err.txt &
 launcher=$!
-until [ "$(wc -c <killed.h5.journal 2>/dev/null || echo 0)" -gt 20000 ]; do
+until [ -e killed.h5.journal ] && [ "$(wc -c <killed.h5.journal)" -gt 20000 ]; do
   kill -0 $launcher 2>/dev/null || break
   sleep 0.02
 done

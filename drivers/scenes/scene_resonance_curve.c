@@ -115,8 +115,8 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   pendres_resonance_search *s = calloc(n, sizeof *s);
   if (s == NULL) return PENDRES_OUT_OF_MEMORY;
   pendres_status status = find(c, first, n, ctx, s, out);
-  const int alone = n > 1 && farm_gave_up(out, status);
-  if (alone) status = PENDRES_OK;
+  const int over = farm_gave_up(out, status), alone = over && n > 1;
+  if (over) status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     if (alone) status = find(c, first + i, 1, ctx, &s[i], out);
     if (status == PENDRES_OK || farm_gave_up(out, status)) status = judge(&r[i], &s[i], out);
