@@ -88,7 +88,8 @@ enum { PENDRES_RESONANCE_MESSAGE = 512 /**< bytes of a search's message */ };
 /** One of several searches. */
 typedef struct pendres_resonance_search {
   pendres_pendulum pendulum;   /**< what is searched for; its drive frequency is not read */
-  double lowest, highest;      /**< the range of drive frequencies */
+  double lowest;               /**< the least drive frequency that is looked at */
+  double highest;              /**< the largest one */
   pendres_status outcome;      /**< written: what pendres_resonance_find_ensemble() would return */
   pendres_resonance resonance; /**< written: all NaN unless the outcome is PENDRES_OK */
   char message[PENDRES_RESONANCE_MESSAGE]; /**< written: why the outcome is not PENDRES_OK, as
