@@ -44,7 +44,8 @@ typedef struct lost_lanes {
   const pendres_strobe_lane **suspects;
   size_t *known;   /* attractors of each set when the hunt began */
   size_t *watched; /* covers of each set when the latest round began */
-  int found;       /* chaos was, after the latest round */
+  unsigned char *found; /* in each set: chaos was, after the latest round */
+  unsigned char *over;  /* each set's budget had been spent before the latest round */
 } lost_lanes;
 
 static void free_lost(lost_lanes *l)
@@ -58,6 +59,8 @@ static void free_lost(lost_lanes *l)
   free(l->suspects);
   free(l->known);
   free(l->watched);
+  free(l->found);
+  free(l->over);
 }
 
 static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t sets)
@@ -72,11 +75,19 @@ static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t 
   l->suspects = malloc(n * sizeof *l->suspects);
   l->known = malloc(sets * sizeof *l->known);
   l->watched = malloc(sets * sizeof *l->watched);
+  l->found = calloc(sets, sizeof *l->found);
+  l->over = calloc(sets, sizeof *l->over);
   if (l->index == NULL || l->set == NULL || l->lanes == NULL || l->outcome == NULL ||
       l->histories == NULL || l->guesses == NULL || l->suspects == NULL || l->known == NULL ||
-      l->watched == NULL)
+      l->watched == NULL || l->found == NULL || l->over == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
   return PENDRES_OK;
+}
+
+/* Whether a lane is lost and still looked after. */
+static int hunted(const lost_lanes *l, size_t i)
+{
+  return !pendres_settle_ended(&l->outcome[i]) && !l->over[l->set[i]];
 }
 
 /* Orbits that the lost lanes are near, a few in each set. */
@@ -86,7 +97,7 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
   size_t n = 0, in_set = 0;
   for (size_t i = 0; i < l->count; i++) {
     if (i == 0 || l->set[i] != l->set[i - 1]) in_set = 0;
-    if (pendres_settle_ended(&l->outcome[i]) || l->histories[i].filled == 0) continue;
+    if (!hunted(l, i) || l->histories[i].filled == 0) continue;
     l->guesses[n].set = l->set[i];
     const double turn = pendres_model_turn(&catalogues[l->set[i]].pendulum);
     if (in_set < MOST_GUESSES && recurrence(&l->histories[i], turn, &l->guesses[n])) {
@@ -121,14 +132,14 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_cat
     pendres_catalogue *c = &catalogues[l->set[first]];
     pendres_chaos_verdict verdict = PENDRES_CHAOS_NEW;
     for (last = first; last < l->count && l->set[last] == l->set[first];) last++;
+    if (l->over[l->set[first]]) continue;
     while (verdict == PENDRES_CHAOS_NEW && status == PENDRES_OK) {
       size_t n = 0;
       for (size_t i = first; i < last; i++)
-        if (!pendres_settle_ended(&l->outcome[i]) &&
-            nowhere(c, l->watched[l->set[i]], &l->lanes[i]))
+        if (hunted(l, i) && nowhere(c, l->watched[l->set[i]], &l->lanes[i]))
           l->suspects[n++] = &l->lanes[i];
       status = pendres_chaos_find(ctx, c, n, l->suspects, &verdict);
-      l->found |= verdict == PENDRES_CHAOS_NEW || verdict == PENDRES_CHAOS_KNOWN;
+      l->found[l->set[first]] |= verdict == PENDRES_CHAOS_NEW || verdict == PENDRES_CHAOS_KNOWN;
     }
   }
   return status;
@@ -155,27 +166,26 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
   return status;
 }
 
-/* Budgets of the next round; 0 when all had been spent before. */
-static int raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round)
+/*
+ * Budgets of the next round, set by set, so that none has more or less of it for its neighbours'
+ * sake. Where all has been spent the hunt is over; but chaos found last is looked for once, too.
+ */
+static void raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round,
+                          lost_lanes *l)
 {
-  int longer = 0;
   for (size_t s = 0; s < q->sets; s++) {
     const pendres_catalogue *c = &q->catalogues[s];
     long *budget = &q->budget[s];
     const long most = pendres_settle_last_budget(ctx, c);
-    const long more = (pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY) << round;
-    if (*budget >= most) continue;
-    longer = 1;
-    *budget = *budget < most - more ? *budget + more : most;
+    const long first = pendres_settle_first_budget(&c->pendulum) + FIRST_HISTORY;
+    const long more = first << round;
+    if (l->over[s]) continue;
+    l->over[s] = *budget >= most;
+    if (l->over[s] && l->found[s]) *budget += first;
+    if (!l->over[s]) *budget = *budget < most - more ? *budget + more : most;
+    l->found[s] = 0;
+    l->watched[s] = c->covers;
   }
-  return longer;
-}
-
-/* Chaos found when all budgets had been spent is looked for once, too. */
-static void grant_time(const pendres_settle_quarry *q)
-{
-  for (size_t s = 0; s < q->sets; s++)
-    q->budget[s] += pendres_settle_first_budget(&q->catalogues[s].pendulum) + FIRST_HISTORY;
 }
 
 pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_quarry *q)
@@ -199,13 +209,10 @@ pendres_status pendres_settle_hunt(pendres_context *ctx, const pendres_settle_qu
                                   .outcome = l.outcome, .histories = l.histories};
   for (int round = 0; status == PENDRES_OK; round++) {
     size_t left = 0;
-    const int longer = raise_budgets(ctx, q, round);
-    if (!longer && l.found) grant_time(q);
-    l.found = 0;
-    for (size_t s = 0; s < q->sets; s++) l.watched[s] = q->catalogues[s].covers;
+    raise_budgets(ctx, q, round, &l);
     status = pendres_settle_lanes(ctx, l.count, l.lanes, &job);
-    for (size_t i = 0; i < l.count; i++) left += !pendres_settle_ended(&l.outcome[i]);
-    if (status != PENDRES_OK || left == 0 || !longer) break;
+    for (size_t i = 0; i < l.count; i++) left += (size_t)hunted(&l, i);
+    if (status != PENDRES_OK || left == 0) break;
     status = add_recurrences(ctx, &l, q->catalogues);
     if (status == PENDRES_OK && round % 2 == 0) status = add_chaos(ctx, &l, q->catalogues);
   }
