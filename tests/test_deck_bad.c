@@ -156,6 +156,12 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='switching' /\n" ONE "&sweep temperature=1 torque=0.1 /",
     { "3:22 'torque' in &sweep is not used by scene 'switching' (only by: resonance_curve, "
       "response, phase_diagram, branches, hysteresis, bifurcation_diagram, lyapunov_map)" } },
+  { "&scene kind='orbit' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
+    "force_coefficients=1 /\n&orbit x=1 /",
+    { "3:1 a pendulum's force has no 'force_coefficients': give 'force'" } },
+  { "&scene kind='orbit' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
+    "force='polynomial' /\n&orbit x=1 /",
+    { "3:1 a polynomial needs 'force_coefficients'" } },
   { CURVE "&sweep damping=1,2 torque=0.1,0.2 /",
     { "3:20 results have one axis: beside 'torque' give 'damping' one value" } },
   { CURVE "&sweep damping=1 torque=0.1,0.2 parametric_amplitude=0.1 /",

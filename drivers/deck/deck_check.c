@@ -396,6 +396,21 @@ static void check_plane(deck_builder *b)
   complain(b, given(b, "sweep", name), name, message);
 }
 
+/* Coefficients belong to a polynomial, which is none without. */
+static void check_force(deck_builder *b)
+{
+  const deck *d = b->d;
+  int any = 0;
+  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
+    any |= d->pendulum.force_coefficients[i] != 0.0;
+  if (strcmp(d->pendulum.force, "pendulum") == 0 && any)
+    complain(b, given(b, "pendulum", "force_coefficients"), "force_coefficients",
+             "a pendulum's force has no 'force_coefficients': give 'force' as well");
+  if (strcmp(d->pendulum.force, "polynomial") == 0 && !any)
+    complain(b, given(b, "pendulum", "force"), "force",
+             "a polynomial needs 'force_coefficients', one of them not zero");
+}
+
 static void check_output(deck_builder *b)
 {
   const char *output = b->d->output;
@@ -424,6 +439,7 @@ void deck_check(deck_builder *b)
   check_size(b);
   check_plane(b);
   check_curve(b);
+  if (b->errors->count == 0) check_force(b);
   check_output(b);
   check_ensemble(b);
   if (d->precision.block_lanes % 8 != 0)
