@@ -192,7 +192,18 @@ static int is_short(const pendres_attractor *a)
   return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
 }
 
-/* A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. */
+/* Whether the path goes up (1) or down (-1) to value number i. */
+static int direction_to(const path *w, size_t i)
+{
+  const double from = i > 0 ? w->value[i - 1] : w->at;
+  return w->value[i] >= from ? 1 : -1;
+}
+
+/*
+ * A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. Trials
+ * of a jump may have gone beyond that value: back to it the orbit is followed as far as it goes, but
+ * what it ends at there is none of the path's jumps.
+ */
 static pendres_status follow_closed(path *w, size_t *i)
 {
   const size_t start = *i;
@@ -210,6 +221,8 @@ static pendres_status follow_closed(path *w, size_t *i)
     if (last > *i) {
       status = put_stretch(w, *i, last);
       *i = last;
+    } else if (direction != direction_to(w, *i)) {
+      return PENDRES_OK;
     } else {
       status = end_stretch(w, *i, limit);
     }
@@ -224,11 +237,12 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
 {
   const double to = w->value[step];
   pendres_jump j = {
-    .step = step, .direction = to > w->at ? 1 : -1, .kind = PENDRES_JUMP_OTHER, .share = NAN};
+    .step = step, .direction = direction_to(w, step), .kind = PENDRES_JUMP_OTHER, .share = NAN};
   pendres_status status = PENDRES_OK;
-  if (w->tries <= MOST_TRIES) {
+  const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
+  if (w->tries <= MOST_TRIES && !(back && pendres_settled_closed(&old->attractor))) {
     status = pendres_chaos_end(w->ctx, w->parameter, old, w->at, &w->state, &j);
-  } else { /* chaos and windows of orbits in turn: somewhere in what is left */
+  } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
     j.from = old->attractor.label;
     j.to = w->state.attractor.label;
     j.to_period = w->state.attractor.orbit.period;
