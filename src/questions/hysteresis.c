@@ -201,8 +201,8 @@ static int direction_to(const path *w, size_t i)
 
 /*
  * A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. Trials
- * of a jump may have gone beyond that value: back to it the orbit is followed as far as it goes, but
- * what it ends at there is none of the path's jumps.
+ * of a jump may have gone beyond that value: the orbit is followed back to it, but what it ends at
+ * on that way is none of the path's jumps.
  */
 static pendres_status follow_closed(path *w, size_t *i)
 {
