@@ -11,12 +11,7 @@
 
 #include "context_fixture.h"
 #include "questions/circles.h"
-
-static const double two_pi = 6.28318530717958647693;
-
-/* That of input/josephson.nml. */
-static const pendres_pendulum junction = {
-  .damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0};
+#include "rotation_fixture.h"
 
 /* Circles over a range of torques, next to one of them; the caller frees. */
 static pendres_circles *circles_of(pendres_context *ctx, const pendres_pendulum *p, double low,
@@ -77,36 +72,6 @@ static void overdamped(void **state)
                v.turn.turns_error + 3.0 * torque * torque * want * pow(p.damping, -4.0));
   }
   pendres_circles_free(c);
-}
-
-/* Mean turns a period by Runge and Kutta's method of fourth order, with the weights of smooth
-   averages: so many steps and periods. */
-static double by_hand(const pendres_pendulum *p, int steps, int periods)
-{
-  const double h = two_pi / p->drive_frequency / steps;
-  double y = 0.0, v = p->torque / p->damping, sum = 0.0, weights = 0.0;
-  for (int k = -80; k < periods; k++) {
-    const double from = y;
-    for (int i = 0; i < steps; i++) {
-      double dy[4], dv[4];
-      for (int s = 0; s < 4; s++) {
-        const double part = s == 0 ? 0.0 : s == 3 ? h : 0.5 * h;
-        const double at = y + (s > 0 ? part * dy[s - 1] : 0.0);
-        dy[s] = v + (s > 0 ? part * dv[s - 1] : 0.0);
-        dv[s] = p->torque + p->drive_amplitude * cos(p->drive_frequency * (i * h + part)) -
-                sin(at) - p->damping * dy[s];
-      }
-      y += h / 6.0 * (dy[0] + 2.0 * (dy[1] + dy[2]) + dy[3]);
-      v += h / 6.0 * (dv[0] + 2.0 * (dv[1] + dv[2]) + dv[3]);
-    }
-    const double turned = (y - from) / two_pi;
-    y -= two_pi * floor(y / two_pi);
-    if (k < 0) continue;
-    const double t = (k + 0.5) / periods, weight = exp(-1.0 / (t * (1.0 - t)));
-    sum += weight * turned;
-    weights += weight;
-  }
-  return sum / weights;
 }
 
 /* Between steps, at random torques: velocities within their errors, which are not idle. */

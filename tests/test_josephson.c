@@ -12,12 +12,7 @@
 #include <pendres/lyapunov.h>
 
 #include "context_fixture.h"
-
-static const double two_pi = 6.28318530717958647693;
-
-/* That of input/josephson.nml. */
-static const pendres_pendulum junction = {
-  .damping = 0.3, .drive_amplitude = 9.0, .drive_frequency = 3.0};
+#include "rotation_fixture.h"
 
 /* Up and down; the caller frees. */
 static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, size_t n)
@@ -68,35 +63,6 @@ static void step_and_rotation(void **state)
   check_near(j->value, fold.value, j->value_error + fold.value_error);
   assert_true(j->value_error < 1e-8);
   pendres_hysteresis_free(h);
-}
-
-/* Mean turns a period by Runge and Kutta's method of fourth order with so many steps: with the
-   weights of smooth averages, which leave 1e-12 after so many periods where no lock is near. */
-static double by_hand(const pendres_pendulum *p, int steps, int periods)
-{
-  const double h = two_pi / p->drive_frequency / steps;
-  double y = 0.0, v = p->torque / p->damping, sum = 0.0, weights = 0.0;
-  for (int k = -60; k < periods; k++) {
-    const double from = y;
-    for (int i = 0; i < steps; i++) {
-      double dy[4], dv[4];
-      for (int s = 0; s < 4; s++) {
-        const double part = s == 0 ? 0.0 : s == 3 ? h : 0.5 * h;
-        const double at = y + (s > 0 ? part * dy[s - 1] : 0.0);
-        dy[s] = v + (s > 0 ? part * dv[s - 1] : 0.0);
-        dv[s] = p->torque + p->drive_amplitude * cos(p->drive_frequency * (i * h + part)) -
-                (1.0 + p->parametric_amplitude * cos(p->drive_frequency * (i * h + part))) *
-                  sin(at) - p->damping * dy[s];
-      }
-      y += h / 6.0 * (dy[0] + 2.0 * (dy[1] + dy[2]) + dy[3]);
-      v += h / 6.0 * (dv[0] + 2.0 * (dv[1] + dv[2]) + dv[3]);
-    }
-    if (k < 0) continue;
-    const double t = (k + 0.5) / periods, weight = exp(-1.0 / (t * (1.0 - t)));
-    sum += weight * (y - from) / two_pi;
-    weights += weight;
-  }
-  return sum / weights;
 }
 
 /* Between steps the mean velocity is that of an independent integration, within its error. */

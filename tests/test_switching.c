@@ -1,23 +1,10 @@
 /*
  * test_switching.c -- transitions by noise: against Kramers' rate, plain counting, and known fits.
  */
-#include "langevin_fixture.h"
+#include "switching_fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include <pendres/switching.h>
-
-static pendres_attractors *attractors(pendres_pendulum p)
-{
-  pendres_context *ctx = NULL;
-  pendres_attractors *set = NULL;
-  p.temperature = 0.0;
-  check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
-  pendres_context_free(ctx);
-  return set;
-}
 
 /* Both states of Fig. 7's pendulum are about equally hard to leave at this drive period. */
 static pendres_pendulum balanced(double temperature)

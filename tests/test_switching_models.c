@@ -2,7 +2,7 @@
  * test_switching_models.c -- transitions by noise of others than the plain pendulum: against the
  * eigenvalue of the Klein-Kramers equation, detailed balance, and the drift of a tilted pendulum.
  */
-#include "langevin_fixture.h"
+#include "switching_fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,20 +10,8 @@
 #include <gsl/gsl_linalg.h>
 
 #include <pendres/rotation.h>
-#include <pendres/switching.h>
 
 #define COUNT(a) (sizeof(a) / sizeof *(a))
-
-static pendres_attractors *attractors(pendres_pendulum p)
-{
-  pendres_context *ctx = NULL;
-  pendres_attractors *set = NULL;
-  p.temperature = 0.0;
-  check_ok(pendres_context_create(NULL, &ctx));
-  check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
-  pendres_context_free(ctx);
-  return set;
-}
 
 /* Transitions from one attractor to another, or to PENDRES_SWITCHING_WELL; all start on `from`. */
 static pendres_switching_rate rate(const pendres_pendulum *p, const pendres_attractors *set,
