@@ -301,9 +301,13 @@ static void families_make_the_same_curves(void **state)
     const pendres_curve *a = pendres_curves_get(found, i), *b = pendres_curves_get(want, i);
     assert_int_equal(pendres_curve_count(a), pendres_curve_count(b));
     assert_int_equal(pendres_curve_kind(a), pendres_curve_kind(b));
-    for (size_t k = 0; k < pendres_curve_count(a); k++)
-      assert_memory_equal(pendres_curve_get(a, k), pendres_curve_get(b, k),
-                          sizeof(pendres_curve_point));
+    for (size_t k = 0; k < pendres_curve_count(a); k++) {
+      const pendres_curve_point *p = pendres_curve_get(a, k), *q = pendres_curve_get(b, k);
+      assert_int_equal(p->cusp, q->cusp);
+      /* Between that and what follows there are bytes that belong to no member. */
+      assert_memory_equal(&p->arclength, &q->arclength,
+                          sizeof *p - offsetof(pendres_curve_point, arclength));
+    }
   }
   pendres_curves_free(want);
   pendres_phase_diagram_free(d);
