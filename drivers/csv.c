@@ -180,20 +180,36 @@ static char *attribute(tables *t, const char *object, const char *name)
   return text;
 }
 
-/* What is true of the whole run, and numbers without dimensions. */
+/* Keys set on the command line; NULL if that is not known. */
+static char *settings(tables *t)
+{
+  char *text = NULL;
+  const pendres_status status =
+    pendres_store_read_text(t->store, "provenance", "settings", 0, &text);
+  if (status == PENDRES_OUT_OF_MEMORY && t->status == PENDRES_OK) t->status = status;
+  return text;
+}
+
+/* A line of the head, without one that says nothing. Frees the text. */
+static void put_told(const char *name, char *text, FILE *out)
+{
+  if (text != NULL && *text != '\0') {
+    fprintf(out, "# %s: ", name);
+    put_text(text, 0, out);
+    putc('\n', out);
+  }
+  free(text);
+}
+
+/* What is true of the whole run, and numbers without dimensions. The date, which changes from run
+ * to run, is left to the HDF5 file. */
 static void put_head(tables *t, FILE *out)
 {
-  static const char *const told[] = { "title", "scene", "deck", "history", "source" };
+  static const char *const told[] = { "title", "scene", "source", "deck" };
   fprintf(out, "%sresults as text; the HDF5 file tells more\n", sign);
-  for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-    char *text = attribute(t, NULL, told[i]);
-    if (text != NULL) {
-      fprintf(out, "# %s: ", told[i]);
-      put_text(text, 0, out);
-      putc('\n', out);
-    }
-    free(text);
-  }
+  for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+    put_told(told[i], attribute(t, NULL, told[i]), out);
+  put_told("settings", settings(t), out);
   for (size_t i = 0; i < t->count; i++) {
     column *c = &t->list[i];
     if (c->rank > 0) continue;

@@ -214,7 +214,7 @@ static int open_output(job *j)
   const deck *d = &j->deck;
   const char *slash = strrchr(d->name, '/');
   snprintf(title, sizeof title, "%s", d->title[0] != '\0' ? d->title : deck_kind_name(d->kind));
-  snprintf(history, sizeof history, "resonance %.900s%s%.3000s",
+  snprintf(history, sizeof history, "%s: resonance %.900s%s%.3000s", j->provenance.date,
            slash != NULL ? slash + 1 : d->name, d->settings[0] != '\0' ? " " : "", d->settings);
   snprintf(source, sizeof source, "resonance, libpendres %s", pendres_version());
   const pendres_store_options options = { .title = title, .history = history, .source = source,

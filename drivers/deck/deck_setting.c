@@ -82,10 +82,16 @@ static int is_drive(const deck_key *key)
   return key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD;
 }
 
+/* Has the key an axis: one of its own, or one that it stands for where the deck has none? */
+static int has_axis(const deck_key *key)
+{
+  return is_axis(key) || key->when == DECK_UNLESS_AXIS;
+}
+
 static int same_quantity(const deck_key *a, const deck_key *b)
 {
   if (a == b || (is_drive(a) && is_drive(b))) return 1;
-  return is_axis(a) && is_axis(b) && a->axis == b->axis;
+  return has_axis(a) && has_axis(b) && a->axis == b->axis;
 }
 
 int deck_is_set(const deck_builder *b, size_t row)
