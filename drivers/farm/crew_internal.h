@@ -61,7 +61,7 @@ typedef struct crew {
   atomic_llong look;    /* when somebody is to look at the clock again, milliseconds */
   /* deal.c's: */
   pthread_t server;
-  atomic_int idle;      /* of rank 0: its own threads have no more to do */
+  atomic_int idle;      /* the rank's own threads have no more to do */
   atomic_int halted;    /* of another rank: rank 0 wants no more of it */
   atomic_int ended;     /* of another rank: rank 0 has told how the stage ended */
 } crew;

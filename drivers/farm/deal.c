@@ -1,17 +1,20 @@
 /* deal.c -- tasks dealt to the ranks of a run; see deal.h. */
-#define _POSIX_C_SOURCE 200809L /* nanosleep */
 #include "farm/deal.h"
 
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "farm/ranks.h"
 
-/* Tags: to rank 0, from rank 0 to all threads of a rank, and to thread number t of a rank. */
-enum { TO_ROOT, TO_ALL, TO_THREAD };
+/* Tags: to rank 0, questions apart since somebody waits for an answer; from rank 0 to all threads
+   of a rank, and to thread number t of a rank. */
+enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
+
+/* Microseconds between two looks at what has come, at most: where those that it is for are at work
+   meanwhile, and where they wait for it. */
+enum { SELDOM = 10000, OFTEN = 1000 };
 
 typedef enum kind {
   ASK,    /* for a task */
@@ -33,15 +36,6 @@ typedef struct note {
   char message[512];
 } note;
 
-/* Longer, up to a millisecond, the longer nothing has come: a look at MPI costs some microseconds
-   of a processor that pendulums could have, and a record comes once in many milliseconds. */
-static void nap(int *idle)
-{
-  const struct timespec t = { 0, *idle < 10 ? 100000L * (*idle + 1) : 1000000L };
-  ++*idle;
-  (void)nanosleep(&t, NULL);
-}
-
 static note note_of(const crew *c, kind what)
 {
   return (note){ .kind = (int32_t)what, .run = c->farm->run, .stage = c->number };
@@ -55,14 +49,12 @@ static int is_of(const crew *c, const note *n)
 /* A note and what follows it, in one parcel. */
 static int send_note(int to, int tag, const note *n, const void *data)
 {
-  if (n->size == 0 || data == NULL) return ranks_send(to, tag, n, sizeof *n);
-  char *bytes = malloc(sizeof *n + (size_t)n->size);
+  const size_t size = data != NULL ? (size_t)n->size : 0;
+  char *bytes = malloc(sizeof *n + size);
   if (bytes == NULL) return 0;
   memcpy(bytes, n, sizeof *n);
-  memcpy(bytes + sizeof *n, data, (size_t)n->size);
-  const int sent = ranks_send(to, tag, bytes, sizeof *n + (size_t)n->size);
-  free(bytes);
-  return sent;
+  if (size > 0) memcpy(bytes + sizeof *n, data, size);
+  return ranks_send(to, tag, bytes, sizeof *n + size);
 }
 
 static void send_to_others(const note *n, const void *data)
@@ -107,7 +99,7 @@ static int answer(crew *c, const ranks_parcel *p)
     reply.kind = TASK;
     reply.task = task;
   }
-  (void)ranks_send(p->from, TO_THREAD + n->thread, &reply, sizeof reply);
+  (void)send_note(p->from, TO_THREAD + n->thread, &reply, NULL);
   return reply.kind == TASK;
 }
 
@@ -118,7 +110,7 @@ static void *serve(void *arg)
   int under_way = 0, halted = 0, idle = 0;
   while (under_way > 0 || !atomic_load(&c->idle)) {
     ranks_parcel p;
-    if (ranks_receive(TO_ROOT, &p)) {
+    if (ranks_receive(QUESTION, &p) || ranks_receive(TO_ROOT, &p)) {
       under_way += answer(c, &p);
       free(p.data);
       idle = 0;
@@ -130,7 +122,7 @@ static void *serve(void *arg)
       send_to_others(&n, NULL);
       halted = 1;
     }
-    nap(&idle);
+    ranks_nap(&idle, atomic_load(&c->idle) ? OFTEN : SELDOM);
   }
   return NULL;
 }
@@ -169,10 +161,10 @@ static void *listen(void *arg)
   for (int ended = 0; !ended;) {
     ranks_parcel p;
     if (!ranks_receive(TO_ALL, &p)) {
-      nap(&idle);
+      ranks_nap(&idle, atomic_load(&c->idle) ? OFTEN : SELDOM);
       continue;
     }
-    idle = 0;
+    if (atomic_load(&c->idle)) idle = 0; /* records that are shared wait well */
     const note *n = p.data;
     if (n->run == c->farm->run && n->kind == QUIT) {
       c->status = PENDRES_INTERRUPTED;
@@ -198,11 +190,11 @@ static int ask(crew *c, int thread, size_t *task)
   int idle = 0;
   n.thread = thread;
   if (c->stage->timed || c->stage->chained || farm_stop(c->farm)) return 0;
-  if (!ranks_send(0, TO_ROOT, &n, sizeof n)) return 0;
+  if (!send_note(0, QUESTION, &n, NULL)) return 0;
   while (!atomic_load(&c->ended)) {
     ranks_parcel p;
     if (!ranks_receive(TO_THREAD + thread, &p)) {
-      nap(&idle);
+      ranks_nap(&idle, OFTEN);
       continue;
     }
     memcpy(&n, p.data, sizeof n);
@@ -259,7 +251,7 @@ void deal_tell(crew *c, const char *words)
     return;
   }
   snprintf(n.message, sizeof n.message, "%s", words);
-  (void)ranks_send(0, TO_ROOT, &n, sizeof n);
+  (void)send_note(0, TO_ROOT, &n, NULL);
 }
 
 pendres_status deal_begin(crew *c)
@@ -281,4 +273,5 @@ void deal_end(crew *c)
                          ? PENDRES_INTERRUPTED
                          : c->status);
   send_to_others(&n, NULL);
+  ranks_flush();
 }

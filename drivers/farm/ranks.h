@@ -24,9 +24,13 @@ int ranks_count(void); /* 1: no others */
 /* Copy what rank 0 has in data[size] to all ranks, which all call this. */
 void ranks_broadcast(void *data, size_t size);
 
-/* Bytes with a tag from 0 to 32000, in order between two ranks for each tag; it waits until `data`
-   may be reused. 0 on failure. */
-int ranks_send(int to, int tag, const void *data, size_t size);
+/* Bytes with a tag from 0 to 32000, in order between two ranks for each tag. `data` is taken over,
+   whatever happens, and freed when it has been sent; this returns at once, unless much is under way
+   already. 0 on failure. */
+int ranks_send(int to, int tag, void *data, size_t size);
+
+/* Wait until all that was sent has left: where nobody here looks at MPI, nothing moves. */
+void ranks_flush(void);
 
 /* What came with a tag, from any rank: 1 and data that are to be freed; 0: nothing is there yet, or
    no memory. Never waits for anything to come. */
@@ -36,5 +40,10 @@ typedef struct ranks_parcel {
   void *data;
 } ranks_parcel;
 int ranks_receive(int tag, ranks_parcel *out);
+
+/* Sleep between two looks, the longer the longer nothing has come, but at most so many
+   microseconds: a sleep costs up to 25 microseconds of a processor that pendulums could have. *idle
+   counts them, from 0. */
+void ranks_nap(int *idle, long most);
 
 #endif

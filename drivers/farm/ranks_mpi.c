@@ -20,10 +20,44 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static int own = 0, all = 1, started = 0;
 
-static void nap(void)
+/* Sent, and not known to have left: first in, first out. Guarded by `lock`. */
+typedef struct letter {
+  MPI_Request request;
+  void *data;
+  size_t size;
+  struct letter *next;
+} letter;
+static letter *oldest = NULL, *newest = NULL;
+static size_t unsent = 0;
+
+enum {
+  MOST_UNSENT = 64 << 20, /* bytes of letters in memory; who sends more waits */
+  LONGEST_WAIT = 1000     /* microseconds between looks of somebody who waits */
+};
+
+/* Naps grow by 50 us each, so that after a silence of t they are sqrt(100 us * t) long: what looks
+   cost and what is lost by looking late are then alike, whatever the time from parcel to parcel. */
+void ranks_nap(int *idle, long most)
 {
-  const struct timespec t = { 0, 100000 };
+  const long wanted = *idle < 1000 ? 50L * (*idle + 1) : most;
+  const struct timespec t = { 0, 1000L * (wanted < most ? wanted : most) };
+  ++*idle;
   (void)nanosleep(&t, NULL);
+}
+
+/* Let go of letters that have left. Under the lock; 1: there are none any more. */
+static int drop_sent(void)
+{
+  for (int done = 1; oldest != NULL;) {
+    letter *l = oldest;
+    if (MPI_Test(&l->request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done) return 0;
+    oldest = l->next;
+    unsent -= l->size;
+    free(l->data);
+    free(l);
+  }
+  newest = NULL;
+  return 1;
 }
 
 int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
@@ -50,6 +84,7 @@ int ranks_start(int *argc, char ***argv, char words[RANKS_WORDS])
 
 void ranks_end(void)
 {
+  if (started) ranks_flush();
   if (started) (void)MPI_Finalize();
   started = 0;
 }
@@ -67,14 +102,14 @@ int ranks_count(void)
 /* Wait for what was begun, with naps, so that others may call MPI meanwhile. */
 static int wait_for(MPI_Request *request)
 {
-  for (int done = 0; !done; nap()) {
+  int done = 0, idle = 0;
+  for (;;) {
     pthread_mutex_lock(&lock);
     const int code = MPI_Test(request, &done, MPI_STATUS_IGNORE);
     pthread_mutex_unlock(&lock);
-    if (code != MPI_SUCCESS) return 0;
-    if (done) break;
+    if (code != MPI_SUCCESS || done) return code == MPI_SUCCESS;
+    ranks_nap(&idle, LONGEST_WAIT);
   }
-  return 1;
 }
 
 void ranks_broadcast(void *data, size_t size)
@@ -87,14 +122,47 @@ void ranks_broadcast(void *data, size_t size)
   if (code == MPI_SUCCESS) (void)wait_for(&request);
 }
 
-int ranks_send(int to, int tag, const void *data, size_t size)
+/* The letter is on its way, or is freed: 0. Under the lock. */
+static int post(letter *l, int to, int tag)
 {
-  MPI_Request request;
-  if (size > INT_MAX) return 0;
-  pthread_mutex_lock(&lock);
-  const int code = MPI_Isend(data, (int)size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &request);
-  pthread_mutex_unlock(&lock);
-  return code == MPI_SUCCESS && wait_for(&request);
+  if (MPI_Isend(l->data, (int)l->size, MPI_BYTE, to, tag, MPI_COMM_WORLD, &l->request) !=
+      MPI_SUCCESS) {
+    free(l->data);
+    free(l);
+    return 0;
+  }
+  if (newest != NULL) newest->next = l;
+  else oldest = l;
+  newest = l;
+  unsent += l->size;
+  return 1;
+}
+
+int ranks_send(int to, int tag, void *data, size_t size)
+{
+  letter *l = malloc(sizeof *l);
+  if (l == NULL || size > INT_MAX) {
+    free(l);
+    free(data);
+    return 0;
+  }
+  *l = (letter){ .data = data, .size = size };
+  for (int idle = 0;; ranks_nap(&idle, LONGEST_WAIT)) {
+    pthread_mutex_lock(&lock);
+    const int now = drop_sent() || unsent + size <= MOST_UNSENT, sent = now && post(l, to, tag);
+    pthread_mutex_unlock(&lock);
+    if (now) return sent;
+  }
+}
+
+void ranks_flush(void)
+{
+  for (int idle = 0;; ranks_nap(&idle, LONGEST_WAIT)) {
+    pthread_mutex_lock(&lock);
+    const int all_left = drop_sent();
+    pthread_mutex_unlock(&lock);
+    if (all_left) return;
+  }
 }
 
 int ranks_receive(int tag, ranks_parcel *out)
@@ -104,6 +172,7 @@ int ranks_receive(int tag, ranks_parcel *out)
   int there = 0, size = 0, code = MPI_SUCCESS;
   *out = (ranks_parcel){ 0 };
   pthread_mutex_lock(&lock);
+  (void)drop_sent();
   code = MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &status);
   if (code == MPI_SUCCESS && there) code = MPI_Get_count(&status, MPI_BYTE, &size);
   if (code == MPI_SUCCESS && there) out->data = malloc((size_t)size + 1);
