@@ -6,6 +6,23 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
+
+/*
+ * Make room for so many elements in the array that the pointer at `array` leads to: &a for an array
+ * a of any type. For arrays that have their capacity in common: the caller keeps the new one once
+ * all of them have grown. 0: out of memory; the array is as it was.
+ */
+static inline int pendres_regrow(void *array, size_t capacity, size_t size)
+{
+  void *old, *grown;
+  memcpy(&old, array, sizeof old);
+  if (capacity > SIZE_MAX / size) return 0;
+  grown = realloc(old, capacity * size);
+  if (grown == NULL) return 0;
+  memcpy(array, &grown, sizeof grown);
+  return 1;
+}
 
 /*
  * Make room for one more in an array of `count` elements. Returns the array or, where it was full,
@@ -16,10 +33,9 @@ static inline void *pendres_grow(void *array, size_t count, size_t *capacity, si
 {
   if (count < *capacity) return array;
   const size_t larger = count + count / 2 + 32;
-  if (larger > SIZE_MAX / size) return NULL;
-  void *grown = realloc(array, larger * size);
-  if (grown != NULL) *capacity = larger;
-  return grown;
+  if (!pendres_regrow(&array, larger, size)) return NULL;
+  *capacity = larger;
+  return array;
 }
 
 #endif

@@ -28,13 +28,12 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
   const double turn = pendres_model_turn(&p->pendulum);
   double dx = q->x - p->x;
   dx -= turn * rint(dx / turn);
-  pendres_orbit_guess g = {.pendulum = p->pendulum,
-                           .x = p->x + part * dx,
-                           .v = p->v + part * (q->v - p->v),
-                           .period = p->period,
-                           .winding = p->winding};
-  pendres_parameter_set(b->parameter, value, &g.pendulum);
-  return g;
+  return (pendres_orbit_guess){
+    .pendulum = pendres_parameter_with(&p->pendulum, b->parameter, value),
+    .x = p->x + part * dx,
+    .v = p->v + part * (q->v - p->v),
+    .period = p->period,
+    .winding = p->winding};
 }
 
 static pendres_status branch_cross(pendres_context *ctx, const pendres_branch *b, double value,

@@ -42,6 +42,14 @@ void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pe
   if (place != NULL) *place = value;
 }
 
+pendres_pendulum pendres_parameter_with(const pendres_pendulum *p, pendres_parameter parameter,
+                                        double value)
+{
+  pendres_pendulum with = *p;
+  pendres_parameter_set(parameter, value, &with);
+  return with;
+}
+
 double pendres_parameter_scale(pendres_parameter parameter)
 {
   return pendres_arc_scale[PENDRES_U_OMEGA + (int)parameter];

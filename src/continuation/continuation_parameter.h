@@ -7,6 +7,10 @@
 
 #include <pendres/continuation.h>
 
+/* The pendulum with another value of a parameter. */
+pendres_pendulum pendres_parameter_with(const pendres_pendulum *p, pendres_parameter parameter,
+                                        double value);
+
 /* Lengths that count as one in arclength. */
 double pendres_parameter_scale(pendres_parameter parameter);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 
 /*
  * ARKODE adds its clock up step by step and always rounds the same way: after 3e5 steps it is off
@@ -43,12 +44,9 @@ int pendres_flow_drive_resize(pendres_flow_drive *d, int steps)
   const size_t wanted = (size_t)(d->stages + 1) * (size_t)(steps + 2);
   d->next = 0;
   if (wanted > d->size) {
-    double *theta = realloc(d->theta, wanted * sizeof *theta);
-    if (theta == NULL) return -1;
-    d->theta = theta;
-    double *cosine = realloc(d->cosine, wanted * sizeof *cosine);
-    if (cosine == NULL) return -1;
-    d->cosine = cosine;
+    if (!pendres_regrow(&d->theta, wanted, sizeof *d->theta) ||
+        !pendres_regrow(&d->cosine, wanted, sizeof *d->cosine))
+      return -1;
     for (size_t i = d->size; i < wanted; i++) {
       d->theta[i] = 0.0;
       d->cosine[i] = 1.0;

@@ -136,6 +136,12 @@ double pendres_steps_speed(const pendres_pendulum *p, double x, double v)
   return fmax(driven, sqrt(fma(v, v, 2.0 * pendres_model_climb(p, x - pendres_model_origin(p)))));
 }
 
+double pendres_steps_turning_speed(const pendres_pendulum *p)
+{
+  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping);
+  return 2.0 + driven + fabs(p->torque) / p->damping;
+}
+
 /* ---- probes ---- */
 
 static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendulum *p,

@@ -23,6 +23,10 @@ int pendres_steps_rung(int n);
  */
 double pendres_steps_speed(const pendres_pendulum *p, double x, double v);
 
+/* A speed to choose steps by for a pendulum that may turn on and on: enough for what the drive can
+   do, for the way over a barrier, and for a torque that friction balances. */
+double pendres_steps_turning_speed(const pendres_pendulum *p);
+
 /*
  * Steps a period so that one period's error of a pendulum with such a speed up to `speed` stays
  * below `tolerance` (absolute, of y and w); probed by step doubling. A failure says which remedy

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
@@ -94,18 +95,14 @@ int pendres_catalogue_reserve(pendres_catalogue *c, size_t more_traps)
 {
   if (c->count == c->capacity) {
     const size_t capacity = c->capacity + 4;
-    pendres_attractor *a = realloc(c->attractors, capacity * sizeof *a);
-    if (a == NULL) return -1;
-    c->attractors = a;
+    if (!pendres_regrow(&c->attractors, capacity, sizeof *c->attractors)) return -1;
     c->capacity = capacity;
   }
   if (c->traps + more_traps > c->trap_capacity) {
     const size_t capacity = c->traps + more_traps + 4;
-    pendres_trap *t = realloc(c->trap, capacity * sizeof *t);
-    if (t != NULL) c->trap = t;
-    int *owner = realloc(c->owner, capacity * sizeof *owner);
-    if (owner != NULL) c->owner = owner;
-    if (t == NULL || owner == NULL) return -1;
+    if (!pendres_regrow(&c->trap, capacity, sizeof *c->trap) ||
+        !pendres_regrow(&c->owner, capacity, sizeof *c->owner))
+      return -1;
     c->trap_capacity = capacity;
   }
   return 0;

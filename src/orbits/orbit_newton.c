@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
@@ -37,9 +38,7 @@ static int prepare_samples(pendres_newton_samples *t, size_t samples, size_t lan
 {
   const size_t wanted = samples * lanes * rows;
   if (wanted > t->size) {
-    double *data = realloc(t->data, wanted * sizeof *data);
-    if (data == NULL) return -1;
-    t->data = data;
+    if (!pendres_regrow(&t->data, wanted, sizeof *t->data)) return -1;
     t->size = wanted;
   }
   t->count = samples;

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "engine/context_internal.h"
 
 /* Memory for samples and what measuring them takes. */
@@ -33,10 +34,8 @@ static pendres_status provide(pendres_context *ctx, size_t samples, room *r)
 {
   const size_t need = 2 * samples + pendres_orbit_measure_work(samples);
   if (need <= r->size) return PENDRES_OK;
-  double *grown = realloc(r->work, need * sizeof *grown);
-  if (grown == NULL)
+  if (!pendres_regrow(&r->work, need, sizeof *r->work))
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for samples");
-  r->work = grown;
   r->size = need;
   return PENDRES_OK;
 }

@@ -8,6 +8,7 @@
 #include <pendres/strobe.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 #include "questions/boundary_grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -102,15 +103,10 @@ static pendres_status append(pendres_context *ctx, pendres_boundary *b, double x
 {
   if (b->count == b->capacity) {
     const size_t size = 2 * b->capacity + 256;
-    double *px = realloc(b->x, size * sizeof *px);
-    if (px != NULL) b->x = px;
-    double *pv = realloc(b->v, size * sizeof *pv);
-    if (pv != NULL) b->v = pv;
-    double *pe = realloc(b->error, size * sizeof *pe);
-    if (pe != NULL) b->error = pe;
-    int *pp = realloc(b->piece, size * sizeof *pp);
-    if (pp != NULL) b->piece = pp;
-    if (px == NULL || pv == NULL || pe == NULL || pp == NULL)
+    if (!pendres_regrow(&b->x, size, sizeof *b->x) ||
+        !pendres_regrow(&b->v, size, sizeof *b->v) ||
+        !pendres_regrow(&b->error, size, sizeof *b->error) ||
+        !pendres_regrow(&b->piece, size, sizeof *b->piece))
       return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
     b->capacity = size;
   }

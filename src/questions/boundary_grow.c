@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "base/grow.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/strobe_run.h"
@@ -259,9 +260,7 @@ static int reserve(pendres_boundary_node **node, size_t *capacity, size_t n)
 {
   if (n <= *capacity) return 0;
   const size_t size = n + n / 2 + 64;
-  pendres_boundary_node *grown = realloc(*node, size * sizeof *grown);
-  if (grown == NULL) return -1;
-  *node = grown;
+  if (!pendres_regrow(node, size, sizeof **node)) return -1;
   *capacity = size;
   return 0;
 }

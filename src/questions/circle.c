@@ -47,16 +47,32 @@ void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonomet
   out->c[n - 1] = 0.0;
 }
 
+/* cos ky and sin ky, for one k after another. */
+typedef struct multiple {
+  double c1, s1, c, s;
+} multiple;
+
+static inline multiple first_multiple(double y)
+{
+  const double c = cos(y), s = sin(y);
+  return (multiple){.c1 = c, .s1 = s, .c = c, .s = s};
+}
+
+static inline void turn_on(multiple *m)
+{
+  const double next = m->c * m->c1 - m->s * m->s1;
+  m->s = m->s * m->c1 + m->c * m->s1;
+  m->c = next;
+}
+
 double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double *slope)
 {
-  const double c1 = cos(y), s1 = sin(y);
-  double c = c1, s = s1, value = t->c[0], derivative = 0.0;
-  for (size_t k = 1; k < t->n / 2; k++) {
-    const double a = t->c[2 * k - 1], b = t->c[2 * k], next = c * c1 - s * s1;
-    value += a * c + b * s;
-    derivative += (double)k * (b * c - a * s);
-    s = s * c1 + c * s1;
-    c = next;
+  double value = t->c[0], derivative = 0.0;
+  multiple m = first_multiple(y);
+  for (size_t k = 1; k < t->n / 2; k++, turn_on(&m)) {
+    const double a = t->c[2 * k - 1], b = t->c[2 * k];
+    value += a * m.c + b * m.s;
+    derivative += (double)k * (b * m.c - a * m.s);
   }
   if (slope != NULL) *slope = derivative;
   return value;
@@ -165,15 +181,11 @@ static void tabulate(const shape *r, double *basis)
 {
   for (size_t i = 0; i < r->n; i++) {
     double *b = basis + i * r->n;
-    const double c1 = cos(r->source[i]), s1 = sin(r->source[i]);
-    double c = c1, s = s1;
+    multiple m = first_multiple(r->source[i]);
     b[0] = 1.0;
-    for (size_t k = 1; k < r->n / 2; k++) {
-      const double next = c * c1 - s * s1;
-      b[2 * k - 1] = c;
-      b[2 * k] = s;
-      s = s * c1 + c * s1;
-      c = next;
+    for (size_t k = 1; k < r->n / 2; k++, turn_on(&m)) {
+      b[2 * k - 1] = m.c;
+      b[2 * k] = m.s;
     }
     b[r->n - 1] = 0.0;
   }
@@ -268,18 +280,14 @@ done:
 
 /* ---- a guess ------------------------------------------------------------------------------- */
 
-typedef struct place {
-  double y, w;
-} place;
-
 static int by_angle(const void *a, const void *b)
 {
-  const place *p = a, *q = b;
+  const pendres_place *p = a, *q = b;
   return (p->y > q->y) - (p->y < q->y);
 }
 
 /* Straight lines from point to point, around the cylinder. */
-static int connect(place at[POINTS], pendres_trigonometric *out)
+static int connect(pendres_place at[POINTS], pendres_trigonometric *out)
 {
   enum { N = PENDRES_CIRCLE_LEAST };
   double w[N];
@@ -287,7 +295,7 @@ static int connect(place at[POINTS], pendres_trigonometric *out)
   qsort(at, POINTS, sizeof *at, by_angle);
   for (size_t i = 0; i < N; i++) {
     while (next < POINTS && at[next].y <= grid(N, i)) next++;
-    const place *right = &at[next % POINTS], *left = &at[(next + POINTS - 1) % POINTS];
+    const pendres_place *right = &at[next % POINTS], *left = &at[(next + POINTS - 1) % POINTS];
     const double from = left->y - (next == 0 ? two_pi : 0.0);
     const double to = right->y + (next == POINTS ? two_pi : 0.0);
     if (!(to - from < widest_gap)) return 0;
@@ -303,7 +311,7 @@ pendres_status pendres_circle_guess(pendres_context *ctx, const pendres_circle_w
 {
   const pendres_pendulum *p = &way->pendulum;
   pendres_block block;
-  place at[POINTS], now = {0.0, 0.0};
+  pendres_place at[POINTS], now = {0};
   const pendres_place start = pendres_passage_in(p, x, v);
   pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, way->steps, &block);
   *found = 0;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "engine/steps.h"
 
@@ -27,20 +28,13 @@ static const double residual = 0.1, least_residual = 1e-13;
 /* Coefficients that fall more slowly from one degree to the next tell little. */
 static const double slow = 0.5;
 
-/* What a step of the choice of steps is to be good for: the speed of a rotation. */
-static double speed_of(const pendres_pendulum *p)
-{
-  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping);
-  return 2.0 + driven + fabs(p->torque) / p->damping;
-}
-
 pendres_status pendres_circle_way_at(pendres_context *ctx, const pendres_circle_family *family,
                                      double value, pendres_circle_way *out)
 {
-  *out = (pendres_circle_way){.pendulum = family->pendulum, .tolerance = family->tolerance,
+  const pendres_pendulum p = pendres_parameter_with(&family->pendulum, family->parameter, value);
+  *out = (pendres_circle_way){.pendulum = p, .tolerance = family->tolerance,
                               .residual = residual * family->tolerance};
-  pendres_parameter_set(family->parameter, value, &out->pendulum);
-  return pendres_steps_choose(ctx, &out->pendulum, speed_of(&out->pendulum),
+  return pendres_steps_choose(ctx, &p, pendres_steps_turning_speed(&p),
                               probed * family->tolerance, &out->steps);
 }
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/mix.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
@@ -62,11 +63,8 @@ static pendres_status make_room(pendres_circles *c)
 {
   if (c->count < c->room) return PENDRES_OK;
   const size_t room = 2 * c->room + 8;
-  pendres_circle_band *band = realloc(c->band, room * sizeof *band);
-  if (band != NULL) c->band = band;
-  unsigned char *closed = realloc(c->closed, room);
-  if (closed != NULL) c->closed = closed;
-  if (band == NULL || closed == NULL)
+  if (!pendres_regrow(&c->band, room, sizeof *c->band) ||
+      !pendres_regrow(&c->closed, room, sizeof *c->closed))
     return pendres_context_fail(c->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for circles");
   c->room = room;
   return PENDRES_OK;
@@ -177,12 +175,16 @@ pendres_status pendres_circles_seek(pendres_circles *c, double value,
   return status;
 }
 
+static pendres_pendulum pendulum_at(const pendres_circles *c, double value)
+{
+  return pendres_parameter_with(&c->family.pendulum, c->family.parameter, value);
+}
+
 static void judge(pendres_circles *c, const pendres_circle_band *b, double value,
                   pendres_circles_verdict *out)
 {
   pendres_circle at;
-  pendres_pendulum p = c->family.pendulum;
-  pendres_parameter_set(c->family.parameter, value, &p);
+  const pendres_pendulum p = pendulum_at(c, value);
   pendres_circle_band_at(b, value, &at);
   pendres_trigonometric_trim(&at.move, negligible * c->family.tolerance);
   pendres_circle_table_set(c->table, &at.move, at.error + negligible * c->family.tolerance,
@@ -305,8 +307,7 @@ pendres_status pendres_circles_distance(pendres_circles *c, double value, double
   *distance = INFINITY;
   if (status != PENDRES_OK || b == NULL) return status;
   pendres_circle at;
-  pendres_pendulum p = c->family.pendulum;
-  pendres_parameter_set(c->family.parameter, value, &p);
+  const pendres_pendulum p = pendulum_at(c, value);
   const pendres_place place = pendres_passage_in(&p, x, v);
   pendres_circle_band_at(b, value, &at);
   *distance = fabs(place.w - pendres_trigonometric_at(&at.w, place.y, NULL));

@@ -25,9 +25,11 @@ static pendres_status try_birth(pendres_context *ctx, pendres_parameter paramete
     pendres_stretch_from(ctx, &state->attractor.orbit, parameter, from, &s);
   if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
       fabs(to - s.end_value) > small && fabs(from - s.end_value) > small) {
-    pendres_pendulum p = state->pendulum, q = p;
-    pendres_parameter_set(parameter, s.end_value - direction * small, &p);
-    pendres_parameter_set(parameter, s.end_value + direction * small, &q);
+    const double aside = direction * small;
+    const pendres_pendulum p =
+      pendres_parameter_with(&state->pendulum, parameter, s.end_value - aside);
+    const pendres_pendulum q =
+      pendres_parameter_with(&state->pendulum, parameter, s.end_value + aside);
     status = pendres_settled_find(ctx, &p, old->x, old->v, &before);
     if (status == PENDRES_OK) status = pendres_settled_find(ctx, &q, old->x, old->v, &behind);
     const pendres_orbit *born = &pendres_stretch_last(&s)->orbit;
@@ -54,8 +56,7 @@ static pendres_status halve(pendres_context *ctx, pendres_parameter parameter,
   pendres_status status = PENDRES_OK;
   for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
     const double middle = 0.5 * (from + to);
-    pendres_pendulum p = state->pendulum;
-    pendres_parameter_set(parameter, middle, &p);
+    const pendres_pendulum p = pendres_parameter_with(&state->pendulum, parameter, middle);
     pendres_settled there;
     status = pendres_settled_find(ctx, &p, before.x, before.v, &there);
     if (status != PENDRES_OK) break;

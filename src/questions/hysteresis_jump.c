@@ -188,9 +188,9 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
 {
   for (int i = 0; i < TRIALS; i++) {
     const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
-    pendres_pendulum p = at->orbit.pendulum;
     distance[i] = pendres_parameter_scale(at->parameter) * beyond[i % 2] * (1.0 + 0.5 * part);
-    pendres_parameter_set(at->parameter, at->value + direction * distance[i], &p);
+    const pendres_pendulum p = pendres_parameter_with(
+      &at->orbit.pendulum, at->parameter, at->value + direction * distance[i]);
     const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
     went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
                                          at->orbit.v + off * sin(angle));

@@ -2,15 +2,14 @@
 #include "questions/hysteresis_path.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/grow.h"
+#include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 
 pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value)
 {
-  pendres_pendulum p = w->pendulum;
-  pendres_parameter_set(w->parameter, value, &p);
-  return p;
+  return pendres_parameter_with(&w->pendulum, w->parameter, value);
 }
 
 void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
@@ -44,13 +43,9 @@ pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
   pendres_hysteresis *h = w->h;
   if (h->jumps == h->jump_room) {
     const size_t room = 2 * h->jump_room + 8;
-    pendres_jump *jump = realloc(h->jump, room * sizeof *jump);
-    if (jump != NULL) h->jump = jump;
-    size_t *from = realloc(h->jump_from, room * sizeof *from);
-    if (from != NULL) h->jump_from = from;
-    size_t *to = realloc(h->jump_to, room * sizeof *to);
-    if (to != NULL) h->jump_to = to;
-    if (jump == NULL || from == NULL || to == NULL)
+    if (!pendres_regrow(&h->jump, room, sizeof *h->jump) ||
+        !pendres_regrow(&h->jump_from, room, sizeof *h->jump_from) ||
+        !pendres_regrow(&h->jump_to, room, sizeof *h->jump_to))
       return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for jumps");
     h->jump_room = room;
   }

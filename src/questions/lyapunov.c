@@ -265,14 +265,6 @@ static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
 
 /* ---- the call ------------------------------------------------------------------------------ */
 
-/* Fast enough for what the drive can do, for the way over a barrier, and for a torque that friction
-   balances. */
-static double speed_of(const pendres_pendulum *p, double x, double v)
-{
-  const double driven = fabs(p->drive_amplitude) / hypot(p->drive_frequency, p->damping);
-  return fmax(pendres_steps_speed(p, x, v), 2.0 + driven + fabs(p->torque) / p->damping);
-}
-
 static pendres_status start(pendres_context *ctx, const job *j, const pendres_pendulum *p,
                             const double *x, const double *v)
 {
@@ -281,8 +273,10 @@ static pendres_status start(pendres_context *ctx, const job *j, const pendres_pe
     pendres_runner *r = &j->runner[i];
     const pendres_strobe_lane lane = pendres_strobe_lane_at(&p[i], x[i], v[i]);
     *r = pendres_runner_at(&lane, close_by);
+    const double speed =
+      fmax(pendres_steps_speed(&p[i], x[i], v[i]), pendres_steps_turning_speed(&p[i]));
     const pendres_status status =
-      pendres_steps_choose(ctx, &p[i], speed_of(&p[i], x[i], v[i]), accuracy, &r->lane.steps);
+      pendres_steps_choose(ctx, &p[i], speed, accuracy, &r->lane.steps);
     if (status != PENDRES_OK) return status;
     r->lane.steps += r->lane.steps % 2; /* for tangents by steps twice as long */
     r->rotates = r->neighbour = pendres_lyapunov_may_rotate(&p[i]);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "questions/hysteresis_jump.h"
 
@@ -93,8 +94,8 @@ static void look_up(pendres_ramp_gate *g, const pendres_ramp *r, double middle)
 /* The periods in which a motion dies away, at the end of a leg. */
 static long patience(const pendres_ramp *r, double time)
 {
-  pendres_pendulum p = r->pendulum;
-  pendres_parameter_set(r->parameter, pendres_ramp_value(r, time), &p);
+  const pendres_pendulum p =
+    pendres_parameter_with(&r->pendulum, r->parameter, pendres_ramp_value(r, time));
   return (long)fmin(1e6, ceil(2.0 * p.drive_frequency / (p.damping * two_pi)));
 }
 
