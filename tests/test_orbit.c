@@ -388,6 +388,43 @@ static void samples_know_their_error(void **state)
   }
 }
 
+/*
+ * Samples are in the coordinate of the orbit's own model, which starts elsewhere than a pendulum's.
+ * Here the orbit is its point, integrated on; and beside an orbit in one well of a double well
+ * there is its mirror image, which is looked for from a sample.
+ */
+static void samples_of_other_models(void **state)
+{
+  const pendres_pendulum p[] = {
+    {.damping = 0.2, .drive_amplitude = 0.3, .drive_frequency = 1.2,
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 1.0}},
+    {.damping = 0.2, .drive_amplitude = 0.1, .drive_frequency = 1.0,
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {-1.0, 0.0, 1.0}},
+    {.damping = 0.5, .drive_amplitude = 0.3, .drive_frequency = 1.2, .force = PENDRES_FORCE_SQUID,
+     .force_coefficients = {0.5}}};
+  enum { COUNT = 4 };
+  pendres_context *ctx = context_with(1e-9);
+  (void)state;
+  for (size_t m = 0; m < sizeof p / sizeof p[0]; m++) {
+    const double from = 1.0, rest = 0.0;
+    double x[COUNT], v[COUNT], x_is[COUNT + 1], v_is[COUNT + 1], dx[COUNT + 1], dv[COUNT + 1];
+    pendres_attractors *set = NULL;
+    check_ok(pendres_attractors_find(ctx, &p[m], 1, &from, &rest, &set));
+    assert_int_equal(pendres_attractors_count(set), m == 1 ? 2 : 1);
+    const pendres_orbit *o = &pendres_attractors_get(set, 0)->orbit;
+    assert_int_equal(o->period, 1);
+    check_ok(pendres_orbit_sample(ctx, o, COUNT, x, v));
+    check_ok(pendres_strobe_record(ctx, &p[m], o->x, o->v, 1, COUNT, x_is, v_is, dx, dv));
+    /* Within a period an error may grow tenfold, and no more: friction wins. */
+    for (int k = 0; k < COUNT; k++) {
+      check_near(x[k], x_is[k], dx[k] + 10.0 * (o->x_error + o->v_error));
+      check_near(v[k], v_is[k], dv[k] + 10.0 * (o->x_error + o->v_error));
+    }
+    pendres_attractors_free(set);
+  }
+  pendres_context_free(ctx);
+}
+
 /* An orbit about the top has the mean pi by symmetry, and the same well at every tolerance: the
    one above the origin. */
 static void about_the_top(void **state)
@@ -437,7 +474,7 @@ int main(void)
     cmocka_unit_test(linear_limit),             cmocka_unit_test(slopes),
     cmocka_unit_test(refusals),                 cmocka_unit_test(no_ghosts),
     cmocka_unit_test(honest_with_few_steps),    cmocka_unit_test(samples_know_their_error),
-    cmocka_unit_test(about_the_top),
+    cmocka_unit_test(about_the_top),            cmocka_unit_test(samples_of_other_models),
   };
   return cmocka_run_group_tests_name("orbit", tests, NULL, NULL);
 }

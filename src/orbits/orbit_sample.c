@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
+#include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -78,7 +79,7 @@ static void point_at(const pendres_orbit *o, const curve *c, double share, doubl
   double f[3];
   const double phase = two_pi * share;
   pendres_orbit_series_at(&c->series, phase, f);
-  out[0] = f[0] + half_pi + o->winding * phase;
+  out[0] = f[0] + pendres_model_origin(&o->pendulum) + o->winding * phase;
   out[1] = o->pendulum.drive_frequency * (f[1] + o->winding) / o->period;
 }
 
