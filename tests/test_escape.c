@@ -19,23 +19,29 @@ static pendres_context *context(void)
   return ctx;
 }
 
-/* Helmholtz, driven: with steps of 1/100, 20 periods long, whether x goes beyond 50. */
+/* Helmholtz' force, or that of a ring with a junction. */
+static double force(const pendres_pendulum *p, double x)
+{
+  return p->force == PENDRES_FORCE_SQUID ? sin(x) + p->force_coefficients[0] * x : x - x * x;
+}
+
+/* Driven, with steps of 1/100, 20 periods long: whether x goes beyond 50, to the right or left. */
 static int runs_away(const pendres_pendulum *p, double x, double v)
 {
   const double h = 1e-2, end = 20.0 * 2.0 * PENDRES_PI / p->drive_frequency;
-  for (double t = 0.0; t < end && x < 50.0; t += h) {
+  for (double t = 0.0; t < end && fabs(x) < 50.0; t += h) {
     double a[4], u[4];
     for (int i = 0; i < 4; i++) {
       const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5;
       const double at = i == 0 ? x : x + c * h * u[i - 1];
       u[i] = i == 0 ? v : v + c * h * a[i - 1];
-      a[i] = p->drive_amplitude * cos(p->drive_frequency * (t + c * h)) - p->damping * u[i] - at +
-             at * at;
+      a[i] = p->drive_amplitude * cos(p->drive_frequency * (t + c * h)) - p->damping * u[i] -
+             force(p, at);
     }
     x += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
     v += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
   }
-  return x >= 50.0;
+  return fabs(x) >= 50.0;
 }
 
 static double weight(int i)
@@ -113,6 +119,35 @@ static void inverted(void **state)
   pendres_context_free(ctx);
 }
 
+/* A force of one's own: a ring whose spring pushes. What does not escape is on the one attractor
+   around x = 0, and both happen. */
+static void own_force(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.3, .drive_amplitude = 0.3, .drive_frequency = 0.8,
+                              .force = PENDRES_FORCE_SQUID, .force_coefficients = {-0.3}};
+  (void)state;
+  pendres_pendulum many[SIDE * SIDE];
+  double x[SIDE * SIDE], v[SIDE * SIDE];
+  pendres_outcome o[SIDE * SIDE];
+  int away = 0, uncertain = 0;
+  pendres_context *ctx = context();
+  for (int i = 0; i < SIDE * SIDE; i++) {
+    many[i] = p;
+    x[i] = 0.6 * (i / SIDE) - 4.4;
+    v[i] = 0.3 * (i % SIDE) - 2.2;
+  }
+  check_ok(pendres_settle(ctx, SIDE * SIDE, many, x, v, o, NULL));
+  for (int i = 0; i < SIDE * SIDE; i++) {
+    const int escapes = runs_away(&p, x[i], v[i]);
+    assert_int_not_equal(o[i].label, PENDRES_LABEL_UNRESOLVED);
+    away += escapes;
+    uncertain += !o[i].certain;
+    if (o[i].certain) assert_int_equal(o[i].label == PENDRES_LABEL_ESCAPE, escapes);
+  }
+  assert_true(away > SIDE * SIDE / 4 && away < 3 * SIDE * SIDE / 4 && uncertain < 4);
+  pendres_context_free(ctx);
+}
+
 /* The bound: beyond it the acceleration at rest is outwards at every phase, and no less far out. */
 static void bound(void **state)
 {
@@ -124,7 +159,9 @@ static void bound(void **state)
      .parametric_amplitude = -0.9, .force = PENDRES_FORCE_POLYNOMIAL,
      .force_coefficients = {2.0, 0.5, -0.1}},
     {.damping = 0.1, .drive_amplitude = 1.0, .drive_frequency = 1.0,
-     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 3.0, -0.2, -0.05}}};
+     .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, 0.0, 3.0, -0.2, -0.05}},
+    {.damping = 0.1, .drive_amplitude = 0.4, .drive_frequency = 1.0, .torque = 2.0,
+     .parametric_amplitude = 0.5, .force = PENDRES_FORCE_SQUID, .force_coefficients = {-0.1}}};
   (void)state;
   for (size_t i = 0; i < sizeof some / sizeof *some; i++)
     for (int side = -1; side <= 1; side += 2) {
@@ -151,12 +188,16 @@ static void bound(void **state)
   assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
   strong.force = PENDRES_FORCE_PENDULUM;
   assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
+  pendres_pendulum ring = some[3];
+  ring.force_coefficients[0] = 0.1;
+  assert_false(pendres_model_escapes(&ring, 1e6, 1.0));
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(helmholtz), cmocka_unit_test(inverted), cmocka_unit_test(bound),
+    cmocka_unit_test(helmholtz), cmocka_unit_test(inverted),
+    cmocka_unit_test(own_force), cmocka_unit_test(bound),
   };
   return cmocka_run_group_tests_name("escape", tests, NULL, NULL);
 }

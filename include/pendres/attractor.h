@@ -57,8 +57,8 @@ typedef enum pendres_label {
   PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
-  PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a polynomial force that
-                                     drives outwards does not let it return: no attractor */
+  PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a force that drives
+                                     outwards does not let it return: no attractor */
   PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation under a drive that is not locked to it; told by
                                          lyapunov.h and hysteresis.h alone */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
@@ -111,7 +111,8 @@ enum {
  * the drive does: at |b| < 1, to the right, with phi(x) = -f(x), from X on where for all x >= X
  * phi(x) > 0 and phi(x) (1 - |b|) + I - |F0| > 0, and v >= 0; to the left likewise. There v cannot
  * fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X is
- * Fujiwara's bound of the zeros of both.
+ * what the force's model says (pendres_model, `outward`): of a polynomial Fujiwara's bound of the
+ * zeros of both, of a force of one's own what its header has; a force without it has no escapes.
  */
 typedef struct pendres_outcome {
   pendres_label label;   /**< that of its attractor; ESCAPE or UNRESOLVED if there is none */

@@ -61,6 +61,13 @@ typedef enum pendres_force {
 
 enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
 
+/**
+ * Where a force drives a pendulum away for ever: a distance from y = 0, to the right (side = 1) or
+ * to the left (side = -1), beyond which -side f(side distance) is above `need` and above 0, at that
+ * distance and at all larger ones. INFINITY where there is none.
+ */
+typedef double pendres_force_outward(const double *coefficients, double side, double need);
+
 /** What is true of all pendulums of a force. Static. */
 typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
@@ -69,6 +76,8 @@ typedef struct pendres_model {
   int angle;         /**< whether x is an angle, in rad; else a length in units of its own */
   int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
   const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
+  pendres_force_outward *outward; /**< by which it is told that a pendulum escapes to infinity;
+                                       NULL: none does, or it is not known where */
 } pendres_model;
 
 /** The parameters of one pendulum. Zero in all fields after temperature: the plain pendulum. */

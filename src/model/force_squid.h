@@ -16,9 +16,18 @@
 #include "base/sine.h"
 #include "model/force.h"
 
+/* A spring that pushes, a1 < 0, is stronger than the junction's sine and `need` where |a1| z is
+   larger than 1 + need. */
+static inline double pendres_force_squid_outward(const double *a, double side, double need)
+{
+  (void)side;
+  return a[0] < 0.0 ? (1.0 + fmax(need, 0.0)) / -a[0] : INFINITY;
+}
+
 /* The ring's spring pulls y back however often it has turned over: y has no period. */
 static const pendres_model pendres_force_squid_model = {
-  .name = "squid", .angle = 1, .coefficients = 1, .coefficient_names = {"a1"}};
+  .name = "squid", .angle = 1, .coefficients = 1, .coefficient_names = {"a1"},
+  .outward = pendres_force_squid_outward};
 
 PENDRES_FORCE_INLINE void pendres_force_squid(const double *a, double y, double *force,
                                               double *slope)

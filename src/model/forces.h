@@ -11,7 +11,9 @@
  *
  *   pendres_force_NAME_model      its name in decks, the period of y (2 pi or, where y and y + 2 pi
  *                                 are not the same, 0), origin, whether y is an angle (in rad),
- *                                 coefficients and their names
+ *                                 coefficients and their names, and, if pendulums may escape to
+ *                                 infinity, `outward`, which tells from where on they do for
+ *                                 certain (pendulum.h); without it they are unresolved
  *   pendres_force_NAME            f and df/dy; f(0) need not be 0
  *   pendres_force_NAME_by         df/da_k, k from 0 on
  *   pendres_force_NAME_potential  V, dV/dy = f, up to a constant

@@ -9,9 +9,29 @@
 
 static const pendres_model pendulum = {
   .name = "pendulum", .period = 2.0 * PENDRES_PI, .origin = 0.5 * PENDRES_PI, .angle = 1};
+
+/*
+ * With z the distance, c_k the coefficients of -side f(side z) - need and n its degree, all zeros
+ * are within 2 max |c_k / c_n|^(1/(n - k)) (M. Fujiwara, Tohoku Mathematical Journal 10 (1916)
+ * 167). Those of -side f, which lacks c_0, are so too.
+ */
+static double polynomial_outward(const double *a, double side, double need)
+{
+  int n = PENDRES_FORCE_COEFFICIENTS;
+  while (n > 0 && a[n - 1] == 0.0) n--;
+  if (n == 0) return INFINITY;
+  /* -side f(side z): odd powers change their sign once, even ones with the side. */
+  const double lead = n % 2 == 1 ? -a[n - 1] : -side * a[n - 1];
+  if (!(lead > 0.0)) return INFINITY;
+  double most = pow(fabs(need) / lead, 1.0 / n);
+  for (int k = 1; k < n; k++) most = fmax(most, pow(fabs(a[k - 1]) / lead, 1.0 / (n - k)));
+  return 2.0 * most;
+}
+
 static const pendres_model polynomial = {.name = "polynomial",
                                          .coefficients = PENDRES_FORCE_COEFFICIENTS,
-                                         .coefficient_names = {"a1", "a2", "a3", "a4", "a5"}};
+                                         .coefficient_names = {"a1", "a2", "a3", "a4", "a5"},
+                                         .outward = polynomial_outward};
 
 static const pendres_model *const models[PENDRES_FORCE_COUNT] = {
   [PENDRES_FORCE_PENDULUM] = &pendulum, [PENDRES_FORCE_POLYNOMIAL] = &polynomial,
@@ -223,31 +243,23 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v)
 }
 
 /*
- * A length beyond which, on one side, the force drives outwards for ever; infinite if there is
- * none. With z the distance, c_k the coefficients of phi(z) (1 - |b|) + side I - |F0| and n its
- * degree, all zeros are within 2 max |c_k / c_n|^(1/(n - k)) (M. Fujiwara, Tohoku Mathematical
- * Journal 10 (1916) 167). Those of phi, which lacks c_0, are so too.
+ * A length beyond which, on one side, force and drives together push outwards for ever, whatever
+ * the phase: the force by more than what drive and torque may make up for. Infinite if there is
+ * none.
  */
 static double far_out(const pendres_pendulum *p, double side)
 {
-  int n = PENDRES_FORCE_COEFFICIENTS;
-  const double *a = p->force_coefficients, rest = 1.0 - fabs(p->parametric_amplitude);
-  while (n > 0 && a[n - 1] == 0.0) n--;
-  if (n == 0 || !(rest > 0.0)) return INFINITY;
-  /* -side f(side z): odd powers change their sign once, even ones with the side. */
-  const double lead = n % 2 == 1 ? -a[n - 1] : -side * a[n - 1];
-  if (!(lead > 0.0)) return INFINITY;
-  const double push = side * p->torque - fabs(p->drive_amplitude);
-  double most = pow(fabs(push) / (rest * lead), 1.0 / n);
-  for (int k = 1; k < n; k++) most = fmax(most, pow(fabs(a[k - 1]) / lead, 1.0 / (n - k)));
-  return 2.0 * most * (1.0 + 1e-9);
+  const double rest = 1.0 - fabs(p->parametric_amplitude);
+  if (models[p->force]->outward == NULL || !(rest > 0.0)) return INFINITY;
+  const double need = (fabs(p->drive_amplitude) - side * p->torque) / rest;
+  return models[p->force]->outward(p->force_coefficients, side, need) * (1.0 + 1e-9);
 }
 
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
 {
   const double side = y < 0.0 ? -1.0 : 1.0;
   double force, slope;
-  if (p->force != PENDRES_FORCE_POLYNOMIAL || !(side * w >= 0.0)) return 0;
+  if (models[p->force]->outward == NULL || !(side * w >= 0.0)) return 0;
   pendres_model_force(p, y, &force, &slope);
   /* Most states are told by this alone. */
   if (!(-side * force > 0.0)) return 0;
