@@ -61,7 +61,7 @@ static pendres_attractors *create_sets(size_t sets)
   return set;
 }
 
-/* The list of all attractors, after all have been found. */
+/* Make the list of all attractors, after all of them have been found. */
 static int index_sets(pendres_attractors *set)
 {
   size_t count = 0;
@@ -76,7 +76,7 @@ static int index_sets(pendres_attractors *set)
   return 0;
 }
 
-/* Scouts that see the whole of a well, at rest and moving. */
+/* Scouts that start all over a well, at rest and moving either way. */
 static size_t default_scouts(const pendres_pendulum *p, double x[64], double v[64])
 {
   size_t n = 0;
@@ -210,7 +210,7 @@ static pendres_status settle_all(pendres_context *ctx, size_t n,
     pendres_catalogue *c = all->catalogues + base;
     status = pendres_settle_batch(ctx, next_set - base, c, 1, last - first, set + first, x + first,
                                   v + first, outcome + first);
-    /* Indices into the list of all attractors. */
+    /* Numbers within a set become numbers in the list of all attractors. */
     size_t starts[BATCH_SETS];
     for (size_t s = 0; s < next_set - base; s++) {
       starts[s] = offset;

@@ -13,7 +13,8 @@ struct pendres_attractors {
   const pendres_attractor **attractors; /* all of them, set after set */
 };
 
-/* Find more attractors of a set's one parameter set; numbers may change if there are more. */
+/* Look for more attractors of a set that has one parameter set. Their numbers change if some are
+   found. */
 pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractors *set, size_t n,
                                          const double *x, const double *v);
 

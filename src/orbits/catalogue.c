@@ -125,7 +125,8 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
   return o;
 }
 
-/* Means over time, a drive cycle; everything else is that of an orbit which does not close. */
+/* The means over time of a chaotic motion, for one drive cycle. All that a motion which does not
+   close cannot have is NaN. */
 static pendres_orbit mean_cycle(const pendres_pendulum *p, const pendres_chaos_measures *m)
 {
   const double cycles = p->drive_frequency / two_pi;

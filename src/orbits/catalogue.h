@@ -20,7 +20,7 @@ enum { PENDRES_MOST_COVERS = 4 /* chaotic attractors of a parameter set */ };
 typedef struct pendres_catalogue {
   pendres_pendulum pendulum;
   pendres_trap_effort effort;
-  int any_well; /* nobody asks for the well that a pendulum settles in */
+  int any_well; /* 1: nobody asks for the well that a pendulum settles in */
   size_t count, capacity;
   pendres_attractor *attractors;
   size_t traps, trap_capacity;
@@ -40,20 +40,21 @@ typedef struct pendres_scout {
 
 void pendres_catalogue_clear(pendres_catalogue *c);
 
-/* Integrate scouts (period and winding ignored) and add what they lead to. */
+/* Integrate scouts (their period and winding are not read, but overwritten), and add the orbits
+   that they lead to. */
 pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
                                          pendres_catalogue *catalogues, size_t n,
                                          pendres_scout *scouts);
 
-/* Refine guesses to orbits, and add the stable ones that are new, with their traps; beside an orbit
-   that is not its own mirror image also that image. */
+/* Refine guesses to orbits, and add the stable ones that are new, with their traps. Where there is
+   mirror symmetry, the image of an orbit that is not its own image is added, too. */
 pendres_status pendres_catalogue_add(pendres_context *ctx, pendres_catalogue *catalogues, size_t n,
                                      const pendres_scout *guesses);
 
-/* Room for one more attractor with so many traps; nonzero if out of memory. */
+/* Make room for one more attractor with so many traps; nonzero if out of memory. */
 int pendres_catalogue_reserve(pendres_catalogue *c, size_t more_traps);
 
-/* Nothing is known of an orbit that does not close: NaN, not 0. */
+/* An orbit of which nothing but the pendulum is known: all of its numbers are NaN. */
 pendres_orbit pendres_orbit_none(const pendres_pendulum *p);
 
 /* Add a chaotic attractor; the cover becomes the catalogue's. */
@@ -61,15 +62,16 @@ pendres_status pendres_catalogue_add_chaos(pendres_context *ctx, pendres_catalog
                                            const pendres_chaos_measures *m, pendres_cover *cover);
 
 /*
- * The physical order of attractors: order[place] = number. Orbits first, by amplitude, then by
- * Poincaré point; chaos by its means. What differs by rounding alone does not decide: attractors
- * whose values of one key follow each other no further apart than that go on to the next key. So
- * the order is one, whatever that of discovery. Nonzero if out of memory.
+ * The physical order of attractors: order[place] = number. Orbits come first, in the order of their
+ * amplitudes and then of their Poincaré points; chaotic attractors follow in the order of their
+ * means. A difference that rounding alone can make does not decide: attractors whose amplitudes are
+ * that close are compared by the next number. The order thus does not depend on that of discovery.
+ * Nonzero if out of memory.
  */
 int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
 
-/* Put attractors into their physical order, and label them; rank[old number] = new number, for as
-   many as there are (rank may be NULL). */
+/* Put attractors into their physical order, and label them. rank[old number] = new number is
+   written for all of them; rank may be NULL. */
 pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);
 
 /*

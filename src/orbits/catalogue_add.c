@@ -14,8 +14,8 @@
 #include "model/model.h"
 #include "orbits/orbit_prime.h"
 
-/* Two orbits are one when their Poincaré points agree to this; distinct ones are further apart
-   unless they are about to annihilate in a fold, where neither is an attractor much longer. */
+/* Two orbits are taken for one when their Poincaré points agree to this. Stable orbits that differ
+   are that close at most next to a bifurcation. */
 static const double same_point = 1e-6;
 /* Guesses closer than this lead to the same orbit, so one of them is enough. */
 static const double same_guess = 0.05;
@@ -37,7 +37,7 @@ static int known(const pendres_catalogue *c, const pendres_orbit *o)
   return 0;
 }
 
-/* Whether an orbit of period q closes earlier already: it is then found under that period. */
+/* Whether an orbit of period q closes after a shorter period already, under which it is found. */
 static int closes_earlier(const pendres_orbit *points, int q)
 {
   for (int d = 1; d < q; d++)
@@ -47,9 +47,11 @@ static int closes_earlier(const pendres_orbit *points, int q)
 }
 
 /*
- * The larger multiplier's logarithm in time, with an error from the interval of its modulus. That
- * is exp(-damping time / 2) at least, since the product of both is its square, and exactly so if
- * the pair is complex for certain. Below DBL_MIN, as strong damping makes it, it has no digits.
+ * The Lyapunov exponent is the logarithm of the larger multiplier's modulus over the orbit's
+ * period, and its error follows from the interval that the modulus lies in. The modulus is at least
+ * exp(-damping time / 2), since the product of the two multipliers is the square of that, and equal
+ * to it if they are complex conjugates for certain. A modulus below DBL_MIN, which strong damping
+ * leads to, has no digits.
  */
 static void set_lyapunov(pendres_attractor *a, const pendres_orbit *o)
 {
@@ -86,7 +88,7 @@ static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
                            .drift_error = NAN,
                            .watched_periods = NAN,
                            .escape_rate_bound = NAN};
-  /* All points of an orbit have the same multipliers: by what they differ they are not known. */
+  /* All points of an orbit have the same multipliers: those computed at them differ by errors. */
   for (int j = 0; j < q; j++)
     a->orbit.multiplier_error =
       fmax(a->orbit.multiplier_error,
@@ -104,12 +106,13 @@ static pendres_status append(pendres_context *ctx, pendres_catalogue *c,
 
 /* ---- the points of long orbits ---- */
 
-/* Orbits whose Poincaré points are looked for, side by side; those of one lie one after another. */
+/* Orbits whose Poincaré points are looked for side by side. The points of an orbit lie one after
+   another. */
 typedef struct long_orbits {
   size_t count, points;
   const pendres_orbit **orbit;
   size_t *first;        /* point of each */
-  char *complete;       /* all points have been found */
+  char *complete;       /* of each orbit: whether all of its points have been found */
   pendres_orbit *point; /* the first of each is the one that was given */
   pendres_trap *trap;   /* of each point */
 } long_orbits;
@@ -123,7 +126,7 @@ static void free_long(long_orbits *l)
   free(l->trap);
 }
 
-/* Where the orbits are at their other strobes, roughly. */
+/* Guess where the orbits are at their other strobes, by integration. */
 static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
                                    pendres_orbit_guess *guess)
 {
@@ -162,7 +165,7 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
   return status;
 }
 
-/* All points, each refined at its own place. */
+/* Refine each point at its own place. */
 static pendres_status find_points(pendres_context *ctx, long_orbits *l)
 {
   pendres_orbit_guess *guess = malloc(l->points * sizeof *guess);
@@ -170,7 +173,7 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
   if (guess == NULL || outcome == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
   if (status == PENDRES_OK) status = guess_points(ctx, l, guess);
-  /* Guesses for the points that are not known, and the orbits that they lead to, without gaps. */
+  /* The first point of each orbit is known already: close the gaps that it leaves among guesses. */
   for (size_t i = 0; i < l->count && status == PENDRES_OK; i++)
     memmove(guess + l->first[i] - i, guess + l->first[i] + 1,
             (size_t)(l->orbit[i]->period - 1) * sizeof *guess);
@@ -194,7 +197,7 @@ static pendres_status find_points(pendres_context *ctx, long_orbits *l)
   return status;
 }
 
-/* The traps of the points, once those of orbits that are not complete have gone. */
+/* Drop the points of orbits that are not complete, and find the traps of the others. */
 static pendres_status find_traps(pendres_context *ctx, long_orbits *l, pendres_trap_effort effort)
 {
   size_t kept = 0;
@@ -216,7 +219,7 @@ static int allocate_long(long_orbits *l, size_t n)
   return l->orbit != NULL && l->first != NULL && l->complete != NULL;
 }
 
-/* Points and traps of the orbits in the list. */
+/* Find the points and the traps of the orbits in the list. */
 static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
                                     pendres_trap_effort effort)
 {
@@ -237,7 +240,7 @@ static pendres_status complete_long(pendres_context *ctx, long_orbits *l,
 
 /* ---- adding orbits ---- */
 
-/* Stable orbits, those of a set one after another, and what has become of them. */
+/* Stable orbits, of which those of a set lie one after another, and what has become of them. */
 typedef struct candidates {
   size_t count;
   const pendres_orbit *orbit;
@@ -247,9 +250,9 @@ typedef struct candidates {
 } candidates;
 
 /*
- * Add the orbits of a set, from the first that is not done on, up to one of more periods that is
- * new: its number, or the number after the set's last. A point of a long orbit that has been added
- * is known by the time it is met.
+ * Add the orbits of the set that orbit number `first` belongs to, up to the first new one that
+ * takes several periods to close. *next is its number, or the number after the set's last. Once a
+ * long orbit has been added, its other points among the candidates are found to be known.
  */
 static pendres_status add_up_to_long(pendres_context *ctx, pendres_catalogue *c,
                                      const candidates *k, size_t first, size_t *next)
@@ -268,7 +271,8 @@ static pendres_status add_up_to_long(pendres_context *ctx, pendres_catalogue *c,
   return status;
 }
 
-/* Long orbits go side by side, the next of every set at a time. */
+/* Add all candidates. The next long orbit of each set is completed side by side with those of the
+   other sets. */
 static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalogues,
                                  const candidates *k)
 {
@@ -299,7 +303,7 @@ static pendres_status add_orbits(pendres_context *ctx, pendres_catalogue *catalo
 
 /* ---- from guesses to orbits ---- */
 
-/* Guesses of one set near an earlier guess are left out. */
+/* Turn scouts into guesses, and leave out those near an earlier guess of their set. */
 static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_catalogue *c,
                                pendres_orbit_guess *g, size_t *set)
 {
@@ -362,7 +366,8 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   return status;
 }
 
-/* The traps of orbits of one period; those of others belong to all of their points. */
+/* Find the traps of orbits of one period. Orbits of more have one at each of their points, which
+   are found later. */
 static pendres_status trap_short(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                  pendres_trap_effort effort, pendres_trap *traps)
 {

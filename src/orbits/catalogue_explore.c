@@ -9,16 +9,16 @@
 #include "engine/steps.h"
 #include "model/model.h"
 
-/* A scout that moves less than this in a period is close enough for Newton's method. */
+/* A scout that moves by less than this from strobe to strobe is near enough for Newton's method. */
 static const double at_rest = 0.03;
 
 typedef struct scouting {
   pendres_scout *scouts; /* y and w: one period ago */
-  double *angle;         /* the same with whole turns */
+  double *angle;         /* the angle then, with its whole turns */
   const long *periods;   /* of each set */
 } scouting;
 
-/* Scouts stop where they hardly move, or where transients should have faded. */
+/* A scout stops where it hardly moves, or after the time in which transients should have faded. */
 static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const scouting *s = arg;
@@ -31,14 +31,14 @@ static int scout_look(void *arg, size_t index, const pendres_strobe_lane *lane)
   me->y = lane->y;
   me->w = lane->w;
   me->period = 1;
-  /* One on its way to infinity finds nothing: what it leaves behind is no guess. */
+  /* A scout on its way to infinity finds nothing: the NaN marks that it is no guess. */
   if (pendres_model_escapes(lane->pendulum, lane->y, lane->w)) me->y = NAN;
   if (!(isfinite(advance) && isfinite(me->y))) return 1;
   me->winding = (int)turns;
   return moved < at_rest || lane->period >= s->periods[me->set];
 }
 
-/* Periods after which a transient has faded to a hundredth, within reason. */
+/* Periods after which a transient has faded to a hundredth, but at least 4 and at most 60. */
 static long scouting_periods(const pendres_pendulum *p)
 {
   const double rate = 0.5 * p->damping * two_pi / p->drive_frequency;
@@ -63,7 +63,7 @@ pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
     const pendres_pendulum *p = &catalogues[scouts[i].set].pendulum;
     lanes[i] = (pendres_strobe_lane){.pendulum = p, .y = scouts[i].y, .w = scouts[i].w};
     angle[i] = scouts[i].y;
-    /* Scouts only have to come near: Newton's method does the rest. */
+    /* A low accuracy is enough: scouts only have to come near an orbit. */
     const double speed = pendres_steps_speed(p, scouts[i].y + pendres_model_origin(p),
                                              scouts[i].w * p->drive_frequency);
     status = pendres_steps_choose(ctx, p, speed, 1e-4, &lanes[i].steps);

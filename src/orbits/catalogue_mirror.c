@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Harmonics of mirror images agree to this; those of other orbits of one pendulum do not. */
+/* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
 static const double same_harmonics = 1e-6;
-enum { HARMONICS = 5 /* that are looked at */ };
+enum { HARMONICS = 5 /* so many are compared */ };
 
 /* What an orbit and its mirror image have in common, and its error. */
 #define MEASURE(name) {offsetof(pendres_attractor, name), offsetof(pendres_attractor, name##_error)}
@@ -25,7 +25,7 @@ static double *at(pendres_attractor *a, size_t offset)
   return (double *)(void *)((char *)a + offset);
 }
 
-/* y(t) -> -y(t + half a drive period) turns the sign of the mean and of even harmonics. */
+/* y(t) -> -y(t + half a drive period) changes the sign of the mean and of even harmonics. */
 static int are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;

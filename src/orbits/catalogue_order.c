@@ -6,7 +6,7 @@
 
 enum { KEYS = 3 };
 
-/* An attractor on its way to its place: those of one group agree in all keys before this one. */
+/* An attractor on its way to its place. Attractors of one group agree in all earlier keys. */
 typedef struct placed {
   int group;
   double key;
@@ -28,8 +28,8 @@ static const pendres_cover *cover_of(const pendres_catalogue *c, int attractor)
 }
 
 /*
- * An attractor's key number k, and how far apart two of them may be by rounding alone. Amplitudes
- * of mirror images, and points of orbits that are alike, must not decide by that.
+ * An attractor's key number k, and *same: how far apart two such keys may be by rounding alone. The
+ * amplitudes of mirror images, for one, differ by rounding, which must not decide their order.
  */
 static double key_of(const pendres_catalogue *c, int attractor, int k, double *same)
 {
@@ -44,10 +44,10 @@ static double key_of(const pendres_catalogue *c, int attractor, int k, double *s
   return isnan(key) ? INFINITY : key; /* last, and not in everybody's way */
 }
 
-/* Neighbours further apart than rounding are told apart from here on. */
+/* Give a group of their own to attractors that are further from their neighbour than rounding. */
 static void part(const pendres_catalogue *c, placed *p, int k)
 {
-  int group = 0, before = 0; /* the new group, and the old one of the one before */
+  int group = 0, before = 0; /* the new group, and the old one of the attractor before */
   for (size_t i = 0; i < c->count; i++) {
     const int old = p[i].group;
     double same;

@@ -14,33 +14,36 @@
 #include "orbits/settle_lanes.h"
 
 enum {
-  SUSPECTS = 16,         /* lanes that are looked at first ... */
-  SUSPECT_PERIODS = 128, /* ... for so long */
-  WALKERS = 64,          /* that are then watched, after having lost each other */
-  WARM_UP = 200,
-  ATTEMPTS = 3,          /* walkers sent out anew where some were in no chaos */
+  SUSPECTS = 16,         /* so many lanes are looked at first ... */
+  SUSPECT_PERIODS = 128, /* ... for so many periods */
+  WALKERS = 64,          /* so many walkers are watched, once they have lost each other */
+  WARM_UP = 200,         /* periods in which they lose each other */
+  ATTEMPTS = 3,          /* to send out walkers, as long as some of them leave the chaos at once */
   BATCHES = 16,          /* that a walker's periods are parted into, an even number */
-  BATCH = 120,           /* periods of a batch, at first (walkers may visit the bands of an
-                            attractor by turns, all in step: whole rounds of 2, 3, 4, 5, 6, 8) */
-  LONGEST_BATCH = 4 * BATCH, /* where walkers have not agreed before */
+  BATCH = 120,           /* periods of a batch, at first. Walkers may visit the bands of an
+                            attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,
+                            5, 6 or 8 bands */
+  LONGEST_BATCH = 4 * BATCH, /* periods; batches grow to this while walkers do not agree */
   FEW_BATCHES = 4,       /* after which walkers that are on different attractors are told apart */
-  KEPT = 8 * BATCH,      /* latest strobe points of a walker */
-  MOST_GUESSES = 8       /* orbits looked for at a time */
+  KEPT = 8 * BATCH,      /* so many of the latest strobe points of a walker are kept */
+  MOST_GUESSES = 8       /* so many orbits are looked for at a time */
 };
 
-/* Standard errors that an exponent must be above zero. */
+/* The exponent of chaos must be above zero by this many standard errors. */
 static const double significance = 5.0;
-/* Least growth of the logarithm a period: slower is not told from slow settling. */
+/* The logarithm must grow by this much a period: less cannot be told from slow settling. */
 static const double least_growth = 0.01;
-/* A suspect's tangent vector must have grown by e to this: without chaos it grows by a few. */
+/* The logarithm of a suspect's tangent vector must have grown by this. Without chaos the vector
+   grows by a small factor at most. */
 static const double suspicious = 2.0;
-/* Walkers start this close to the suspect, and closer by the same factor once more at each further
-   attempt: the basin of a chaos in narrow bands may end nearby. */
+/* Walkers start this close to the suspect, and at each further attempt closer by this factor: the
+   basin of a chaotic attractor in narrow bands may end nearby. */
 static const double scatter = 1e-3, closer = 0.03;
-/* Walkers agree when their means vary by so much more than their batches let expect: for walkers
-   that are alike this ratio exceeds 2 in one case of 10^6 (F distribution). */
+/* Walkers agree when the variance of their means is less than so many times what their batches let
+   one expect. For walkers on one attractor the ratio exceeds 2 in one case of 80000 with 16
+   batches, and in one of 6000 with 4 (F distribution). */
 static const double agreement = 2.0;
-/* Confidence of a mean's error, and of the escape rate that is excluded. */
+/* The confidence of a mean's error, and that of the bound on the escape rate. */
 static const double confidence = 0.999, escape_confidence = 0.95;
 
 /* ---- walkers that are watched ---- */
@@ -93,7 +96,8 @@ static pendres_cover *create_cover(const pendres_pendulum *p, const vigil *v)
   return cover;
 }
 
-/* A lane whose nearby motions part from each other, among the first few; *any: 0 if none is. */
+/* Find a lane whose neighbours in phase space part from it, among a few lanes; *any is 0 if there
+   is none. */
 static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue *c, size_t n,
                                    const pendres_strobe_lane *const *lanes, pendres_walker *suspect,
                                    int *any)
@@ -114,7 +118,7 @@ static pendres_status find_suspect(pendres_context *ctx, const pendres_catalogue
   return status;
 }
 
-/* Chaos that ends: how long it lasts, from the walkers that have left by now. */
+/* Estimate how long chaos lasts that ends, from the walkers that have left it by now. */
 static void note_lifetime(pendres_catalogue *c, const vigil *v, size_t left)
 {
   double lived = 0.0;
@@ -131,9 +135,9 @@ static size_t trapped_walkers(const vigil *v)
 }
 
 /*
- * Walkers that start around the suspect and lose each other. Where some of them are in a trap
- * then, the suspect may have stood at the edge of the basin of chaos: the others are followed on.
- * *together: none of them has left.
+ * Start walkers around the suspect and let them lose each other. If some of them are in a trap
+ * then, the suspect may have stood at the edge of the basin of chaos, and walkers start anew around
+ * one that has stayed. *together is 1 if none of them has left in the end.
  */
 static pendres_status send_out(pendres_context *ctx, pendres_catalogue *c,
                                const pendres_walker *suspect, vigil *v, int *together)
@@ -159,7 +163,7 @@ static pendres_status send_out(pendres_context *ctx, pendres_catalogue *c,
   return PENDRES_OK;
 }
 
-/* Two batches become one. */
+/* Join the batches in pairs. */
 static void merge_batches(vigil *v)
 {
   for (size_t i = 0; i < WALKERS; i++)
@@ -182,8 +186,8 @@ static pendres_status next_batch(pendres_context *ctx, const pendres_catalogue *
 }
 
 /*
- * Orbits that walkers have settled on, whose tangent vectors shrank in the latest batch: each comes
- * back near itself, and Newton's method does the rest.
+ * Look for orbits that walkers have settled on: such a walker's tangent vector has shrunk in the
+ * latest batch, and it comes back near where it was. Newton's method does the rest.
  */
 static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, const vigil *v,
                                   size_t *settled)
@@ -212,7 +216,8 @@ static pendres_status seek_orbits(pendres_context *ctx, pendres_catalogue *c, co
 
 /* ---- statistics ---- */
 
-/* Mean a period of what walkers have, and its standard error. */
+/* The mean of a measure a period over all walkers, and its standard error. *ratio is the variance
+   of the walkers' means over what the scatter of their batches lets one expect. */
 static pendres_chaos_mean mean_of(const vigil *v, pendres_walker_measure m, double *ratio)
 {
   const double periods = (double)v->length, batches = v->batches;
@@ -234,14 +239,14 @@ static pendres_chaos_mean mean_of(const vigil *v, pendres_walker_measure m, doub
                               .error = sqrt(fmax(between, within / batches) / WALKERS)};
 }
 
-/* The error as a share of scatter that the given confidence asks for (Student). */
+/* A standard error becomes half the confidence interval (Student's distribution). */
 static pendres_chaos_mean confident(pendres_chaos_mean m)
 {
   m.error *= pendres_student(confidence, WALKERS - 1.0);
   return m;
 }
 
-/* Walkers whose own exponent over the latter half of their batches is not above zero. */
+/* How many walkers have an exponent, over the latter half of their batches, not above zero. */
 static size_t calm_walkers(const vigil *v)
 {
   size_t calm = 0;
@@ -254,7 +259,7 @@ static size_t calm_walkers(const vigil *v)
   return calm;
 }
 
-/* Whether walkers differ by no more than chance has them: they are on one attractor then. */
+/* Whether walkers differ by no more than chance, so that they are on one attractor. */
 static int alike(const vigil *v)
 {
   static const pendres_walker_measure telling[] = {PENDRES_WALKER_GROWTH, PENDRES_WALKER_TURNS,
@@ -270,7 +275,7 @@ static int alike(const vigil *v)
 static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigil *v)
 {
   double ratio = 0.0;
-  /* Who leaves is recognized after some time only: that does not count as watched. */
+  /* A walker that leaves is recognised only after some time, which does not count as watched. */
   const double each = (double)v->length * v->batches;
   const double late = fmin((double)pendres_settle_first_budget(&c->pendulum), 0.5 * each);
   const double watched = WALKERS * (each - late);
@@ -282,8 +287,9 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
     .turns = confident(mean_of(v, PENDRES_WALKER_TURNS, &ratio)),
     .watched_periods = watched,
     .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
-  /* In the long run friction takes what the drive gives. */
-  const double imbalance = fabs(m.work.value - m.loss.value);
+  /* In the long run friction takes what the drives and the torque give. */
+  const double other = mean_of(v, PENDRES_WALKER_OTHER, &ratio).value;
+  const double imbalance = fabs(m.work.value + other - m.loss.value);
   m.work.error += imbalance;
   m.loss.error += imbalance;
   return m;
@@ -291,7 +297,7 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
 
 /* ---- the verdict ---- */
 
-/* The attractor that walkers are on after their first batch, if it is known. */
+/* The known chaotic attractor that more than half of the walkers' points lie on; NULL if none. */
 static pendres_cover *known_cover(const pendres_catalogue *c, const vigil *v)
 {
   pendres_cover *cover = NULL;
@@ -301,9 +307,10 @@ static pendres_cover *known_cover(const pendres_catalogue *c, const vigil *v)
 }
 
 /*
- * Watch walkers until they agree, or one of them has left, or they are on an attractor that is
- * known. Otherwise *verdict is NEW when they have been watched for long enough. Walkers that have
- * gone to different attractors, as mirror images are, are sent out once more from where one is.
+ * Watch walkers until one of them has left, or they turn out to be on an attractor that is known,
+ * or they agree, or have been watched for as long as they may be. Then *verdict is NEW if their
+ * exponent is above zero for certain. Walkers that have gone to different attractors, such as
+ * mirror images of each other, are sent out once more from where one of them is.
  */
 static pendres_status watch(pendres_context *ctx, pendres_catalogue *c, vigil *v,
                             pendres_chaos_verdict *verdict)

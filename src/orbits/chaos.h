@@ -1,17 +1,17 @@
 /*
  * chaos.h -- telling chaos from slow settling.
  *
- * Owns: the largest Lyapunov exponent from the variational equation, the test that a chaotic
- * motion does not end, and means over time on a chaotic attractor (its cover by cells of the
- * Poincaré plane: chaos_cover.h).
+ * Owns: the largest Lyapunov exponent from the variational equation, the test whether a chaotic
+ * motion ends, and means over time on a chaotic attractor. The cells of the Poincaré plane that it
+ * visits, its cover, are in chaos_cover.h.
  *
  * Method: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9: a tangent vector is
  * carried along by the variational equation and brought back to length one every drive period;
  * the mean growth of its logarithm is the exponent. Walkers that have lost each other are watched
  * side by side. Chaos that ends is no attractor: a walker that falls into a trap, or whose own
  * tangent vector shrinks while it comes back to where it was, has left. Each walker's periods are
- * parted into batches; walkers go on until they differ by no more than batches do. Errors
- * are from the scatter of walkers, or of batches where that is larger.
+ * parted into batches; walkers go on until they differ by no more than the scatter of their batches
+ * explains. Errors come from the scatter of walkers, or from that of batches where it is larger.
  */
 #ifndef PENDRES_CHAOS_H
 #define PENDRES_CHAOS_H

@@ -10,9 +10,9 @@ enum { PENDRES_COVER_CELLS = 128 /* a side */ };
 
 /* Cells of the Poincaré plane that a chaotic attractor visits, or that touch such a cell. */
 typedef struct pendres_cover {
-  int attractor;                 /* whose it is */
+  int attractor;                 /* its number in the catalogue */
   double w_most;                 /* cells span |w| <= w_most, and all angles */
-  double span;                   /* of y, about 0; 0: a whole turn */
+  double span;                   /* width of the cells in y together, about 0; 0: a whole turn */
   double mean_y, mean_w;         /* over the attractor */
   unsigned char cell[PENDRES_COVER_CELLS][PENDRES_COVER_CELLS];
 } pendres_cover;
@@ -27,10 +27,10 @@ typedef struct pendres_chaos_mean {
   double value, error;
 } pendres_chaos_mean;
 
-/* What is known of a chaotic attractor; means a drive period. */
+/* What is known of a chaotic attractor: its means over a drive period. */
 typedef struct pendres_chaos_measures {
-  pendres_chaos_mean growth;                  /* error: one standard error */
-  pendres_chaos_mean work, loss, amplitude, turns; /* error: half of a 99.9 % interval */
+  pendres_chaos_mean growth;                  /* its error is one standard error */
+  pendres_chaos_mean work, loss, amplitude, turns; /* their errors: half of a 99.9 % interval */
   double watched_periods;                     /* drive periods, all walkers together */
   double escape_rate_bound;                   /* see attractor.h */
 } pendres_chaos_measures;

@@ -10,8 +10,8 @@
 #include "engine/steps.h"
 #include "model/model.h"
 
-/* Of a period. Chaos forgets single errors: what matters is that the flow is the right one, and
-   that means over time are off by less than chance has them. */
+/* The error of a period that steps are chosen for. In chaos a single error is soon forgotten: it is
+   enough that means over time are off by less than their statistical errors. */
 static const double accuracy = 1e-7;
 
 pendres_walker pendres_walker_at(double y, double w)
@@ -60,8 +60,8 @@ static void reach(pendres_walker *a, double y)
 }
 
 /*
- * At the end of a half the two latest make a period, which counts for a half. So the mirror image
- * of a motion, half a period later, has the same sum.
+ * At the end of each half period the latest two halves make a whole one, and its amplitude counts
+ * for a half. The mirror image of a motion, half a period later, thus has the same sum.
  */
 static void end_half(pendres_walker *a, double y)
 {
@@ -70,6 +70,15 @@ static void end_half(pendres_walker *a, double y)
   a->low[0] = a->low[1];
   a->high[0] = a->high[1];
   a->low[1] = a->high[1] = y;
+}
+
+/* The force of the torque and the parametric drive, at a drive of that cosine. */
+static double other_force(const pendres_pendulum *p, double y, double cosine)
+{
+  double force, slope;
+  if (p->parametric_amplitude == 0.0) return p->torque;
+  pendres_model_force(p, y, &force, &slope);
+  return p->torque - p->parametric_amplitude * cosine * force;
 }
 
 /*
@@ -85,6 +94,7 @@ static void watch(void *arg, int step, const pendres_rows *rows)
     const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
     const double w = pendres_rows_get(rows, PENDRES_ROW_W, i);
     a->sum[PENDRES_WALKER_WORK] += b->pendulum->drive_amplitude * spacing * cosine * w;
+    a->sum[PENDRES_WALKER_OTHER] += spacing * w * other_force(b->pendulum, y, cosine);
     a->sum[PENDRES_WALKER_LOSS] += b->pendulum->damping * b->pendulum->drive_frequency * spacing *
                                   w * w;
     reach(a, y);
@@ -97,7 +107,8 @@ static void watch(void *arg, int step, const pendres_rows *rows)
 
 /* ---- periods ---- */
 
-/* What the flow makes of a walker in one period; its tangent vector grows by the derivative. */
+/* Take over what the flow has made of a walker in one period, and what the derivative of the map
+   makes of its tangent vector. */
 static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *rows, int watched,
                    pendres_walker *a)
 {

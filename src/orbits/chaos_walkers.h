@@ -1,5 +1,5 @@
 /*
- * chaos_walkers.h -- pendulums that carry a tangent vector along, and what they have on average.
+ * chaos_walkers.h -- walkers: pendulums that carry a tangent vector along.
  *
  * Owns: one drive period of such walkers, and sums over batches of periods.
  */
@@ -13,11 +13,12 @@ struct pendres_catalogue;
 
 /* What is summed over drive periods. */
 typedef enum pendres_walker_measure {
-  PENDRES_WALKER_GROWTH,    /* of the logarithm of the tangent vector */
-  PENDRES_WALKER_WORK,      /* of the drive: loop areas */
-  PENDRES_WALKER_LOSS,      /* by friction */
+  PENDRES_WALKER_GROWTH,    /* of the logarithm of the tangent vector's length */
+  PENDRES_WALKER_WORK,      /* done by the drive: the loop area */
+  PENDRES_WALKER_OTHER,     /* work done by the torque and the parametric drive */
+  PENDRES_WALKER_LOSS,      /* of energy by friction */
   PENDRES_WALKER_AMPLITUDE, /* half peak to peak of the angle in a period, from phase 0 and pi on */
-  PENDRES_WALKER_TURNS,     /* of the angle, in whole turns */
+  PENDRES_WALKER_TURNS,     /* advance of the angle over 2 pi */
   PENDRES_WALKER_SPEED,     /* w at the period's end: mirror images differ in it */
   PENDRES_WALKER_MEASURES
 } pendres_walker_measure;
@@ -26,7 +27,7 @@ typedef struct pendres_walker {
   double y, w, u[2]; /* the angle within half a turn of zero; the tangent vector, of length one */
   long turns;        /* whole turns taken out of y */
   long periods;      /* so far */
-  long trapped;      /* after so many of them it was inside a trap; 0: never */
+  long trapped;      /* after so many periods it was first inside a trap, or escaped; 0: never */
   double sum[PENDRES_WALKER_MEASURES];
   double low[2], high[2]; /* angles in the latest two halves of periods, the later one last */
   double last_y, last_w;  /* the latest sample of the period under way */
@@ -42,8 +43,8 @@ typedef struct pendres_walker_trace {
 pendres_walker pendres_walker_at(double y, double w);
 
 /*
- * Go on for some periods. With a trace also sums other than growth are taken, and every strobe
- * point is kept.
+ * Go on for some periods. With a trace all sums are taken, and every strobe point is kept; without
+ * one (NULL) those of growth, turns and speed alone are.
  */
 pendres_status pendres_walkers_advance(pendres_context *ctx, const struct pendres_catalogue *c,
                                        size_t n, pendres_walker *a, long periods,

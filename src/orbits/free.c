@@ -26,13 +26,13 @@ typedef struct swing {
   pendres_pendulum pendulum; /* its drive_frequency is the clock */
   int steps, iterations;
   int have_coarse;
-  double coarse;             /* the clock by fewer steps, and how many */
-  int coarse_steps;
+  double coarse;             /* the clock found with fewer steps, */
+  int coarse_steps;          /* and with how many */
   double error;              /* of the clock, relative; NaN until it is done */
 } swing;
 
-/* Within a per cent or so: eq. 1.2 of the paper, and near pi the integral's asymptotic form
-   (Abramowitz and Stegun 17.3.26). */
+/* The frequency within a per cent or so: eq. 1.2 of the paper, and near pi the asymptotic form of
+   the elliptic integral (Abramowitz and Stegun 17.3.26). */
 static double guess(double amplitude)
 {
   if (amplitude < 2.8) return pendres_free_frequency_belendez(amplitude);
@@ -47,7 +47,7 @@ static double amplification(const swing *s)
   return 1.0 + s->amplitude / ((pi - s->amplitude) * quarter);
 }
 
-/* Relative error of the clock by rounding: half a unit in the last place of each step. */
+/* The clock's relative error by rounding: half a unit in the last place of each step, at random. */
 static double rounding(const swing *s)
 {
   return 1.1e-16 * sqrt((double)s->steps) * amplification(s) + DBL_TRUE_MIN / s->amplitude;
@@ -59,14 +59,14 @@ static int one_period(void *arg, size_t index, const pendres_strobe_lane *lane)
   return lane->period >= 1;
 }
 
-/* After the clock has settled for the present steps: enough, or more steps? */
+/* The clock has converged with the present steps: tell its error, or ask for more steps. */
 static void judge(const pendres_context *ctx, swing *s)
 {
   const double order = pendres_table_order(ctx->options.table);
   const double floor = rounding(s), clock = s->pendulum.drive_frequency;
   double wanted = 2.0 * s->steps;
   if (!pendres_method_of(ctx)->fixed_steps) {
-    s->error = floor; /* its caller knows more */
+    s->error = floor; /* find_adaptively() adds what the method leaves */
     return;
   }
   if (s->have_coarse) {
@@ -110,7 +110,7 @@ typedef struct swings {
   size_t *which;             /* [n]: the swing of each lane */
 } swings;
 
-/* Turn all swings that are not done once. */
+/* Turn all swings that are not done by one turn of the phase. */
 static pendres_status turn(pendres_context *ctx, double tolerance, swings *s)
 {
   size_t active = 0;
@@ -137,7 +137,7 @@ static pendres_status turn(pendres_context *ctx, double tolerance, swings *s)
   return PENDRES_OK;
 }
 
-/* Clocks of all swings, which go on from where they are. */
+/* Find the clocks of all swings, from what they are now. */
 static pendres_status settle_clocks(pendres_context *ctx, double tolerance, swings *s)
 {
   pendres_status status = PENDRES_OK;

@@ -6,14 +6,14 @@
 #include "base/angles.h"
 #include "model/model.h"
 
-/* The drives of the paper, 0.1 and 0.2, and somewhat beyond: where an orbit alone has a name by its
-   lag. */
+/* Up to this drive an orbit that is alone has a name by its phase lag: the drives of the paper, 0.1
+   and 0.2, and somewhat beyond. */
 static const double strongest_by_lag = 0.25;
 /* Amplitudes of mirror images differ by rounding and the orbits' errors alone, those of states that
    coexist by more, unless they are about to meet. */
 static const double same_amplitude = 1e-7;
 
-/* What an amplitude with an error may be off by and still be that of the same state. */
+/* By how much amplitudes with these errors may differ and still be those of one state. */
 static double slack(double a, double b)
 {
   return same_amplitude + fmin(1e-2, a + b);
@@ -43,7 +43,7 @@ size_t pendres_label_extreme(const pendres_label_states *s, int most)
   return best;
 }
 
-/* One that is alone. */
+/* The label of a state that is alone. */
 static pendres_label lone(const pendres_label_border *b, const pendres_orbit *o)
 {
   if (b == NULL) {

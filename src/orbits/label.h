@@ -34,7 +34,7 @@ typedef struct pendres_label_border {
 /* Whether an orbit can be SA or LA: one drive period, no winding. */
 int pendres_label_named(const pendres_orbit *orbit);
 
-/* Add a stable orbit that can be, unless its amplitude is known. */
+/* Add an orbit to the states if it is stable and can be SA or LA, unless its amplitude is known. */
 void pendres_label_note(pendres_label_states *states, const pendres_orbit *orbit);
 
 /* Which state has the smallest amplitude (most = 0) or the largest; there must be one. */
