@@ -253,6 +253,7 @@ static int leave_part(job *j)
 {
   const options *o = &j->options;
   const size_t lost = farm_points_lost(j->farm);
+  journal_stay(j->journal);
   progress_note(&j->progress, "part %zu of %zu is done: %zu finished tasks in %s; when all parts "
                 "are, the same command with --merge instead of --shard writes %s", o->shard,
                 o->shards, journal_own(j->journal), journal_path(j->journal), j->deck.output);

@@ -22,7 +22,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { PATH_ROOM = 4096, TEXT_ROOM = 65536, MOST_ARGUMENTS = 12, DONE = 0 };
+enum { PATH_ROOM = 4096, TEXT_ROOM = 65536, MOST_ARGUMENTS = 48, DONE = 0 };
 
 static char program[PATH_ROOM], top[PATH_ROOM];
 static char out[TEXT_ROOM], err[TEXT_ROOM]; /* of the last run */

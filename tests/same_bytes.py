@@ -3,6 +3,7 @@
 
     same_bytes.py BEFORE NOW
 
+Both may be folders: then each file of BEFORE that ends in .h5 is compared with that of its name.
 Datasets and attributes of all groups but `provenance`, without what tells a run's date or time.
 Prints a line a difference. Exit code 0: the same; 1: not.
 """
@@ -79,7 +80,17 @@ def main(before_name, now_name):
     return 1 if lines else 0
 
 
+def compare(before, now):
+    if not os.path.isdir(before):
+        return main(before, now)
+    names = sorted(n for n in os.listdir(before) if n.endswith(".h5"))
+    if not names:
+        print(f"{before}: no files")
+        return 1
+    return max([main(os.path.join(before, n), os.path.join(now, n)) for n in names])
+
+
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    sys.exit(main(sys.argv[1], sys.argv[2]))
+    sys.exit(compare(sys.argv[1], sys.argv[2]))

@@ -3,49 +3,11 @@
  * that was left in peace; another deck is refused.
  */
 #include "driver_run.h"
+#include "kinds_fixture.h"
 #include "same_results.h"
 
 #include <signal.h>
 #include <time.h>
-
-/* Some tasks each, of a tenth of a second in all or so. */
-static const struct {
-  const char *name, *text;
-} decks[] = {
-  { "free", "&scene kind = 'free_oscillation' /\n&sweep amplitude_range = 0.01, 3.1, 3000 /\n" },
-  { "curve", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
-             "&sweep damping = 0.3, 0.5, 0.9, 1.5 /\n&ensemble members = 8 /\n" },
-  { "response", "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
-                "&sweep damping = 0.24, 0.5, 1e4, drive_period_range = 6, 8, 20 /\n"
-                "&ensemble members = 8 /\n" },
-  { "noisy", "&scene kind = 'response' /\n&pendulum drive_amplitude = 0.2 /\n"
-             "&sweep damping = 0.5, drive_period = 7, 8, temperature = 0, 1e-3 /\n"
-             "&ensemble members = 8 /\n&noise trajectories = 16, periods = 10 /\n" },
-  { "orbit", "&scene kind = 'orbit' /\n"
-             "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
-             "&orbit start = 'la' /\n" },
-  { "record", "&scene kind = 'orbit' /\n"
-              "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 8 /\n"
-              "&orbit x = -1, v = 0.4, transient = .true., periods = 260, samples = 1024,\n"
-              "  spectrum = .true. /\n" },
-  { "basins", "&scene kind = 'basins' /\n"
-              "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
-              "&sweep x_range = -1.5, 4.7, 3, v_range = -2, 2, 40000 /\n" },
-  { "clouds", "&scene kind = 'basins' /\n"
-              "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
-              "&sweep x_range = -1.5, 4.7, 8, v_range = -2, 2, 8, temperature = 0, 1e-3 /\n"
-              "&basins strobes = 800, trajectories = 400 /\n" },
-  { "diagram", "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
-               "&sweep damping_range = 0.10, 0.16, 4, drive_frequency_range = 0.7, 0.9, 4 /\n"
-               "&ensemble members = 8 /\n" },
-  { "branches", "&scene kind = 'branches' /\n&pendulum drive_amplitude = 0.2 /\n"
-                "&sweep damping = 0.13, 0.15, drive_frequency_range = 0.7, 0.9, 4 /\n"
-                "&ensemble members = 8 /\n" },
-  { "switching", "&scene kind = 'switching' /\n"
-                 "&pendulum drive_amplitude = 0.2, damping = 0.12, drive_period = 7.7 /\n"
-                 "&sweep temperature = 0.02, 0.03 /\n&noise trajectories = 400, periods = 20 /\n" },
-  { "hard", "&scene kind = 'hard_cases' /\n&sweep case = 'separatrix', 'equilibrium' /\n" },
-};
 
 static double now(void)
 {
@@ -90,14 +52,15 @@ static int kill_and_resume(const char *deck, double takes)
 
 static void killed_at_any_moment(void **state)
 {
+  const char *decks[MOST_ARGUMENTS + 1];
   int went_on = 0;
   (void)state;
-  for (size_t i = 0; i < sizeof decks / sizeof *decks; i++) {
-    write_text("deck.nml", decks[i].text);
+  add_kinds(decks, 0);
+  for (size_t i = 0; decks[i] != NULL; i++) {
     const double begin = now();
-    const int code = RUN("-q", "-t1", "-o", "whole.h5", "deck.nml");
+    const int code = RUN("-q", "-t1", "-o", "whole.h5", decks[i]);
     if (code != DONE && code != 3) check_code(code, DONE);
-    went_on += kill_and_resume("deck.nml", now() - begin);
+    went_on += kill_and_resume(decks[i], now() - begin);
     check_same_results("whole.h5", "killed.h5");
     assert_int_equal(count_names("journal"), 0);
   }

@@ -3,6 +3,7 @@
  * as a run as a whole.
  */
 #include "driver_run.h"
+#include "kinds_fixture.h"
 #include "same_results.h"
 
 #include "shard.h"
@@ -11,11 +12,6 @@ static const char diagram[] =
   "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
   "&sweep damping_range = 0.10, 0.16, 4, drive_frequency_range = 0.7, 0.9, 4 /\n"
   "&ensemble members = 8 /\n";
-static const char clouds[] =
-  "&scene kind = 'basins' /\n"
-  "&pendulum drive_amplitude = 0.2, damping = 0.5, drive_period = 8 /\n"
-  "&sweep x_range = -1.5, 4.7, 8, v_range = -2, 2, 8, temperature = 0, 1e-3 /\n"
-  "&basins strobes = 800, trajectories = 400 /\n";
 
 static void forget_array(void)
 {
@@ -70,32 +66,56 @@ static void what_is_meant(void **state)
   assert_false(shard_is_journal("a.h5.1-of-.journal", "a.h5"));
 }
 
+/* All decks with some arguments, in one run; its exit code. */
+static int run_kinds(const char *one, const char *other)
+{
+  const char *arguments[MOST_ARGUMENTS + 1] = { "-t1", one, other };
+  add_kinds(arguments, 3);
+  return run_list(arguments);
+}
+
 static void compute_parts(int shards)
 {
   for (int i = 1; i <= shards; i++) {
     char shard[40];
     snprintf(shard, sizeof shard, "--shard=%d/%d", i, shards);
-    check_code(RUN("-t1", "-o", "parts.h5", shard, "deck.nml"), DONE);
+    check_code(run_kinds("-f", shard), DONE);
     check_says(err, "is done");
   }
-  assert_false(exists("parts.h5"));
+  assert_int_equal(count_names(".h5"), count_names(".journal"));
 }
 
+/* NAME.h5 and the name under which it is kept, of a deck. */
+static void names_of(const char *deck, char now[PATH_ROOM], char whole[PATH_ROOM])
+{
+  const char *name = strrchr(deck, '/') + 1;
+  const int length = (int)(strrchr(name, '.') - name);
+  snprintf(now, PATH_ROOM, "%.*s.h5", length, name);
+  snprintf(whole, PATH_ROOM, "%.*s.whole", length, name);
+}
+
+/* All kinds, in one, three and eight parts. One deck has points that fail: 3. */
 static void same_bytes(void **state)
 {
-  static const char *const decks[] = { diagram, clouds };
   static const int shards[] = { 1, 3, 8 };
+  const char *decks[MOST_ARGUMENTS + 1];
+  char now[PATH_ROOM], whole[PATH_ROOM];
   (void)state;
-  for (int d = 0; d < 2; d++) {
-    write_text("deck.nml", decks[d]);
-    check_code(RUN("-q", "-o", "whole.h5", "deck.nml"), DONE);
-    for (int k = 0; k < 3; k++) {
-      compute_parts(shards[k]);
-      check_code(RUN("-q", "-o", "parts.h5", "--merge", "deck.nml"), DONE);
-      check_same_results("whole.h5", "parts.h5");
-      assert_int_equal(count_names("journal") + count_names(".part"), 0);
-      assert_int_equal(remove("parts.h5"), 0);
+  add_kinds(decks, 0);
+  check_code(run_kinds("-q", "-f"), 3);
+  for (size_t i = 0; decks[i] != NULL; i++) {
+    names_of(decks[i], now, whole);
+    assert_int_equal(rename(now, whole), 0);
+  }
+  for (int k = 0; k < 3; k++) {
+    compute_parts(shards[k]);
+    check_code(run_kinds("-q", "--merge"), 3);
+    for (size_t i = 0; decks[i] != NULL; i++) {
+      names_of(decks[i], now, whole);
+      check_same_results(whole, now);
+      assert_int_equal(remove(now), 0);
     }
+    assert_int_equal(count_names("journal") + count_names(".part"), 0);
   }
 }
 

@@ -40,6 +40,7 @@ struct journal {
   size_t stages, count;
   size_t own;       /* records in the first file */
   int broken;       /* it takes no more */
+  int stays;        /* even if it holds nothing */
   int dirty;        /* some of it may not be on disk yet */
   double synced;
   pthread_mutex_t lock; /* guards the file and, once threads append to it, the index */
@@ -369,10 +370,15 @@ pendres_status journal_append(journal *j, size_t number, size_t task, const farm
 
 /* ---- the end ------------------------------------------------------------------------------- */
 
+void journal_stay(journal *j)
+{
+  if (j != NULL) j->stays = 1;
+}
+
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own == 0) (void)unlink(j->path);
+  if (j->own == 0 && !j->stays) (void)unlink(j->path);
   else if (j->dirty) (void)fsync(j->file[0]);
   let_go(j);
 }

@@ -48,6 +48,10 @@ pendres_status journal_read(journal *j, size_t stage, size_t task, farm_record *
 pendres_status journal_append(journal *j, size_t stage, size_t task, const farm_record *record,
                               char words[JOURNAL_WORDS]);
 
+/* From now on the file stays though it may hold no record: a part of a run has nothing to do. NULL
+   is allowed. */
+void journal_stay(journal *j);
+
 /* Let go of it: the file stays, all of it on disk; one without records is removed. NULL is
    allowed. */
 void journal_close(journal *j);
