@@ -15,28 +15,30 @@
 #include "orbits/orbit_reading.h"
 #include "engine/steps.h"
 
-/* A run of one candidate by a number of steps: the corrected point and its measures. */
+/* What a run of one candidate with some number of steps gives: the corrected point and its
+   measures. */
 typedef struct result {
   double y, w;
   double m[2][2];
   double m_by[2][2][2]; /* how m changes with y and w; of the coarser run */
   double off[2];        /* from the point that m was taken at to the corrected one */
-  double dy, dw; /* by omega */
+  double dy, dw; /* derivatives of y and w by omega */
   double slope;  /* dA/domega */
-  double slope_apart; /* from the same integral by parts */
+  double slope_apart; /* how far it is from the same integral by parts */
   double derivative; /* root mean square of dw/domega along the orbit */
   pendres_newton_noise noise; /* of the finer run */
   double rounded[2]; /* what rounding makes of angles along the finer run, and of the slope */
   pendres_orbit_measures measures;
 } result;
 
-/* What runs of one number of steps are read for, and where their results go, by index. */
+/* What is asked of the runs, and where their results go, by the candidates' indices. */
 typedef struct reading {
   pendres_orbit_want want;
   result *results;
 } reading;
 
-/* The loop area's slope, and the same from an integral by parts; 0 if that cannot be told. */
+/* Take the loop area's slope, and the same from an integral by parts. Returns 0 at a fold, where
+   there is none. */
 static int take_slope(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                       result *out)
 {
@@ -56,8 +58,8 @@ static int take_slope(const pendres_newton_candidate *c, const pendres_newton_sa
   out->dw = by_omega[1];
   out->derivative = sqrt(squares / (double)n);
   out->slope = cycle * sum / (double)n;
-  /* Harmonics next to the number of samples pass for the first: in slopes they count as often as
-     they swing, in angles once. */
+  /* Harmonics next to the number of samples are taken for the first one. They add to the integral
+     of the slopes by their number, to that of the angles only once: the difference tells. */
   out->slope_apart = cycle * (sum - parts) / (double)n;
   return 1;
 }
@@ -111,7 +113,7 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
   o->frequency_derivative[0] = fine->dy;
   o->frequency_derivative[1] = fine->w + omega * fine->dw;
   o->loop_area_slope = fine->slope;
-  /* What the point is to the other measures its derivative is to the slope. */
+  /* The slope depends on the derivative of the point as the other measures do on the point. */
   const double derivative = hypot(fine->dy - coarse->dy, fine->dw - coarse->dw);
   const pendres_orbit_doubt slope_doubt = {
     .apart = 1.5 * (derivative + doubt->apart),
@@ -124,7 +126,7 @@ static void set_slope(const result *coarse, const result *fine, const pendres_or
   rounded[1] = pi * drive * slope_doubt.rounding;
 }
 
-/* rounding: of a step along the whole orbit, of an angle of order one. */
+/* rounding: what all steps of the orbit leave of an angle of order one. */
 static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fine,
                                           double rounding)
 {
@@ -136,7 +138,7 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
     for (int j = 0; j < 2; j++)
       spectrum.fine[i][j] = fine->m[i][j] + coarse->m_by[0][i][j] * fine->off[0] +
                             coarse->m_by[1][i][j] * fine->off[1];
-  /* What that leaves, the matrix changing on like an exponential; the change itself comes from
+  /* The error of that correction: the next term, as of an exponential, and the error of the
      difference quotients. */
   const double by_y = size_of(coarse->m_by[0]), by_w = size_of(coarse->m_by[1]);
   const double size = fmax(size_of(fine->m), DBL_MIN);
@@ -145,12 +147,11 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
   return spectrum;
 }
 
-/* rounding: of a step, of an angle of order one. */
+/* rounding: what one step leaves of an angle of order one. */
 static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
                  double rounding, pendres_orbit *o, double rounded[2])
 {
-  const double noise = sqrt(c->steps * (double)c->guess->period);
-  /* Rounding errors of steps add at random. */
+  const double noise = sqrt(c->steps * (double)c->guess->period); /* steps round at random */
   const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
   const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
   const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
@@ -179,13 +180,13 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
 
 static int accurate(const pendres_orbit *o, double tolerance)
 {
-  /* A phase matters as much as the amplitude it belongs to. */
+  /* An error of the phase counts by what it moves the first harmonic. */
   return o->x_error <= tolerance && o->v_error <= tolerance && o->loop_area_error <= tolerance &&
          o->amplitude_error <= tolerance &&
          !(o->phase_lag_error * fmin(1.0, o->first_harmonic_amplitude) > tolerance);
 }
 
-/* The measures of all converged candidates at their present steps. */
+/* Measure all converged candidates with their present steps. */
 static pendres_status measure_all(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                   pendres_orbit_want want, int bends, result *results)
 {
@@ -200,11 +201,12 @@ static double singularity(const double m[2][2])
 }
 
 /*
- * Whether there is an orbit where Newton's method has come to rest; by det (I - M) before and
- * after one more step. Beyond a fold it wanders about the ghost of the orbit that is gone:
- * where the map's defect is like z^2 + s^2, a step takes det (I - M) ~ 2 z to less than half, or
- * past zero. At an orbit, -s^2, a step leaves it as it is. The fold of the map with n steps must
- * not lie elsewhere than that with 1.4 n either, as seen from here.
+ * Whether there is an orbit where Newton's method has come to rest, told by det (I - M) before and
+ * after one more step. Beyond a fold the method wanders about the ghost of the orbit that is gone:
+ * the map moves a point z by something like z^2 + s^2 there, and a step takes det (I - M), which is
+ * like 2 z, to less than half, or past zero. Near an orbit the map moves z by z^2 - s^2, and a step
+ * leaves the determinant as it is. It must also be nearly the same with n steps and with 1.4 n, or
+ * the two maps have their folds at places too different to tell.
  */
 static int is_there(double before, double after)
 {
@@ -213,9 +215,9 @@ static int is_there(double before, double after)
 }
 
 /*
- * One Newton step with the finer map. The linearised flow moves samples to the finer map's point
- * well enough, but not their derivatives: taken at the coarser map's point, slopes would be no
- * better than its own, and the two would agree on a wrong value.
+ * Take one Newton step with the finer map. The linearised flow moves samples to the finer map's
+ * point well enough, but not their derivatives: slopes taken at the coarser map's point would be no
+ * better than those of the coarser map, and the two would agree on a wrong value.
  */
 static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
                                           pendres_newton_candidate *c, const result *coarse)
@@ -240,8 +242,9 @@ static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
 }
 
 /*
- * Converge, measure at n and at 1.4 n steps; candidates are sorted in place. What is a ghost, or
- * too close to one to tell, is PENDRES_NOT_CONVERGED with its state left at converged.
+ * Converge, and measure with n and with 1.4 n steps; candidates are sorted in place. A ghost, or
+ * what is too close to one to tell, has the outcome PENDRES_NOT_CONVERGED, but a state that is
+ * converged.
  */
 static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                   pendres_orbit_want want, result *coarse, result *fine,
@@ -294,8 +297,8 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
     const double speed = pendres_steps_speed(&g->pendulum, g->x, g->v);
     const pendres_place s = pendres_passage_in(&g->pendulum, g->x, g->v);
     c[i] = (pendres_newton_candidate){.guess = g, .index = i, .y = s.y, .w = s.w};
-    /* The probes of the choice are harder than an orbit: start there, the orbit's own two runs
-       tell whether it was enough. */
+    /* The pendulums that steps are chosen by are harder than an orbit. This is where to start: the
+       orbit's own two runs tell whether it was enough. */
     const pendres_status status = pendres_steps_choose(ctx, &g->pendulum, speed,
                                                        pendres_accuracy_first(ctx), &c[i].steps);
     if (status != PENDRES_OK) return status;
@@ -303,7 +306,7 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
   return PENDRES_OK;
 }
 
-/* What goes out, n each; coarser may be NULL. */
+/* Where results go, n of each; coarser may be NULL. */
 typedef struct outputs {
   pendres_orbit *orbit;
   pendres_status *outcome;

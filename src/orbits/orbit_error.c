@@ -12,9 +12,9 @@
 static const double root_two = 1.41421356237309504880;
 
 /*
- * With 1.4 times the steps an order-8 method's error falls to a fifteenth. A quarter of a value's
- * own difference is claimed, for where the order has not set in yet, and as much as an eighth of
- * the difference of the whole orbits could make.
+ * With 1.4 times the steps the error of a method of order 8 falls to a fifteenth. A quarter of a
+ * value's own difference is claimed, since errors may not fall that fast yet, and in addition what
+ * an eighth of the difference of the whole orbits could make.
  */
 double pendres_orbit_error(double coarse, double fine, double sensitivity,
                            const pendres_orbit_doubt *doubt)
@@ -23,8 +23,8 @@ double pendres_orbit_error(double coarse, double fine, double sensitivity,
 }
 
 /*
- * An orbit about the top has the mean pi by symmetry: which way its error points must not decide
- * to which well it belongs.
+ * An orbit about the top has the mean pi by symmetry. The sign of the error of that mean must not
+ * decide to which well the orbit belongs.
  */
 static long turns_of_mean(const pendres_pendulum *p, double mean)
 {
@@ -55,8 +55,8 @@ static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_me
   o->parametric_work = b->parametric_work;
   o->parametric_work_error = pendres_orbit_error(a->parametric_work, b->parametric_work,
                                                  b->parametric_sensitivity, doubt);
-  /* What the drives give is dissipated, so the two are known to be equal: what they differ by is
-     an error of one of them at least. */
+  /* What the drives and the torque give is dissipated. A difference is an error of one of the two
+     at least. */
   const double given = b->loop_area + b->torque_work + b->parametric_work;
   const double balance = 0.5 * fabs(given - b->dissipation);
   if (p->parametric_amplitude != 0.0)
@@ -97,7 +97,7 @@ double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2
   double squares = 0.0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
-      /* Not because they were taken at two points. */
+      /* Less what they differ by because they were taken at two points. */
       const double moved = by_point[0][i][j] * from[0] + by_point[1][i][j] * from[1];
       const double off = fmax(0.0, fabs(fine[i][j] - coarse[i][j]) - fabs(moved));
       squares += off * off;
@@ -106,13 +106,14 @@ double pendres_orbit_apart_beside(const double coarse[2][2], const double fine[2
   return little * fmin(amplitude, way) * sqrt(squares) * pendres_newton_share(fine);
 }
 
-/* Of the entries; of the two off the diagonal in units in which they are alike. */
+/* The size of the entries, of the two off the diagonal in units in which they are equal. */
 static double size_of(const double (*m)[2])
 {
   return fmax(fmax(fabs(m[0][0]), fabs(m[1][1])), sqrt(fabs(m[0][1] * m[1][0])));
 }
 
-/* Of the trace; by what both of its parts differ by, since their sum may agree by chance. */
+/* The error of the trace. Its two parts are looked at one by one, since their sum may agree by
+   chance. */
 static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt)
 {
   const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
@@ -138,8 +139,8 @@ static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_do
   o->monodromy[1][0] = s->fine[1][0] * omega;
   o->monodromy[1][1] = s->fine[1][1];
   pendres_orbit_set_multipliers(trace, modulus, o);
-  /* The determinant is known (Liouville): an entry of that size off as much as it is leaves the
-     trace no better known. */
+  /* The determinant is known exactly (Liouville). What the computed one is off by tells the error
+     of the entries, and the trace is known no better. */
   const double off = 0.5 * fabs(determinant - modulus * modulus) / (2.0 * size_of(s->fine));
   if (off > trace_error) trace_error = off;
   /* The trace's error moves a multiplier mu by trace' mu / (mu - other); where two meet they move
@@ -151,7 +152,8 @@ static void set_spectrum(const pendres_orbit_spectrum *s, const pendres_orbit_do
     fmin(trace_error * size / fmax(gap, 1e-300), sqrt(trace_error) + trace_error);
 }
 
-/* The Poincaré point and its errors; turns: of the orbit's mean. */
+/* The Poincaré point and its errors. turns: whole turns by which the orbit's mean lies outside of
+   well 0. */
 static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit *o)
 {
   const double omega = o->pendulum.drive_frequency;
@@ -161,7 +163,7 @@ static void set_point(const pendres_orbit_twice *two, long turns, pendres_orbit 
   /* x itself is a double, and half of pi is none. */
   o->x_error = pendres_orbit_error(two->coarse[0], two->fine[0], 1.0, doubt) + two->left[0] +
                0.5 * DBL_EPSILON * (fabs(o->x) + half_pi);
-  /* Rounding swings to and fro between y and v. */
+  /* Errors by rounding swing between y and v: below omega = 1, v has those of y. */
   const double w_error =
     pendres_orbit_error(two->coarse[1], two->fine[1], 1.0, doubt) + two->left[1];
   o->v_error = omega * w_error + fmax(0.0, 1.0 - omega) * doubt->rounding;

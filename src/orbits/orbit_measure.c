@@ -7,7 +7,7 @@
 #include "base/angles.h"
 #include "model/model.h"
 
-/* Of everything but friction, at a drive of that cosine. */
+/* All of the force but friction, at a drive phase of that cosine. */
 static double force_on(const pendres_pendulum *p, double y, double cosine)
 {
   double force, slope;
@@ -15,7 +15,8 @@ static double force_on(const pendres_pendulum *p, double y, double cosine)
   return p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
 }
 
-/* What torque and parametric drive give a drive cycle, -b cos theta f being the latter's force. */
+/* The work of the torque and of the parametric drive in a drive cycle; the latter's force is
+   -b cos theta f. */
 static void works(const pendres_pendulum *p, const pendres_orbit_samples *s,
                   pendres_orbit_measures *out)
 {
@@ -56,10 +57,11 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
 }
 
 /*
- * Largest harmonic that a mirror-symmetric orbit does not have. Such an orbit is its own mirror
- * image about its mean k half drive periods later, k odd, and closes after k whole ones: with odd
- * q that is half of the whole orbit, y(theta + q pi) = -y(theta), which leaves odd harmonics of it.
- * What is given with an even q closes earlier, if it has the symmetry, and is read that often.
+ * The largest harmonic that a mirror-symmetric orbit does not have. Such an orbit is its own mirror
+ * image k half drive periods later, k odd, and closes after k whole ones: y(theta + k pi) =
+ * -y(theta), which leaves odd harmonics of the k periods. An orbit that is given with an even q
+ * closes after k = q / 2, q / 4, ... periods already, if it has the symmetry, and is passed through
+ * several times.
  */
 static double symmetry_defect(const pendres_orbit_series *s, int q)
 {
@@ -74,7 +76,7 @@ static double symmetry_defect(const pendres_orbit_series *s, int q)
   return 2.0 * sqrt(largest);
 }
 
-/* Harmonics of the drive are numbers q, 2 q, ... of the whole orbit. */
+/* Keep the harmonics of the drive frequency, which are numbers q, 2 q, ... of the whole orbit. */
 static void keep_harmonics(const pendres_orbit_series *s, int q, pendres_orbit_measures *out)
 {
   double rest = 0.0;
@@ -165,7 +167,7 @@ double pendres_orbit_phase_lag(double cosine, double sine, double drive_amplitud
 
 void pendres_orbit_set_multipliers(double trace, double modulus, pendres_orbit *o)
 {
-  /* The product of the two, the square of modulus, may be too small for a double: do without. */
+  /* The product of the two, modulus^2, may be too small for a double, and is not formed. */
   const double half = 0.5 * trace;
   o->multiplier_re[0] = o->multiplier_re[1] = half;
   o->multiplier_im[0] = o->multiplier_im[1] = 0.0;

@@ -1,7 +1,7 @@
 /*
  * orbit_measure.h -- what is measured on equally spaced samples of a closed orbit.
  *
- * Owns: sums, Fourier series and extremes. No integration here.
+ * Owns: sums over samples, and what their Fourier series gives. Nothing is integrated here.
  */
 #ifndef PENDRES_ORBIT_MEASURE_H
 #define PENDRES_ORBIT_MEASURE_H
@@ -27,7 +27,7 @@ typedef struct pendres_orbit_measures {
   double loop_area, dissipation, amplitude, mean_angle;
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS]; /* see orbit.h */
   double harmonics_rest;  /* bounds what harmonics beyond those add to the angle */
-  double unresolved;      /* what harmonics that the samples do not tell may add to the angle */
+  double unresolved;      /* what harmonics too high for the samples may add to the angle */
   double rms_speed;       /* root mean square of w */
   double torque_work, parametric_work; /* a drive cycle */
   double parametric_sensitivity; /* of the latter, to an error of y and w along the orbit */

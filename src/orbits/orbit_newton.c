@@ -15,9 +15,9 @@ enum { MOST_ITERATIONS = 20 };
 
 static const int longest_period = 1000000;
 
-/* A step longer than this is cut: guesses come from within a well. */
+/* A step longer than this is cut to this length, so that it does not leave the guess's well. */
 static const double longest_step = 0.6;
-/* Below this the next iterate is within rounding (quadratic convergence). */
+/* After a step below this the error is of the order of rounding, by quadratic convergence. */
 static const double last_step = 1e-7;
 
 const char *pendres_orbit_refuses(const pendres_orbit *o)
@@ -174,9 +174,10 @@ static double tangent_at(const pendres_newton_candidate *c, const pendres_newton
 }
 
 /*
- * What step j adds has grown by g_k / g_j at step k, the g being sizes of tangents: errors that
- * grow much lie in one direction. For a step behind k it is once more around, by the multiplier.
- * Squares of the growth from all steps: to the end, and to anywhere on the average.
+ * An error that step j adds has grown by g_k / g_j at step k, where the g are sizes of the
+ * tangents: errors that grow much all point in one direction. An error added after step k comes
+ * there once around the closed orbit. Sums over all steps of the squares of this growth: *to_end up
+ * to the end of the orbit, *to_any up to a step k, averaged over k.
  */
 static void growth(const pendres_newton_candidate *c, const pendres_newton_samples *taken,
                    double *to_end, double *to_any)
@@ -207,7 +208,7 @@ double pendres_newton_share(const double m[2][2])
   const int larger = hypot(m[0][1], m[1][1]) > hypot(m[0][0], m[1][0]);
   const double ahead[2] = {m[0][larger], m[1][larger]}, size = hypot(ahead[0], ahead[1]);
   double back[2] = {0.0, 0.0};
-  /* Where all has faded at the end of a period nothing comes back. */
+  /* Where all errors have faded at the end of a period, none comes back. */
   if (!(size > 0.0) || !pendres_newton_solve(m, ahead, back, NULL)) return 1.0;
   return hypot(back[0], back[1]) / size;
 }
@@ -231,7 +232,7 @@ pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
   const double plain = sqrt((double)taken->count) * fmax(1.0, stretch);
   const double start = share * sqrt(to_end), along = share * sqrt(to_any);
   const double swell = sqrt(to_any / to_end);
-  /* A tangent that has faded beyond what a double holds tells nothing. */
+  /* A tangent too small for a double tells nothing. */
   return (pendres_newton_noise){.start = isfinite(start) ? fmax(plain, start) : plain,
                                 .along = isfinite(along) ? fmax(plain, along) : plain,
                                 .swell = isfinite(swell) ? fmax(1.0, swell) : 1.0};
@@ -258,10 +259,10 @@ static void improve(pendres_newton_candidate *c)
   }
   c->y += dy;
   c->w += dw;
-  /* Close to a fold rounding keeps steps from shrinking further: that is as good as it gets. */
+  /* Close to a fold rounding keeps steps from shrinking any further, and the iteration ends. */
   const int stalled = c->iterations > 8 && step < 1e-5 && step >= 0.5 * c->last_step;
   c->last_step = step;
-  /* A tiny drive's orbit is no larger than its drive: go on until the step is small beside it. */
+  /* The orbit of a tiny drive is tiny itself: go on until the step is small against it. */
   const double size = c->guess->pendulum.drive_amplitude != 0.0 ? hypot(c->y, omega * c->w) : 1.0;
   if (step < fmin(last_step, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
 }

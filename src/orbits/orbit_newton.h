@@ -31,7 +31,8 @@ typedef struct pendres_newton_candidate {
   double m_by[2][2][2]; /* derivatives of m by y and by w, from a pass that was asked for them */
 } pendres_newton_candidate;
 
-/* By so much, in y and in w, companions of a candidate start beside it, to find m_by. */
+/* Companions of a candidate, which m_by is found from, start beside it by this much in y and in
+   w. */
 extern const double pendres_newton_aside;
 
 /* Samples 0 .. samples-1 of a pass, all lanes. */
@@ -47,7 +48,7 @@ static inline const double *pendres_newton_sample(const pendres_newton_samples *
   return t->data + (sample * t->lanes + lane) * t->rows;
 }
 
-/* NULL, or why a caller's orbit is none that could be followed: a static sentence. */
+/* NULL, or what is wrong with an orbit that a caller has handed over: a static sentence. */
 const char *pendres_orbit_refuses(const pendres_orbit *o);
 
 void pendres_newton_samples_free(pendres_newton_samples *taken);
@@ -55,7 +56,7 @@ void pendres_newton_samples_free(pendres_newton_samples *taken);
 /*
  * Integrate c[first ..) once over their period, up to the first candidate whose steps or period
  * differ, the end, or the block's capacity; *last is the one after. `taken` may be NULL.
- * Candidates that have failed are carried along and not to be read.
+ * What is found for candidates that have failed is not to be read.
  */
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
                                    size_t first, pendres_orbit_want want,
@@ -71,7 +72,8 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n,
 /* (I - M) z = r; 0 if singular. *stretch (may be NULL) bounds how much errors of r grow. */
 int pendres_newton_solve(const double m[2][2], const double r[2], double z[2], double *stretch);
 
-/* (I - M)^-1 of what has been multiplied most, of length 1: the direction of M's larger column. */
+/* The length of (I - M)^-1 u, where u is of length 1 in the direction of M's larger column: that of
+   errors that have grown most over the orbit. */
 double pendres_newton_share(const double m[2][2]);
 
 /*
@@ -82,24 +84,24 @@ int pendres_newton_closed(const pendres_newton_candidate *c, const pendres_newto
                           double *y, double *w, double shift[2]);
 
 /*
- * What rounding errors of the steps, one unit each and at random, make of the orbit that closes:
- * where it starts, and all along it, root mean square. An orbit may lose what it is off by over a
- * period, and have multiplied it a thousandfold on the way: strong friction keeps a pendulum for
- * long beside the top, where errors grow, and damps the more elsewhere.
+ * What random rounding errors of the steps, of one unit each, make of the closed orbit: where it
+ * starts, and all along it as a root mean square. An error may grow a thousandfold on the way and
+ * still have faded at the end of a period: with strong friction a pendulum lingers beside the top,
+ * where errors grow, and is damped the more elsewhere.
  */
 typedef struct pendres_newton_noise {
   double start, along;
   double swell; /* how much larger errors are along the orbit than where it starts; at least 1 */
 } pendres_newton_noise;
 
-/* The unit: what rounding in one step leaves of an angle of order one. Periodic orbits keep below
-   what the worst of pendulums round. */
+/* The unit: the rounding error of one step for an angle of order one. On periodic orbits it is less
+   than for the worst of pendulums (strobe_noise.h). */
 double pendres_newton_rounding(pendres_table table);
-/* So many of these units it leaves, relatively, of a derivative of the map, as measured: sums of
-   more terms, and twice as many roundings. */
+/* The relative error of a derivative of the map by rounding, in these units, as measured. It is
+   larger since sums have more terms and twice as many roundings. */
 extern const double pendres_newton_matrix;
 
-/* Of a candidate whose samples were taken with their tangents. */
+/* For a candidate whose samples were taken with their tangents. */
 pendres_newton_noise pendres_newton_noise_of(const pendres_newton_candidate *c,
                                              const pendres_newton_samples *taken);
 

@@ -1,9 +1,9 @@
 /*
  * orbit_pair.h -- the coarser of the two computations that an orbit's errors come from.
  *
- * Two numbers of an orbit are off together: where steps shift a resonance, they shift its peak and
- * the phase lag alike. What both computations make of such a pair tells how well it is known;
- * the errors of its two numbers do not.
+ * Errors of two numbers of an orbit belong together: where finite steps shift a resonance, they
+ * shift both its peak and the phase lag. How well such a pair is known is told by its values in
+ * both computations, and not by the errors of the two numbers.
  */
 #ifndef PENDRES_ORBIT_PAIR_H
 #define PENDRES_ORBIT_PAIR_H
@@ -13,8 +13,8 @@
 typedef struct pendres_orbit_coarser {
   double cosine, sine; /* the first harmonic, as in orbit.h */
   double loop_area_slope;
-  double rounding;       /* of the finer one: what it makes of angles along the orbit */
-  double slope_rounding; /* and of the slope */
+  double rounding;       /* rounding error of the finer computation in angles along the orbit */
+  double slope_rounding; /* and in the slope */
 } pendres_orbit_coarser;
 
 /* pendres_orbit_refine with slopes; coarser[n] is NaN where there is no orbit. */

@@ -8,10 +8,10 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
-/* Poincaré points of one orbit agree to this, beside their errors. Those of an orbit that has just
-   doubled its period may as well; the shorter one is not stable then. */
+/* Poincaré points of one orbit agree to this and their errors. So may those of an orbit that has
+   just doubled its period; but there the shorter one is not stable. */
 static const double same_point = 1e-6;
-/* The closed orbit, by other steps, by methods that choose their own. */
+/* The tolerance of a run around the closed orbit, for methods that choose their own steps. */
 static const double run_within = 1e-10;
 
 /* An orbit of more than one period, and a shorter period after which it closes. */
@@ -40,7 +40,7 @@ static int is_same(const pendres_orbit *o, double x, double v)
   return pendres_orbit_apart(o, x, v) < same_point + 4.0 * (o->x_error + o->v_error);
 }
 
-/* Followed through the periods that divide the orbit's, until it is back. */
+/* At each period that divides the orbit's: whether the lane is back where it began. */
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
@@ -57,7 +57,8 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
   return 1;
 }
 
-/* Of n orbits those that close earlier than they have been tried for: they are put in front. */
+/* Find which of n orbits close after a shorter period that has not been tried; they are put in
+   front. */
 static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
 {
   pendres_strobe_lane *lanes = malloc((*n + 1) * sizeof *lanes);
@@ -79,8 +80,8 @@ static pendres_status close_early(pendres_context *ctx, job *j, size_t *n)
   return status;
 }
 
-/* Refine them with the shorter periods; what is found takes their place, or they are left to be
-   tried with longer ones. */
+/* Refine them with the shorter periods. An orbit that is found takes the old one's place; the
+   others stay in the list, to be tried with longer periods. */
 static pendres_status refine(pendres_context *ctx, job *j, size_t *n)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;

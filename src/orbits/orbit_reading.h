@@ -10,9 +10,9 @@
 #include "orbits/orbit_newton.h"
 
 /*
- * What a caller takes from a run of one candidate: the samples of it, as many y and w, and
- * whatever else it wants. It returns where the measures of the samples go; NULL: this is no orbit,
- * and the candidate's state becomes PENDRES_NEWTON_FAILED.
+ * What a caller takes from the run of one candidate: it writes one y and one w for each sample, and
+ * keeps whatever else it wants. It returns where the measures of the samples are to go, or NULL if
+ * this is no orbit; the candidate's state then becomes PENDRES_NEWTON_FAILED.
  */
 typedef pendres_orbit_measures *pendres_orbit_taker(void *arg, const pendres_newton_candidate *c,
                                                     const pendres_newton_samples *taken, double *y,

@@ -13,7 +13,7 @@
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
 
-/* The series of an orbit by some steps a period, and where it keeps its numbers. */
+/* The Fourier series of an orbit from some number of steps a period, and its memory. */
 typedef struct curve {
   pendres_orbit_series series;
   double *memory;
@@ -73,7 +73,7 @@ pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_o
   return status;
 }
 
-/* Angle and velocity at a share of the whole orbit. */
+/* Position and velocity after this share of the whole orbit. */
 static void point_at(const pendres_orbit *o, const curve *c, double share, double out[2])
 {
   double f[3];
@@ -83,7 +83,7 @@ static void point_at(const pendres_orbit *o, const curve *c, double share, doubl
   out[1] = o->pendulum.drive_frequency * (f[1] + o->winding) / o->period;
 }
 
-/* What the finer of two curves may be off by, anywhere: of x and of v. */
+/* The largest errors of x and of v anywhere on the finer of two curves. */
 static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *fine,
                       double error[2])
 {
@@ -98,8 +98,9 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
   const double omega = o->pendulum.drive_frequency;
   const double tail = pendres_orbit_series_tail(&fine->series);
   const double modes = (double)fine->series.modes / o->period;
-  /* The finer curve is off by a fourteenth of that where the order holds. Half of it leaves room
-     for two curves that agree by chance, as happens to one orbit in a thousand. */
+  /* Where errors fall as the order of the method says, the finer curve is off by a fourteenth of
+     the difference. Half of it leaves room for two curves that agree by chance, as those of one
+     orbit in a thousand do. */
   error[0] = 0.5 * apart[0] + tail + 3.0 * fine->rounding +
              0.5 * DBL_EPSILON * (fabs(o->x) + two_pi * fabs((double)o->winding));
   error[1] = 0.5 * apart[1] + omega * tail * modes + 3.0 * fmax(1.0, omega) * fine->rounding;

@@ -1,5 +1,5 @@
 /*
- * orbit_sample.h -- all harmonics of an orbit that can be told.
+ * orbit_sample.h -- all harmonics of an orbit that its samples determine.
  */
 #ifndef PENDRES_ORBIT_SAMPLE_H
 #define PENDRES_ORBIT_SAMPLE_H
@@ -9,8 +9,9 @@
 #include "orbits/orbit_series.h"
 
 /*
- * Add share times the harmonics of the angle, averaged over the orbit's drive cycles, to those of
- * a series; by as many steps a period as the orbit was found with. The mean is left alone.
+ * Add the harmonics of the angle, averaged over the orbit's drive cycles and times share, to those
+ * of a series. The orbit is integrated with as many steps a period as it was found with. The mean
+ * of the series stays as it is.
  */
 pendres_status pendres_orbit_add_harmonics(pendres_context *ctx, const pendres_orbit *orbit,
                                            double share, pendres_orbit_series *sum);

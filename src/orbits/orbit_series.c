@@ -17,7 +17,7 @@ void pendres_orbit_tables_free(pendres_orbit_tables *t)
   *t = (pendres_orbit_tables){0};
 }
 
-/* Tables to transform n samples with: those that are there, if they are for as many. */
+/* Make the tables that n samples are transformed with, unless they are there already. */
 static pendres_status provide_forward(pendres_orbit_tables *t, size_t n)
 {
   if (t->forward != NULL && t->forward->n == n) return PENDRES_OK;
@@ -31,7 +31,7 @@ static pendres_status provide_forward(pendres_orbit_tables *t, size_t n)
   return PENDRES_OUT_OF_MEMORY;
 }
 
-/* The same for the way back, to a number of points. */
+/* The same for the inverse transform, to a number of points. */
 static pendres_status provide_backward(pendres_orbit_tables *t, size_t points)
 {
   if (t->backward != NULL && t->backward->n == points) return PENDRES_OK;
@@ -45,7 +45,7 @@ static pendres_status provide_backward(pendres_orbit_tables *t, size_t points)
   return PENDRES_OUT_OF_MEMORY;
 }
 
-/* Three arrays into their coefficients, in GSL's half-complex order. */
+/* Transform three arrays in place, into coefficients in GSL's half-complex order. */
 static pendres_status transform(pendres_orbit_tables *t, size_t n, double *values[3])
 {
   pendres_status status = provide_forward(t, n);
@@ -95,7 +95,8 @@ static void unfold(size_t n, size_t k, const double *y, const double *slope,
   out->im[n - k] = -below[1];
 }
 
-/* Of an even number the middle: harmonics n/2 and -n/2, conjugates; 3n/2 is let go. */
+/* With an even number of samples, in the middle: harmonics n/2 and -n/2, which are conjugate. Those
+   of 3n/2 are left out. */
 static void unfold_middle(size_t n, const double *y, const double *slope, pendres_orbit_series *out)
 {
   const size_t k = n / 2;
@@ -152,7 +153,7 @@ static pendres_status spread(pendres_orbit_tables *t, const pendres_orbit_series
            : PENDRES_INTERNAL;
 }
 
-/* The extreme next to point number k of n, by Newton on the slope. */
+/* The extreme next to point number k of n, by Newton's method on the slope. */
 static double extreme_near(const pendres_orbit_series *s, size_t n, size_t k)
 {
   const double spacing = two_pi / (double)n, start = spacing * (double)k;
@@ -161,7 +162,7 @@ static double extreme_near(const pendres_orbit_series *s, size_t n, size_t k)
   for (int i = 0; i < 8; i++) {
     if (f[2] == 0.0) break;
     const double next = phase - f[1] / f[2];
-    /* A flat or inflected top: the point itself is the best there is. */
+    /* Newton's method leaves a top that is flat or inflected: the point itself is taken. */
     if (!(fabs(next - start) <= 1.5 * spacing)) {
       pendres_orbit_series_at(s, start, f);
       break;
@@ -169,7 +170,7 @@ static double extreme_near(const pendres_orbit_series *s, size_t n, size_t k)
     const double step = fabs(next - phase);
     phase = next;
     pendres_orbit_series_at(s, phase, f);
-    if (step < 1e-9) break; /* the value is flat there: settled to 1e-18 */
+    if (step < 1e-9) break; /* the value is flat there, and off by 1e-18 at most */
   }
   return f[0];
 }
@@ -181,7 +182,8 @@ static double largest(const pendres_orbit_series *s, size_t n, const double *y, 
   for (size_t k = 1; k < n; k++)
     if (sign * y[k] > sign * y[top]) top = k;
   double best = sign * extreme_near(s, n, top);
-  /* Between points another top may rise above that one: by no more than it falls beside them. */
+  /* Between other points a higher top may lie. It rises above its highest point by no more than
+     that point is above its neighbours. */
   double before = sign * y[n - 1], here = sign * y[0];
   for (size_t k = 0; k < n; k++) {
     const double after = sign * (k + 1 < n ? y[k + 1] : y[0]);

@@ -1,9 +1,9 @@
 /*
  * orbit_series.h -- the Fourier series of a closed curve from samples of it and its derivatives.
  *
- * Owns: transforms, values and extremes of a series. Values alone, n of them, tell harmonics up to
- * n / 2, and what is above is taken for something below. A pendulum's slopes and second derivatives
- * are known at every step as well; the three together tell harmonics up to 3 n / 2.
+ * Owns: transforms, values and extremes of a series. From n values alone one knows harmonics up to
+ * n / 2, and higher ones are taken for lower ones (aliasing). A pendulum's slope and second
+ * derivative are known at every step as well; the three together determine harmonics up to 3 n / 2.
  */
 #ifndef PENDRES_ORBIT_SERIES_H
 #define PENDRES_ORBIT_SERIES_H
@@ -55,7 +55,7 @@ pendres_status pendres_orbit_series_extremes(pendres_orbit_tables *tables,
                                              const pendres_orbit_series *s, double *highest,
                                              double *lowest);
 
-/* What the harmonics that are too high to be told may add to a value: as much as the last ones. */
+/* What harmonics beyond the last may add to a value: as much as the highest ones that are there. */
 double pendres_orbit_series_tail(const pendres_orbit_series *s);
 
 #endif

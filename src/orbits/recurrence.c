@@ -5,11 +5,12 @@
 
 enum { SHORT_PERIOD = 32, LONGEST_PERIOD = PENDRES_RECURRENCE_POINTS - 1 };
 
-/* Points that come back closer than this may be near an orbit; near one of a long period ... */
+/* Points that come back closer than these may be near an orbit of a short or a long period ... */
 static const double near_orbit = 0.3, near_long_orbit = 0.02;
-/* ... if they come by so much closer than after any short period. */
+/* ... if their distance is less than this share of that after any short period. */
 static const double closer = 0.1;
-/* Rounding alone must not prefer a multiple of the period. */
+/* A period is preferred to its multiples if points are this many times as far apart after it, or no
+   further than rounding makes them. */
 static const double as_close = 3.0, rounding = 1e-6;
 
 /* The smallest distance of the last point from those first .. last periods ago. */

@@ -6,7 +6,7 @@
 #ifndef PENDRES_RECURRENCE_H
 #define PENDRES_RECURRENCE_H
 
-enum { PENDRES_RECURRENCE_POINTS = 129 /* looked at, at most: the longest period, and one */ };
+enum { PENDRES_RECURRENCE_POINTS = 129 /* at most: one more than the longest period has */ };
 
 typedef struct pendres_recurrence {
   double y, w;         /* the latest point */
@@ -14,10 +14,10 @@ typedef struct pendres_recurrence {
 } pendres_recurrence;
 
 /*
- * The shortest period that the strobe points y[], w[], the latest one last, repeat themselves with
- * about as closely as with any; angles with whole turns. Periods above 32 are found where points
- * come back very closely: by chance some of so many are always close. Returns 0 if they do not
- * come near.
+ * The shortest period after which the latest strobe point is about as close to an earlier one as it
+ * ever is. y[] and w[] are the points, the latest last, and angles have their whole turns. A period
+ * above 32 counts only if the points are very close, since among so many some are close by chance.
+ * Returns 0 if none is close.
  */
 int pendres_recurrence_find(int points, double turn, const double *y, const double *w,
                             pendres_recurrence *out);

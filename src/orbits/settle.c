@@ -14,11 +14,11 @@
 #include "orbits/settle_lanes.h"
 #include "engine/steps.h"
 
-enum { SCOUTS = 12 /* members of a parameter set sent ahead */ };
+enum { SCOUTS = 12 /* so many pendulums of a parameter set are sent ahead */ };
 
 /* ---- batches ---- */
 
-/* Members of a set are consecutive: every so many of them is sent ahead. */
+/* Send ahead pendulums of each set, equally spaced among those of the set. */
 static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
                                   size_t n, const size_t *set, const pendres_strobe_lane *lanes)
 {
@@ -40,7 +40,7 @@ static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_cat
   return status;
 }
 
-/* Attractors into their physical order, and outcomes after them. */
+/* Put attractors into their physical order, and renumber outcomes accordingly. */
 static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues,
                                 size_t n, const size_t *set, pendres_outcome *outcome)
 {
@@ -121,7 +121,7 @@ done:
 
 enum { SPEEDS = 4096 /* places of the table of steps, a power of 2 */ };
 
-/* Steps by speed, remembered: grids have few speeds, again and again. */
+/* The steps chosen for speeds so far: the pendulums of a grid have few different speeds. */
 typedef struct speed_table {
   double speed[SPEEDS];
   int steps[SPEEDS]; /* 0: empty */
@@ -142,7 +142,7 @@ static pendres_status steps_of(pendres_context *ctx, const pendres_pendulum *p, 
   return status;
 }
 
-/* Pendulums in the order of their steps, each class in its own order; steps[n] is read. */
+/* Put pendulums into the order of their numbers of steps, and of their own numbers. */
 static void order_by_steps(size_t n, const int *steps, size_t *order)
 {
   size_t count = 0;

@@ -16,13 +16,14 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
                                     const size_t *set, const double *x, const double *v,
                                     pendres_outcome *outcome);
 
-/* Periods that pendulums get which are labelled against attractors that are known. */
+/* For how many periods pendulums are followed that may only settle on known attractors. */
 typedef enum pendres_settle_budget {
   PENDRES_SETTLE_SHORT, /* enough for almost all; what takes longer stays unresolved */
   PENDRES_SETTLE_FULL
 } pendres_settle_budget;
 
-/* Label n pendulums of one parameter set, with this error a period; the catalogue is only read. */
+/* Label n pendulums of one parameter set, integrated with this error a period. The catalogue is
+   only read. */
 pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
                                     size_t n, const double *x, const double *v, double accuracy,
                                     pendres_settle_budget budget, pendres_outcome *outcome);

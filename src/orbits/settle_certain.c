@@ -1,4 +1,4 @@
-/* settle_certain.c -- labels that the error leaves no choice; see settle_certain.h. */
+/* settle_certain.c -- making labels certain; see settle_certain.h. */
 #include "orbits/settle_certain.h"
 
 #include <math.h>
@@ -6,12 +6,13 @@
 
 #include "engine/context_internal.h"
 
-/* The most exact run: there rounding, some hundred steps a period, is as large. */
+/* The error a period of the most exact run: rounding in some hundred steps is as large. */
 static const double most_exact = 1e-14;
-/* A run again has so much less error than is needed, and at least so much less than before. */
+/* A further run is this much more exact than would just do, and at least this much more exact than
+   the run before. */
 static const double to_spare = 4.0, at_least = 30.0;
 
-/* The pendulums in doubt, those still to be run again first. */
+/* The pendulums in doubt that are to be run again. */
 typedef struct doubtful {
   size_t count;
   size_t *index; /* in the batch */
@@ -55,7 +56,7 @@ static const pendres_catalogue *catalogue_of(const pendres_settle_labelled *l, s
   return &l->job->catalogues[l->job->set != NULL ? l->job->set[i] : 0];
 }
 
-/* Where there is one attractor alone, the well is all that an error can change. */
+/* Where there is one attractor alone, and nobody asks for the well, an error changes nothing. */
 static void excuse(const pendres_settle_labelled *l)
 {
   for (size_t i = 0; i < l->n; i++) {
@@ -83,7 +84,8 @@ static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled
   return status;
 }
 
-/* Error a period that leaves no doubt, by whole tens so that blocks stay full. */
+/* The error a period that should leave no doubt: a power of ten, so that many pendulums share it,
+   and blocks stay full. */
 static double tighter(double accuracy, double doubt)
 {
   const double wanted = accuracy / fmax(at_least, to_spare * doubt);
@@ -91,7 +93,8 @@ static double tighter(double accuracy, double doubt)
   return fmax(most_exact, pow(10.0, floor(log10(wanted))));
 }
 
-/* Few pendulums are run again: in few classes of steps they share blocks. */
+/* A number of steps not below this one, out of few: the few pendulums that are run again then share
+   blocks. */
 static int coarse_rung(int steps)
 {
   int rung = 16;
@@ -99,7 +102,8 @@ static int coarse_rung(int steps)
   return rung / 4 * 3 >= steps ? rung / 4 * 3 : rung;
 }
 
-/* Load what is to be run, with errors a period of d->accuracy; what needs too many steps drops. */
+/* Load what is to be run, with errors a period of d->accuracy, and drop what needs too many
+   steps. */
 static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
 {
   size_t n = 0;
@@ -121,7 +125,7 @@ static pendres_status load(pendres_context *ctx, const pendres_settle_labelled *
   return PENDRES_OK;
 }
 
-/* Periods that each set's pendulums get, more than most need at first. */
+/* Set for how many periods each set's pendulums are followed: more than most of them need. */
 static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled *l,
                             const doubtful *d, long **budget)
 {
@@ -139,7 +143,7 @@ static pendres_status allow(pendres_context *ctx, const pendres_settle_labelled 
   return PENDRES_OK;
 }
 
-/* One run again of all that are left. */
+/* Run all that are left once more. */
 static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
 {
   long *budget = NULL;
@@ -153,8 +157,8 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l
 }
 
 /*
- * What the run says counts, unless it has ended nowhere; what is still in doubt, and not at the
- * end, is left in the list.
+ * The outcome of the run counts, unless the pendulum has not settled in it. Pendulums that are
+ * still in doubt, and can be run more exactly, stay in the list.
  */
 static void take_over(const pendres_settle_labelled *l, doubtful *d)
 {
@@ -173,7 +177,8 @@ static void take_over(const pendres_settle_labelled *l, doubtful *d)
   d->count = left;
 }
 
-/* The same, of labels that stay: only whether they agree with certain ones. */
+/* For methods whose errors are not carried along: labels stay, and are certain where those of fixed
+   steps are certain and agree. */
 static pendres_status compare(pendres_context *ctx, const pendres_settle_labelled *l, doubtful *d)
 {
   pendres_outcome *mine = malloc((l->n + 1) * sizeof *mine);

@@ -1,16 +1,16 @@
 /*
- * settle_certain.h -- labels that the error of the integration leaves no choice.
+ * settle_certain.h -- labels that no error of the integration can change.
  *
- * Owns: what is done about pendulums whose error, as it was carried along, is not small against
- * what tells their fates apart (settle_lanes.c): they are integrated again from their start, more
- * and more exactly, down to rounding. The label of the most exact run counts.
+ * Owns: what is done about a pendulum whose error, as it was carried along, is not small against
+ * what separates one fate from another (settle_lanes.c). It is integrated again from its start,
+ * more and more exactly, down to rounding. The label of the most exact run counts.
  */
 #ifndef PENDRES_SETTLE_CERTAIN_H
 #define PENDRES_SETTLE_CERTAIN_H
 
 #include "orbits/settle_lanes.h"
 
-/* A batch that has been labelled, pendulums by their own numbers. */
+/* A batch that has been labelled; arrays are by the numbers of its pendulums. */
 typedef struct pendres_settle_labelled {
   const pendres_settle_labelling *job; /* doubt must be kept; outcome and doubt may change */
   size_t n;
@@ -19,11 +19,11 @@ typedef struct pendres_settle_labelled {
 } pendres_settle_labelled;
 
 /*
- * Make labels certain that are not. Those that stay in doubt at the last, and those that get into
- * no trap when they are run again, keep their latest label, and are not certain.
+ * Make labels certain that are not. Pendulums that are still in doubt after the most exact run, and
+ * those that reach no trap in a further run, keep their latest label, which is not certain.
  *
- * Where errors are not carried, as with adaptive steps, labels are compared with those of fixed
- * steps, and stay what they are; those that agree with a certain one are certain.
+ * Where errors are not carried along, as with adaptive steps, labels stay what they are, and are
+ * compared with those of fixed steps: those that agree with a certain one are certain.
  */
 pendres_status pendres_settle_certain(pendres_context *ctx, const pendres_settle_labelled *l);
 

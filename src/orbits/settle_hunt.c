@@ -9,11 +9,11 @@
 #include "orbits/recurrence.h"
 
 enum {
-  MOST_GUESSES = 8,  /* orbits looked for at a time in one parameter set */
-  FIRST_HISTORY = 65 /* strobe points that the first round takes for looking at */
+  MOST_GUESSES = 8,  /* so many orbits are looked for at a time in one parameter set */
+  FIRST_HISTORY = 65 /* so many strobe points are there to be looked at after the first round */
 };
 
-/* The orbit that a history, a ring buffer, comes back to; 0 if it does not. */
+/* Guess the orbit that a pendulum with this history is near; 0 if it does not come back. */
 static int recurrence(const pendres_settle_history *h, double turn, pendres_scout *s)
 {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY];
@@ -32,7 +32,7 @@ static int recurrence(const pendres_settle_history *h, double turn, pendres_scou
   return 1;
 }
 
-/* Everything about the pendulums that a batch has lost so far. */
+/* The pendulums of a batch that have not settled so far: they are called lost here. */
 typedef struct lost_lanes {
   size_t count;
   size_t *index; /* in the batch */
@@ -84,13 +84,13 @@ static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t 
   return PENDRES_OK;
 }
 
-/* Whether a lane is lost and still looked after. */
+/* Whether a lane is lost, and its set's budget not spent. */
 static int hunted(const lost_lanes *l, size_t i)
 {
   return !pendres_settle_ended(&l->outcome[i]) && !l->over[l->set[i]];
 }
 
-/* Orbits that the lost lanes are near, a few in each set. */
+/* Look for orbits near the lost lanes, a few in each set. */
 static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
                                       pendres_catalogue *catalogues)
 {
@@ -109,9 +109,10 @@ static pendres_status add_recurrences(pendres_context *ctx, lost_lanes *l,
 }
 
 /*
- * Whether a lost lane is on none of the attractors known. From the cells of a chaos that the latest
- * round knew it has come out again and again, or it would not be lost: it only passes through them,
- * as a mirror image's bands do that lie beside its own.
+ * Whether a lost lane is on none of the known attractors. The cells of chaotic attractors that were
+ * known before the latest round do not count: the lane has left them again and again, or it would
+ * not be lost. It only passes through them, as chaos does whose bands lie beside those of its
+ * mirror image.
  */
 static int nowhere(const pendres_catalogue *c, size_t watched, const pendres_strobe_lane *lane)
 {
@@ -122,8 +123,9 @@ static int nowhere(const pendres_catalogue *c, size_t watched, const pendres_str
 }
 
 /*
- * Chaos among the lost lanes, set by set, one attractor after the other. Lanes on their way to
- * what has been found before, or that left a chaos which ends, get there by going on.
+ * Look for chaos among the lost lanes, set by set, one attractor after the other. Lanes that are on
+ * their way to what has been found, or that have left a chaos which ends, will settle in the next
+ * round.
  */
 static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_catalogue *catalogues)
 {
@@ -145,7 +147,8 @@ static pendres_status add_chaos(pendres_context *ctx, lost_lanes *l, pendres_cat
   return status;
 }
 
-/* Lanes that went to an attractor found late: again from the start, for their settling times. */
+/* Run lanes that have settled on an attractor found by the hunt once more from the start: only then
+   is the time known in which they settle. */
 static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_settle_quarry *q,
                              pendres_settle_labelling *job)
 {
@@ -167,8 +170,9 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
 }
 
 /*
- * Budgets of the next round, set by set, so that none has more or less of it for its neighbours'
- * sake. Where all has been spent the hunt is over; but chaos found last is looked for once, too.
+ * Set the budgets of the next round, set by set: no set has more or less for its neighbours' sake.
+ * Where all has been spent the hunt is over, but if chaos was found in the last round, there is one
+ * more round, in which lanes may be found to be on it.
  */
 static void raise_budgets(const pendres_context *ctx, const pendres_settle_quarry *q, int round,
                           lost_lanes *l)

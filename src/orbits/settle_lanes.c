@@ -11,10 +11,10 @@
 #include "model/model.h"
 #include "orbits/strobe_noise.h"
 
-/* Strobes in a row in a chaotic attractor's cells that make chaos. */
+/* A lane that is in a chaotic attractor's cells at so many strobes in a row is chaotic. */
 enum { CHAOTIC_STREAK = 32 };
 
-/* e-folding time of a small oscillation, in periods. */
+/* The time, in drive periods, in which a small oscillation decays to 1/e. */
 static double settling_time(const pendres_pendulum *p)
 {
   return 1.0 / (0.5 * p->damping * two_pi / p->drive_frequency);
@@ -26,8 +26,8 @@ long pendres_settle_first_budget(const pendres_pendulum *p)
 }
 
 /*
- * Close to a fold an attractor that is known attracts slowly: it gets the time that it needs. So
- * does chaos that ends: of those in it one in e^10 is left then.
+ * Close to a fold a known attractor attracts slowly, and lanes get the time that this takes. They
+ * also get the time to leave a chaos that ends: one of e^10 pendulums in it is left then.
  */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c)
 {
@@ -81,7 +81,8 @@ static void record(pendres_settle_history *h, const pendres_strobe_lane *lane)
   h->w[k] = lane->w;
 }
 
-/* Strobes in a row in the cells of one attractor, and whose cells: one number. */
+/* One number holds for how many strobes in a row a lane has been in the cells of one chaotic
+   attractor, and the number of the attractor's cover times this. */
 enum { STREAK_SCALE = 1 << 16 };
 
 /* The streak after one more strobe. */
@@ -96,11 +97,11 @@ static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *
 }
 
 /*
- * How much larger an error is than what a label can bear. An error carried as a standard deviation
- * counts three times. Inside a trap a twentieth of the radius is free (trap.h). On the way
- * there the error has to stay small against the structure of the basins as far as it has unfolded:
- * near a boundary, error and distance to it grow alike, until the distance is that of different
- * fates, of order one; a thirtieth of that is borne.
+ * The doubt of a label is the ratio of the error to the largest one that cannot change the label.
+ * The error is three standard deviations of what was carried along. Inside a trap a twentieth of
+ * the radius is allowed (trap_ellipse.h). On the way there the error must stay small against the
+ * distance to a basin boundary: the two grow alike, until the distance is that between different
+ * fates, of order one; a thirtieth of that is allowed.
  */
 static const double deviations = 3.0, borne = 0.03;
 
@@ -160,7 +161,7 @@ static int trapped(const pendres_settle_labelling *l, size_t i, const pendres_ca
 
 /* ---- escapes ---- */
 
-/* A state, and the largest variance of its error so far. */
+/* A state, and the largest variance of the error on the way to it. */
 typedef struct pendres_settle_place {
   double y, w, worst;
 } pendres_settle_place;
@@ -175,9 +176,9 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
 }
 
 /*
- * A force that grows faster than the distance leads to infinity within a period: what stands at its
- * end is then no number, or one beyond all lengths of the force, of either sign, which steps of the
- * integration have made of it.
+ * A force that grows faster than the distance leads to infinity within a period. The state at the
+ * period's end is then no number, or a meaningless one of either sign, beyond all lengths of the
+ * force.
  */
 static const double lost_beyond = 1e8;
 
@@ -186,7 +187,7 @@ static int lost(const pendres_strobe_lane *lane)
   return !(fabs(lane->y) < lost_beyond && fabs(lane->w) < lost_beyond);
 }
 
-/* Whether a lane escapes, or is lost: then its last period is looked at once more. */
+/* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
 static int escapes(const pendres_settle_labelling *l, size_t index, size_t i,
                    const pendres_strobe_lane *lane)
 {
@@ -212,7 +213,7 @@ static void watch_escape(void *arg, int step, const pendres_rows *rows)
   if (!p->lost) p->escapes |= pendres_model_escapes(p->pendulum, y, w);
 }
 
-/* Whether a lane was on its way to infinity for certain at a step of its last period. */
+/* Note an escape if a lane was on its way to infinity for certain at a step of its last period. */
 static pendres_status look_back(pendres_context *ctx, const pendres_settle_labelling *l,
                                 size_t index, const pendres_strobe_lane *lane)
 {

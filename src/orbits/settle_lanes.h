@@ -1,8 +1,8 @@
 /*
  * settle_lanes.h -- running pendulums until they are inside a trap.
  *
- * Owns: what a lane is told after each period, the budgets of periods, and the record of lanes that
- * do not settle.
+ * Owns: what is decided about a lane after each period, the budgets of periods, and the latest
+ * strobe points of lanes that do not settle.
  */
 #ifndef PENDRES_SETTLE_LANES_H
 #define PENDRES_SETTLE_LANES_H
@@ -26,9 +26,9 @@ typedef struct pendres_settle_labelling {
   const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
   pendres_settle_history *histories; /* NULL: not kept */
-  double *doubt;            /* of each lane that settles: how much larger the error that it carries
-                               is than what its label can bear; up to 1 it is certain. NULL: not
-                               kept */
+  double *doubt;            /* of each lane that settles: the ratio of the error that it carries to
+                               the largest one that cannot change its label, which is certain up to
+                               1. NULL: not kept */
   /* Of the run itself: */
   const size_t *origin;     /* caller's numbers of the lanes under way */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
@@ -40,7 +40,7 @@ static const pendres_outcome pendres_settle_unresolved = {
   .label = PENDRES_LABEL_UNRESOLVED, .attractor = PENDRES_ATTRACTOR_UNKNOWN,
   .settling_periods = -1};
 
-/* Whether a lane needs to go on no longer: it is on an attractor, or has escaped. */
+/* Whether a lane is done: it is on an attractor, or has escaped. */
 static inline int pendres_settle_ended(const pendres_outcome *o)
 {
   return o->attractor != PENDRES_ATTRACTOR_UNKNOWN;
@@ -52,19 +52,21 @@ long pendres_settle_first_budget(const pendres_pendulum *p);
 /* Periods after which it is given up. */
 long pendres_settle_last_budget(const pendres_context *ctx, const pendres_catalogue *c);
 
-/* A pendulum at its start, its steps for this error a period, which is carried if it can be. */
+/* Put a pendulum at its start, and choose its steps for this error a period, which is carried along
+   where that is possible. */
 pendres_status pendres_settle_load(pendres_context *ctx, const pendres_pendulum *p, double x,
                                    double v, double accuracy, pendres_strobe_lane *lane);
 
-/* The same for a neighbour of its parameters and velocity, whose steps are known. */
+/* The same for a pendulum with the parameters and the velocity of a neighbour whose steps are
+   known. */
 pendres_strobe_lane pendres_settle_load_like(const pendres_strobe_lane *neighbour, double x,
                                              double v);
 
-/* Whether errors are carried: not with adaptive steps, nor with a number of steps that was asked
-   for, as nothing is known of what one of them adds. */
+/* Whether errors are carried along: not with adaptive steps, and not where a number of steps was
+   asked for, as the error of one such step is not known. */
 int pendres_settle_carries(const pendres_context *ctx);
 
-/* The variance that a step adds. */
+/* The variance of the error that a step adds. */
 double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
 
 /* Run the lanes that are unresolved; those inside a trap are done before they begin. */

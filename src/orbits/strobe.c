@@ -35,7 +35,7 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
   return PENDRES_OK;
 }
 
-/* Every state is a number, or a failure with a sentence. */
+/* Fail where a state is no number. */
 static pendres_status check_ends(pendres_context *ctx, size_t n, const pendres_strobe_lane *lanes)
 {
   for (size_t i = 0; i < n; i++)
@@ -44,14 +44,14 @@ static pendres_status check_ends(pendres_context *ctx, size_t n, const pendres_s
   return PENDRES_OK;
 }
 
-/* Periods whose errors are still there at the end: they fade as exp(-gamma t / 2). */
+/* How many periods leave their errors at the end: errors fade as exp(-gamma t / 2). */
 static double periods_that_count(const pendres_pendulum *p, long periods)
 {
   const double decay = -expm1(-0.5 * p->damping * two_pi / p->drive_frequency);
   return 1.0 / fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
-/* At their starts, with steps where they are fixed. */
+/* Put lanes at their starts, and choose their steps where steps are fixed. */
 static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                            const double *x, const double *v, long periods,
                            pendres_strobe_lane *lanes)
@@ -70,9 +70,9 @@ static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulu
 }
 
 /*
- * A clock that runs on is rounded by each step, by up to half a unit of its last place, and what is
- * not forgotten adds up at random, some hundred steps a period. The state's own rounding is far
- * below. A block's clock starts anew each period.
+ * A clock that runs on from period to period is rounded at each step, by up to half a unit of its
+ * last place. Errors that have not faded add up at random, from some hundred steps a period. The
+ * state's own rounding is far below. A block's clock starts anew each period.
  */
 static double clock_noise(const pendres_context *ctx, const pendres_pendulum *p, long periods)
 {
@@ -90,8 +90,8 @@ static double distance(const pendres_strobe_lane *a, const pendres_place *b)
 }
 
 /*
- * From the distance of two runs and the standard error of rounding; what is lost in the last sums
- * comes on top.
+ * The error, from the distance of two runs, the standard error of rounding, and what is lost where
+ * whole turns and the velocity are put together.
  */
 static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 {
@@ -103,24 +103,25 @@ static double error_of(double apart, double noise, const pendres_strobe_lane *l)
 /* ---- runs beside each other ------------------------------------------------------------------ */
 
 /*
- * Strobes at which a better run is compared with the first. Runs that lose each other on the way
- * may meet again at the end, both on an attractor that the pendulum itself never comes to, so they
- * are compared at each strobe. Methods that choose their own steps would choose others if they were
- * stopped: their runs are whole, and compared at MOST_COMPARED strobes at most.
+ * The strobes at which a better run is compared with the first. Runs that lose each other on the
+ * way may meet again at the end, both on an attractor that the pendulum itself never comes to, so
+ * they are compared at each strobe, and advanced by turns, a stretch of periods at a time. Methods
+ * that choose their own steps would choose others if they were stopped: their whole run is one
+ * stretch, and compared at MOST_COMPARED strobes at most.
  */
 typedef struct stretch {
   long periods;      /* of the whole run */
   long last;         /* the stretch ends at this strobe */
   long length;       /* in periods */
-  long every;        /* counted from its end, every so manieth strobe is compared */
-  size_t slots;      /* of a lane */
+  long every;        /* counted from its end, one strobe out of so many is compared */
+  size_t slots;      /* strobes of a lane that are compared in a stretch */
   pendres_place *at; /* n * slots: where the first run was */
   double *apart;     /* n: distances at the end; infinite once two runs have lost each other */
 } stretch;
 
 enum { MOST_COMPARED = 64 };
 
-/* Where the first run was at a strobe of the stretch; NULL where that is not compared. */
+/* Where the first run was at a strobe of the stretch; NULL if that strobe is not compared. */
 static pendres_place *place_of(const stretch *s, size_t index, long period)
 {
   const long left = s->last - period;
@@ -145,7 +146,7 @@ static int compare(void *arg, size_t index, const pendres_strobe_lane *lane)
   return lane->period >= s->last;
 }
 
-/* With room for so many lanes. */
+/* Prepare a comparison of n lanes. */
 static pendres_status stretch_open(pendres_context *ctx, size_t n, long periods, stretch *s)
 {
   const long room = (long)(((size_t)1 << 20) / n); /* 24 MB */
@@ -167,9 +168,10 @@ static void stretch_close(stretch *s)
 }
 
 /*
- * With twice the steps, stretch by stretch beside the first run: where steps are few, errors do not
- * yet fall as the order says, and a run with half as many more may be off by as much, in the same
- * direction. noise[n] receives the rounding errors.
+ * The better run has twice the steps, and goes beside the first, stretch by stretch. Fewer would
+ * not do: where steps are few, errors do not yet fall as the order of the method says, and a run
+ * with half as many more may be off by as much, in the same direction. noise[n] receives the
+ * rounding errors.
  */
 static pendres_status run_with_twice_the_steps(pendres_context *ctx, size_t n, stretch *s,
                                                pendres_strobe_lane *lanes,
@@ -194,9 +196,10 @@ static pendres_status run_with_twice_the_steps(pendres_context *ctx, size_t n, s
 }
 
 /*
- * With a smaller tolerance, twice: steps follow their tolerance loosely. Where it is stability that
- * limits them a tenth of it changes next to nothing, and three runs may be off by as much, in the
- * same direction: methods of one step at a time are bound to take more.
+ * There are two better runs, each with a smaller tolerance, since adaptive steps follow their
+ * tolerance only loosely. Where stability limits the steps, a tenth of the tolerance changes next
+ * to nothing, and three runs may be off by as much, in the same direction: methods of one step at a
+ * time are therefore bound to take more steps in the better runs.
  */
 static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, stretch *s,
                                               pendres_strobe_lane *lanes,
@@ -222,7 +225,7 @@ static pendres_status run_with_less_tolerance(pendres_context *ctx, size_t n, st
   return status;
 }
 
-/* Run the lanes to the end, and tell error[n] of what they come to. */
+/* Run the lanes to the end; error[n] receives the errors there. */
 static pendres_status run_with_errors(pendres_context *ctx, size_t n, long periods,
                                       pendres_strobe_lane *lanes, double *error)
 {

@@ -6,8 +6,8 @@
 #include "engine/tables.h"
 
 /*
- * A unit in the last place of angles up to pi, as measured with tp8, whose weights add up to 7 in
- * size. Those of vern8 add up to 96: slopes cancel, and what they are rounded by does not.
+ * A unit in the last place of angles up to pi, as measured with tp8. The moduli of its weights add
+ * up to 7; those of vern8 add up to 96: its slopes cancel, but their rounding errors do not.
  */
 double pendres_strobe_noise_of_step(pendres_table table)
 {

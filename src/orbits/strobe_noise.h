@@ -1,10 +1,10 @@
 /*
  * strobe_noise.h -- rounding along trajectories.
  *
- * Owns: how large it is. What becomes of it the lanes carry along with their steps (flow.h): a
- * trajectory near a separatrix amplifies rounding by orders of magnitude, and two runs may then
- * agree by chance. With strong friction it does so and forgets it again within a period, so that
- * the derivative of the map over a whole one tells nothing.
+ * Owns: how large it is in a step. Lanes carry along what becomes of it (flow.h): a trajectory near
+ * a separatrix amplifies rounding by orders of magnitude, and two runs may then agree by chance.
+ * With strong friction errors grow so and fade again within a period, and the derivative of the map
+ * over a whole period tells nothing of that.
  */
 #ifndef PENDRES_STROBE_NOISE_H
 #define PENDRES_STROBE_NOISE_H
@@ -13,8 +13,8 @@
 
 #include "engine/passage.h"
 
-/* The standard error that rounding in one step with a Butcher table leaves in the angle: roundings
-   are random and independent of each other. Its square is what a lane's steps add. */
+/* The standard error of the angle by rounding in one step with a Butcher table. Roundings are taken
+   to be random and independent: each step adds the square of this to the variance. */
 double pendres_strobe_noise_of_step(pendres_table table);
 
 /* The standard error of the larger of y and v, from what a lane has carried; infinite where it

@@ -20,7 +20,7 @@
 
 enum { MOST_SAMPLES = 1000000 };
 
-/* Where the points of a period go; in the second run also their standard errors of rounding. */
+/* Where the points of a period go, and in the second run their standard errors of rounding, too. */
 typedef struct recorder {
   double *x, *v;             /* the period's first point */
   double *x_noise, *v_noise; /* NULL in the first run */
@@ -46,7 +46,7 @@ static void keep(void *arg, int step, const pendres_rows *rows)
   }
 }
 
-/* A piece of a run: its first point and those of so many periods. */
+/* A piece of a run: its first point, and the points of so many periods after it. */
 typedef struct piece {
   const pendres_recording *of;
   pendres_recording_place *at; /* where the run stands: moved on */
@@ -55,7 +55,7 @@ typedef struct piece {
   double *x, *v;
 } piece;
 
-/* One period of a piece's lane, from s on, errors carried along or not. */
+/* Advance a piece's lane by one period from s on; errors are carried along in the second run. */
 static pendres_status turn(pendres_block *b, const pendres_flow_error *off, recorder *r,
                            pendres_place *s)
 {
@@ -71,7 +71,7 @@ static pendres_status turn(pendres_block *b, const pendres_flow_error *off, reco
   return status;
 }
 
-/* *off (NULL in the first run): what the run has carried, moved on. */
+/* Run a piece. *off, NULL in the first run, is the covariance carried along, and is advanced. */
 static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_error *off,
                           double *x_noise, double *v_noise)
 {
@@ -102,9 +102,9 @@ static pendres_status run(pendres_context *ctx, const piece *what, pendres_flow_
 }
 
 /*
- * The second run, and the errors: what the distance to it says, and twice the standard error of
- * rounding. The errors of a point's x and v belong together: where one is lost, so is the other,
- * and once lost a trajectory may be any other's; that the two runs meet again says nothing then.
+ * Make the second run, and tell the errors from the distance to it and twice the standard error of
+ * rounding. Where the error of x or that of v is infinite, both are, from there on: the trajectory
+ * may have become another one, and it tells nothing if the two runs meet again.
  */
 static pendres_status estimate(pendres_context *ctx, pendres_recording *next, const piece *first,
                                double *x_error, double *v_error)
@@ -122,7 +122,7 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
   next->noise[2] = off.ww;
   for (size_t k = 1; k < n && status == PENDRES_OK; k++) {
     const double dx = fabs(first->x[k] - finer[k]), dv = fabs(first->v[k] - finer[n + k]);
-    /* Not smaller where one of them happens to change its sign. */
+    /* The larger of the two: either may be small by chance, where it changes its sign. */
     const double doubt = pendres_strobe_doubt(fmax(dx, dv));
     if (!(doubt + x_error[k] + v_error[k] < INFINITY)) next->lost = 1;
     const double lost = next->lost ? INFINITY : 0.0;
@@ -161,7 +161,7 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p, dou
                                   pendres_accuracy_of_run(ctx, fmax(1.0, (double)periods)), &steps);
   if (status != PENDRES_OK) return status;
   const pendres_place s = pendres_passage_in(p, x0, v0);
-  memset(out, 0, sizeof *out); /* what is between the fields, too */
+  memset(out, 0, sizeof *out); /* bytes between the fields, too */
   out->pendulum = *p;
   out->samples = samples;
   out->stretch = (steps + samples - 1) / samples;

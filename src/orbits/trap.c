@@ -12,36 +12,37 @@
 
 
 enum {
-  BASE_POINTS = 12, /* of a ring that only tells whether the linear map rules */
-  BASE_LOOKS = 8,   /* iterates that it may take to contract */
-  BASE_PASSES = 8,
-  FEW_POINTS = 16,  /* of a ring that comes home, by effort */
+  BASE_POINTS = 12, /* of a base ring, which tells only whether the map is nearly linear */
+  BASE_LOOKS = 8,   /* so many iterates the map may take to contract a base ring */
+  BASE_PASSES = 8,  /* so many base rings are tried */
+  FEW_POINTS = 16,  /* points of any other ring, by effort */
   MANY_POINTS = 48,
-  RINGS = 3,        /* at most tried at once */
-  FEW_LOOKS = 12,   /* strobes of the q-th iterate before a ring is given up, by effort */
+  RINGS = 3,        /* so many are tried at once, at most */
+  FEW_LOOKS = 12,   /* iterates after which a ring is given up, by effort */
   MANY_LOOKS = PENDRES_TRAP_LOOKS,
-  FEW_MORE = 16,    /* points that a ring may get where it bends, by effort */
+  FEW_MORE = 16,    /* so many points may be put into a ring's arcs, by effort */
   MANY_MORE = 96
 };
 
-/* The ring that is tried first; how much of the contraction non-linearity may take up. */
+/* The radius of the first base ring; how much of the contraction non-linearity may take up. */
 static const double base_first = 0.25, base_departure = 0.7;
 /* Iterates are taken together until the linear map contracts to this. */
 static const double base_contraction = 0.6;
 /* Longest semi-axis of the outermost ring: well inside one turn, so that angles stay unique. */
 static const double widest = 1.6;
-static const double climb_ratio = 2.5;
-/* The radius is found to this factor, by effort. */
+static const double climb_ratio = 2.5; /* of radii, while rings hold */
+/* The largest radius that holds is found to this factor, by effort. */
 static const double few_ratio = 1.3, many_ratio = 1.04;
-/* A multiplier from here on makes its direction slow. */
+/* A direction whose multiplier is at least this large is slow. */
 static const double slow_multiplier = 0.8;
-/* A point has come home this far inside an ellipse that is shown already. */
+/* A point is home where its radius is at most this share of that of the ellipse known already. */
 static const double home_share = 0.9;
 
 /*
  * Close to a fold one direction is slow, and the metric below would make the ellipse short just
- * along it. There the distance is measured along the eigenvectors instead, all lengths alike.
- * Returns 0 where that does not apply: multipliers not real or not slow, or directions too close.
+ * along it. There the distance is measured by components along the unit eigenvectors instead.
+ * Returns 0 where that does not apply: the multipliers are not real, or none is slow, or the two
+ * directions are too close.
  */
 static int slow_metric(const double m[2][2], double p[3])
 {
@@ -102,7 +103,7 @@ static int metric_of(const double monodromy[2][2], double omega, double p[3])
 /* ---- the linear map ---- */
 
 /*
- * The largest length in the metric that the linear map, `looks` times, leaves of a unit length: the
+ * The largest length that the linear map, `looks` times, makes of a unit length, in the metric: the
  * root of the larger eigenvalue of P^-1 Q with Q = (M^looks)' P M^looks.
  */
 static double linear_share(const pendres_trap *t, const pendres_orbit *o, int looks)
@@ -138,7 +139,7 @@ static void linear_image(const pendres_orbit *o, int looks, double d[2])
   }
 }
 
-/* By how much the image of point i, counted round the ring, differs from the linear map's. */
+/* The difference of the image of point i, counted round the ring, from its linear image. */
 static void point_departure(const pendres_trap_ring *r, const pendres_trap_point *points, int i,
                             const pendres_orbit *o, double d[2])
 {
@@ -152,12 +153,13 @@ static void point_departure(const pendres_trap_ring *r, const pendres_trap_point
 }
 
 /*
- * How much of what the linear contraction leaves between the ring and its image the departure
- * from the linear map takes up. Below one the image lies inside the ring; as the departure falls
- * with the square of the radius, all smaller ellipses then shrink, too. The departure between two
- * points is bounded as that of arcs is (trap_ring.h), and may take up all, at the points
- * base_departure. Its tangents are those of its neighbours: it changes with the double and
- * threefold angle, which 12 points follow.
+ * The departure of the map from its linear part, as a share of the space that the linear
+ * contraction leaves between the ring and its image. Below one the image lies inside the ring; as
+ * the departure falls with the square of the radius, all smaller ellipses are then mapped inside
+ * themselves, too. The departure between two points is bounded as that of arcs is (trap_ring.h) and
+ * may take up all of the space; at the points it may take up base_departure. Its tangents are taken
+ * from the neighbouring points: it changes like the double and threefold angle, which 12 points
+ * resolve.
  */
 static double ring_departure(const pendres_trap_ring *r, const pendres_trap_point *points,
                              const pendres_orbit *o)
@@ -186,7 +188,7 @@ static double ring_departure(const pendres_trap_ring *r, const pendres_trap_poin
 /* ---- the search for the largest ring ---- */
 
 typedef enum stage {
-  STAGE_BASE,  /* look for a ring where the linear map rules */
+  STAGE_BASE,  /* look for a ring where the map is nearly linear */
   STAGE_CLIMB, /* larger rings, each coming home into the one before */
   STAGE_FINE,  /* between the largest that holds and the smallest that does not */
   STAGE_DONE
@@ -200,7 +202,8 @@ typedef struct search {
   double base_share;     /* of a length that the linear map leaves then */
   int looks;             /* of the others */
   double base;           /* radius of the next base ring */
-  double proven, failed; /* largest radius shown, smallest that could not be */
+  double proven, failed; /* largest radius that holds (checked, see trap.h), smallest that does
+                            not */
   int rings;             /* of this pass */
   pendres_trap_ring ring[RINGS];
 } search;
@@ -213,7 +216,8 @@ static int contraction_looks(const pendres_trap *t, const pendres_orbit *o)
   return looks;
 }
 
-/* Looks that a ring gets: with few pendulums to come it does not pay to wait for stragglers. */
+/* After how many iterates a ring is given up: with few pendulums to come, a larger trap does not
+   repay the time that its slowest points take. */
 static int patience(const pendres_orbit *o, pendres_trap_effort effort)
 {
   if (effort == PENDRES_TRAP_MANY) return MANY_LOOKS;
@@ -251,13 +255,13 @@ static void choose_rings(search *s, const pendres_trap *t)
   }
 }
 
-/* A base ring: on to a better radius, or to the climb. */
+/* Judge a base ring: the next one has a better radius, or the climb begins. */
 static void judge_base(search *s, const pendres_trap_point *points, const pendres_orbit *o)
 {
   const double departure = ring_departure(&s->ring[0], points + s->ring[0].first, o);
   s->pass++;
   if (departure <= base_departure) {
-    /* By the square law a larger one would do: once. */
+    /* As the departure grows with the square of the radius, a larger one may do: try that once. */
     const int last = s->proven > 0.0 || departure > 0.5 * base_departure || s->base >= widest;
     s->proven = s->base;
     if (last || s->pass >= BASE_PASSES) s->stage = STAGE_CLIMB;
@@ -270,7 +274,7 @@ static void judge_base(search *s, const pendres_trap_point *points, const pendre
   }
 }
 
-/* What this pass's rings have shown; sets the next stage. */
+/* Judge the rings of this pass, and set the next stage. */
 static void judge(search *s, const pendres_trap_point *points, const pendres_orbit *o,
                   pendres_trap_effort effort)
 {
@@ -291,13 +295,13 @@ static void judge(search *s, const pendres_trap_point *points, const pendres_orb
   } else if (s->stage == STAGE_FINE) {
     if (s->failed < many_ratio * s->proven) s->stage = STAGE_DONE;
   } else if (s->failed > 0.0 && s->failed < few_ratio * s->proven) {
-    /* A ring too coarse for its gaps may hold with more points. */
+    /* A ring that failed since its points were too far apart may hold with more of them. */
     s->stage = many ? STAGE_FINE : STAGE_DONE;
     if (many) s->failed *= few_ratio;
   }
 }
 
-/* Tolerance of rings: small against their margin, in few classes so that blocks stay full. */
+/* The tolerance of rings: small against their margin, and one of few, so that blocks stay full. */
 static double ring_tolerance(double margin)
 {
   return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;

@@ -1,4 +1,4 @@
-/* trap_ring.c -- rings on the edge of ellipses, and the arcs between their points; trap_ring.h. */
+/* trap_ring.c -- rings on the edge of ellipses, and arcs between their points; see trap_ring.h. */
 #include "orbits/trap_ring.h"
 
 #include <math.h>
@@ -7,10 +7,10 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 
-/* Neighbours on a ring may drift apart by this many radii; further apart the ring is too coarse
-   to say what happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
+/* Neighbours on a ring may drift apart by this many radii. Further apart they do not tell what
+   happens between them. They start at 0.39 radii (16 points) or 0.13 (48). */
 static const double widest_gap = 1.0;
-/* Tangents are taken from a second point, so much of an arc further on. */
+/* Tangents are taken from a second point, this share of an arc further on. */
 static const double beside = 0.125;
 
 /* ---- running ---- */
@@ -53,7 +53,7 @@ static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
 
 /* ---- tangents ---- */
 
-/* From a to b at look k, the angle without whole turns. */
+/* The vector from a to b at look k, its angle without whole turns. */
 static void chord_of(const pendres_trap_point *a, const pendres_trap_point *b, int k,
                      double chord[2])
 {
@@ -68,14 +68,14 @@ static double length_of(const pendres_trap *t, double y, double w)
   return sqrt(t->metric[0] * y * y + 2.0 * t->metric[1] * y * w + t->metric[2] * w * w);
 }
 
-/* Angles from a to b, round the ring. */
+/* The angle from a to b, round the ring. */
 static double width_of(const pendres_trap_point *a, const pendres_trap_point *b)
 {
   const double width = b->angle - a->angle;
   return width > 0.0 ? width : width + two_pi;
 }
 
-/* Derivatives by the angle, from a point further on; unknown where that one was not followed. */
+/* Take derivatives by the angle from a point further on; NaN where that one was not followed. */
 static void take_tangents(pendres_trap_point *p, const pendres_trap_point *further)
 {
   for (int k = 1; k <= p->looks; k++) {
@@ -126,7 +126,7 @@ double pendres_trap_departure(const pendres_trap *t, const double chord[2], cons
                  length_of(t, last[0] - chord[0], last[1] - chord[1]));
 }
 
-/* Whether the image of an arc, at some look, is inside what is shown already. */
+/* Whether the image of an arc, at some look, is inside the ellipse that is known already. */
 static int arc_home(const pendres_trap_ring *r, const pendres_trap_point *a,
                     const pendres_trap_point *b)
 {
@@ -156,7 +156,7 @@ size_t pendres_trap_ring_open(const pendres_trap_ring *r, const pendres_trap_poi
   return open;
 }
 
-/* Arcs under way: those that are open now, those that will be then, and the points between. */
+/* Arcs that are not home: those of now, those of the next pass, and the points put into them. */
 typedef struct closing {
   int most;
   size_t open, used;
@@ -165,7 +165,7 @@ typedef struct closing {
   pendres_strobe_lane *lanes;
 } closing;
 
-/* A point into the middle of every open arc, unless its ring has had its share. */
+/* Put a point into the middle of every open arc, unless its ring has had its share of points. */
 static pendres_status bisect(pendres_context *ctx, closing *c)
 {
   size_t n = 0, again = 0;
@@ -200,7 +200,7 @@ static pendres_status bisect(pendres_context *ctx, closing *c)
   return status;
 }
 
-/* The tangents of all points of the rings that hold, then their open arcs. */
+/* Take the tangents at all points of the rings that hold, and list their open arcs. */
 static pendres_status first_arcs(pendres_context *ctx, size_t n, pendres_trap_ring **rings,
                                  pendres_trap_point *points, closing *c)
 {

@@ -3,13 +3,13 @@
  *
  * Owns: running a ring, whether its points come home side by side, and whether the arcs between
  * neighbours do. The image of an arc is taken for the cubic (Hermite) curve through the images of
- * its ends with the tangents there, which come from second points an eighth of an arc further on
- * (variances are carried by steps of second order, too coarse for that at rings' few steps). A
- * cubic departs from its chord by no more than a quarter of the larger of what its two tangents
- * differ by from the chord; a quarter of their sum is allowed for, so that as much again is left,
- * where they are equal, for what the image departs from the cubic. An arc is home where chord and
- * departure are inside the ellipse that is shown already; one that is not gets a point in its
- * middle, and so on while the ring's share of points lasts.
+ * its ends with the tangents there, which come from second points an eighth of an arc further on.
+ * (The derivative that carries variances along is of second order, too coarse with the few steps of
+ * rings.) A cubic departs from its chord by no more than a quarter of the larger of the differences
+ * of its two tangents from the chord. A quarter of their sum is allowed for: where they are equal,
+ * that leaves as much again for the departure of the image from the cubic. An arc is home where
+ * chord and departure are inside the ellipse that is known already; one that is not gets a point in
+ * its middle, and so on while the ring's share of points lasts.
  */
 #ifndef PENDRES_TRAP_RING_H
 #define PENDRES_TRAP_RING_H
@@ -18,9 +18,9 @@
 #include "orbits/trap_ellipse.h"
 
 enum {
-  PENDRES_TRAP_LOOKS = 24, /* strobes of the q-th iterate at most until a point is home */
-  /* Strobes that a point is followed on: so neighbours that come home one after the other are
-     seen there together, and the arc between them, too. */
+  PENDRES_TRAP_LOOKS = 24, /* a point is home after at most so many q-th iterates of the map */
+  /* A point is followed for so many more: neighbours that come home one after the other are then
+     seen there together, and so is the arc between them. */
   PENDRES_TRAP_AFTER = 1
 };
 
@@ -28,16 +28,17 @@ typedef struct pendres_trap_ring {
   const pendres_trap *trap;
   const pendres_pendulum *pendulum;
   double radius;
-  double home;   /* points are home within this radius; 0: one look and no more */
-  double room;   /* arcs must be inside this one: the ellipse that is shown already */
-  double margin; /* that errors must be small against: what a base ring contracts by; radius */
+  double home;   /* points are home within this radius; 0: a base ring, run for `looks` iterates */
+  double room;   /* radius of the ellipse that is known already, which arcs must be inside of */
+  double margin; /* errors must be small against this: what a base ring contracts by, or the
+                    radius */
   int points, looks, steps;
   int more;      /* points put between the first ones so far */
   int failed;    /* a point has left: the others need not go on */
   size_t first;  /* its first point */
 } pendres_trap_ring;
 
-/* A point of a ring, where it has been, and the derivatives of that by the angle. */
+/* A point of a ring, where it has been at each look, and the derivatives of that by the angle. */
 typedef struct pendres_trap_point {
   pendres_trap_ring *of;
   double angle;
