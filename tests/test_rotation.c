@@ -1,11 +1,13 @@
 /*
  * test_rotation.c -- rotations without a drive, against an integration in time that shares nothing
- * with the library, and against what is known in limits.
+ * with the library, and against what is known in limits; sweeps that come to them.
  */
-#include "check.h"
+#include "context_fixture.h"
 
+#include <stdlib.h>
 #include <string.h>
 
+#include <pendres/hysteresis.h>
 #include <pendres/rotation.h>
 
 static const double pi = PENDRES_PI;
@@ -125,7 +127,7 @@ static double turn(double damping, double torque, double *v)
 static void rotations(void **state)
 {
   static const double sets[][2] = {{0.1, 0.13}, {0.1, 1.0}, {0.5, 0.6}, {1.0, 0.97}, {0.3, 1.01},
-                                   {1.5, 1.2}, {0.2, 3.0}};
+                                   {1.5, 1.2}, {0.2, 3.0}, {0.5, 1.000001}};
   (void)state;
   for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
     const pendres_pendulum p = {.damping = sets[i][0], .torque = sets[i][1],
@@ -180,11 +182,125 @@ static void no_rotations(void **state)
   assert_non_null(strstr(why, "no period"));
 }
 
+/* ---- swept ---- */
+
+/* From the first value to the last and back; the caller frees. */
+static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p, pendres_parameter which,
+                                 double from, double to, size_t n, double v)
+{
+  pendres_hysteresis *h = NULL;
+  double *value = malloc(2 * n * sizeof *value);
+  assert_non_null(value);
+  for (size_t i = 0; i < n; i++)
+    value[i] = value[2 * n - 1 - i] = from + (to - from) * (double)i / (double)(n - 1);
+  p.drive_frequency = 0.7; /* which nothing depends on */
+  check_ok(pendres_hysteresis_follow(ctx, &p, which, 0.5 * pi, v, 2 * n, value, &h));
+  free(value);
+  return h;
+}
+
+/* The mean velocity of the rotation: of one turn, after so many that the start is forgotten. */
+static double mean_velocity(double damping, double torque)
+{
+  double v = (torque + 1.0) / damping, time = 0.0, last = 0.0; /* faster than any rotation */
+  for (double all = 0.0; all < 36.0 / damping; all += time) {
+    last = time;
+    time = turn(damping, torque, &v);
+  }
+  check_near(time, last, 1e-12 * time);
+  return 2.0 * pi / time;
+}
+
+/* A junction's current up and down, either way round: it stands still up to the fold at 1, and
+   rotates down to the least torque. Velocities agree with an integration in time, whose steps leave
+   1e-12, which the slow passage near the connection takes tenfold. */
+static void current_and_voltage(void **state)
+{
+  enum { N = 301 };
+  pendres_rotation_onset o;
+  check_ok(pendres_rotation_least_torque(0.3, &o));
+  for (int way = 1; way >= -1; way -= 2) {
+    const pendres_pendulum p = {.damping = 0.3};
+    pendres_hysteresis *h = sweep(*state, p, PENDRES_TORQUE, 0.0, 1.5 * way, N, 0.0);
+    assert_int_equal(pendres_hysteresis_jumps(h), 2);
+    const pendres_jump *up = pendres_hysteresis_jump(h, 0), *down = pendres_hysteresis_jump(h, 1);
+    assert_true(up->kind == PENDRES_JUMP_FOLD && up->certain && up->to == PENDRES_LABEL_RUNNING);
+    check_near(up->value, way, up->value_error);
+    assert_true(down->kind == PENDRES_JUMP_OTHER && down->to == PENDRES_LABEL_PERIODIC);
+    check_near(down->value, way * o.torque, down->value_error);
+    for (size_t i = 0; i < 2 * N; i++) {
+      const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+      const double torque = fabs(point->value), least = i < N ? 1.0 : o.torque;
+      if (torque == 1.0) continue; /* where the state ends, either is right */
+      assert_int_equal(point->attractor.label == PENDRES_LABEL_RUNNING, torque > least);
+      assert_int_equal(point->attractor.orbit.period, torque > least ? 0 : 1);
+      if (torque <= least) assert_true(point->mean_velocity == 0.0);
+      if (torque <= least || i % 29 > 0) continue;
+      assert_true(point->mean_velocity_error < 1e-11);
+      assert_true(point->attractor.lyapunov == 0.0);
+      check_near(point->mean_velocity, way * mean_velocity(0.3, torque),
+                 point->mean_velocity_error + 1e-11);
+    }
+    pendres_hysteresis_free(h);
+  }
+}
+
+/* Stronger damping stops a rotation where the least torque is the pendulum's, for good; beyond a
+   damping of 1.19 the equilibria are born on the rotation, both ways. */
+static void other_ends(void **state)
+{
+  pendres_rotation_onset o;
+  pendres_hysteresis *h = sweep(*state, (pendres_pendulum){.torque = 0.5}, PENDRES_DAMPING, 0.1, 0.8,
+                                71, 5.0);
+  assert_int_equal(pendres_hysteresis_jumps(h), 1);
+  const pendres_jump *j = pendres_hysteresis_jump(h, 0);
+  check_ok(pendres_rotation_least_torque(j->value, &o));
+  assert_true(j->value_error < 1e-12 && j->from == PENDRES_LABEL_RUNNING);
+  check_near(o.torque, 0.5, 2.0 * j->value_error);
+  pendres_hysteresis_free(h);
+  h = sweep(*state, (pendres_pendulum){.damping = 1.5}, PENDRES_TORQUE, 0.5, 1.25, 76, 0.0);
+  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  for (size_t k = 0; k < 2; k++) {
+    j = pendres_hysteresis_jump(h, k);
+    assert_true(j->kind == PENDRES_JUMP_FOLD && j->certain);
+    check_near(j->value, 1.0, j->value_error);
+  }
+  for (size_t i = 0; i < pendres_hysteresis_count(h); i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    assert_int_not_equal(point->attractor.label, PENDRES_LABEL_UNRESOLVED);
+    assert_int_equal(point->mean_velocity > 0.0, point->value > 1.0);
+  }
+  pendres_hysteresis_free(h);
+}
+
+/* Where both are stable the start decides; as an integration for a hundred units of time says. */
+static void starts(void **state)
+{
+  const pendres_pendulum p = {.damping = 0.3, .torque = 0.5, .drive_frequency = 0.7};
+  int rotating = 0;
+  for (int i = 0; i < 24; i++) {
+    const double start = -6.0 + 0.5 * i;
+    double y = 0.0, v = start;
+    pendres_hysteresis *h = NULL;
+    check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_TORQUE, 0.5 * pi, start, 1, &p.torque,
+                                       &h));
+    for (int k = 0; k < 50000; k++) step(p.damping, p.torque, 2e-3, &y, &v);
+    assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label,
+                     v > 0.1 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC);
+    rotating += v > 0.1;
+    pendres_hysteresis_free(h);
+  }
+  assert_in_range(rotating, 4, 20);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(least_torque), cmocka_unit_test(small_damping), cmocka_unit_test(most_damping),
     cmocka_unit_test(rotations),    cmocka_unit_test(no_rotations),
+    cmocka_unit_test_setup_teardown(current_and_voltage, setup, teardown),
+    cmocka_unit_test_setup_teardown(other_ends, setup, teardown),
+    cmocka_unit_test_setup_teardown(starts, setup, teardown),
   };
   return cmocka_run_group_tests_name("rotation", tests, NULL, NULL);
 }

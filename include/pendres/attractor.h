@@ -54,7 +54,8 @@ typedef enum pendres_label {
   PENDRES_LABEL_SA = 0,         /**< small amplitude */
   PENDRES_LABEL_LA = 1,         /**< large amplitude */
   PENDRES_LABEL_PERIODIC = 2,   /**< any other closed orbit, or one without a name */
-  PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0 */
+  PENDRES_LABEL_RUNNING = 3,    /**< closes but for whole turns: winding not 0; in hysteresis.h
+                                     also without a drive, in a period of its own */
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
   PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a force that drives

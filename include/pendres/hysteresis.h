@@ -38,6 +38,13 @@
  * that the map's error hides it are unresolved. Where there is no circle of sufficient smoothness,
  * as before it breaks up, averages over the pendulum's own periods tell, as above.
  *
+ * Without a drive, under a torque alone, a pendulum stands still or rotates with a period of its
+ * own (rotation.h). Such a rotation is RUNNING, with a mean velocity and no period in drive periods;
+ * at most values it is interpolated, by polynomials whose last coefficients are part of the error.
+ * It comes from the fold at a torque of 1, where nothing can stand still any longer, or from a
+ * start that passes an upper equilibrium; and it ends at the least torque, or at the damping to
+ * which the pendulum's torque is the least one, by a homoclinic connection (OTHER) or a fold.
+ *
  * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
  * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of
  * Applied Bifurcation Theory, chapter 4; Thompson and Soliman, Proceedings of the Royal Society A
@@ -79,7 +86,8 @@ typedef enum pendres_jump_kind {
   PENDRES_JUMP_FOLD = 0, /**< the orbit meets an unstable one, and both vanish */
   PENDRES_JUMP_FLIP,     /**< period doubling */
   PENDRES_JUMP_SYMMETRY, /**< loss of mirror symmetry */
-  PENDRES_JUMP_OTHER,    /**< chaos that ends, or a branch that could not be followed */
+  PENDRES_JUMP_OTHER,    /**< chaos that ends, a homoclinic connection of a rotation without a
+                              drive, or a branch that could not be followed */
   PENDRES_JUMP_COUNT     /**< how many there are; not a kind */
 } pendres_jump_kind;
 
@@ -92,7 +100,7 @@ typedef struct pendres_jump {
   int direction;             /**< 1: the parameter grows, -1: it falls */
   pendres_jump_kind kind;    /**< how the state ends */
   double value;              /**< of the parameter. For OTHER, unless a bifurcation was found to be
-                                  the end, it was halved down to, and the error is half of what is
+                                  the end, or a rotation's, it was halved down to, and the error is half of what is
                                   left: somewhere therein the pendulum leaves */
   double value_error;        /**< its error */
   pendres_label from;        /**< label of the state that ends */

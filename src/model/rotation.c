@@ -18,6 +18,8 @@
 #include "base/angles.h"
 
 static const double least_damping = 1e-9, most_damping = 100.0;
+/* Series of a velocity below this reach so little that they do not serve to begin with. */
+static const double slow = 0.1;
 
 enum { ORDER = 28 /* of series */, ITERATIONS = 200 };
 
@@ -285,13 +287,17 @@ static double rotation_at(const motion *m, double *period)
   const double from = m->torque > 1.0 ? 0.0 : pi + m->angle;
   motion copy = *m;
   *period = NAN;
+  /* Friction balances the greatest force at `high`, and the least one at `low`. */
   double low = (m->torque - 1.0) / m->damping;
   const double high = (m->torque + 1.0) / m->damping;
   if (m->torque <= 1.0) {
     if (none_at_one(m->damping, m->how) || !(gap(m) > 0.0)) return NAN;
     low = unstable_at(m, from);
+  } else if (low < slow) { /* for a series; what leaves the equilibrium at a torque of 1 is slower
+                              than the rotations above, too */
+    const motion at_one = at_torque(m->damping, 1.0, m->how);
+    low = fmax(low, unstable_at(&at_one, pi + at_one.angle));
   }
-  /* Friction balances the greatest force at `high`, and the least one at `low`. */
   double v = low;
   if (gain(low, &copy) > 0.0) v = gain(high, &copy) < 0.0 ? zero_of(gain, &copy, low, high) : high;
   *period = 0.0;

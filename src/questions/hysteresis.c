@@ -8,6 +8,7 @@
 #include "engine/context_internal.h"
 #include "questions/hysteresis_chaos.h"
 #include "questions/hysteresis_circle.h"
+#include "questions/hysteresis_rotation.h"
 #include "model/model.h"
 
 enum {
@@ -124,7 +125,9 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   } else if (status == PENDRES_NOT_FOUND) {
     const pendres_attractor old = w->state.attractor;
     int done = 0;
-    status = pendres_path_onto_circle(w, &end, s->direction, &j, &done);
+    pendres_path_into_rotation(w, &end, &j, &done);
+    status = PENDRES_OK;
+    if (!done) status = pendres_path_onto_circle(w, &end, s->direction, &j, &done);
     if (status == PENDRES_OK && !done)
       status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
@@ -139,13 +142,21 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   return status;
 }
 
+/* Whether a value is the fold's at which the stretch ends, where the orbit cannot be told from the
+   one that it meets. */
+static int at_fold(const pendres_stretch *s, double value)
+{
+  return s->end == PENDRES_STRETCH_BIFURCATION && s->bifurcation.kind == PENDRES_FOLD &&
+         fabs(value - s->end_value) <= s->end_error;
+}
+
 /* The values from number i on that the stretch holds: the number after the last of them. */
 static size_t held(const path *w, size_t i)
 {
   const int direction = w->stretch.direction;
   double last = w->at;
   for (; i < w->n && pendres_stretch_holds(&w->stretch, w->value[i]); i++) {
-    if ((w->value[i] - last) * direction < 0.0) break;
+    if ((w->value[i] - last) * direction < 0.0 || at_fold(&w->stretch, w->value[i])) break;
     last = w->value[i];
   }
   return i;
@@ -190,6 +201,12 @@ static double turning_point(const path *w, size_t i)
 static int is_short(const pendres_attractor *a)
 {
   return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
+}
+
+/* Whether it is a rotation without a drive. */
+static int rotates_freely(const pendres_attractor *a)
+{
+  return a->label == PENDRES_LABEL_RUNNING && !pendres_settled_closed(a);
 }
 
 /* Whether the path goes up (1) or down (-1) to value number i. */
@@ -323,6 +340,10 @@ static pendres_status follow_path(path *w)
       continue;
     }
     const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
+    if (rotates_freely(&w->state.attractor)) {
+      status = pendres_path_rotation(w, &i);
+      continue;
+    }
     if (w->on_circle || rotates) status = pendres_path_circle(w, &i);
     if (status != PENDRES_OK || i > before) continue;
     if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
@@ -331,10 +352,12 @@ static pendres_status follow_path(path *w)
     }
     if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
     else if (rotates) status = follow_rotation(w, &i);
-    if (status == PENDRES_OK && i == before) status = settle_at(w, &i);
+    if (status == PENDRES_OK && i == before && !rotates_freely(&w->state.attractor))
+      status = settle_at(w, &i);
   }
   pendres_stretch_free(&w->stretch);
   pendres_circles_free(w->circles);
+  pendres_rotation_table_free(w->rotations);
   return status;
 }
 

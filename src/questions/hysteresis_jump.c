@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "orbits/catalogue.h"
 #include "questions/lyapunov_move.h"
+#include "questions/rotation_table.h"
 
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS,
@@ -34,7 +35,8 @@ static const double batches_sure = 4.073;
 int pendres_settled_closed(const pendres_attractor *a)
 {
   return a->label != PENDRES_LABEL_CHAOTIC && a->label != PENDRES_LABEL_UNRESOLVED &&
-         a->label != PENDRES_LABEL_ESCAPE && a->label != PENDRES_LABEL_QUASI_PERIODIC;
+         a->label != PENDRES_LABEL_ESCAPE && a->label != PENDRES_LABEL_QUASI_PERIODIC &&
+         a->orbit.period > 0;
 }
 
 int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b)
@@ -71,6 +73,16 @@ pendres_attractor pendres_settled_orbit(const pendres_orbit *o)
   a.lyapunov = log(modulus) / time;
   a.lyapunov_error = o->multiplier_error / (modulus * time);
   return a;
+}
+
+void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r,
+                            pendres_settled *out)
+{
+  *out = pendres_settled_nothing_at(p, half_pi, r->v);
+  out->attractor.label = PENDRES_LABEL_RUNNING;
+  out->attractor.lyapunov = out->attractor.lyapunov_error = 0.0;
+  out->attractor.drift = r->mean_velocity / p->drive_frequency;
+  out->attractor.drift_error = r->mean_velocity_error / p->drive_frequency;
 }
 
 /* What a pendulum is on, now that its averages are known. */
@@ -140,12 +152,19 @@ static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapuno
                                  pendres_settled *s)
 {
   size_t averaged[TRIALS], trapped[TRIALS], a = 0, t = 0;
-  for (size_t i = 0; i < n; i++) {
-    if (pendres_lyapunov_may_rotate(&s[i].pendulum)) averaged[a++] = i;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_rotation r;
+    int rotates = 0;
+    if (pendres_lyapunov_may_rotate(&s[i].pendulum)) {
+      averaged[a++] = i;
+      continue;
+    }
+    status = pendres_rotation_reached(ctx, &s[i].pendulum, s[i].x, s[i].v, &r, &rotates);
+    if (rotates) pendres_settled_rotate(&s[i].pendulum, &r, &s[i]);
     else trapped[t++] = i;
   }
-  pendres_status status = PENDRES_OK;
-  if (a > 0) status = settle_by_averages(ctx, a, averaged, care, s);
+  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, a, averaged, care, s);
   if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
   return status;
 }
@@ -166,6 +185,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
     return PENDRES_OK;
   }
   if (s->attractor.label == PENDRES_LABEL_ESCAPE) return PENDRES_OK; /* there is none */
+  if (s->attractor.label == PENDRES_LABEL_RUNNING) return PENDRES_OK; /* it is there */
   if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);

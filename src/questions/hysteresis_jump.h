@@ -7,6 +7,7 @@
 #define PENDRES_HYSTERESIS_JUMP_H
 
 #include <pendres/hysteresis.h>
+#include <pendres/rotation.h>
 
 /* What a pendulum settled on, and a state that it was in then. */
 typedef struct pendres_settled {
@@ -15,7 +16,7 @@ typedef struct pendres_settled {
   double x, v;                 /* on it, or on the way to it */
 } pendres_settled;
 
-/* Whether an attractor is a closed orbit. */
+/* Whether an attractor is an orbit that closes in drive periods. */
 int pendres_settled_closed(const pendres_attractor *a);
 
 /* Whether two are the same state at parameters next to each other, or mirror images of it. */
@@ -29,6 +30,10 @@ pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, 
 
 /* The attractor that a stable orbit is; its trap is not determined. */
 pendres_attractor pendres_settled_orbit(const pendres_orbit *o);
+
+/* A pendulum on its rotation without a drive. */
+void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r,
+                            pendres_settled *out);
 
 /* What n pendulums that may rotate, PENDRES_HYSTERESIS_TRIALS at most, come to from where they are,
    next to rotations that are not locked to the drive. */

@@ -9,6 +9,7 @@
 #include "questions/circles.h"
 #include "questions/hysteresis_jump.h"
 #include "questions/hysteresis_names.h"
+#include "questions/rotation_table.h"
 #include "questions/stretch.h"
 
 typedef struct pendres_path {
@@ -23,6 +24,7 @@ typedef struct pendres_path {
   pendres_stretch stretch; /* that it is followed along; none: not yet, or not closed */
   size_t tried;            /* the value to which it was last tried to come from chaos, ... */
   int tries;               /* ... so often */
+  pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
   pendres_circles *circles; /* NULL: not met yet */
   int on_circle;            /* it is on one of them, locked or not, ... */
   pendres_circles_verdict last; /* ... as was told here for the last time */
