@@ -250,15 +250,15 @@ static void current_and_voltage(void **state)
 static void other_ends(void **state)
 {
   pendres_rotation_onset o;
-  pendres_hysteresis *h = sweep(*state, (pendres_pendulum){.torque = 0.5}, PENDRES_DAMPING, 0.1, 0.8,
-                                71, 5.0);
+  const pendres_pendulum half = {.torque = 0.5}, over = {.damping = 1.5};
+  pendres_hysteresis *h = sweep(*state, half, PENDRES_DAMPING, 0.1, 0.8, 71, 5.0);
   assert_int_equal(pendres_hysteresis_jumps(h), 1);
   const pendres_jump *j = pendres_hysteresis_jump(h, 0);
   check_ok(pendres_rotation_least_torque(j->value, &o));
   assert_true(j->value_error < 1e-12 && j->from == PENDRES_LABEL_RUNNING);
   check_near(o.torque, 0.5, 2.0 * j->value_error);
   pendres_hysteresis_free(h);
-  h = sweep(*state, (pendres_pendulum){.damping = 1.5}, PENDRES_TORQUE, 0.5, 1.25, 76, 0.0);
+  h = sweep(*state, over, PENDRES_TORQUE, 0.5, 1.25, 76, 0.0);
   assert_int_equal(pendres_hysteresis_jumps(h), 2);
   for (size_t k = 0; k < 2; k++) {
     j = pendres_hysteresis_jump(h, k);

@@ -39,8 +39,9 @@
  * as before it breaks up, averages over the pendulum's own periods tell, as above.
  *
  * Without a drive, under a torque alone, a pendulum stands still or rotates with a period of its
- * own (rotation.h). Such a rotation is RUNNING, with a mean velocity and no period in drive periods;
- * at most values it is interpolated, by polynomials whose last coefficients are part of the error.
+ * own (rotation.h). Such a rotation is RUNNING, with a mean velocity and no period in drive
+ * periods; at most values it is interpolated, by polynomials whose last coefficients are part of
+ * the error.
  * It comes from the fold at a torque of 1, where nothing can stand still any longer, or from a
  * start that passes an upper equilibrium; and it ends at the least torque, or at the damping to
  * which the pendulum's torque is the least one, by a homoclinic connection (OTHER) or a fold.
@@ -99,9 +100,10 @@ typedef struct pendres_jump {
   size_t step;               /**< between point step - 1 and point step of the path */
   int direction;             /**< 1: the parameter grows, -1: it falls */
   pendres_jump_kind kind;    /**< how the state ends */
-  double value;              /**< of the parameter. For OTHER, unless a bifurcation was found to be
-                                  the end, or a rotation's, it was halved down to, and the error is half of what is
-                                  left: somewhere therein the pendulum leaves */
+  double value;              /**< of the parameter. For OTHER, unless a bifurcation or the end of a
+                                  rotation was found to be the end, it was halved down to, and the
+                                  error is half of what is left: somewhere therein the pendulum
+                                  leaves */
   double value_error;        /**< its error */
   pendres_label from;        /**< label of the state that ends */
   pendres_label to;          /**< label of the state that the pendulum goes to */
