@@ -140,6 +140,7 @@ static void models(void **state)
   pendres_pendulum_jacobian(&good, 0.0, 0.0, NULL, NULL);
   assert_null(pendres_model_of((pendres_force)77));
   assert_false(pendres_pendulum_symmetric(NULL));
+  assert_false(pendres_pendulum_leaves(NULL));
   assert_true(isnan(pendres_pendulum_potential(NULL, 0.0)));
   pendres_pendulum_mirror(NULL, NULL);
   pendres_pendulum_mirror(&x, &v);

@@ -162,6 +162,12 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { "&scene kind='orbit' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
     "force='polynomial' /\n&orbit x=1 /",
     { "3:1 a polynomial needs 'force_coefficients'" } },
+  { "&scene kind='switching' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
+    "force='squid' force_coefficients=1 /\n&sweep temperature=1 /\n&switching from=1 /",
+    { "5:12 this force has no wells that are alike: 'from' needs 'to'" } },
+  { "&scene kind='basins' /\n&pendulum damping=0.1 drive_amplitude=0.2 drive_period=8\n"
+    "temperature=1 force='polynomial' force_coefficients=1,-1 /\n&sweep x=1,2 v=1,2 /",
+    { "3:1 noise carries a pendulum to infinity" } },
   { CURVE "&sweep damping=1,2 torque=0.1,0.2 /",
     { "3:20 results have one axis: beside 'torque' give 'damping' one value" } },
   { CURVE "&sweep damping=1 torque=0.1,0.2 parametric_amplitude=0.1 /",

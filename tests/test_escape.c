@@ -184,12 +184,16 @@ static void bound(void **state)
     }
   /* None where the sign of the parametric drive's factor changes, and none for a pendulum. */
   pendres_pendulum strong = some[0];
+  assert_true(pendres_pendulum_leaves(&strong));
   strong.parametric_amplitude = 1.0;
+  assert_false(pendres_pendulum_leaves(&strong));
   assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
   strong.force = PENDRES_FORCE_PENDULUM;
   assert_false(pendres_model_escapes(&strong, 1e6, 1.0));
   pendres_pendulum ring = some[3];
+  assert_true(pendres_pendulum_leaves(&ring));
   ring.force_coefficients[0] = 0.1;
+  assert_false(pendres_pendulum_leaves(&ring));
   assert_false(pendres_model_escapes(&ring, 1e6, 1.0));
 }
 

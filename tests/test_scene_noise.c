@@ -74,7 +74,7 @@ static void switching_goes_by_name_or_number(void **state)
  * Other models: between the wells of a Duffing oscillator at rest and in a weak drive, and from a
  * junction's state of no voltage to other wells, as the library counts them
  * (test_switching_models); what there is not, is not in the file: wells of a polynomial, another
- * state of the junction. A junction that may rotate is refused.
+ * state of the junction. A junction that may rotate is refused. Helmholtz' oscillator escapes.
  */
 static void switching_of_other_models(void **state)
 {
@@ -85,11 +85,14 @@ static void switching_of_other_models(void **state)
     "&pendulum drive_amplitude = 0, damping = 2, drive_frequency = 1.0, torque = 0.2 /\n"
     "&sweep temperature = 0.4, 0.5 /\n&switching from = 1 /\n",
     "&pendulum drive_amplitude = 0, damping = 0.3, drive_frequency = 1.0, torque = 0.5 /\n"
-    "&sweep temperature = 0.4 /\n&switching from = 1 /\n"};
-  static const char *const files[] = {"duffing", "junction", "rotating"};
+    "&sweep temperature = 0.4 /\n&switching from = 1 /\n",
+    "&pendulum drive_amplitude = 0.03, damping = 0.5, drive_frequency = 0.9,\n"
+    "  force = 'polynomial', force_coefficients = 1, -1 /\n"
+    "&sweep temperature = 0.05 /\n&switching from = 1 /\n"};
+  static const char *const files[] = {"duffing", "junction", "rotating", "helmholtz"};
   char text[400];
   (void)state;
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 4; i++) {
     snprintf(text, sizeof text, "&scene kind = 'switching' /\n%s&noise trajectories = 192, "
              "periods = 200 /\n", decks[i]);
     assert_int_equal(scene_run_marked(NULL, text, 1, files[i]), i == 2);
@@ -109,6 +112,8 @@ static void switching_of_other_models(void **state)
   store = scene_open("junction");
   assert_false(pendres_store_has(store, "", "exposure_la"));
   pendres_store_free(store);
+  get("helmholtz", "rate_escape_1", slips, 1);
+  assert_true(slips[0] > 0.002 && slips[0] < 0.006); /* 0.0024 at a temperature of 1/24 */
   get("junction", "rate_well_1", slips, 2);
   assert_true(slips[0] > 0.0 && slips[1] > slips[0]);
 }

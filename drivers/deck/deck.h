@@ -246,6 +246,9 @@ pendres_status deck_dump(const deck *d, FILE *stream);
 /** The same as a text, to be freed by free(); NULL on failure. */
 pendres_status deck_resolved(const deck *d, char **text);
 
+/** The pendulum of a deck, all that it holds fixed; what is an axis is NaN. */
+pendres_pendulum deck_pendulum(const deck *d);
+
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);
 

@@ -411,6 +411,26 @@ static void check_force(deck_builder *b)
              "a polynomial needs 'force_coefficients', one of them not zero");
 }
 
+/* Where noise carries a pendulum to infinity there are rates of escape, but no steady clouds and
+   responses; what has neither wells nor that way out leaves a state for another one alone. */
+static void check_noise(deck_builder *b)
+{
+  const deck *d = b->d;
+  pendres_pendulum p = deck_pendulum(d);
+  if (isnan(p.parametric_amplitude)) p.parametric_amplitude = 0.0; /* an axis */
+  const int leaves = pendres_pendulum_leaves(&p);
+  const deck_given *temperature = given(b, "sweep", "temperature");
+  if (!is_there(temperature)) temperature = given(b, "pendulum", "temperature");
+  if ((b->scene & (1u << DECK_RESPONSE | 1u << DECK_BASINS)) != 0 && leaves && deck_has_noise(d))
+    complain(b, temperature, "temperature",
+             "under this force noise carries a pendulum to infinity in the end: there is no steady "
+             "state with noise; scene 'switching' tells how soon");
+  if (b->scene == 1u << DECK_SWITCHING && d->switching.from > 0 && d->switching.to == 0 &&
+      !leaves && !(pendres_model_of(p.force)->period > 0.0))
+    complain(b, given(b, "switching", "from"), "from",
+             "this force has no wells that are alike: 'from' needs 'to'");
+}
+
 static void check_output(deck_builder *b)
 {
   const char *output = b->d->output;
@@ -440,6 +460,7 @@ void deck_check(deck_builder *b)
   check_plane(b);
   check_curve(b);
   if (b->errors->count == 0) check_force(b);
+  if (b->errors->count == 0) check_noise(b);
   check_output(b);
   check_ensemble(b);
   if (d->precision.block_lanes % 8 != 0)

@@ -325,7 +325,8 @@ const deck_key deck_table[] = {
   { INTEGER("switching", "from", switching.from), IN(SWITCHING),
     RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
     SAYS(NULL, "number of one state, in the order of amplitude from 1 on; 0: SA and LA. Without "
-         "'to': only how often it is left for another well") },
+         "'to': only how often it is left for another well, or for infinity where the force leads "
+         "there") },
   { INTEGER("switching", "to", switching.to), IN(SWITCHING),
     RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
     SAYS(NULL, "number of the other state; with 'from'") },

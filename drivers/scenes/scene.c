@@ -165,7 +165,7 @@ double scene_fixed(const deck *d, deck_axis_id axis)
 /* The coefficients of a force; their names are added to those of coordinates. */
 static pendres_status write_coefficients(scene_run *run, char *coordinates)
 {
-  const pendres_pendulum p = scene_pendulum(run->deck);
+  const pendres_pendulum p = deck_pendulum(run->deck);
   const pendres_model *model = pendres_model_of(p.force);
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < model->coefficients && status == PENDRES_OK; i++) {
@@ -238,7 +238,7 @@ pendres_sweep scene_sweep(const deck *d)
     { DECK_AXIS_TORQUE, PENDRES_QUANTITY_TORQUE },
     { DECK_AXIS_PARAMETRIC_AMPLITUDE, PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE },
   };
-  pendres_sweep s = { .pendulum = scene_pendulum(d) };
+  pendres_sweep s = { .pendulum = deck_pendulum(d) };
   for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
     const deck_axis *a = &d->axis[axes[i].id];
     if (a->count > 0)
@@ -295,17 +295,3 @@ done:
   return status;
 }
 
-pendres_pendulum scene_pendulum(const deck *d)
-{
-  pendres_pendulum p = { .damping = d->pendulum.damping,
-                         .drive_amplitude = d->pendulum.drive_amplitude,
-                         .drive_frequency = d->pendulum.drive_frequency,
-                         .torque = d->pendulum.torque,
-                         .parametric_amplitude = d->pendulum.parametric_amplitude };
-  for (int f = 0; f < PENDRES_FORCE_COUNT; f++)
-    if (strcmp(d->pendulum.force, pendres_model_of((pendres_force)f)->name) == 0)
-      p.force = (pendres_force)f;
-  for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
-    p.force_coefficients[i] = d->pendulum.force_coefficients[i];
-  return p;
-}

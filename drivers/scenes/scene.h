@@ -102,7 +102,4 @@ typedef struct scene_printed {
 } scene_printed;
 pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *values);
 
-/* The pendulum of a deck, all that it holds fixed; what is an axis is NaN. */
-pendres_pendulum scene_pendulum(const deck *d);
-
 #endif

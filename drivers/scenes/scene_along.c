@@ -26,7 +26,7 @@ void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
 
 pendres_pendulum scene_along_pendulum(const deck *d)
 {
-  pendres_pendulum p = scene_pendulum(d);
+  pendres_pendulum p = deck_pendulum(d);
   for (int i = 0; i < PARAMETERS; i++)
     if (d->axis[parameters[i]].count > 0)
       scene_along_set(&p, parameters[i], d->axis[parameters[i]].value[0]);

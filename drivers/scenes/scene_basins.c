@@ -428,7 +428,7 @@ static pendres_status run_scene(scene_run *run)
 {
   const deck *d = run->deck;
   basins b = {.run = run, .d = d,
-              .pendulum = scene_pendulum(d),
+              .pendulum = deck_pendulum(d),
               .grid = {.nx = d->axis[DECK_AXIS_X].count, .nv = d->axis[DECK_AXIS_V].count,
                        .x = d->axis[DECK_AXIS_X].value, .v = d->axis[DECK_AXIS_V].value,
                        .by = strcmp(d->basins.by, "well") == 0 ? PENDRES_BASIN_BY_WELL

@@ -121,7 +121,7 @@ static pendres_status find_strobes(const void *arg, size_t task, pendres_context
 static double within_a_turn(const deck *d, double x)
 {
   const double turn = 2.0 * PENDRES_PI;
-  if (!(pendres_model_of(scene_pendulum(d).force)->period > 0.0)) return x;
+  if (!(pendres_model_of(deck_pendulum(d).force)->period > 0.0)) return x;
   return x - turn * ceil((x - 0.75 * turn) / turn);
 }
 

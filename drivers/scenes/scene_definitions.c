@@ -140,7 +140,7 @@ static pendres_status rename_angles(pendres_store *store, const char *group)
 
 pendres_status scene_define(scene_run *run)
 {
-  const int angle = pendres_model_of(scene_pendulum(run->deck).force)->angle;
+  const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
   pendres_status status = angle ? PENDRES_OK : rename_angles(run->store, "");
   for (size_t i = 0; i < sizeof definitions / sizeof *definitions && status == PENDRES_OK; i++) {
     const char *no_angle = definitions[i].no_angle;

@@ -19,7 +19,7 @@ static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], dou
   static const deck_axis_id held[] = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
                                       DECK_AXIS_DRIVE_FREQUENCY};
   const deck_axis *across = &d->axis[axis[0]], *along = &d->axis[axis[1]];
-  pendres_pendulum p = scene_pendulum(d);
+  pendres_pendulum p = deck_pendulum(d);
   for (size_t i = 0; i < sizeof held / sizeof *held; i++)
     scene_along_set(&p, held[i], scene_fixed(d, held[i]));
   return (pendres_phase_grid){.pendulum = p,

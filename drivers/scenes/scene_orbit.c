@@ -215,7 +215,7 @@ static pendres_status run_scene(scene_run *run)
                    /* On a named attractor there is no transient. */
                    .transient = d->orbit.transient && d->orbit.start[0] == '\0',
                    .start_x = d->orbit.x, .start_v = d->orbit.v,
-                   .pendulum = scene_pendulum(d) };
+                   .pendulum = deck_pendulum(d) };
   w.chunk = whole < 1 ? 1 : whole < all ? whole : all;
   const size_t tasks = (size_t)((all + w.chunk - 1) / w.chunk);
   pendres_status status = scene_compute(

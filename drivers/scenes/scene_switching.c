@@ -27,21 +27,25 @@ typedef struct work {
   pendres_switching_activation activation[WAYS];
   pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
   int ways, told;                   /* how many, and how many the table tells */
+  int escapes;                      /* to infinity; there are no other wells then */
   scene_failures choices;           /* [state] of the steps */
   scene_failures failed;            /* [temperature] */
   char name[STATES][24], state[STATES][40]; /* of the states: "sa", "the small-amplitude state" */
   char suffix[WAYS][56], words[WAYS][120];  /* of the ways */
 } work;
 
-/* Between both states, and from either to another well; of one state alone the latter. */
+/* Between both states, and from either to another well or to infinity; of one state alone the
+   latter. */
 static void choose_ways(work *w)
 {
+  const pendres_pendulum p = deck_pendulum(w->d);
   const int alone = w->d->switching.from > 0 && w->d->switching.to == 0;
-  const int wells = pendres_model_of(scene_pendulum(w->d).force)->period > 0.0;
+  w->escapes = pendres_pendulum_leaves(&p);
+  const int wells = w->escapes || pendres_model_of(p.force)->period > 0.0;
   for (int k = alone ? PENDRES_SWITCHING_FIRST_WELL : 0; k < (wells ? WAYS : STATES); k++)
     if (!alone || k == PENDRES_SWITCHING_FIRST_WELL)
       w->way[w->ways++] = (pendres_switching_way)k;
-  w->told = alone ? w->ways : STATES;
+  w->told = alone || w->escapes ? w->ways : STATES;
 }
 
 /* What the ways of switching are called: by the names of the states, or by their numbers. */
@@ -63,8 +67,10 @@ static void name_ways(work *w)
   for (int k = 0; k < STATES; k++) {
     const int from = between[k].from, to = between[k].to, well = k + PENDRES_SWITCHING_FIRST_WELL;
     snprintf(w->suffix[k], sizeof w->suffix[k], "%s_%s", w->name[from], w->name[to]);
-    snprintf(w->suffix[well], sizeof w->suffix[well], "well_%s", w->name[from]);
-    snprintf(w->words[well], sizeof w->words[well], "from %s to another well", w->state[from]);
+    snprintf(w->suffix[well], sizeof w->suffix[well], "%s_%s", w->escapes ? "escape" : "well",
+             w->name[from]);
+    snprintf(w->words[well], sizeof w->words[well], "from %s to %s", w->state[from],
+             w->escapes ? "infinity" : "another well");
     if (number[SA] > 0)
       snprintf(w->words[k], sizeof w->words[k], "from %s to %s", w->state[from], w->state[to]);
     else
@@ -148,7 +154,7 @@ static pendres_status find_states(scene_run *run, work *w)
 {
   const deck *d = w->d;
   const long wanted[STATES] = { (long)d->switching.from, (long)d->switching.to };
-  const pendres_pendulum p = scene_pendulum(d);
+  const pendres_pendulum p = deck_pendulum(d);
   pendres_context *ctx = farm_context(run->farm);
   if (ctx == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
   const pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &w->set);
@@ -351,8 +357,9 @@ static line line_of(const work *w, pendres_switching_way k, size_t i)
   const pendres_switching_rate *r = &w->rates[i].way[k];
   line out = {.rate = *r, .temperature = w->rates[i].temperature, .mean_time = "-",
               .mean_time_error = "-"};
-  if (k == PENDRES_SWITCHING_FIRST_WELL)
-    snprintf(out.way, sizeof out.way, "%s to a well", w->name[SA]);
+  if (k >= PENDRES_SWITCHING_FIRST_WELL)
+    snprintf(out.way, sizeof out.way, "%s to %s", w->name[k - PENDRES_SWITCHING_FIRST_WELL],
+             w->escapes ? "infinity" : "a well");
   else if (w->d->switching.from > 0)
     snprintf(out.way, sizeof out.way, "%s to %s", w->name[k], w->name[1 - k]);
   else

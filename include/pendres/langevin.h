@@ -94,6 +94,8 @@ typedef struct pendres_langevin_run {
                                           context's options or, if these have none,
                                           PENDRES_LANGEVIN_STEPS */
   const pendres_langevin_observer *observer; /**< NULL: nobody looks on */
+  int unbounded; /**< nonzero: trajectories may go to infinity, where x and v are infinite or no
+                      numbers; else that is a failure */
 } pendres_langevin_run;
 
 /**

@@ -102,6 +102,12 @@ const pendres_model *pendres_model_of(pendres_force force);
     drive, and no even power in a polynomial. 0 if p is NULL. */
 int pendres_pendulum_symmetric(const pendres_pendulum *p);
 
+/** Whether the force of p drives to infinity from somewhere on, whatever the drives do: noise
+    carries such a pendulum there in the end. 0 if p is NULL, if there is no such place, and if none
+    is known: where |parametric_amplitude| >= 1 turns the force over, or a force of one's own has no
+    `outward`. */
+int pendres_pendulum_leaves(const pendres_pendulum *p);
+
 /**
  * Check parameters. On failure *why (if not NULL) is a static sentence.
  * Returns PENDRES_OK or PENDRES_INVALID_ARGUMENT.

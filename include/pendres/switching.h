@@ -18,6 +18,11 @@
  * Ellipses are shrunken by the factor `core`. On the edge of a whole one, close to the basin's
  * boundary, noise would turn back many that have just come in; and rates would count them.
  *
+ * Under a force that drives to infinity from somewhere on (pendres_pendulum_leaves) infinity counts
+ * as another well, which nobody comes back from: a trajectory has escaped at the first strobe that
+ * sees it where the force leads away for good whatever the drive does, on its way outwards, and
+ * with a potential thirty temperatures below its attractor's. It is not followed further.
+ *
  * For small temperatures rates follow exp(-E/T), E the activation energy (Kramers, Physica 7
  * (1940) 284; for driven systems Dykman and Krivoglaz, Sov. Phys. JETP 50 (1979) 30).
  *
@@ -36,7 +41,8 @@ extern "C" {
 
 enum {
   PENDRES_SWITCHING_STATES = 8,                       /**< attractors that are told apart */
-  PENDRES_SWITCHING_WELL = PENDRES_SWITCHING_STATES   /**< as a destination: any other well */
+  PENDRES_SWITCHING_WELL = PENDRES_SWITCHING_STATES   /**< as a destination: any other well,
+                                                           or infinity */
 };
 
 /* ---- Where a trajectory belongs ------------------------------------------------------------ */
@@ -199,8 +205,9 @@ pendres_status pendres_switching_fit(size_t n, const double *temperature,
 typedef enum pendres_switching_way {
   PENDRES_SWITCHING_FORTH = 0,   /**< from the first state to the second */
   PENDRES_SWITCHING_BACK,        /**< from the second state to the first */
-  PENDRES_SWITCHING_FIRST_WELL,  /**< from the first state to any state in another well */
-  PENDRES_SWITCHING_SECOND_WELL, /**< from the second state to any state in another well */
+  PENDRES_SWITCHING_FIRST_WELL,  /**< from the first state to any state in another well, or to
+                                      infinity where the force leads there */
+  PENDRES_SWITCHING_SECOND_WELL, /**< from the second state, likewise */
   PENDRES_SWITCHING_WAYS         /**< how many there are */
 } pendres_switching_way;
 

@@ -255,6 +255,15 @@ static double far_out(const pendres_pendulum *p, double side)
   return models[p->force]->outward(p->force_coefficients, side, need) * (1.0 + 1e-9);
 }
 
+int pendres_pendulum_leaves(const pendres_pendulum *p)
+{
+  if (p == NULL || (unsigned)p->force >= PENDRES_FORCE_COUNT) return 0;
+  pendres_force_outward *outward = models[p->force]->outward;
+  const double *a = p->force_coefficients;
+  return outward != NULL && fabs(p->parametric_amplitude) < 1.0 &&
+         (isfinite(outward(a, 1.0, 0.0)) || isfinite(outward(a, -1.0, 0.0)));
+}
+
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
 {
   const double side = y < 0.0 ? -1.0 : 1.0;

@@ -147,7 +147,8 @@ static pendres_status advance_all(pendres_context *ctx, const pendres_langevin_r
   for (size_t first = 0; first < run->n && status == PENDRES_OK; first += b.count) {
     load(&b, first, run, x, v);
     status = follow(ctx, &b, first, run);
-    if (status == PENDRES_OK) status = pendres_langevin_check_ends(ctx, &b, first);
+    if (status == PENDRES_OK && !run->unbounded)
+      status = pendres_langevin_check_ends(ctx, &b, first);
     memcpy(end + first, b.x, b.count * sizeof *end);
     memcpy(end + run->n + first, b.v, b.count * sizeof *end);
   }

@@ -38,15 +38,15 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
 
 const char *pendres_noise_refuses(const pendres_pendulum *p)
 {
+  static const char *const carried =
+    "noise carries a pendulum of this force to infinity: its highest power must be odd, with a "
+    "positive coefficient that the parametric drive does not turn over";
   int highest = PENDRES_FORCE_COEFFICIENTS;
-  if (p->force != PENDRES_FORCE_POLYNOMIAL) return NULL;
+  if (pendres_pendulum_leaves(p)) return carried;
+  if (p->force != PENDRES_FORCE_POLYNOMIAL || fabs(p->parametric_amplitude) < 1.0) return NULL;
   while (highest > 0 && p->force_coefficients[highest - 1] == 0.0) highest--;
   /* A force of first order may be driven parametrically as strongly as its orbit stands. */
-  if (highest % 2 == 1 && p->force_coefficients[highest - 1] > 0.0 &&
-      (highest == 1 || fabs(p->parametric_amplitude) < 1.0))
-    return NULL;
-  return "noise carries a pendulum of this force to infinity: its highest power must be odd, with "
-         "a positive coefficient that the parametric drive does not turn over";
+  return highest == 1 && p->force_coefficients[0] > 0.0 ? NULL : carried;
 }
 
 long pendres_noise_settle(const pendres_orbit *orbit)

@@ -17,6 +17,13 @@ enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 /* A trajectory that runs has no well. */
 static const long NO_WELL = LONG_MIN;
 
+/* The state of a trajectory that has gone to infinity. */
+enum { GONE = -1 };
+
+/* So many temperatures below its attractor, and outwards of where the force leads away, none comes
+   back: one of exp(30) would. */
+static const double no_return = 30.0;
+
 /* Fewer events, or fewer trajectories, say nothing on their scatter. */
 static const double FEWEST = 10.0;
 
@@ -101,6 +108,7 @@ typedef struct counting {
   double *x;         /* [2 trajectories] positions, velocities */
   uint64_t *ids;
   pendres_pendulum *pendulums;
+  double bottom;     /* the potential below which none comes back from outside; NaN: none leaves */
 } counting;
 
 static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t column)
@@ -108,14 +116,34 @@ static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t c
   return &c->numbers[(trajectory * c->states + s) * c->row + column];
 }
 
+/* Whether a trajectory of a force that leads away has gone for good; infinity is no number. */
+static int gone(const counting *c, double x, double v)
+{
+  const pendres_pendulum *p = &c->pendulums[0];
+  if (isnan(c->bottom)) return 0;
+  if (!isfinite(x) || !isfinite(v)) return 1;
+  return pendres_model_escapes(p, x - pendres_model_origin(p), v) &&
+         !(pendres_pendulum_potential(p, x) > c->bottom);
+}
+
 static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *strobe)
 {
   counting *c = arg;
+  size_t left = strobe->count;
   for (size_t i = 0; i < strobe->count; i++) {
     track *t = &c->tracks[strobe->first + i];
     const size_t trajectory = strobe->first + i, from = (size_t)t->state;
     long well = NO_WELL;
+    if (t->state == GONE) {
+      left--;
+      continue;
+    }
     ++*number(c, trajectory, from, c->states + 1);
+    if (gone(c, strobe->x[i], strobe->v[i])) {
+      ++*number(c, trajectory, from, c->states);
+      t->state = GONE;
+      continue;
+    }
     const core_set *s = locate(&c->cores, strobe->x[i], strobe->v[i], &well);
     if (s == NULL || (s->attractor == t->state && well == t->well)) continue;
     ++*number(c, trajectory, from, (size_t)s->attractor);
@@ -123,7 +151,7 @@ static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *str
       ++*number(c, trajectory, from, c->states);
     *t = (track){s->attractor, well};
   }
-  return PENDRES_LANGEVIN_GO_ON;
+  return left > 0 ? PENDRES_LANGEVIN_GO_ON : PENDRES_LANGEVIN_ENOUGH;
 }
 
 /* Sum up over trajectories. The numbers are whole, so that doubles are exact. */
@@ -174,7 +202,7 @@ static const char *refuse(const pendres_switching_request *q)
   if (rotates_elsewhere(q))
     return "under this torque a pendulum may also rotate, which is none of the attractors: what "
            "leaves them for good would count as staying";
-  return pendres_noise_refuses(&q->pendulum);
+  return pendres_pendulum_leaves(&q->pendulum) ? NULL : pendres_noise_refuses(&q->pendulum);
 }
 
 /* Memory for n trajectories; clear it in any case. */
@@ -211,6 +239,10 @@ static void start(const pendres_switching_request *q, counting *c)
     c->pendulums[i] = q->pendulum;
     c->tracks[i] = (track){(int)q->from, home->winding != 0 ? NO_WELL : 0};
   }
+  c->bottom = !pendres_pendulum_leaves(&q->pendulum)
+                ? NAN
+                : pendres_pendulum_potential(&q->pendulum, home->x) -
+                    no_return * q->pendulum.temperature;
 }
 
 static pendres_status count(pendres_context *ctx, const pendres_switching_request *request,
@@ -233,7 +265,8 @@ static pendres_status count(pendres_context *ctx, const pendres_switching_reques
   const pendres_langevin_observer observer = {.see = see, .arg = &c};
   const pendres_langevin_run run = {.n = n, .pendulums = c.pendulums, .ids = c.ids,
                                     .periods = request->periods, .observer = &observer,
-                                    .steps_per_period = request->steps_per_period};
+                                    .steps_per_period = request->steps_per_period,
+                                    .unbounded = !isnan(c.bottom)};
   status = pendres_langevin_advance(ctx, &run, c.x, c.x + n);
   if (status != PENDRES_OK) goto done;
   tally->states = c.states;

@@ -164,6 +164,8 @@ static pendres_status add_noise(pendres_context *ctx, const pendres_response *st
                                 "a response with noise needs a temperature from 0 on, a "
                                 "trajectory and a period");
   const char *wrong = pendres_noise_refuses(&still->pendulum);
+  *out = (pendres_response_noise){.temperature = temperature, .loop_area = none, .amplitude = none,
+                                  .phase_lag = none, .mean_power = none};
   if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
   pendres_langevin_request q = {.pendulum = still->pendulum, .trajectories = trajectories,
                                 .record = periods};
