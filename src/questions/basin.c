@@ -30,7 +30,8 @@ enum {
   MOST_EXTENSIONS = 4
 };
 
-/* As in strobe_run.h: positions beyond, and those that speeds beyond lead to, are not known. */
+/* As in strobe_run.h: positions beyond this, and those that speeds beyond this lead to, cannot be
+   told to a tenth of a radian. */
 static const double farthest = 1e15;
 
 static pendres_status check_grid(pendres_context *ctx, const pendres_attractors *set,
@@ -39,7 +40,7 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
   if (set->sets != 1 || grid->nx < 1 || grid->nv < 1 || grid->x == NULL || grid->v == NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "a grid needs x and v, and attractors of one parameter set");
-  /* The attractors' parameters are good: what is left are the states. */
+  /* The parameters of attractors have been checked before: only the states are left to check. */
   for (size_t i = 0; i < grid->nx + grid->nv; i++) {
     const double value = i < grid->nx ? grid->x[i] : grid->v[i - grid->nx];
     if (!(fabs(value) <= farthest))
@@ -102,7 +103,7 @@ double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_gr
   return pendres_accuracy_to_picture(ctx, spacing);
 }
 
-/* Settle states by number; outcomes in their order. */
+/* Settle the states with these numbers; outcomes are in the order of the numbers. */
 static pendres_status settle_states(pendres_context *ctx, const pendres_attractors *set,
                                     const pendres_basin_grid *grid, size_t n, const size_t *index,
                                     pendres_settle_budget budget, pendres_basin_state *state)
@@ -150,7 +151,7 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
   return PENDRES_CONTEXT_CALL(ctx, basin_states(ctx, set, grid, n, index, state));
 }
 
-/* The states that have not settled soon: at once if there are many, else marked. */
+/* Finish the states that have not settled soon if there are many of them; otherwise mark them. */
 static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
                             const pendres_basin_grid *grid, size_t offset, size_t n,
                             pendres_basin_state *state, size_t *deferred)
@@ -241,7 +242,7 @@ pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *se
   return PENDRES_CONTEXT_CALL(ctx, basin_extend(ctx, set, grid, n, index, grown));
 }
 
-/* Numbers of the states of a kind. */
+/* List the numbers of the states that are marked as deferred, or of those that are not resolved. */
 static size_t list_states(size_t n, const pendres_basin_state *state, int deferred, size_t *index)
 {
   size_t count = 0;
@@ -252,7 +253,7 @@ static size_t list_states(size_t n, const pendres_basin_state *state, int deferr
   return count;
 }
 
-/* All rows against the attractors that are known. */
+/* Settle all rows with the attractors that are known. */
 static pendres_status compute_once(pendres_context *ctx, const pendres_attractors *set,
                                    const pendres_basin_grid *grid, size_t *index,
                                    pendres_basin_state *state)

@@ -2,7 +2,7 @@
  * basin_refine.c -- which states of a grid must be integrated to know all; see basin.h.
  *
  * Owns: the plan and its stages. A plan never integrates: it hands out numbers of states and takes
- * over what they are, so that any number of threads can work between two calls.
+ * over their outcomes, so that any number of threads can work between two calls.
  */
 #include <pendres/basin.h>
 
@@ -22,7 +22,7 @@ typedef struct cell {
   uint32_t top, bottom, left, right;
 } cell;
 
-/* Where a state goes: what is the same within a basin. */
+/* Where a state goes, which is the same all over a basin. */
 typedef struct fate {
   int32_t well;
   int16_t attractor;
@@ -195,7 +195,7 @@ static size_t middle(size_t a, size_t b)
   return a + (b - a) / 2;
 }
 
-/* Into up to four parts, whose new corners are asked for. */
+/* Divide a cell into up to four parts, and ask for their new corners. */
 static int halve_cell(pendres_basin_plan *p, cell c)
 {
   const size_t row[3] = {c.top, middle(c.top, c.bottom), c.bottom};
@@ -248,7 +248,8 @@ static int ask_unlike(pendres_basin_plan *p, size_t k)
   return 0;
 }
 
-/* Columns of a row at which it is unlike the rows above and below, or the next column. */
+/* Mark the columns of a row at which it differs from the rows above and below, or from the next
+   column. */
 static void find_edges(const pendres_basin_plan *p, size_t row, uint8_t *edge)
 {
   const uint16_t *here = p->fate_of + row * p->nv;
@@ -259,7 +260,7 @@ static void find_edges(const pendres_basin_plan *p, size_t row, uint8_t *edge)
   for (size_t j = 0; j + 1 < n; j++) edge[j] |= here[j] != here[j + 1];
 }
 
-/* Most states are like all of their neighbours: there is nothing to ask for around these. */
+/* Ask for states around those that differ from a neighbour; most states differ from none. */
 static int scan(pendres_basin_plan *p)
 {
   int bad = 0;
@@ -293,7 +294,8 @@ static int ask_around(pendres_basin_plan *p, size_t k)
   return 0;
 }
 
-/* A lattice of half the width everywhere: where one piece slipped through others may have. */
+/* Halve the width of the lattice everywhere: where one piece of a basin slipped through it, others
+   may have. */
 static int finer_lattice(pendres_basin_plan *p)
 {
   if (p->stride > 1) p->stride /= 2;
@@ -326,15 +328,15 @@ pendres_status pendres_basin_plan_next(pendres_basin_plan *p, size_t *n, const s
   return PENDRES_OK;
 }
 
-/* Whether a state of a sample is what had been filled in. */
+/* Whether a state of a sample goes where what had been filled in says. */
 static int is_as_filled(const pendres_basin_plan *p, size_t k, const pendres_basin_state *state)
 {
   const fate *f = &p->fates[p->fate_of[k]];
   return f->attractor == state->attractor && f->well == state->well;
 }
 
-/* Take over the queue; states that are unlike their surroundings raise new questions, and so does
-   what a sample shows to have been filled in wrongly. */
+/* Take over the outcomes of the queue. More states are asked for around those that differ from
+   their surroundings, and around those that a sample shows to have been filled in wrongly. */
 static pendres_status accept(pendres_basin_plan *p, const pendres_basin_state *state,
                              size_t *missed)
 {
@@ -374,7 +376,7 @@ pendres_status pendres_basin_plan_sample(pendres_basin_plan *p, size_t n, uint64
   if (p == NULL || drawn == NULL || index == NULL || p->stage != STAGE_FOLLOW || p->queued > 0)
     return PENDRES_INVALID_ARGUMENT;
   const size_t states = p->rows * p->nv;
-  /* Where little was filled in, not every draw hits: give up in the end. */
+  /* Where few states were filled in, most draws miss them: there is a limit to the draws. */
   for (uint64_t draw = 0; p->queued < n && draw < 100 * (uint64_t)n; draw++) {
     const size_t k = (size_t)(pendres_mix(pendres_mix(seed) + draw) % states);
     if (p->knowledge[k] == FILLED && ask(p, k) != 0) return PENDRES_OUT_OF_MEMORY;

@@ -8,14 +8,14 @@
 
 enum {
   QUANTITIES = PENDRES_SCATTER_QUANTITIES,
-  LEAST_COUNT = 25, /* uncertain states that make a share worth fitting */
-  LEAST_SCALES = 3, /* of them that make an exponent */
+  LEAST_COUNT = 25, /* a share is fitted if it comes from this many uncertain states */
+  LEAST_SCALES = 3, /* an exponent needs this many shares */
   MOST_SCALES = 5,
   LEAST_GROUPS = 4
 };
 
-/* Where the share of uncertain states is above this, the distance is no longer small beside that
-   between neighbouring boundaries, and the share grows as less than a power. */
+/* Where the share of uncertain states is above this, the distance is no longer small against that
+   between neighbouring boundaries, and the share grows less than a power of it. */
 static const double most_uncertain = 0.5;
 
 void pendres_scatter_add(pendres_scatter *s, const double *group)
@@ -40,15 +40,15 @@ double pendres_scatter_variance(const pendres_scatter *s, const double *weight)
   double sum = 0.0;
   for (int k = 0; k < QUANTITIES; k++)
     for (int l = 0; l < QUANTITIES; l++) sum += weight[k] * weight[l] * s->square[k][l];
-  /* A second difference of independent ones has six times their variance; differences overlap, so
-     that 35 of them tell as much as 18 free ones. */
+  /* A second difference of independent numbers has six times their variance. The differences
+     overlap, so that 35 of them are worth 18 independent ones. */
   const double student = pendres_student(PENDRES_ONE_SIGMA, differences * 18.0 / 35.0);
   return fmax(sum, 0.0) / 6.0 * n / differences * student * student;
 }
 
 /* ---- the exponent ---- */
 
-/* The usable scales from the smallest distance on. */
+/* The scales that can be used, from the smallest distance on. */
 typedef struct usable {
   int n, scale[MOST_SCALES];
   double a[MOST_SCALES], b[MOST_SCALES]; /* logarithms of distance and share */
@@ -76,7 +76,8 @@ static double variance_of_logs(const pendres_scatter *s, const usable *u, int m,
   return pendres_scatter_variance(s, weight);
 }
 
-/* Least squares' slope over the first m scales as a combination c of logarithms of shares. */
+/* The slope over the first m scales by least squares, and its factors c of the logarithms of
+   shares. */
 static double slope(const usable *u, int m, double *c)
 {
   double mean = 0.0, squares = 0.0, value = 0.0;
@@ -90,7 +91,7 @@ static double slope(const usable *u, int m, double *c)
 }
 
 /*
- * How far one more slope between neighbouring distances may be from the mean of those over the
+ * How far one more slope between neighbouring distances may be from the mean of the slopes over the
  * first m scales, beyond their own scatter.
  */
 static double bend(const pendres_scatter *s, const usable *u, int m)
@@ -125,7 +126,7 @@ void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double
   const double whole = slope(&u, u.n, c);
   for (int m = u.n; m >= LEAST_SCALES; m--) {
     const double value = slope(&u, m, c), scatter = variance_of_logs(s, &u, m, c);
-    /* Few slopes may agree by chance: what all distances say counts as well. */
+    /* Few slopes may agree by chance: the slope over all distances is compared, too. */
     const double one = sqrt(scatter + pow(bend(s, &u, m), 2.0) + pow(value - whole, 2.0));
     if (m < u.n && !(one < *error)) continue;
     *exponent = value;

@@ -1,12 +1,13 @@
 /*
  * basin_scatter.h -- how sums over the rows of a grid, or over random states, scatter.
  *
- * Owns: covariances from what comes after one another, and the exponent of shares by distance.
+ * Owns: covariances from differences between consecutive groups, and the exponent of the shares of
+ * uncertain states as a function of distance.
  *
- * A grid is no random sample: what changes slowly over its rows is known well, and only what
- * neighbouring groups of rows do not share is scatter. It is taken from second differences between
- * groups, which leave out a trend. Measured on grids that were shifted by parts of a step, errors
- * made so are 0.8 to 2 times the scatter; of independent groups they are the usual ones. Source:
+ * A grid is no random sample: what changes slowly over its rows is known well, and only differences
+ * between neighbouring groups of rows are scatter. It is taken from second differences between
+ * groups, which leave out a trend. As measured on grids that were shifted by parts of a step, such
+ * errors are 0.8 to 2 times the scatter; for independent groups they are the usual ones. Source:
  * Wolter, Introduction to Variance Estimation, 2nd edition (2007), section 8.2, on systematic
  * samples.
  */
@@ -32,16 +33,17 @@ typedef struct pendres_scatter {
 /* Add a group's quantities. */
 void pendres_scatter_add(pendres_scatter *s, const double *group);
 
-/* Variance of sum weight[k] total[k], with Student's factor; NaN of fewer than four groups. */
+/* The variance of sum weight[k] total[k], with Student's factor; NaN if there are fewer than four
+   groups. */
 double pendres_scatter_variance(const pendres_scatter *s, const double *weight);
 
 /*
  * The exponent alpha in f ~ distance^alpha over the smallest distances that are usable, from totals
  * of uncertain states and the numbers tried; NaN if fewer than three are.
  *
- * Its error: scatter, and what slopes between neighbouring distances differ by beyond their
- * scatter, as a power law holds only within limits. As many distances are used, from the smallest
- * on, as make that least.
+ * Its error is made of the scatter, and of what slopes between neighbouring distances differ by
+ * beyond their scatter, since a power law holds only within limits. From the smallest distance on,
+ * as many are used as make that error least.
  */
 void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double *distance,
                               const double *tried, double *exponent, double *error);

@@ -11,8 +11,8 @@
 
 enum { BOX = PENDRES_BASIN_BOX, BOX_STATES = BOX * BOX };
 
-/* What one state alone can change of a box's entropy at most: among 25 alike ones, -1/25 log 1/25 -
-   24/25 log 24/25. The next one changes less. */
+/* The most that one state can change a box's entropy by: in a box whose other 24 states are alike,
+   it is -1/25 log 1/25 - 24/25 log 24/25. The next one changes less. */
 static const double state_entropy = 0.16794414;
 
 typedef pendres_basin_member member;
@@ -37,7 +37,8 @@ struct pendres_basin_sums {
   pendres_basin_well *wells;
 };
 
-/* Shares of the range from the first value to the last: half the way to either neighbour. */
+/* The share of the range from the first value to the last that belongs to each value: half the way
+   to either neighbour. */
 static double *shares_of(size_t n, const double *values)
 {
   double *share = malloc(n * sizeof *share);
@@ -160,7 +161,7 @@ static void add_boxes(pendres_basin_sums *s)
   memset(s->box_doubt, 0, s->nv * sizeof *s->box_doubt);
 }
 
-/* A share of a row into that of the area, and its scatter beside the rows before. */
+/* Add a share of a row to that of the area, and its second difference to the scatter. */
 static void add_share(const pendres_basin_sums *s, size_t row, member *m)
 {
   const double share = m->row_share, bend = m->last[1] - 2.0 * m->last[0] + share;
@@ -200,7 +201,7 @@ static size_t attractor_of(const pendres_basin_sums *s, const pendres_basin_stat
   return known ? (size_t)state->attractor : s->attractors;
 }
 
-/* A number for the end that a state comes to: equal ends have equal ones. */
+/* A number for the end that a state comes to; equal ends have equal numbers. */
 static int64_t end_of(const pendres_basin_sums *s, size_t attractor,
                       const pendres_basin_state *state)
 {
@@ -208,7 +209,7 @@ static int64_t end_of(const pendres_basin_sums *s, size_t attractor,
   return (int64_t)attractor * (INT64_C(1) << 32) + (by_well ? state->well : 0);
 }
 
-/* The states of a row by attractor and well, one run of like ones after the other. */
+/* Count the states of a row by attractor and well, a run of equal ones at a time. */
 static pendres_status count_states(pendres_basin_sums *s, const pendres_basin_state *state)
 {
   for (size_t j = 0, end; j < s->nv; j = end) {
@@ -280,10 +281,9 @@ pendres_status pendres_basin_sums_suspect(pendres_basin_sums *s, double states)
 /* ---- results ---- */
 
 /*
- * States that are missing from a basin, or too many in it, because some are uncertain. They lie on
- * both sides of their boundaries, so that they cancel but for their scatter, twice which is
- * claimed, and a tenth of them for what does not cancel. Where there is one attractor alone, only
- * its well is uncertain.
+ * By how many states a basin may be too small or too large because n states are uncertain. These
+ * lie on both sides of its boundaries and cancel but for their scatter. Twice that is claimed, and
+ * a tenth of their number for what does not cancel.
  */
 static double cancelled(double n)
 {
@@ -298,10 +298,10 @@ static double misplaced(const pendres_basin_sums *s, pendres_basin_end by)
 }
 
 /*
- * Error of a share of the area. Rows scatter around a trend: two standard errors. At the least, a
- * basin's end on a row is uncertain by a uniform share of a step, 1/sqrt(12) of it; twice that,
- * since the boundary is as uncertain between the rows. Where rows are too few to scatter, half of
- * what they differ by.
+ * The error of a share of the area: two standard errors from the scatter of rows around a trend. It
+ * is not less than what follows from the ends of the basin on each row, which are uncertain by a
+ * uniform share of a step, 1/sqrt(12) of it; twice that, since the boundary is as uncertain between
+ * the rows. Where rows are too few for a scatter, it is half of their largest difference.
  */
 static double fraction_error(const pendres_basin_sums *s, const member *m, double lost)
 {
@@ -315,14 +315,14 @@ static double fraction_error(const pendres_basin_sums *s, const member *m, doubl
   return fmax(ends, 2.0 * student * sqrt(m->square / 6.0 * n / (n - 2.0))) + doubt;
 }
 
-/* Mean entropy over boxes, and over those with a boundary. */
+/* The mean entropy over all boxes, and over those with a boundary. */
 static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statistics *out)
 {
   const double boxes = (double)s->scatter.groups * (double)(s->nv / BOX);
   const double entropy = s->scatter.total[PENDRES_SCATTER_ENTROPY];
   const double boundary = s->scatter.total[PENDRES_SCATTER_BOUNDARY_BOXES];
   const double all = (double)s->rows * (double)s->nv;
-  /* Uncertain states change either way, as above; those that are suspect may be anywhere. */
+  /* Uncertain states lie on both sides of boundaries, as above; those that are suspect anywhere. */
   const double part = s->uncertain > 0 ? misplaced(s, s->by) / (double)s->uncertain : 0.0;
   const double suspect = state_entropy * s->suspect * boxes * BOX_STATES / all;
   double weight[PENDRES_SCATTER_QUANTITIES] = {0.0};
@@ -338,7 +338,8 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boundary;
   weight[PENDRES_SCATTER_BOUNDARY_BOXES] = -entropy / (boundary * boundary);
   out->boundary_entropy = entropy / boundary;
-  /* One that is suspect adds to a box with a boundary, or makes one with the least entropy. */
+  /* A suspect state changes the entropy of a box with a boundary, or makes another box with one, of
+     the least entropy. */
   const double each = fmax(1.0, fabs(out->boundary_entropy / state_entropy - 1.0));
   out->boundary_entropy_error =
     sqrt(pendres_scatter_variance(&s->scatter, weight)) +

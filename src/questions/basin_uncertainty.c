@@ -16,14 +16,15 @@
 enum {
   LEAST_SCALES = 3,
   LEAST_STATES = 16,
-  FIRST_SAMPLE = 256, /* tell what more of them cost, and whether they are of use */
+  FIRST_SAMPLE = 256, /* states that tell what more of them cost, and whether they are of use */
   SAMPLES_AT_A_TIME = 4096
 };
 
 /*
- * Slopes of the pendulum that all states together may take: some ten seconds of one processor, but
- * the same number on all. Where chaos lasts long before it ends a state takes thousands of periods,
- * each over and over with ever smaller errors; elsewhere what is asked takes a third of this.
+ * So many evaluations of the pendulum's equation all states together may take: some ten seconds of
+ * one processor, but the same number on every machine. Where chaos lasts long before it ends, a
+ * state takes thousands of periods, and is integrated again and again with ever smaller errors;
+ * elsewhere a third of this is enough.
  */
 static const double most_slopes = 4e9;
 
@@ -77,8 +78,8 @@ static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
 }
 
 /*
- * Whether an exponent may yet come of more states: at enough distances the share that counts so far
- * could be one half, by five standard deviations of it.
+ * Whether more states may yet give an exponent: whether at enough distances the share of uncertain
+ * states may be below one half, with five standard deviations to spare.
  */
 static int hopeful(const pendres_scatter *s, double states, int scales)
 {
@@ -95,7 +96,7 @@ typedef struct sample {
   pendres_outcome *outcome;
 } sample;
 
-/* Settle so many more states of a sample, with their neighbours. */
+/* Settle the next `count` states of a sample, with their neighbours. */
 static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
                                   pendres_scatter *counts, pendres_basin_statistics *out)
 {
@@ -115,7 +116,8 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
   return status;
 }
 
-/* States that are settled next: as many as can be paid for, from what the others took. */
+/* How many states are settled next: as many as the work that is left allows, judged by what the
+   others took. */
 static size_t next_count(size_t left, size_t done, double spent, double most)
 {
   size_t count = done == 0 ? FIRST_SAMPLE : SAMPLES_AT_A_TIME;
@@ -124,7 +126,7 @@ static size_t next_count(size_t left, size_t done, double spent, double most)
   return affordable >= (double)count ? count : affordable >= 1.0 ? (size_t)affordable : 0;
 }
 
-/* Settle the n states of a sample, or the first of them, in the end so many as out->states. */
+/* Settle the n states of a sample, or as many of them as the work allows: out->states. */
 static pendres_status settle_sample(pendres_context *ctx, sample *a, size_t n, double most,
                                     pendres_scatter *counts, pendres_basin_statistics *out)
 {
@@ -218,7 +220,8 @@ static int random_states_tell_more(const pendres_basin_statistics *s, double nea
 {
   enum { MET = 50 /* twice what makes a share worth fitting */ };
   if (!(s->boundary_boxes > 0.0)) return 0;
-  /* States that are uncertain have a boundary as near as rounding: shares are no power above. */
+  /* Where that many states are uncertain, boundaries are everywhere as near as rounding, and shares
+     do not follow a power of the distance. */
   if (3 * s->uncertain_states > s->states) return 0;
   if (!isfinite(s->uncertainty_exponent_error)) return 1;
   const double nearer = nearest / s->distance[0];

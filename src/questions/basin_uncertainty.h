@@ -7,8 +7,9 @@
 #include <pendres/basin.h>
 
 /*
- * pendres_basin_uncertainty() with its bound on work: of n states the first that take at most so
- * many slopes (pendres_context_slopes), but a first part of them in any case.
+ * pendres_basin_uncertainty() with a bound on its work: of n states the first are settled, as many
+ * as take at most `most` evaluations of the equation (pendres_context_slopes), but a first part of
+ * them in any case.
  */
 pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
                                                 const pendres_attractors *set,

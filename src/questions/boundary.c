@@ -16,7 +16,8 @@
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
 
-/* Of a point in (x, v), whatever else: rounding near the saddle, not amplified going back. */
+/* The least error of a point in (x, v): rounding near the saddle, which is not amplified on the way
+   back in time. */
 static const double rounding = 1e-12;
 
 struct pendres_boundary {
@@ -125,7 +126,7 @@ typedef struct traced {
   size_t count;
 } traced;
 
-/* What one translation of the curve shows in the window: nodes inside, in runs. */
+/* Add the part of the curve, moved by `shift`, that is in the window: runs of nodes inside. */
 static pendres_status show(pendres_context *ctx, const traced *t, const pendres_boundary_options *o,
                            double shift, pendres_boundary *b)
 {
@@ -150,8 +151,9 @@ static pendres_status show(pendres_context *ctx, const traced *t, const pendres_
 }
 
 /*
- * Errors of the nodes: mapped forward with other steps, their distance from the local manifold,
- * taken back, tells how far they are from the curve; and the curve bends between them.
+ * Trace the curve, and tell the errors of its nodes. Nodes are mapped forward with another number
+ * of steps, and their distance from the local manifold, mapped back, tells how far they are from
+ * the curve. What the curve bends by between two nodes is added.
  */
 static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
                             const pendres_boundary_options *o, int steps,
@@ -179,7 +181,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
     high = fmax(high, x[i]);
   }
   const traced t = {.node = curve->node, .x = x, .v = v, .error = error, .count = n};
-  /* With its translations by whole turns, where turns mean nothing. */
+  /* For an angle, the curve moved by whole turns is a boundary, too. */
   const double turn = pendres_model_of(saddle->pendulum.force)->period;
   const double from = turn > 0.0 ? floor((o->x_low - high) / turn) : 0.0;
   const double to = turn > 0.0 ? ceil((o->x_high - low) / turn) : 0.0;
@@ -190,7 +192,7 @@ done:
   return status;
 }
 
-/* One point of the saddle: grow, trace, and add to the boundary. */
+/* Add the curve of one point of the saddle to the boundary. */
 static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddle,
                                 const pendres_boundary_options *o, pendres_boundary *b)
 {

@@ -12,14 +12,16 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 
-/* The second-order manifold is exact to the cube of this, which further maps shrink; a seed
-   parameter is exact to rounding over this. */
+/* The distance from the saddle at which the manifold begins. Its expansion to second order is exact
+   to the cube of this, an error that maps shrink further; a seed parameter is exact to rounding
+   over this. */
 static const double start_distance = 2e-4;
 static const double far_before = -1e4; /* a seed parameter on the saddle */
 enum { FIRST_NODES = 5, MOST_GENERATIONS = 400, MOST_ROUNDS = 60 };
-/* What stands for a place at infinity: beyond all windows. */
+/* The coordinate that stands for a place at infinity, beyond all windows. */
 static const double at_infinity = 1e9;
-/* Seed parameters differ by rounding, 1e-12: closer than this there is no order along the curve. */
+/* Rounding moves seed parameters by 1e-12: closer than this their order along the curve is not
+   known. */
 static const double closest_seeds = 1e-9;
 
 void pendres_boundary_grow_free(pendres_boundary_curve *curve)
@@ -73,7 +75,7 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
   double u[PENDRES_U_COUNT], stable[2], unstable[2], left[2], unused[2], second = 0.0;
   pendres_continuation_equations at;
   (void)pendres_continuation_map_of(saddle, 2, unknown, u);
-  /* The whole period also where half of one would do: sides are kept then. */
+  /* The map over the whole period, even where that over half of it would do. */
   const pendres_continuation_map map = {
     .force = saddle->pendulum.force, .period = saddle->period, .winding = saddle->winding};
   pendres_continuation_system closing =
@@ -130,7 +132,7 @@ static int mapped(void *arg, size_t index, const pendres_strobe_lane *lane)
   return lane->period >= ((const long *)arg)[index] || !isfinite(lane->y) || !isfinite(lane->w);
 }
 
-/* Where a lane has come to, going back. */
+/* Where a lane has come to, back in time. */
 static void take_back(const pendres_strobe_lane *lane, double *y, double *w)
 {
   *y = lane->y + two_pi * (double)lane->turns;
@@ -171,7 +173,7 @@ done:
   return status;
 }
 
-/* Nodes whose number of maps is the same, in the order of the curve. */
+/* The order of nodes by their number of maps, and then along the curve. */
 static int by_generation(const void *a, const void *b)
 {
   const pendres_boundary_node *const *p = a, *const *q = b;
@@ -180,7 +182,7 @@ static int by_generation(const void *a, const void *b)
   return *p < *q ? -1 : *p > *q;
 }
 
-/* Distance of a node whose forward image is given; u is the node. */
+/* The distance of node u from the curve, by its forward image. */
 static double distance_of(const pendres_boundary_seed *seed, const double u[PENDRES_U_COUNT],
                           const pendres_continuation_image *image)
 {
@@ -272,7 +274,7 @@ static double chord(const front *f, size_t i, double *dx, double *dv)
   return hypot(*dx, *dv);
 }
 
-/* Largest distance of the arc from the chord i, from the turn of the chords beside it. */
+/* The largest distance of the arc from chord i, judged by the angles with the chords beside it. */
 static double sagitta(const front *f, size_t i)
 {
   double dx, dv, ex, ev, turn = 0.0;
@@ -282,13 +284,13 @@ static double sagitta(const front *f, size_t i)
     const double other = chord(f, side < 0 ? i - 1 : i + 1, &ex, &ev);
     if (!(length > 0.0 && other > 0.0)) continue;
     const double angle = fabs(atan2(dx * ev - dv * ex, dx * ex + dv * ev));
-    /* The turn is spread over half of both chords. */
+    /* The angle is spread over half of each of the two chords. */
     turn = fmax(turn, angle * 2.0 * length / (length + other));
   }
   return turn * length / 8.0;
 }
 
-/* Whether a chord, part of it not out for good, is longer or more bent than wanted. */
+/* Whether a chord is longer or more bent than wanted; not asked of one that is out for good. */
 static int too_coarse(const front *f, size_t i)
 {
   double dx, dv;
@@ -354,7 +356,7 @@ done:
 
 /* ---- generations ---- */
 
-/* One map further back for all nodes of the front. */
+/* Map all nodes of the front back once more. */
 static pendres_status next_generation(pendres_context *ctx, front *f)
 {
   pendres_status status = PENDRES_OUT_OF_MEMORY;

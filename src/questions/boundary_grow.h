@@ -24,7 +24,7 @@ typedef struct pendres_boundary_seed {
   double start, ratio;
 } pendres_boundary_seed;
 
-/* A point: seed parameter, times mapped back, and where that is (forward w). */
+/* A point of the curve: its seed parameter, and where it is, with w forward in time. */
 typedef struct pendres_boundary_node {
   double s;
   int generation, side;
@@ -39,7 +39,7 @@ typedef struct pendres_boundary_curve {
   int pieces, complete;
 } pendres_boundary_curve;
 
-/* The local manifold at a number of steps a period. */
+/* Find the local manifold of the map with this number of steps a period. */
 pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_orbit *saddle,
                                           int steps, pendres_boundary_seed *seed);
 
@@ -49,10 +49,10 @@ pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundar
                                      pendres_boundary_curve *curve);
 
 /*
- * Distance of nodes in the (x, v) plane from the stable manifold that a seed's own number of steps
- * gives: forward, a node falls next to the local manifold; its distance from that, divided by
- * the derivative of the way there, is its distance here. Going forward the curve contracts, so
- * that errors along it do not matter.
+ * The distance of nodes in the (x, v) plane from the stable manifold that belongs to the seed's own
+ * number of steps. Mapped forward, a node comes close to the local manifold; its distance from
+ * that, divided by the derivative of the map to there, is its distance here. The curve contracts,
+ * so that errors along it do not matter.
  */
 pendres_status pendres_boundary_grow_distance(pendres_context *ctx,
                                               const pendres_boundary_seed *seed, size_t n,

@@ -11,7 +11,8 @@
 
 enum { MOST_ADVANCES = 300 };
 static const double widest_range = 3.0; /* of the drive frequency, as a ratio */
-static const double wildest = 1e3; /* growth of errors in a map: such orbits do not come back */
+/* A branch is followed until errors grow by this in a map: it does not come back from there. */
+static const double wildest = 1e3;
 
 /* Go along it until the drive frequency is back where it was; *u is near the orbit there. */
 static pendres_status follow_back(pendres_context *ctx, pendres_arc *w, double u[PENDRES_U_COUNT])
@@ -41,7 +42,7 @@ static pendres_status follow_back(pendres_context *ctx, pendres_arc *w, double u
   return PENDRES_NOT_FOUND;
 }
 
-/* Refine what an arc came back to. */
+/* Refine the orbit that an arc has come back to. */
 static pendres_status refine(pendres_context *ctx, const pendres_orbit *attractor,
                              const double u[PENDRES_U_COUNT], pendres_orbit *out)
 {
@@ -71,7 +72,8 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
   if (no_orbit != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "saddle: %s", no_orbit);
   pendres_status status = PENDRES_NOT_FOUND;
-  /* Softening springs: a small orbit's fold is above its frequency, a large one's below. */
+  /* The spring softens: a small orbit has its fold at a higher frequency, a large one at a
+     lower. */
   for (int i = 0; i < 2 && status == PENDRES_NOT_FOUND; i++) {
     const double up = attractor->phase_lag < 1.0 ? 1.0 : -1.0;
     double u[PENDRES_U_COUNT];

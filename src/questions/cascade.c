@@ -12,7 +12,7 @@ static const double feigenbaum = 4.66920160910299067;
 
 enum { MOST_FORKS = PENDRES_CASCADE_DOUBLINGS + 4 };
 
-/* What the doublings up to that one tend to. */
+/* The limit of the doublings, extrapolated from those up to this one. */
 static double extrapolate(const pendres_cascade *c, int last)
 {
   return c->value[last] + (c->value[last] - c->value[last - 1]) / (feigenbaum - 1.0);
@@ -24,8 +24,9 @@ static double ratio_at(const pendres_cascade *c, int last)
 }
 
 /*
- * Both converge by a factor of Feigenbaum's ratio or more from one doubling to the next, so that
- * what they changed by last is more than they are off by; the errors of the doublings come on top.
+ * The limit and the ratio converge by Feigenbaum's factor or more from one doubling to the next.
+ * The latest change is therefore larger than the error that is left; the errors of the doublings
+ * are added.
  */
 static void finish(pendres_cascade *c)
 {

@@ -11,17 +11,17 @@
 enum {
   BINS = PENDRES_CORRELATION_SCALES,
   STRETCHES = 16, /* of time, for the jackknife */
-  APART = 32,     /* pairs closer in time are left out */
-  TILE = 256,     /* points at a time */
-  TABLES = 4,     /* histograms that take pairs by turns, so that none waits for the last */
-  FEWEST = 500,   /* pairs that are closer than the shortest distance */
-  LEAST = 5       /* distances that a slope is taken from */
+  APART = 32,     /* pairs that are closer than this in time are left out */
+  TILE = 256,     /* points that are compared at a time */
+  TABLES = 4,     /* histograms that take pairs in turn, so that no addition waits for the last */
+  FEWEST = 500,   /* at least so many pairs are closer than the shortest distance */
+  LEAST = 5       /* a slope is taken from at least so many distances */
 };
 
 static const double ln2 = 0.69314718055994530942;
-/* The upper end of distances as a share of the points' extent: where its edges are not felt. */
+/* The longest distance as a share of the points' extent: the edges have no effect up to there. */
 static const double close_by = 1.0 / 32.0;
-/* Of a slope, in whole. */
+/* The error of a slope by rounding. */
 static const double rounding = 1e-14;
 
 typedef struct survey {
@@ -41,7 +41,7 @@ static size_t first_of(const survey *s, int stretch)
 
 /* ---- counting ------------------------------------------------------------------------------ */
 
-/* Pairs of point i with points from `first` to below `last`. */
+/* Count the pairs of point i with points from `first` to below `last`. */
 static void count_row(const survey *s, size_t i, size_t first, size_t last,
                       uint64_t table[TABLES][BINS])
 {
@@ -98,7 +98,7 @@ static double sums(const survey *s, int without, double closer[BINS])
   return all;
 }
 
-/* Of log pairs against log distance, from distance number `from` to number `to`. */
+/* The slope of log pairs against log distance, from distance number `from` to number `to`. */
 static double slope(const double closer[BINS], int from, int to)
 {
   const double middle = 0.5 * (from + to);
@@ -110,7 +110,7 @@ static double slope(const double closer[BINS], int from, int to)
   return 2.0 * up / (ln2 * square); /* a step is half a factor of two */
 }
 
-/* Standard error from values without one stretch each. */
+/* The standard error, from values that each leave out one stretch. */
 static double jackknife(const double value[STRETCHES])
 {
   double mean = 0.0, square = 0.0;
@@ -180,7 +180,7 @@ static pendres_status measure(pendres_context *ctx, survey *s, double resolution
 {
   *out = (pendres_correlation){
     .dimension = NAN, .dimension_error = NAN, .shortest = NAN, .longest = NAN};
-  /* One point, as far as anybody can tell. */
+  /* All points are one, within the resolution. */
   if (s->extent <= resolution) {
     out->dimension = out->dimension_error = 0.0;
     return PENDRES_OK;

@@ -27,25 +27,27 @@ enum {
   SLIPS = 3        /* of a rotation by where a lock has ended, for its mean to be known */
 };
 
-/* Strobe points that come back so closely are next to an orbit: at first, and once that orbit has
-   turned out not to attract the pendulum. */
+/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit: at first,
+   and after an orbit has turned out not to attract it. */
 static const double close_by = 1e-4, very_close_by = 1e-7;
 /* An orbit found further from the point that came back is another one. */
 static const double same_orbit = 0.02;
-/* Standard errors above zero that an exponent of chaos is, and its least growth a period; and that
-   up to which tangent vectors without a neighbour are not trusted. Next to orbits that are all but
-   superstable they were seen to be off by 5e-3. */
+/* An exponent of chaos is above zero by so many standard errors, and by so much growth a period. Up
+   to a growth of least_carried tangent vectors are not trusted without a neighbour: next to orbits
+   that are all but superstable they were seen to be off by 5e-3. */
 static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.02;
-/* Chaos is no less so by steps twice as long, off by this times what extrapolation takes off. */
+/* Chaos must stretch tangent vectors with steps twice as long, too. Their growth differs by this
+   times what extrapolation takes off. */
 static const double carried_in_doubt = 15.0;
 /* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
    which batches can be parted, once in a thousand at most. */
 static const double apart_by_chance = 5.5;
-/* Next to where a lock has ended a rotation is slow, and stretches a tangent vector by as much as
-   it will shrink it again, up to this logarithm: chaos goes beyond. */
+/* Next to where a lock has ended a rotation is slow in one place, and stretches a tangent vector as
+   much there as it will shrink it again. The logarithm stays below this; in chaos it goes
+   beyond. */
 static const double passing = 30.0;
-/* Quasi-periodic: averages over the halves agree to this, a period, and neighbours' distances grow
-   and shrink by less. */
+/* In a quasi-periodic motion averages over the two halves agree to this, a period, and distances to
+   neighbours grow or shrink by less than this. */
 static const double same_mean = 1e-5;
 
 typedef struct job {
@@ -66,11 +68,11 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 
 /* ---- coming back --------------------------------------------------------------------------- */
 
-/* Distances shrink as exp(-gamma t / 2) at best: forty times that fits into double precision. */
+/* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
 static long transient_of(const job *j, const pendres_pendulum *p)
 {
   if (j->transient > 0) return j->transient;
-  /* Across the curve of a rotation they shrink by all of the damping: to 1e-11. */
+  /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
   const double forgets = p->drive_frequency / (two_pi * p->damping);
   if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
   return (long)fmax(TRANSIENT, fmin(1e7, 80.0 * p->drive_frequency / (two_pi * p->damping)));
@@ -112,7 +114,7 @@ static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
 }
 
-/* The orbits that caught runners are near: refined, and told by their prime periods. outcome[k] is
+/* Refine the orbits that caught runners are near, with their shortest periods. outcome[k] is
    PENDRES_OK where the k-th of them is next to a stable orbit, and orbit[] has these alone. */
 static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_t count,
                                        pendres_orbit_guess *guess, pendres_orbit *orbit,
@@ -143,7 +145,8 @@ static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_
   return pendres_orbits_to_prime(ctx, good, orbit);
 }
 
-/* The orbits that runners were caught near: those that are not stable, or not near, let them go. */
+/* Take the orbits that runners were caught near; a runner goes on where there is no stable orbit
+   near it. */
 static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapunov *out)
 {
   size_t count = 0, k = 0, good = 0;
@@ -176,7 +179,7 @@ static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapun
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* Mean of the sums of batches a period, and its standard error. */
+/* The mean of the batches' sums a period, and its standard error. */
 static double mean_of(const double sum[BATCHES], long batch, double *error)
 {
   double mean = 0.0, square = 0.0;
@@ -191,9 +194,9 @@ static double mean_of(const double sum[BATCHES], long batch, double *error)
 
 /*
  * Whether batches before and after some one of them differ by more than chance makes them, by
- * Student's t of the means of both parts: a pendulum that has come from one chaos to another, and
- * whose mean is that of neither. Source: Worsley, Journal of the American Statistical Association
- * 74 (1979) 365.
+ * Student's t of the means of both parts. Such a pendulum has gone from one chaotic motion to
+ * another, and its mean is that of neither. Source: Worsley, Journal of the American Statistical
+ * Association 74 (1979) 365.
  */
 static int changes(const double sum[BATCHES])
 {
@@ -209,11 +212,11 @@ static int changes(const double sum[BATCHES])
 }
 
 /*
- * Whether a runner is on a rotation that is not locked to the drive, and then its mean. A period's
- * error moves y by as much, and by omega/gamma times as much what its velocity is wrong by, which
- * friction forgets. What that does to the mean velocity depends on where on the invariant curve it
- * happens: in the coordinate h in which the motion is even, it is h' times as much, and the tangent
- * vector's length is as 1/h'.
+ * Whether a runner is on a rotation that is not locked to the drive, and then its mean. An error of
+ * a period moves y by itself, and an error of the velocity moves y by omega/gamma times itself
+ * until friction has damped it. What that does to the mean velocity depends on where on the
+ * invariant curve it happens: in the coordinate h in which the motion is uniform it is h' times as
+ * much, and the length of the tangent vector goes as 1/h'.
  */
 static int quasi_periodic(const pendres_runner *r, long periods, double accuracy,
                           pendres_lyapunov *out)
@@ -238,7 +241,7 @@ static int quasi_periodic(const pendres_runner *r, long periods, double accuracy
   return 1;
 }
 
-/* What averages say; chaos and rotations that are not locked are done with. */
+/* Judge runners by their averages; those on chaos or on rotations that are not locked are done. */
 static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
 {
   for (size_t i = 0; i < j->n; i++) {
@@ -259,7 +262,7 @@ static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
       .rotation = turned, .rotation_error = turned_error};
     if (chaotic || quasi_periodic(r, batch * BATCHES, accuracy, &out[i]))
       r->state = PENDRES_RUNNER_DONE;
-    r->neighbour = 1; /* of whoever is left */
+    r->neighbour = 1; /* those that are left run beside a neighbour from here on */
   }
 }
 
@@ -284,7 +287,7 @@ static pendres_status start(pendres_context *ctx, const job *j, const pendres_pe
   return PENDRES_OK;
 }
 
-/* All lanes until they come back or their transient is over. */
+/* Run all lanes until they come back or their transient is over. */
 static pendres_status run_transient(pendres_context *ctx, job *j)
 {
   pendres_strobe_lane *lanes = malloc((j->n + 1) * sizeof *lanes);
@@ -308,7 +311,7 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
   for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
     status = pendres_runners_average(ctx, j->n, j->runner, batch);
     if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
-    /* Those that were let go have averages of this round, and no result yet. */
+    /* Runners whose orbit was not stable have averages of this round, and no result yet. */
     if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx), out);
   }
   return status;

@@ -15,7 +15,7 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p);
 /* How much is done for a verdict. */
 typedef enum pendres_lyapunov_care {
   PENDRES_CARE_FULL, /* as pendres_lyapunov_find */
-  PENDRES_CARE_ONCE, /* one average: what that does not tell is unresolved */
+  PENDRES_CARE_ONCE, /* one average; a pendulum that it does not decide about is unresolved */
   PENDRES_CARE_CLOSE /* pendulums next to rotations that are not locked, which are told sooner */
 } pendres_lyapunov_care;
 

@@ -14,11 +14,11 @@ enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
   WARM_UP = 16,        /* periods in which the tangent vector turns into the growing direction */
   LONGEST_ORBIT = 128, /* drive periods of an orbit that is looked for */
-  EXTRAPOLATED = 15    /* times what steps are off by is the difference to steps twice as long */
+  EXTRAPOLATED = 15    /* steps twice as long differ by this times the error of the steps */
 };
 
-/* Neighbours are so far away: what they lose by rounding, and what they differ by from the linear
-   equation, is a 1e-8th of their distance. */
+/* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
+   are some 1e-8 of that distance. */
 static const double apart = 1e-8;
 /* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
 static const double longest = 1e100;
@@ -71,7 +71,7 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* Put a runner where it is. Its neighbour, if it has one, is in the next lane. */
+/* Load a runner into a lane, and its neighbour, if it has one, into the next lane. */
 static void put(const average_job *a, size_t lane, const runner *r)
 {
   const pendres_strobe_lane *l = &r->lane;
@@ -93,8 +93,8 @@ static void load(const average_job *a, size_t lane, runner *r)
   put(a, lane, r);
 }
 
-/* Add what tangent vectors have grown by to a batch, if any, and put them back to length one.
-   Returns what the second one has grown by. */
+/* Add the growth of the tangent vectors to a batch, if there is one, and put them back to length
+   one. Returns the growth of the second one. */
 static double shorten(runner *r, long in)
 {
   double growth = 0.0;
@@ -134,7 +134,8 @@ static double turn(const average_job *a, size_t lane, long step, runner *r)
   return 0.0;
 }
 
-/* At the end of a period, the step-th of the batches: those before the first are the warm-up. */
+/* Take over the end of a period. step is its number in the batches; negative ones are the
+   warm-up. */
 static void arrive(const average_job *a, size_t lane, long step, runner *r)
 {
   const pendres_rows rows = pendres_block_rows(a->block);

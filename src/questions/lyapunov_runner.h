@@ -1,8 +1,8 @@
 /*
  * lyapunov_runner.h -- pendulums that run until they come back, or until averages are known.
  *
- * Owns: when strobe points have come back; what tangent vectors and neighbours grow by, and what is
- * averaged of it, batch by batch, and with the smooth weights that rotations are told by.
+ * Owns: when strobe points have come back; the growth of tangent vectors and of distances to
+ * neighbours, and its averages, batch by batch, and with the smooth weights that rotations need.
  */
 #ifndef PENDRES_LYAPUNOV_RUNNER_H
 #define PENDRES_LYAPUNOV_RUNNER_H
@@ -28,9 +28,10 @@ typedef struct pendres_runner {
   long ref_turns, ref_period, next;
   int period, winding; /* of the orbit that it seems to be near */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
-  int neighbour;       /* runs beside one, in place of tangent vectors: exact, at twice the cost */
-  double u[2][2];      /* tangent vectors, by steps and by steps twice as long: both those of a
-                          neighbour */
+  int neighbour;       /* it runs beside a neighbour, which takes the place of the tangent vectors:
+                          exact, at twice the cost */
+  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
+                          both are the direction to it */
   /* Sums over the periods of each batch. */
   double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
   pendres_smooth smooth; /* of rotations */
@@ -49,9 +50,9 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
                                        long batch);
 
 /*
- * Growth by steps twice as long is off by 16 times as much as that by steps: what follows from that
- * is taken off r->growth[0]. Returns how much it is a period, more than what is left; 0 of
- * neighbours.
+ * Growth found with steps twice as long has 16 times the error: a fifteenth of the difference is
+ * taken off r->growth[0]. Returns how much that is a period, which is more than the error left; 0
+ * for runners with neighbours.
  */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
 

@@ -14,8 +14,9 @@
 #include "engine/context_internal.h"
 #include "questions/phase_line.h"
 
-/* Curves through the lines' bifurcations show branches that some lines have missed, whose own
-   bifurcations may lie on further curves; mostly the first round has shown all. */
+/* Curves through the lines' bifurcations show branches that some lines have missed. The
+   bifurcations of these may lie on further curves, which the next round follows; mostly one round
+   is enough. */
 enum { MOST_ROUNDS = 4 };
 
 static void free_families(pendres_phase_diagram *d)
@@ -65,8 +66,8 @@ static pendres_status gather(pendres_phase_diagram *d)
   return PENDRES_OK;
 }
 
-/* Put the family of bifurcation i into its place among those that are known, if it is a new one:
-   families that cost more come first, so that threads end at about the same time. */
+/* Put the family of bifurcation i into its place among those that are known, if it is new. Families
+   that cost more come first, so that threads end at about the same time. */
 static pendres_status note_family(pendres_phase_diagram *d, size_t i, size_t *capacity)
 {
   size_t place = 0;
@@ -164,7 +165,8 @@ static pendres_curve_options options_of(const pendres_phase_grid *g)
   return options;
 }
 
-/* The curves of a family; a failure of its own is marked, and what was found before it stays. */
+/* Follow the curves of a family. A failure that is its own is marked, and what was found before it
+   stays. */
 static pendres_status follow(pendres_context *ctx, const pendres_phase_diagram *d, size_t family,
                              pendres_phase_family *f)
 {
@@ -212,7 +214,7 @@ pendres_status pendres_phase_diagram_follow_family(pendres_context *ctx,
 
 /* ---- all of them ---- */
 
-/* Of the cusps of SA and LA the last one on the way out of the region where both exist. */
+/* Find the last one of the cusps of SA and LA, on the way out of the region where both exist. */
 static void find_cusp(pendres_phase_diagram *d)
 {
   for (size_t i = 0; i < pendres_curves_count(d->curves); i++) {
@@ -228,9 +230,9 @@ static void find_cusp(pendres_phase_diagram *d)
   }
 }
 
-/* The curves of all families in the order of their bifurcations, up to the first that failed: what
-   comes after it is left out, as it would be without families. That there may be more is kept
-   once. */
+/* Join the curves of all families in the order of their bifurcations, up to the first one that
+   failed: what comes after it is left out, as if bifurcations were followed one after another. That
+   there may be more is marked once. */
 static pendres_status join(pendres_phase_diagram *d)
 {
   const pendres_phase_mark *mark = NULL;

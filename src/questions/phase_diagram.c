@@ -39,7 +39,8 @@ static int ascends(size_t n, const double *value)
   return 1;
 }
 
-/* NULL, or what is wrong with a grid; what is wrong with a point is told when it is computed. */
+/* NULL, or what is wrong with a grid. What is wrong with a single point is found when it is
+   computed. */
 static const char *refused(const pendres_phase_grid *g)
 {
   const pendres_parameter along = g->options.parameter;
@@ -111,7 +112,8 @@ int pendres_phase_is_own(pendres_status status)
   }
 }
 
-/* Keep a failure that is somebody's own, with the context's sentence on it; return the others. */
+/* Keep a failure that concerns one point or line, with the context's message on it; return any
+   other. */
 static pendres_status keep(const pendres_context *ctx, pendres_status status,
                            pendres_phase_mark *m)
 {
@@ -145,8 +147,8 @@ static pendres_status try_line(pendres_context *ctx, const pendres_phase_grid *g
   return status;
 }
 
-/* Which of a line's points can be computed at all: the others are marked. Costly, and done only
-   where a line has failed. */
+/* Find out which of a line's points can be computed at all, and mark the others. That is costly,
+   and done only where a line has failed. */
 static pendres_status sort_out(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
                                pendres_phase_done *l)
 {
@@ -190,7 +192,7 @@ static pendres_status fill_line(pendres_context *ctx, const pendres_phase_grid *
   return status;
 }
 
-/* What the curves tell, if it can be had; the points stay as they were if not. */
+/* Complete a line by what the curves tell of it; where that fails its points stay as they were. */
 static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram *d,
                                const pendres_phase_done *before, pendres_phase_done *l)
 {
@@ -383,7 +385,7 @@ const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagra
     if (b->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&b->orbit)) continue;
     const double way = d->falling ? -1.0 : 1.0;
     if ((way * b->curvature > 0.0) != (state == PENDRES_LABEL_LA)) continue;
-    /* Of several on a line the one next to the cusp. */
+    /* If there are several on a line, the one next to the cusp is taken. */
     if (best == NULL || way * b->value > way * best->value) best = b;
   }
   return best;

@@ -32,7 +32,8 @@ struct pendres_phase_diagram {
   int falling;                 /* SA ends as the lines' parameter falls, see small_end.h */
 };
 
-/* A failure that the parameters cause, not the machine or the caller: the rest goes on. */
+/* Whether a failure is caused by the parameters, and not by the machine or the caller: the rest of
+   the diagram is then computed all the same. */
 int pendres_phase_is_own(pendres_status status);
 
 /* Free what the curves hold of a diagram. */

@@ -13,7 +13,7 @@ enum { MOST_CROSSINGS = 16 };
 
 /* ---- by the ensemble ---- */
 
-/* Whether the names mean something where these states are. */
+/* Whether SA and LA are told apart at a point with these states. */
 static int distinct(const pendres_small_end *end, const pendres_label_states *s)
 {
   return end->known || s->count > 1;
@@ -107,8 +107,8 @@ static void judge_amplitudes(const pendres_small_end *end, const pendres_label_s
                           : PENDRES_REGIME_LA;
 }
 
-/* Whether all that can be SA or LA is known of a point: both, the one beyond the fold at which SA
-   ends, or the only one. */
+/* Whether all states that can be SA or LA are known at a point: both of them, or the one that
+   exists beyond the fold at which SA ends, or the only one where the two are not told apart. */
 static int enough(const pendres_small_end *end, const pendres_label_states *s,
                   const pendres_phase_point *p)
 {
@@ -116,7 +116,7 @@ static int enough(const pendres_small_end *end, const pendres_label_states *s,
   return s->count > 1 || (s->count > 0 && pendres_small_end_from(end, &p->pendulum).beyond);
 }
 
-/* What is not known yet of a point is looked up on the branches from number `first` on. */
+/* Look up on the branches from number `first` on what is not known yet of a point. */
 static pendres_status look_up(line *l, size_t first, pendres_label_states *s,
                               pendres_phase_point *p)
 {
@@ -134,7 +134,7 @@ static pendres_status look_up(line *l, size_t first, pendres_label_states *s,
   return status;
 }
 
-/* All orbits at one point: those that members reach, and those of the branches. */
+/* Judge one point by all of its orbits: those that members reach, and those of the branches. */
 static pendres_status judge_branches(line *l, const pendres_response *r,
                                      pendres_label_states *s, pendres_phase_point *p)
 {
@@ -185,8 +185,8 @@ int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
   return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && parameter <= PENDRES_DRIVE_AMPLITUDE;
 }
 
-/* Beyond a diagram by a tenth of its width, of a single value by a tenth of it; frequencies stay
-   positive, dampings do not become negative. */
+/* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. Frequencies
+   stay positive, and dampings do not become negative. */
 static void reach_beyond(pendres_parameter parameter, double first, double last, double *low,
                          double *high)
 {
@@ -234,7 +234,8 @@ static pendres_branch_options options_of(const pendres_pendulum *first,
   return options;
 }
 
-/* The orbits of all responses, those of the largest number of members first at each point. */
+/* Find the branches through the orbits of all responses; at each point, orbits with more members
+   come first. */
 static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
                                     const pendres_phase_options *o, pendres_branches **out)
 {
@@ -251,7 +252,7 @@ static pendres_status find_branches(pendres_context *ctx, size_t n, const pendre
   return status;
 }
 
-/* All points of a line whose branches are known, from its responses. */
+/* Judge all points of a line whose branches are known, from its responses. */
 static pendres_status judge_line(line *l, size_t n, const pendres_response *r,
                                  pendres_phase_point *out)
 {
@@ -353,7 +354,7 @@ static int beyond_cusps(const pendres_curves *curves, const pendres_pendulum *p)
   return cusps > 0;
 }
 
-/* The branches through all points at which a curve crosses the line. */
+/* Add the branches through all points at which a curve crosses the line. */
 static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *curve,
                                   const pendres_pendulum *of_line,
                                   const pendres_branch_options *options,
@@ -393,7 +394,7 @@ static pendres_label_states states_of(const pendres_phase_point *p)
   return s;
 }
 
-/* All points again, now that there are branches from number `first` on. */
+/* Judge all points again, now that there are branches from number `first` on. */
 static pendres_status judge_again(line *l, size_t n, size_t first,
                                   pendres_phase_point *points)
 {
@@ -406,7 +407,7 @@ static pendres_status judge_again(line *l, size_t n, size_t first,
   return status;
 }
 
-/* The fold at which SA ends has become known: members count anew. */
+/* Judge all points anew, since the fold at which SA ends has become known. */
 static pendres_status compute_again(const line *l, size_t n, pendres_phase_point *points,
                                     pendres_branches *branches)
 {

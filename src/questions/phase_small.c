@@ -9,8 +9,9 @@ int pendres_phase_on_sheets(const pendres_orbit *o)
   return pendres_label_named(o) && (o->symmetric || !pendres_pendulum_symmetric(&o->pendulum));
 }
 
-/* Whether the small state ends at a fold, as the unstable orbit that it meets is the larger one: so
-   for any force, wherever the resonance bends to. point: the fold's place on its branch. */
+/* Whether it is the small state that ends at a fold, which is so if the unstable orbit that it
+   meets is the larger one, for any force and whichever way the resonance bends. point: the fold's
+   place on its branch. */
 static int ends_small(const pendres_branch *branch, size_t point)
 {
   if (point == 0 || point + 1 >= pendres_branch_count(branch)) return 0;
@@ -21,8 +22,8 @@ static int ends_small(const pendres_branch *branch, size_t point)
                         : before->amplitude > behind->amplitude;
 }
 
-/* Of all folds at which the small state ends, the one of the largest amplitude, which is that of
-   the main resonance. */
+/* Find the fold of the largest amplitude at which the small state ends: that of the main
+   resonance. */
 static pendres_small_end find_any_small_end(const pendres_branches *branches)
 {
   pendres_small_end end = {.known = 0};
@@ -44,8 +45,8 @@ static pendres_small_end find_any_small_end(const pendres_branches *branches)
   return end;
 }
 
-/* Of the plain pendulum, whose resonance bends to lower frequencies: among the folds below whose
-   parameter two orbits exist, the one of the smallest amplitude. */
+/* For the plain pendulum, whose resonance bends to lower frequencies: find the fold of the smallest
+   amplitude among those below whose parameter two orbits exist. */
 static pendres_small_end find_plain_small_end(const pendres_branches *branches)
 {
   pendres_small_end end = {.known = 0};

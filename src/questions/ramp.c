@@ -106,8 +106,8 @@ static pendres_langevin_answer take_end(void *arg, const pendres_langevin_strobe
   return PENDRES_LANGEVIN_GO_ON;
 }
 
-/* How far off a period of a state is by so many steps, seen by twice as many; errors of later
-   periods add to it until it has died away. */
+/* The error of a period of a state with this many steps, from a run with twice as many. Errors of
+   later periods add to it until it has died away. */
 static pendres_status probe(pendres_context *ctx, const pendres_ramp *r,
                             const pendres_hysteresis_point *point, int steps, double *off)
 {
@@ -129,7 +129,8 @@ static pendres_status probe(pendres_context *ctx, const pendres_ramp *r,
   return status;
 }
 
-/* The steps whose strobe points meet a tolerance in the states of the path; order four. */
+/* Choose steps whose strobe points meet a tolerance in the states of the path; the error falls with
+   order four. */
 static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, double tolerance,
                                    int *steps)
 {
@@ -193,16 +194,17 @@ static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t 
 }
 
 /*
- * Half as many steps are off by four times as much where the parameter's motion counts, at order
- * two, and by sixteen times as much elsewhere, at order four: the finer run is off by a fifteenth
- * to a third of the distance. Both together may cancel in part, and so all of it is claimed.
+ * With half as many steps the error is four times as large where the parameter's motion counts, of
+ * order two, and sixteen times as large elsewhere, of order four: the finer run is off by a
+ * fifteenth to a third of the distance. The two kinds may cancel in part, and so all of it is
+ * claimed.
  */
 static double error_of(double distance)
 {
   return pendres_strobe_doubt(distance) < INFINITY ? distance : INFINITY;
 }
 
-/* The share of an error that is left after some periods, at the latest. */
+/* The largest share of an error that can be left after some periods. */
 static double left_after(const pendres_ramp *r, double time, double periods)
 {
   motion m = {.ramp = r};
@@ -210,15 +212,16 @@ static double left_after(const pendres_ramp *r, double time, double periods)
   return exp(-0.5 * p.damping * two_pi / p.drive_frequency * periods);
 }
 
-/* What steps round off, until it has died away. */
+/* The rounding errors of the steps that have not died away yet. */
 static double rounding_of(const pendres_ramp *r, int steps)
 {
   return 4.4e-16 * sqrt(steps) / (1.0 - left_after(r, 0.0, 1.0));
 }
 
 /*
- * x_error and v_error hold the coarser run before. Errors swing while they die away, and the two
- * orders may cancel at a point: no error is claimed to be less than what is left of the one before.
+ * x_error and v_error hold the coarser run, and receive the errors. Errors oscillate while they die
+ * away, and those of the two orders may cancel at a point: no error is claimed to be less than what
+ * is left of the error at the point before.
  */
 static void compare(const pendres_ramp *r, const pendres_ramp_record *record, size_t n,
                     double rounding)

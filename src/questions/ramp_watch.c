@@ -9,9 +9,9 @@
 #include "engine/context_internal.h"
 #include "questions/hysteresis_jump.h"
 
-/* Of mean velocities, in radians a period: states that differ by more are told apart by them. */
+/* States whose mean velocities differ by more, in radians a period, are told apart by these. */
 static const double advance_apart = 0.5;
-/* First harmonics that are closer say nothing. */
+/* States whose first harmonics are closer are not told apart by these. */
 static const double harmonic_apart = 1e-3;
 
 /* ---- what states look like ---- */
@@ -43,7 +43,7 @@ static void measure(pendres_ramp_gate *g, const pendres_ramp *r)
   g->usable = g->half > (g->by_advance ? 0.0 : 0.5 * harmonic_apart);
 }
 
-/* Gates, legs of the path counted on the way. */
+/* Set up the gates, and count the legs of the path on the way. */
 static void build(pendres_ramp_watch *w)
 {
   const pendres_ramp *r = w->ramp;
@@ -70,7 +70,7 @@ static void build(pendres_ramp_watch *w)
   }
 }
 
-/* What the old state looks like in the middle of a period: between two points of the path. */
+/* Find what the old state looks like in the middle of a period, between two points of the path. */
 static void look_up(pendres_ramp_gate *g, const pendres_ramp *r, double middle)
 {
   const double value = pendres_ramp_value(r, middle);
@@ -91,7 +91,7 @@ static void look_up(pendres_ramp_gate *g, const pendres_ramp *r, double middle)
 
 /* ---- trajectories ---- */
 
-/* The periods in which a motion dies away, at the end of a leg. */
+/* The number of periods in which a motion dies away, at the end of a leg. */
 static long patience(const pendres_ramp *r, double time)
 {
   const pendres_pendulum p =
@@ -108,7 +108,8 @@ static void leave(pendres_ramp_watch *w, size_t i)
   o->out = 0;
 }
 
-/* Gates of legs that are over are given up, and those that tell nothing are passed over. */
+/* The next gate of a trajectory: those of legs that are over are given up, and those that tell
+   nothing are left out. */
 static pendres_ramp_gate *next_gate(pendres_ramp_watch *w, size_t i)
 {
   pendres_ramp_watcher *o = &w->watcher[i];

@@ -1,5 +1,5 @@
 /*
- * ramp_watch.h -- who has left a state: first harmonics of each drive period, looked at.
+ * ramp_watch.h -- which trajectories have left a state, by the first harmonic of each drive period.
  *
  * Owns: what the states of a path look like to a lock-in amplifier, and when a trajectory of a ramp
  * leaves each of them. The definition is in ramp.h.
@@ -59,7 +59,7 @@ void pendres_ramp_watch_close(pendres_ramp_watch *w);
 /* Look at the period that ends at a strobe; blocks come one after the other. */
 void pendres_ramp_watch_see(pendres_ramp_watch *w, const pendres_langevin_strobe *strobe);
 
-/* Nothing comes after: who is outside has left. */
+/* End the run: trajectories that are outside of their state have left it. */
 void pendres_ramp_watch_end(pendres_ramp_watch *w);
 
 #endif

@@ -19,13 +19,14 @@ const char *pendres_peak_name(pendres_peak peak)
 }
 
 /*
- * What one search may cost. Several that go side by side may cost as much together: who has spent
- * what of a common budget is not known, but none has spent more than its own while that lasts. Then
- * those that have not ended are begun anew, each with a budget of its own.
+ * What one search may cost. Several that go side by side may cost as much together: nobody knows
+ * which of them has spent how much of the common budget, but none can have spent more than it would
+ * have alone. When it is spent, those that have not ended begin anew, each with a budget of its
+ * own.
  */
 static const double most_work = 9.0;
 
-/* Nothing is known: NaN, not 0. */
+/* A resonance of which nothing is known: its numbers are NaN. */
 static void clear(pendres_resonance *out)
 {
   memset(out, 0, sizeof *out);
@@ -35,8 +36,9 @@ static void clear(pendres_resonance *out)
 }
 
 /*
- * The search is about the ensemble as it is. If its members are a sample, that enters the errors of
- * shares and means at the end, by members that are settled there once more.
+ * A search takes the ensemble's members as they are. If they are a sample of a continuous set of
+ * starts, they are settled once more at the resonance, and sampling errors are added to the errors
+ * of shares and means there.
  */
 static pendres_status add_sampling(pendres_context *ctx, const pendres_ensemble *e,
                                    pendres_resonance *out)
@@ -51,7 +53,7 @@ static pendres_status add_sampling(pendres_context *ctx, const pendres_ensemble 
   return PENDRES_OK;
 }
 
-/* Why no resonance can be looked for there; NULL: it can. */
+/* NULL, or why no resonance can be looked for with these parameters. */
 static const char *refuses(const pendres_pendulum *p, double lowest, double highest,
                            const pendres_ensemble *ensemble)
 {
@@ -127,7 +129,8 @@ typedef struct party {
   } seeker[TOGETHER];
 } party;
 
-/* What a search has ended with. Returned is what is no matter of one search. */
+/* Note what a search has ended with. A failure that does not concern this search alone is
+   returned. */
 static pendres_status end(pendres_context *ctx, pendres_status status, struct seeker *k)
 {
   pendres_resonance_search *of = k->of;
@@ -140,7 +143,7 @@ static pendres_status end(pendres_context *ctx, pendres_status status, struct se
   return status == PENDRES_INTERRUPTED || status == PENDRES_OUT_OF_MEMORY ? status : PENDRES_OK;
 }
 
-/* A search's next step: either it has wishes then, or it has ended. */
+/* Make a search's next step: it then either wishes frequencies or has ended. */
 static pendres_status step(pendres_context *ctx, const party *p, struct seeker *k)
 {
   pendres_resonance *out = &k->of->resonance;
@@ -154,8 +157,8 @@ static pendres_status step(pendres_context *ctx, const party *p, struct seeker *
   return end(ctx, status, k);
 }
 
-/* Until all have ended, or the budget has, or what is evaluated fails: due to one of them, which
-   will say so alone. */
+/* Go on until all searches have ended, or the budget is spent, or an evaluation fails. That is due
+   to one of them, which will be told when it is begun anew alone. */
 static pendres_status go_together(pendres_context *ctx, party *p)
 {
   for (;;) {
@@ -174,7 +177,8 @@ static pendres_status go_together(pendres_context *ctx, party *p)
   }
 }
 
-/* Those that can go side by side, which adaptive steps would make depend on each other, do. */
+/* Begin searches side by side where they can be: with adaptive steps they would depend on each
+   other. */
 static pendres_status begin(pendres_context *ctx, party *p, double most_together)
 {
   pendres_status status = PENDRES_OK;

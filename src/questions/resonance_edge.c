@@ -24,8 +24,8 @@ static const pendres_attractor *ending_state(const pendres_response *here,
     for (size_t j = 0; j < there->states; j++) {
       const pendres_orbit *p = &there->state[j].orbit;
       const double distance = pendres_model_distance(&o->pendulum, o->x - p->x, o->v - p->v);
-      /* Gaps are narrow: an orbit moves by far less than it differs from another, but for the
-         square-root rush into its fold. */
+      /* Gaps are narrow: an orbit moves by far less than its distance from another one, except
+         close to its fold, where it moves as a square root. */
       goes_on |= o->period == p->period && o->winding == p->winding && distance < 0.02;
     }
     if (!goes_on && isfinite(o->x)) return &here->state[i];
@@ -34,9 +34,9 @@ static const pendres_attractor *ending_state(const pendres_response *here,
 }
 
 /*
- * Whether the jump between a and b lies beyond m. Of several the one next to the largest value
- * counts, else the larger. What the states' own slopes explain is no jump: where a state comes or
- * goes without one, as the partners of a mirror pair do, the states tell.
+ * Whether the jump between a and b lies beyond m. Of several jumps the one next to the largest
+ * value counts, or else the larger. A change that the states' own slopes explain is no jump. Where
+ * a state comes or goes without a jump, as one of a mirror pair does, the lists of states decide.
  */
 static int jump_is_right(const pendres_scan_point *a, const pendres_scan_point *m,
                          const pendres_scan_point *b)
@@ -89,7 +89,7 @@ typedef struct starts {
 } starts;
 
 /*
- * Those starts that settle on an orbit's state at a frequency, at most `most`, are kept.
+ * Keep those starts that settle on an orbit's state at a frequency, at most `most` of them.
  */
 static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum *p,
                                     double amplitude, size_t most, starts *s)
@@ -117,7 +117,7 @@ static pendres_status keep_those_on(pendres_context *ctx, const pendres_pendulum
       const pendres_attractor *a =
         outcome[i].attractor < 0 ? NULL
                                  : pendres_attractors_get(set, (size_t)outcome[i].attractor);
-      /* The state that ends is the one whose amplitude is the fold's, to the square-root rush. */
+      /* The state that ends has the amplitude of the fold, nearly: it changes as a square root. */
       if (a == NULL || !(fabs(a->orbit.amplitude - amplitude) < 0.15 * length)) continue;
       if (pass == 1 && s->n < most && on * most >= s->n * all) {
         s->x[s->n] = s->x[i];
@@ -134,10 +134,10 @@ done:
 }
 
 /*
- * Whether the fold makes a jump of the ensemble's mean: the state that is born there has members
- * at once. Members on it a thousandth off the fold are followed to a millionth: one that is on it
- * still was inside its basin when that was born. A few tell mostly; where the basin is torn to
- * shreds and they have all left, the others are asked.
+ * Whether the fold makes the ensemble's mean jump, that is, whether the state that is born there
+ * has members at once. Members that are on it a thousandth from the fold are followed to a
+ * millionth: one that is still on it was inside its basin when that was born. Mostly a few members
+ * tell. If they have all left, since the basin is torn to shreds, the others are asked.
  */
 static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
                                    const pendres_fold *fold, double side, int *decides)

@@ -11,7 +11,7 @@ enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
 /* A state at one or both ends of a gap. */
 typedef struct family {
   double area[2], slope[2];
-  double residual; /* what its area may be off by from what ends and slopes say */
+  double residual; /* how far its area may be from what the values and slopes at the ends say */
   double middle;   /* its area in between, to compare it with others */
 } family;
 
@@ -23,8 +23,8 @@ typedef struct families {
 } families;
 
 /*
- * Whether an orbit goes on from one frequency to the next: its Poincaré point moves as the
- * slopes at both ends say. On a branch that bends sharply it does not, and the gap is looked into.
+ * Whether an orbit goes on from one frequency to the next: its Poincaré point has moved as the
+ * slopes at both ends say. On a branch that bends sharply it has not, and the gap is looked into.
  */
 static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
 {
@@ -59,8 +59,8 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
 }
 
 /*
- * A state that is known at one end: it may grow by its slope, which may be steep next to a fold,
- * but not by more than a quarter.
+ * A state that is known at one end only. It is taken to grow as its slope says, and never to
+ * shrink; but by no more than a quarter, as the slope may be steep next to a fold.
  */
 static family one_end(const pendres_orbit *o, int end, double width)
 {
@@ -156,9 +156,9 @@ typedef struct census {
 } census;
 
 /*
- * Each member is on a state that it is on at an end. In a wide gap it may also be on one that the
- * members beside it are on: a basin's boundary may have come by and gone back. Of a fold's own
- * point, which lies on the far side of the jump, the members say nothing about the gap.
+ * Each member is on one of the two states that it is on at the ends. In a wide gap it may also be
+ * on a state of the members beside it, since a basin's boundary may have come by and gone back. The
+ * members at a fold's own point, which lies on the far side of the jump, say nothing about the gap.
  */
 static void count_members(const families *all, const pendres_scan_point *const end[2], int wide,
                           const int asked[2], size_t members, census *c)
@@ -196,7 +196,7 @@ static double bound_of(const families *all, const census *c, size_t members, dou
     if (all->of[i].middle > all->of[top].middle) top = (int)i;
   for (size_t i = 0; i < all->count; i++) {
     const family *f = &all->of[i];
-    /* What is not known may be on the largest. */
+    /* Members of which nothing is known may be on the largest state. */
     const size_t on = c->on[i] + ((int)i == top ? c->unknown : 0);
     const double share = (double)on / (double)members;
     if (on == 0) continue;
@@ -214,7 +214,8 @@ void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, 
 {
   const pendres_scan_point *const end[2] = {a, b};
   const double omega = pendres_scan_frequency(a), width = pendres_scan_frequency(b) - omega;
-  /* A fiftieth of what the response changes over: boundaries move as far as members are apart. */
+  /* A gap is wide above a fiftieth of the width over which the response changes: boundaries move by
+     the distance of members over it. */
   const double narrow = 0.02 * pendres_search_width(&a->response.pendulum, omega);
   const int at_fold = a->at_fold > 0 || b->at_fold < 0;
   const int asked[2] = {a->at_fold <= 0, b->at_fold >= 0};

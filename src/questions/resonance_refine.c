@@ -17,8 +17,8 @@
 /* ---- evaluating frequencies ---- */
 
 /*
- * Slopes of all states of n responses, refined side by side. coarser: of all states that are
- * orbits, in their order; may be NULL.
+ * Find the slopes of all states of n responses, side by side. coarser, which may be NULL, receives
+ * the coarser computations of all states that are orbits, in their order.
  */
 static pendres_status add_slopes(pendres_context *ctx, size_t n, pendres_scan_point *points,
                                  pendres_orbit_coarser *coarser)
@@ -152,7 +152,7 @@ static double slope_at(double omega, void *arg)
   return now.slope;
 }
 
-/* Slope's error: of the states, weighted by members. */
+/* The error of the slope: those of the states' slopes, weighted by members. */
 static double slope_error(const pendres_scan_point *p)
 {
   double error = 0.0, members = 0.0;
@@ -210,13 +210,13 @@ static pendres_status confirm(pendres_context *ctx, const pendres_ensemble *ense
 }
 
 /*
- * The error of the phase lag at a peak where all members are on one orbit; near: a point beside
- * it; full: the lag's own error and what that of the peak's place makes of it. Steps that shift a
- * peak shift the whole resonance, and the lag at it hardly feels them: two computations, each at
- * its own peak, tell how much. Claimed are shares of their difference as for an orbit's measures
- * (orbit_error.c), a tenth of the full error, since that both agree may be chance, all of what
- * rounding does, and one and a half times what the slope's own distance from zero does: the
- * curvature is a difference quotient. NaN if it cannot be told.
+ * The error of the phase lag at a peak where all members are on one orbit; near: a point beside it;
+ * full: the lag's own error and what the error of the peak's place makes of it. Finite steps that
+ * shift a peak shift the whole resonance, and the lag at the peak hardly changes: two computations,
+ * each at its own peak, tell by how much. The error is made of shares of their difference, as for
+ * an orbit's measures (orbit_error.c); of a tenth of the full error, since the two may agree by
+ * chance; of all of the rounding errors; and of one and a half times what the slope's own distance
+ * from zero causes, since the curvature is a difference quotient. NaN if it cannot be told.
  */
 static double lag_error(const pendres_scan_point *at, const pendres_scan_point *near,
                         const pendres_orbit_coarser *coarser, double full)
@@ -286,7 +286,7 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
   if (status == PENDRES_OK) status = pendres_scan_follow(ctx, &at, root + width, &beside);
   if (status != PENDRES_OK) return status;
   const double curvature = (beside.slope - at.slope) / width;
-  /* A zero of the slope, or a jump through zero? */
+  /* Not a zero of the slope, but a jump through zero. */
   if (!(curvature < 0.0) ||
       fabs(at.slope) > 1e-3 * fmin(a->slope, -b->slope) + slope_error(&at))
     return PENDRES_NOT_FOUND;

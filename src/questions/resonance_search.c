@@ -11,11 +11,12 @@
 
 enum { BATCH = 32 /* frequencies evaluated side by side */ };
 
-/* What is taken for a slope of a pendulum's equation and for a step of
-   Newton's method: about seconds of one processor, but the same number on all. Periods would not
-   do: labels that are in doubt are settled again in ten times as many steps. */
+/* The work of one evaluation of a pendulum's equation, and of one step of Newton's method: about
+   seconds of one processor, but the same number on every machine. Periods would not do as a
+   measure: pendulums whose labels are in doubt are integrated again with ten times as many
+   steps. */
 static const double work_of_slope = 2.5e-9, work_of_newton = 4e-4;
-/* What a period takes at least, for a guess. */
+/* The least work of a period, for estimates. */
 static const double work_of_period = 2e-7;
 
 pendres_search_budget pendres_search_budget_of(pendres_context *ctx, double most)
@@ -93,8 +94,8 @@ typedef struct wanted {
 } wanted;
 
 /*
- * One wish of each search, then the next of each, as far as they have room: neighbours in this
- * order are alike, take equally many steps a period and so share blocks.
+ * Gather one wish of each search, then the next of each, as far as they have room. Neighbours in
+ * this order are similar, take the same number of steps a period, and so share blocks.
  */
 static pendres_status gather(size_t n, pendres_search *const *s, wanted *out)
 {
@@ -158,8 +159,8 @@ static pendres_status add_batch(const wanted *w, size_t first, size_t n)
 }
 
 /*
- * What an ensemble may cost, before any was computed: members that settle as small oscillations do,
- * and twenty times that for those that do not, or are integrated again.
+ * An estimate of an ensemble's work before any was computed: that of members which settle as small
+ * oscillations do, times twenty for those that do not, or are integrated again.
  */
 static double expected_work(const pendres_search *s, double omega)
 {
@@ -207,10 +208,10 @@ pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point
 /* ---- the first scan ---- */
 
 /*
- * A resonance of the free motion with harmonic n of the drive, near 1/n of the force's rate, is as
- * wide as damping over n. Where the drive can keep a pendulum turning over, for half a cycle each
- * way, it turns about F0 / (pi damping omega) times before the drive turns it back: with each turn
- * more or less a state may come and go.
+ * A resonance of the free motion with harmonic n of the drive, near 1/n of the force's frequency,
+ * has a width of damping over n. Where the drive can keep a pendulum turning over, for half a cycle
+ * each way, it makes about F0 / (pi damping omega) turns before the drive reverses it: with each
+ * turn more or less a state may come or go.
  */
 double pendres_search_width(const pendres_pendulum *p, double omega)
 {
@@ -223,7 +224,7 @@ double pendres_search_width(const pendres_pendulum *p, double omega)
 
 enum { PARTS = 64 };
 
-/* Widths of the response between two frequencies, summed up at PARTS points between them. */
+/* Count the widths of the response between two frequencies, cumulatively at PARTS points. */
 static void count_widths(const pendres_pendulum *p, double lower, double upper,
                          double sum[PARTS + 1])
 {
@@ -234,7 +235,8 @@ static void count_widths(const pendres_pendulum *p, double lower, double upper,
   }
 }
 
-/* Cut a part of the range such that no piece is longer than a share of the width; how many cuts. */
+/* Cut a part of the range so that no piece is longer than a share of the width; returns the number
+   of cuts. */
 static size_t cut(const pendres_pendulum *p, double lower, double upper, double share,
                   double *omega)
 {
@@ -252,7 +254,8 @@ static size_t cut(const pendres_pendulum *p, double lower, double upper, double 
   return n;
 }
 
-/* Where the coarse scan's gaps are cut: all of them, at most as many as there is room for. */
+/* Find where the gaps of the coarse scan are cut, with as many cuts as there is room for at
+   most. */
 static void find_cuts(pendres_search *s)
 {
   enum { MOST = PENDRES_SEARCH_POINTS / 2 };
@@ -270,7 +273,8 @@ static void find_cuts(pendres_search *s)
   while (s->stride < s->cuts) s->stride *= 2;
 }
 
-/* Every so many at first: a budget that ends early leaves no part of the range out. */
+/* Wish the next cuts: at first one in so many, all over the range, so that a budget that ends early
+   leaves no part of it out. */
 static void next_level(pendres_search *s)
 {
   for (; s->stride > 0 && s->wishes == 0; s->stride /= 2)

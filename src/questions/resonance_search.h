@@ -19,7 +19,7 @@ enum {
 /* What searches may cost, and have cost so far: about seconds of a processor. */
 typedef struct pendres_search_budget {
   pendres_context *ctx;
-  double most;           /* no more is begun when it is spent */
+  double most;           /* nothing more is begun when this is spent */
   double work;           /* spent so far */
   double slopes, newton; /* the context's cost when work was last added up */
   int exhausted;         /* it is spent */
@@ -54,9 +54,9 @@ void pendres_search_free(pendres_search *s);
 double pendres_scan_frequency(const pendres_scan_point *p);
 
 /*
- * Evaluate what n searches wish, which have one budget and one ensemble, and sort it in, as far as
- * room and budget go: `crowded` or `exhausted` is set if that was not all the way. Each search gets
- * what it would get alone.
+ * Evaluate the frequencies that n searches with one budget and one ensemble wish, and sort them in,
+ * as far as room and budget go: `crowded` or `exhausted` is set if they did not do for all. Each
+ * search gets what it would get alone.
  */
 pendres_status pendres_search_add(size_t n, pendres_search *const *s);
 
@@ -70,14 +70,14 @@ void pendres_search_account(pendres_search *s, double omega);
 /* Whether no more frequencies are to be looked at. */
 int pendres_search_over(const pendres_search *s);
 
-/* Whether what was found is not to be refined either: there is a reserve for that. */
+/* Whether the reserve of the budget is spent, too, by which the best that was found is refined. */
 int pendres_search_ended(const pendres_search *s);
 
 /* Width over which a response may change at a frequency: that of the resonances there. */
 double pendres_search_width(const pendres_pendulum *p, double omega);
 
-/* Wish what comes next of the first scan, which looks at the range as finely as damping demands,
-   coarse frequencies first; no wishes: it is done. */
+/* Wish the next frequencies of the first scan, which looks at the range as finely as damping
+   demands, coarsely at first. If there are no wishes, it is done. */
 pendres_status pendres_search_scan(pendres_search *s);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "engine/context_internal.h"
 
-/* Between dampings; at a small one a tenth and a fortieth of it. */
+/* The spacing of dampings; around a small damping it is a tenth, then a fortieth of that. */
 static const double first_spacing = 4e-3, last_spacing = 1e-3;
 
 enum { MOST_TRIALS = 8 };
@@ -27,7 +27,7 @@ typedef struct parabola {
   double at, top, bend;
 } parabola;
 
-/* That through three points; 0 if it does not open downwards. */
+/* Find the parabola through three points; returns 0 if it does not open downwards. */
 static int through(const double x[3], const double y[3], parabola *p)
 {
   const double left = (y[1] - y[0]) / (x[1] - x[0]), right = (y[2] - y[1]) / (x[2] - x[1]);
@@ -62,7 +62,7 @@ static pendres_status compute(pendres_context *ctx, const request *q, double mid
   return PENDRES_OK;
 }
 
-/* What the errors of the resonances make of the vertex. */
+/* How far the errors of the resonances may move the vertex. */
 static double moved(const triple *t, const parabola *p)
 {
   double sum = 0.0;
@@ -76,8 +76,8 @@ static double moved(const triple *t, const parabola *p)
 }
 
 /*
- * Size of the cubic term that parabolas lack, a sixth of the third derivative, at most: the third
- * divided difference of the fine triple and that end of the coarse one which is farther off.
+ * An upper estimate of the cubic term that parabolas lack, a sixth of the third derivative: the
+ * third divided difference of the fine triple and the farther end of the coarse one.
  */
 static double cubic_term(const triple *coarse, const triple *fine)
 {

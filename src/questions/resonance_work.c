@@ -10,9 +10,9 @@
 enum { SECTIONS = 4 /* a gap is cut into */ };
 
 /*
- * A gap with a jump is cut until it is this narrow, beside the force's rate; then its fold is
- * located, or the jump halved down to. Where members change to larger areas and to smaller ones it
- * is cut until they are apart, or so close that they are not told apart.
+ * A gap with a jump is cut until it is this narrow, relative to the force's frequency; then its
+ * fold is located, or the jump is found by halving. Where some members change to larger areas and
+ * some to smaller ones, it is cut until they are apart, or down to the narrowest gap.
  */
 static const double narrow = 2e-5, narrowest = 1e-7;
 
@@ -39,7 +39,7 @@ static void look_at_gaps(pendres_resonance_work *w)
     pendres_gap_look(&w->s.points[i], &w->s.points[i + 1], w->s.ensemble->members, &w->gap[i]);
 }
 
-/* What is certain of a point's area: members that did not settle may be on any state. */
+/* The least that a point's area can be: members that did not settle may be on any state. */
 static double certain_area(const pendres_scan_point *p)
 {
   return p->response.mean_loop_area - p->response.mean_loop_area_error;
@@ -54,7 +54,8 @@ static const pendres_scan_point *best_point(const pendres_search *s)
   return best;
 }
 
-/* A gap that cannot hold more than this is of no interest: the error of the best says as much. */
+/* A gap that cannot hold more than this is of no interest: it does not exceed the best value by
+   more than that one's error. */
 static double threshold_of(const pendres_search *s)
 {
   const pendres_response *r = &best_point(s)->response;
@@ -81,9 +82,9 @@ static double largest_bound(const pendres_resonance_work *w, double threshold)
 }
 
 /*
- * Look for a fold in the most promising gap that was not searched yet, however narrow: it takes
- * the place of the many frequencies close to it, where a ghost slows everything down. *sought:
- * there was such a gap; *found: one was added, and a frequency beside it is wished for.
+ * Look for a fold in the most promising gap that was not searched for one yet, however narrow. The
+ * fold saves many frequencies close to it, where its ghost slows everything down. *sought: there
+ * was such a gap; *found: a fold was added, and a frequency beside it is wished for.
  */
 static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *found)
 {
@@ -118,8 +119,8 @@ static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *foun
 }
 
 /*
- * Wish to cut the gaps that may hold more than the best value known, the most promising first; no
- * wishes: none is left but narrow ones, or room or budget are spent.
+ * Wish to cut the gaps that may hold more than the best value known, the most promising first. If
+ * there are no wishes, none but narrow ones are left, or room or budget are spent.
  */
 static pendres_status resolve_gaps(pendres_resonance_work *w)
 {
@@ -147,8 +148,8 @@ static pendres_status resolve_gaps(pendres_resonance_work *w)
 }
 
 /*
- * The resonance of one gap, or at the fold before it; jumps alone, or all else. *again: a jump
- * turned up in it.
+ * Compare the resonance of one gap, or that at the fold before it, with *out; jumps: look at jumps
+ * alone, or at all else. *again: a jump turned up in the gap.
  */
 static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps,
                                   pendres_resonance *out, int *again)
@@ -184,7 +185,7 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
 
 /* ---- what is left open ---- */
 
-/* Whether a gap that may hold more than an area was not resolved. */
+/* Whether a gap was not resolved that may hold more than this area. */
 static int unresolved(const pendres_resonance_work *w, size_t i, double area)
 {
   const pendres_gap *g = &w->gap[i];
@@ -211,7 +212,7 @@ static void spread(double *error, double a, double b)
 
 /*
  * A peak among gaps that were not resolved: the largest value lies in one of them, and is at most
- * `largest`. Errors are what the points around these gaps differ by.
+ * `largest`. Errors are the differences of the points around these gaps.
  */
 static void make_ragged(const pendres_resonance_work *w, double largest, pendres_resonance *out)
 {
@@ -234,7 +235,7 @@ static void make_ragged(const pendres_resonance_work *w, double largest, pendres
   r->mean_loop_area_error = out->loop_area_error;
 }
 
-/* A point of the scan as it is: no better is known. */
+/* Take a point of the scan as it is, where nothing better is known. */
 static pendres_resonance as_scanned(const pendres_scan_point *p)
 {
   return (pendres_resonance){.peak = PENDRES_PEAK_RAGGED,
@@ -256,7 +257,7 @@ static pendres_status at_the_end(const pendres_resonance_work *w, const pendres_
     low ? "lower" : "upper", pendres_scan_frequency(p));
 }
 
-/* The best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
+/* Choose the best of all smooth peaks and edges. *again: a jump turned up, to be resolved first. */
 static pendres_status choose(pendres_resonance_work *w, pendres_resonance *out, int *again)
 {
   const pendres_search *s = &w->s;
@@ -283,7 +284,7 @@ static pendres_status choose(pendres_resonance_work *w, pendres_resonance *out, 
   return PENDRES_OK;
 }
 
-/* A state that is alone at the resonance has its name from the other frequencies. */
+/* Name a state that is alone at the resonance, by the responses at the other frequencies. */
 static pendres_status name_states(const pendres_search *s, pendres_response *r)
 {
   const pendres_response *line[PENDRES_SEARCH_POINTS];

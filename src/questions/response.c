@@ -31,8 +31,8 @@ typedef struct sums {
   double area, area_error, power, power_error;
   double amplitude_share, amplitude, amplitude_error;
   double loop_share, loop_error, loop_amplitude_error;
-  double lone; /* amplitude of the only loop, NaN if there are more */
-  double rest; /* bounds the harmonics that are not kept */
+  double lone; /* the amplitude of the only loop; NaN if there are more */
+  double rest; /* a bound on the harmonics that are not kept */
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS];
   double cosine_error, sine_error; /* of the first harmonic */
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
@@ -40,12 +40,12 @@ typedef struct sums {
 
 int pendres_response_running(const pendres_attractor *a)
 {
-  /* The mean drift of a chaos that has none is within twice its error for certain. */
+  /* Where chaos has no mean drift, the drift found is within twice its error for certain. */
   return a->label == PENDRES_LABEL_CHAOTIC ? fabs(a->drift) > 2.0 * a->drift_error
                                            : a->orbit.winding != 0;
 }
 
-/* Of an attractor that no member has been found on, an uncertain one may still be. */
+/* Add an attractor to the extremes: an uncertain member may be on any of them. */
 static void add_extremes(sums *s, const pendres_attractor *a)
 {
   const pendres_orbit *o = &a->orbit;
@@ -54,7 +54,7 @@ static void add_extremes(sums *s, const pendres_attractor *a)
   if (!pendres_response_running(a)) s->widest = fmax(s->widest, o->amplitude);
 }
 
-/* Errors along and across a first harmonic, as errors of its parts. */
+/* Turn the errors along and across a first harmonic into errors of its cosine and sine. */
 static void add_harmonic_error(sums *s, const pendres_orbit *o, double share)
 {
   const double r = o->first_harmonic_amplitude;
@@ -79,7 +79,7 @@ static void add_attractor(sums *s, const pendres_attractor *a, double share)
   s->amplitude += share * o->amplitude;
   s->amplitude_error += share * o->amplitude_error;
   if (!pendres_response_has_loop(a)) return;
-  /* Of one loop alone that closes in a cycle nothing need be added up. */
+  /* One loop alone that closes in one cycle has its own amplitude: nothing is averaged. */
   s->lone = s->loop_share == 0.0 && o->period == 1 ? o->amplitude : NAN;
   s->loop_share += share;
   s->rest += share * o->harmonics_rest;
@@ -109,7 +109,7 @@ static void average_loops(pendres_response *r, sums *s, double lost, double doub
     s->cosine[m] /= s->loop_share;
     s->sine[m] /= s->loop_share;
   }
-  /* What goes from one loop to another takes from the one as well. */
+  /* A member that moves from one loop to another changes the mean twice. */
   const double moved = lost * r->mean_amplitude + 2.0 * doubt * s->widest;
   r->mean_loop_amplitude = s->lone;
   r->mean_loop_amplitude_error =
@@ -121,7 +121,7 @@ static void average_loops(pendres_response *r, sums *s, double lost, double doub
   r->phase_lag =
     pendres_orbit_phase_lag(s->cosine[0], s->sine[0], r->pendulum.drive_amplitude);
   if (isnan(r->phase_lag)) return;
-  /* Across the mean harmonic, whose direction is the lag. */
+  /* The error across the mean harmonic is that of its direction, the lag. */
   const double length = hypot(s->cosine[0], s->sine[0]);
   const double across =
     (fabs(s->sine[0]) * s->cosine_error + fabs(s->cosine[0]) * s->sine_error) / length;
@@ -149,12 +149,12 @@ static void average(pendres_response *r, const parted *p)
     if (p->attractor[i].label == PENDRES_LABEL_LA) la += (double)p->members[i];
   }
   const double members = (double)(resolved + p->lost), lost = (double)p->lost / members;
-  /* An uncertain member may belong to any state, but to one of those that are there. */
+  /* An uncertain member may belong to any of the states that are there. */
   const double doubt =
     p->attractors > 1 ? (double)r->uncertain / members + r->sampling : 0.0;
   const double area_doubt = lost * s.largest + doubt * (s.most - s.least);
   r->mean_loop_area = s.area;
-  /* A lost member may belong to any state. */
+  /* A lost member may belong to any state, known or not. */
   r->mean_loop_area_error = s.area_error + area_doubt;
   r->mean_power = s.power;
   r->mean_power_error = s.power_error + area_doubt * r->pendulum.drive_frequency / two_pi;
@@ -196,8 +196,9 @@ static size_t most_members(size_t n, const size_t *members, const char *listed)
 }
 
 /*
- * Members of each attractor, from their outcomes, and the means over all of them. Of more
- * attractors than can be listed those with the most members are. members, listed: one an attractor.
+ * Count the members of each attractor from their outcomes, and take the means over all of them. If
+ * there are more attractors than can be listed, those with the most members are listed. members and
+ * listed have one number for each attractor.
  */
 static void count_states(const pendres_catalogue *c, size_t n, const pendres_outcome *outcome,
                          size_t *members, char *listed, pendres_response *r)
@@ -329,7 +330,8 @@ pendres_status pendres_response_members(pendres_context *ctx, size_t n,
   return status;
 }
 
-/* A line is what it is; other starts are a sample, which each member's state tells of. */
+/* The members of a line are taken as they are; other starts are a sample, whose error is told from
+   each member's state. */
 static pendres_status compute(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
                               const pendres_ensemble *ensemble, pendres_response *out)
 {

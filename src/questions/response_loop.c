@@ -13,7 +13,7 @@ int pendres_response_has_loop(const pendres_attractor *a)
   return a->label != PENDRES_LABEL_CHAOTIC && a->orbit.winding == 0;
 }
 
-/* Harmonics that a trace of the attractors' orbits can tell, and the mean 0 to begin with. */
+/* The number of harmonics that a trace of the attractors' orbits determines, and the mean. */
 static size_t modes_of(size_t n, const pendres_attractor *attractor, const size_t *members)
 {
   int steps = 1;

@@ -1,8 +1,8 @@
 /*
  * response_loop.h -- the loop averaged over an ensemble where its harmonics are many.
  *
- * Owns: orbits keep 24 harmonics. A slow drive's have hundreds that matter: then the loops are
- * traced anew.
+ * Owns: averages of loops that are traced anew. Orbits keep 24 harmonics; those of a slow drive
+ * have hundreds that matter.
  */
 #ifndef PENDRES_RESPONSE_LOOP_H
 #define PENDRES_RESPONSE_LOOP_H

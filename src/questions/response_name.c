@@ -21,7 +21,7 @@ int pendres_response_nameless(const pendres_response *r)
   return 0;
 }
 
-/* SA where it coexists with LA: states that are alone have no name yet. */
+/* The orbit of SA where it coexists with LA; states that are alone have no name yet. */
 static const pendres_orbit *small_of(const pendres_response *r)
 {
   for (size_t i = 0; i < r->states; i++)

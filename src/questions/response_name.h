@@ -17,7 +17,7 @@ pendres_status pendres_response_small_end(pendres_context *ctx, size_t n,
                                           const pendres_response *const *line,
                                           pendres_parameter parameter, pendres_small_end *end);
 
-/* Name what is alone; shares are brought up to date. */
+/* Name the state that is alone, and bring shares up to date. */
 void pendres_response_name_by(const pendres_small_end *end, pendres_response *response);
 
 #endif

@@ -7,7 +7,7 @@
 #include "engine/context_internal.h"
 #include "noise/noise_common.h"
 
-/* Of the loop area, and of the first harmonic's amplitude. */
+/* The bias that steps are chosen for, of the loop area and of the first harmonic's amplitude. */
 static const double bias_wanted = 1e-4;
 
 static const pendres_response_mean none = {NAN, NAN, NAN, NAN};
@@ -18,7 +18,7 @@ typedef struct harmonic {
   double bias_c, bias_s, bias_cc, bias_ss;
 } harmonic;
 
-/* Members that a mean counts; in it, those that stay in a well and so have a loop. */
+/* Count the members in a mean, and those among them that stay in a well and so have a loop. */
 static void count_members(const pendres_response *r, double *all, double *loops)
 {
   *all = *loops = 0.0;
@@ -106,7 +106,7 @@ static void polar(const harmonic *h, pendres_response_noise *out)
     sqrt(w * w * h->bias_cc + u * u * h->bias_ss) / length};
 }
 
-/* Temperature 0: what was found without noise, to the last digit. */
+/* At temperature 0, take what was found without noise, to the last digit. */
 static void take_still(const pendres_response *r, double loops, pendres_response_noise *out)
 {
   double c = 0.0, s = 0.0;
@@ -123,7 +123,7 @@ static void take_still(const pendres_response *r, double loops, pendres_response
                                            r->mean_loop_amplitude_error, 0.0, 0.0};
 }
 
-/* The sums over all states; harmonics of those that stay in a well. */
+/* Add up all states; in the harmonics, only those that stay in a well. */
 static pendres_status add_states(pendres_context *ctx, const pendres_response *r,
                                  const pendres_langevin_request *q, harmonic *h,
                                  pendres_response_noise *out)

@@ -17,8 +17,9 @@
 static const double claimed = 2.0;
 
 /*
- * Of `members` independent starts `on` are on a state. With one more on the state and one more off
- * it, as the rule of succession has it: that none was found does not make a share of 0 exact.
+ * The error of a share if `on` of `members` independent starts are on a state. One more is counted
+ * on the state and one more off it (rule of succession): a share of 0 is not exact because none was
+ * found.
  */
 static double random_error(double on, double members)
 {
@@ -26,7 +27,7 @@ static double random_error(double on, double members)
   return claimed * sqrt(share * (1.0 - share) / (members + 2.0));
 }
 
-/* Members of a row that are on the state, and ends of stretches of them. */
+/* Count the members of a row that are on the state, and the ends of stretches of them. */
 static double count_row(const signed char *row, size_t columns, int state, double *ends)
 {
   double on = 0.0;
@@ -38,9 +39,10 @@ static double count_row(const signed char *row, size_t columns, int state, doubl
 }
 
 /*
- * Of a rectangle, as the shares of basins are estimated (basin_statistics.c): rows scatter around
- * their trend, which second differences take away; at the least, each end of a stretch in a row is
- * uncertain by a uniform share of a step. Where rows are too few, half of what they differ by.
+ * The error of a share for starts in a rectangle, estimated like that of a basin
+ * (basin_statistics.c): rows scatter around their trend, which second differences remove; at the
+ * least, each end of a stretch in a row is uncertain by a uniform share of a step. Where rows are
+ * too few, it is half of their largest difference.
  */
 static double rectangle_error(const pendres_ensemble *e, const signed char *where, int state)
 {
@@ -108,6 +110,7 @@ void pendres_response_sample(const pendres_ensemble *e, const signed char *where
     sum += e->shape == PENDRES_ENSEMBLE_RANDOM
              ? random_error((double)r->state_members[i], (double)e->members)
              : rectangle_error(e, where, (int)i);
-  /* What is on a state is not on another: of one that is alone, it is all of the rest. */
+  /* Each member that is missing on one state is on another one, and so counted twice, unless there
+     is only one state. */
   pendres_response_widen(r, r->states > 1 ? 0.5 * sum : sum);
 }

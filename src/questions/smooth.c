@@ -21,7 +21,7 @@ void pendres_smooth_add(pendres_smooth *s, long k, long n, double growth, double
   s->count++;
 }
 
-/* The mean over all; *apart becomes the largest difference of the means. */
+/* The mean over all periods; *apart receives the largest difference of the means. */
 static double mean_of(const pendres_smooth *s, const double sum[PENDRES_SMOOTH_SPANS],
                       double *apart)
 {

@@ -11,7 +11,7 @@
 #include "base/angles.h"
 #include "base/student.h"
 
-/* Rounding of an amplitude as a share of the largest. */
+/* The rounding error of an amplitude, as a share of the largest amplitude. */
 static const double rounding = 4e-15;
 
 struct pendres_spectrum {
@@ -126,7 +126,7 @@ pendres_status pendres_spectrum_add(pendres_spectrum *s, size_t n, const double 
   return status;
 }
 
-/* Standard errors of means, and rounding, which lines far below the highest one feel most. */
+/* The standard errors of means, and rounding, which counts most far below the highest line. */
 static void errors(const pendres_spectrum *s, double *error)
 {
   const double k = (double)s->segments;

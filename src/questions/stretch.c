@@ -9,16 +9,17 @@
 #include "model/model.h"
 #include "questions/lyapunov_move.h"
 
-/* Where errors grow by more than this in a map, an orbit has long been unstable. */
+/* A branch is not followed where errors grow by more than this in a map: it has long been
+   unstable. */
 static const double wildest = 3000.0;
 /* The branch is followed beyond both ends by this share of the parameter's scale. */
 static const double margin = 0.003;
-/* Points of orbits of period one; those of a doubling cascade reach less far each time. */
+/* The spacing of points for orbits of period one; each doubling of a cascade reaches less far. */
 static const double spacing = 0.05;
 
-/* Points each way; of pendulums whose rotations lock to the drive few at first, then four times as
-   many until they are enough: a lock of q periods lies on an isola that comes by all its q points,
-   of which the stretch is one stable part. */
+/* Points each way. For pendulums whose rotations lock to the drive there are few at first, then
+   four times as many until they are enough: a lock of q periods lies on a closed branch that passes
+   all of its q points, and the stretch is one stable part of it. */
 enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
 
 /* Values that differ by less, in the parameter's scale, are those of one place. */
@@ -30,7 +31,7 @@ void pendres_stretch_free(pendres_stretch *s)
   *s = pendres_stretch_none;
 }
 
-/* From the position of an orbit to that of another, whole turns of its pendulum left out. */
+/* The distance from the position of an orbit to that of another, without whole turns. */
 static double angle_between(const pendres_orbit *to, const pendres_orbit *from)
 {
   const double d = to->x - from->x, turn = pendres_model_turn(&from->pendulum);
@@ -84,8 +85,8 @@ static double ahead(const pendres_stretch *s, double value, double of)
   return (double)s->direction * (value - of);
 }
 
-/* From the place on as long as orbits are stable: sets points and the end. The number of the point
-   that told it. */
+/* Take points from the place on as long as orbits are stable; sets points and the end, and returns
+   the number of the point that told the end. */
 static size_t take_stable(pendres_stretch *s, double limit)
 {
   const pendres_branch_point *p = NULL;
@@ -102,7 +103,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
       if (met->kind == PENDRES_FOLD) break;
       continue;
     }
-    /* Next to a bifurcation, where it begins or on its way, all is a matter of rounding. */
+    /* Next to a bifurcation, at the beginning or on the way, stability is a matter of rounding. */
     const double before = met != NULL ? met->value : value_of(s, s->points - 1);
     if ((s->points == 1 || met != NULL) && fabs(value_of(s, k) - before) <= same) continue;
     turned = ahead(s, value_of(s, k), before) < -same;
@@ -137,8 +138,9 @@ static int is_enough(const pendres_stretch *s, size_t k)
          point_of(s, k + ENOUGH) != NULL;
 }
 
-/* Which way along the branch the parameter goes in the direction, from the first point to the next
-   that is not at the same place: *step; 0 if neither does. */
+/* Find which way along the branch the parameter goes in the direction of the stretch, from the
+   first point to the next that is not at the same place: sets the step, and returns 0 if neither
+   way does. */
 static int choose_way(pendres_stretch *s)
 {
   const double same = same_value * pendres_parameter_scale(s->parameter);
@@ -173,7 +175,7 @@ static size_t first_points(const pendres_orbit *orbit)
   return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
 }
 
-/* Each point costs as many drive periods as the orbit has. */
+/* The number of points that are affordable: each costs as many drive periods as the orbit has. */
 static size_t most_points(const pendres_orbit *orbit)
 {
   const size_t share = MOST_POINTS / (size_t)orbit->period;
@@ -204,7 +206,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
     if (choose_way(&s)) {
       if (is_enough(&s, take_stable(&s, limit)) || points == most) break;
     } else {
-      /* Right at its end, or nothing could be followed. */
+      /* The place is right at the end of the stretch, or nothing could be followed. */
       s.points = 1;
       s.end = PENDRES_STRETCH_LOST;
       s.end_value = from;
@@ -266,8 +268,9 @@ int pendres_stretch_holds(const pendres_stretch *s, double value)
 /* ---- orbits at values ---- */
 
 /*
- * Where to look for the orbit at a value between two points. Next to a fold the Poincaré point goes
- * with the root of the distance from it, elsewhere, nearly, with the distance itself.
+ * Where to look for the orbit at a value between two points. Next to a fold the Poincaré point
+ * moves with the square root of the distance from it, elsewhere nearly in proportion to the
+ * distance.
  */
 static pendres_orbit_guess between(const pendres_branch_point *p, const pendres_branch_point *q,
                                    pendres_parameter parameter, double value)
@@ -301,7 +304,8 @@ pendres_status pendres_stretch_orbits(pendres_context *ctx, const pendres_stretc
     while (k + 2 < s->points && ahead(s, value[i], value_of(s, k + 1)) > 0.0) k++;
     const pendres_branch_point *p = point_of(s, k);
     guess[i] = between(p, s->points > 1 ? point_of(s, k + 1) : p, s->parameter, value[i]);
-    /* Where it is born the orbit is still the other. */
+    /* At its birth the orbit is still the one that it is born from, with that period and
+       winding. */
     guess[i].period = s->period;
     guess[i].winding = s->winding;
   }

@@ -23,16 +23,16 @@ const char *pendres_quantity_name(pendres_quantity quantity)
   return (unsigned)quantity < PENDRES_QUANTITY_COUNT ? names[quantity] : NULL;
 }
 
-/* By so much the values of a range are rounded: three operations, and a decimal's own rounding. */
+/* The rounding error of the values of a range: three operations, and that of a decimal itself. */
 static double rounding_of(const pendres_range *range)
 {
   return 4.0 * DBL_EPSILON * fmax(fabs(range->first), fabs(range->last));
 }
 
 /*
- * The decimal that a value of a range stands for: the shortest within its rounding error, so that
- * 0.06 to 1 in steps of 0.01 holds 0.13 and not 0.12999999999999998. Decimals that are not much
- * farther apart than that error would be met by chance: then the value stays as it is.
+ * The decimal that a value of a range stands for is the shortest within the rounding error, so that
+ * 0.06 to 1 in steps of 0.01 holds 0.13 and not 0.12999999999999998. Where decimals are not much
+ * farther apart than that error, one would be met by chance, and the value stays as it is.
  */
 static double decimal_of(double value, double rounding)
 {
