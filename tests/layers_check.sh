@@ -14,7 +14,7 @@ src_layers='base model engine orbits noise continuation questions reference stor
 drivers_layers='terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
-src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h
+src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
   model/forces.h model/model.h
   engine/accuracy.h engine/context_internal.h engine/passage.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h

@@ -214,32 +214,29 @@ typedef struct deck {
  * Read and check a deck, a file or, as "-", standard input. On success *out is complete and the
  * caller frees it with deck_free; after
  * any error *out is all zero and errors holds every mistake in the order of the text.
- * Returns PENDRES_OK, PENDRES_INVALID_ARGUMENT (a bad deck), PENDRES_IO (no deck there) or
- * PENDRES_OUT_OF_MEMORY.
- */
-pendres_status deck_read(const char *path, deck *out, namelist_errors *errors);
-
-/**
- * The same with keys set outside of the deck, `count` texts such as "pendulum.damping=0.13": each
+ *
+ * Keys may be set outside of the deck, by `count` texts such as "pendulum.damping=0.13": each
  * takes the place of all that the deck says of the same quantity (of an axis, its list, its range
  * and its single value; of the drive, frequency and period). Their errors name the command line.
+ * Returns PENDRES_OK, PENDRES_INVALID_ARGUMENT (a bad deck), PENDRES_IO (no deck there) or
+ * PENDRES_OUT_OF_MEMORY.
  */
 pendres_status deck_read_set(const char *path, const char *const *settings, size_t count,
                              deck *out, namelist_errors *errors);
 
-/** Has it the form of a key set outside of a deck, GROUP.KEY=VALUES? */
-int deck_is_setting(const char *argument);
-
 /** The same from memory; `name` stands in messages and gives the output its default name. */
 pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
                                 namelist_errors *errors);
+
+/** Has it the form of a key set outside of a deck, GROUP.KEY=VALUES? */
+int deck_is_setting(const char *argument);
 
 /** Free what a deck holds and make it all zero; an all-zero deck is allowed. */
 void deck_free(deck *d);
 
 /**
  * Write the resolved deck, every key in use with its value, as a namelist that Fortran reads and
- * that deck_read turns into the same deck. PENDRES_IO if the stream reports an error.
+ * that deck_read_set turns into the same deck. PENDRES_IO if the stream reports an error.
  */
 pendres_status deck_dump(const deck *d, FILE *stream);
 

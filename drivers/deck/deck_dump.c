@@ -1,6 +1,6 @@
 /*
- * deck_dump.c -- the resolved deck as a namelist for Fortran and for deck_read: every key in use,
- * reals as the shortest decimals that come back to the last bit.
+ * deck_dump.c -- the resolved deck as a namelist for Fortran and for deck_read_set: every key in
+ * use, reals as the shortest decimals that come back to the last bit.
  */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L /* uselocale, open_memstream */

@@ -200,21 +200,28 @@ static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_ar
   return good;
 }
 
-static int apply_list(deck_builder *b, const deck_key *key, const namelist_array *array)
+/* All numbers of an array, in place of those that are there. */
+static int read_numbers(deck_builder *b, const deck_key *key, const namelist_array *array,
+                         double **numbers, size_t *count)
 {
-  deck_numbers *list = field(b->d, key);
   int good = 1;
-  double *number = malloc(array->count * sizeof *number);
-  if (number == NULL) {
+  double *read = malloc(array->count * sizeof *read);
+  if (read == NULL) {
     b->out_of_memory = 1;
     return 0;
   }
   for (size_t i = 0; i < array->count; i++)
-    if (!read_real(b, key, array->item[i], key->name, &number[i])) good = 0;
-  free(list->number);
-  list->number = number;
-  list->count = good ? array->count : 0;
+    if (!read_real(b, key, array->item[i], key->name, &read[i])) good = 0;
+  free(*numbers);
+  *numbers = read;
+  *count = good ? array->count : 0;
   return good;
+}
+
+static int apply_list(deck_builder *b, const deck_key *key, const namelist_array *array)
+{
+  deck_numbers *list = field(b->d, key);
+  return read_numbers(b, key, array, &list->number, &list->count);
 }
 
 static int apply_range(deck_builder *b, const deck_key *key, const namelist_array *array,
@@ -254,18 +261,7 @@ static int apply_range(deck_builder *b, const deck_key *key, const namelist_arra
 static int apply_listed(deck_builder *b, const deck_key *key, const namelist_array *array)
 {
   deck_axis *axis = &b->d->axis[key->axis];
-  int good = 1;
-  double *listed = malloc(array->count * sizeof *listed);
-  if (listed == NULL) {
-    b->out_of_memory = 1;
-    return 0;
-  }
-  for (size_t i = 0; i < array->count; i++)
-    if (!read_real(b, key, array->item[i], key->name, &listed[i])) good = 0;
-  free(axis->listed);
-  axis->listed = listed;
-  axis->listed_count = good ? array->count : 0;
-  return good;
+  return read_numbers(b, key, array, &axis->listed, &axis->listed_count);
 }
 
 /* ---- any key ------------------------------------------------------------------------------- */

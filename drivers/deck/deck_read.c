@@ -194,11 +194,6 @@ pendres_status deck_read_set(const char *path, const char *const *settings, size
   return finish(status, &nl, settings, count, out, errors);
 }
 
-pendres_status deck_read(const char *path, deck *out, namelist_errors *errors)
-{
-  return deck_read_set(path, NULL, 0, out, errors);
-}
-
 pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
                                 namelist_errors *errors)
 {

@@ -204,7 +204,8 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
   return PENDRES_OK;
 }
 
-scene_failure scene_along_failure(const pendres_hysteresis_point *point)
+/* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */
+static scene_failure failure_of(const pendres_hysteresis_point *point)
 {
   if (point->attractor.label != PENDRES_LABEL_UNRESOLVED) return SCENE_FAILURE_NONE;
   return not_reached(point) ? SCENE_FAILURE_OUT_OF_TIME : SCENE_FAILURE_UNRESOLVED;
@@ -223,7 +224,7 @@ scene_along_row *scene_along_rows(const scene_along_path *path)
     const pendres_attractor *a = &p->attractor;
     const pendres_orbit *o = &a->orbit;
     const double closed = scene_along_closed(p) ? 0.0 : NAN;
-    const scene_failure failed = scene_along_failure(p);
+    const scene_failure failed = failure_of(p);
     rows[i] = (scene_along_row){
       .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
       .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
@@ -265,7 +266,7 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
   static const char *const words[] = { "upwards", "downwards" };
   const size_t values = path->points / (size_t)ways;
   for (size_t i = 0; i < path->points; i++) {
-    const scene_failure failed = scene_along_failure(&path->point[i]);
+    const scene_failure failed = failure_of(&path->point[i]);
     if (failed == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
     scene_failure_tell(run, failed, NULL, "%s %.10g, %s", deck_axis_name(axis),

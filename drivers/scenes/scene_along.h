@@ -47,9 +47,6 @@ pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, co
 /* Take over such a record. */
 pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
 
-/* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */
-scene_failure scene_along_failure(const pendres_hysteresis_point *point);
-
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);
 

@@ -109,6 +109,32 @@ pendres_status hard_naive_context(hard_sheet *sheet, double tolerance, pendres_c
   return hard_context(sheet, &options, out);
 }
 
+pendres_status hard_ways_open(hard_sheet *sheet, const pendres_options *options,
+                              double naive_tolerance, hard_ways *out)
+{
+  *out = (hard_ways){ NULL, NULL };
+  const pendres_status status = hard_context(sheet, options, &out->ours);
+  if (status != PENDRES_OK) return status;
+  return hard_naive_context(sheet, naive_tolerance, &out->naive);
+}
+
+void hard_ways_close(hard_ways *ways)
+{
+  pendres_context_free(ways->naive);
+  pendres_context_free(ways->ours);
+}
+
+pendres_status hard_orbit(hard_sheet *sheet, pendres_context *ctx, const pendres_pendulum *p,
+                          double x, double v, pendres_orbit *out)
+{
+  const pendres_orbit_guess g = { .pendulum = *p, .x = x, .v = v, .period = 1 };
+  pendres_status outcome = PENDRES_OK;
+  const pendres_status status =
+    pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, out, &outcome);
+  if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
+  return outcome != PENDRES_NOT_CONVERGED ? PENDRES_OK : hard_failed(sheet, outcome, NULL);
+}
+
 pendres_status hard_failed(hard_sheet *sheet, pendres_status status, const pendres_context *ctx)
 {
   const char *words = ctx != NULL ? pendres_context_message(ctx) : "";

@@ -90,6 +90,18 @@ pendres_status hard_context(hard_sheet *sheet, const pendres_options *options,
 /* What comes without further thought: plain adaptive ARKODE, all but the tolerance as it comes. */
 pendres_status hard_naive_context(hard_sheet *sheet, double tolerance, pendres_context **out);
 
+/* A context of each kind, for a case that goes both ways. To be closed even where this fails. */
+typedef struct hard_ways {
+  pendres_context *ours, *naive;
+} hard_ways;
+pendres_status hard_ways_open(hard_sheet *sheet, const pendres_options *options,
+                              double naive_tolerance, hard_ways *out);
+void hard_ways_close(hard_ways *ways);
+
+/* The orbit of period 1 that Newton's method gets to from (x, v): it fails where there is none. */
+pendres_status hard_orbit(hard_sheet *sheet, pendres_context *ctx, const pendres_pendulum *p,
+                          double x, double v, pendres_orbit *out);
+
 /* Keep the words of a context (NULL: out of memory) on a failure; returns the status. */
 pendres_status hard_failed(hard_sheet *sheet, pendres_status status, const pendres_context *ctx);
 

@@ -87,16 +87,16 @@ static pendres_status watch_tops(pendres_context *ctx, const pendres_pendulum *p
 }
 
 static pendres_status put_tops(hard_sheet *sheet, const char *name, double damping,
-                               pendres_context *ctx, pendres_context *naive)
+                               const hard_ways *way)
 {
   const pendres_pendulum p = { .damping = damping, .drive_frequency = 1.0 };
   fall ours = { .most_claimed = INFINITY }, theirs = { .most_claimed = INFINITY };
-  pendres_context_cost_reset(ctx);
-  pendres_status status = watch_tops(ctx, &p, &ours);
-  if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
-  const double bound = moved_by_rounding(ours.rate, 2.0 * pi / steps_a_period(ctx));
-  status = watch_tops(naive, &p, &theirs);
-  if (status != PENDRES_OK) return hard_failed(sheet, status, naive);
+  pendres_context_cost_reset(way->ours);
+  pendres_status status = watch_tops(way->ours, &p, &ours);
+  if (status != PENDRES_OK) return hard_failed(sheet, status, way->ours);
+  const double bound = moved_by_rounding(ours.rate, 2.0 * pi / steps_a_period(way->ours));
+  status = watch_tops(way->naive, &p, &theirs);
+  if (status != PENDRES_OK) return hard_failed(sheet, status, way->naive);
   return hard_sheet_add(sheet, name,
                         "a start on the top: distance from it within 4 drive periods, as if moved "
                         "at the start",
@@ -105,24 +105,23 @@ static pendres_status put_tops(hard_sheet *sheet, const char *name, double dampi
 
 /* The time of a fall from d beside the top is log(8 / d) to within d^2: an error e of the start
    comes e / d too early or late, and speeds and accelerations are at most 2. */
-static pendres_status put_fall(hard_sheet *sheet, double d, pendres_context *ctx,
-                               pendres_context *naive)
+static pendres_status put_fall(hard_sheet *sheet, double d, const hard_ways *way)
 {
   const pendres_pendulum p = { .drive_frequency = 1.0 };
   const double x0 = 1.5 * pi - d;
-  pendres_context *const way[] = { ctx, naive };
+  pendres_context *const each[] = { way->ours, way->naive };
   double error[2] = { NAN, NAN }, bound = NAN;
   /* Within the four periods of a fall an error of the start grows by up to 1 / d. */
   fall f[2] = { { .most_claimed = 0.1 }, { .most_claimed = INFINITY } };
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < 2 && status == PENDRES_OK; i++) {
     double x = x0, v = 0.0;
-    pendres_context_cost_reset(way[i]);
-    status = watch(way[i], &p, x0, &f[i]);
-    if (i == 0) bound = moved_by_rounding(f[i].rate, 2.0 * pi / steps_a_period(ctx));
-    if (status == PENDRES_OK) status = pendres_strobe_advance(way[i], 1, &p, &x, &v, FALLEN, NULL);
+    pendres_context_cost_reset(each[i]);
+    status = watch(each[i], &p, x0, &f[i]);
+    if (i == 0) bound = moved_by_rounding(f[i].rate, 2.0 * pi / steps_a_period(way->ours));
+    if (status == PENDRES_OK) status = pendres_strobe_advance(each[i], 1, &p, &x, &v, FALLEN, NULL);
     if (status == PENDRES_OK) status = error_from_rest(&p, x0, FALLEN, x, v, &error[i]);
-    if (status != PENDRES_OK) (void)hard_failed(sheet, status, way[i]);
+    if (status != PENDRES_OK) (void)hard_failed(sheet, status, each[i]);
   }
   if (status == PENDRES_OK)
     status = hard_sheet_add_at(sheet, "equilibrium", d,
@@ -164,15 +163,13 @@ static pendres_status put_multiplier(hard_sheet *sheet, pendres_context *ctx, do
 pendres_status hard_equilibrium(hard_sheet *sheet)
 {
   const pendres_options options = { .tolerance = 1e-12 };
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, options.tolerance, &naive);
-  if (status == PENDRES_OK) status = put_tops(sheet, "equilibrium_undamped", 0.0, ctx, naive);
-  if (status == PENDRES_OK) status = put_tops(sheet, "equilibrium_damped", 0.2, ctx, naive);
-  if (status == PENDRES_OK) status = put_fall(sheet, 1e-12, ctx, naive);
-  if (status == PENDRES_OK) status = put_multiplier(sheet, ctx, options.tolerance);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, options.tolerance, &way);
+  if (status == PENDRES_OK) status = put_tops(sheet, "equilibrium_undamped", 0.0, &way);
+  if (status == PENDRES_OK) status = put_tops(sheet, "equilibrium_damped", 0.2, &way);
+  if (status == PENDRES_OK) status = put_fall(sheet, 1e-12, &way);
+  if (status == PENDRES_OK) status = put_multiplier(sheet, way.ours, options.tolerance);
+  hard_ways_close(&way);
   return status;
 }
 
@@ -200,19 +197,18 @@ pendres_status hard_separatrix(hard_sheet *sheet)
   const double tolerance = 1e-12;
   const pendres_options options = { .tolerance = tolerance };
   double worst = 0.0, worst_naive = 0.0;
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, tolerance, &naive);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, tolerance, &way);
   for (int k = 3; k <= 12 && status == PENDRES_OK; k++) {
     const double a = pi - pow(10.0, -k), exact = pendres_free_frequency(a);
     const double d = (pi - a) + 2.0 * half_pi_low, quarter = 0.5 * pi / exact;
     double ours = NAN, error = NAN, theirs = NAN, their_error = NAN;
     pendres_cost cost;
-    pendres_context_cost_reset(ctx);
-    status = free_frequency(sheet, ctx, a, &ours, &error);
-    if (status == PENDRES_OK) status = free_frequency(sheet, naive, a, &theirs, &their_error);
+    pendres_context_cost_reset(way.ours);
+    status = free_frequency(sheet, way.ours, a, &ours, &error);
+    if (status == PENDRES_OK) status = free_frequency(sheet, way.naive, a, &theirs, &their_error);
     if (status != PENDRES_OK) break;
-    pendres_context_cost(ctx, &cost);
+    pendres_context_cost(way.ours, &cost);
     const double moved = moved_by_rounding(1.0, quarter / cost.steps);
     status = hard_sheet_add_at(sheet, "separatrix", pow(10.0, -k),
                                "relative error of the frequency at amplitude pi less this",
@@ -226,8 +222,7 @@ pendres_status hard_separatrix(hard_sheet *sheet)
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "separatrix_estimate", "error over its estimate, the worst of "
                             "these amplitudes", worst, 10.0, worst_naive);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways_close(&way);
   return status;
 }
 
@@ -268,18 +263,16 @@ pendres_status hard_energy(hard_sheet *sheet)
   pendres_pendulum p[SWINGS];
   double ours = NAN, theirs = NAN;
   char quantity[sizeof sheet->row->quantity];
-  pendres_context *ctx = NULL, *naive = NULL;
+  hard_ways way;
   for (int i = 0; i < SWINGS; i++) p[i] = (pendres_pendulum){ .drive_frequency = 1.0 };
-  pendres_status status = hard_context(sheet, &options, &ctx);
   /* Theirs is a tolerance of a step, not of the run. */
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, 1e-8, &naive);
-  if (status == PENDRES_OK) status = drift(sheet, ctx, p, periods, &ours);
-  if (status == PENDRES_OK) status = drift(sheet, naive, p, (periods + 99) / 100, &theirs);
+  pendres_status status = hard_ways_open(sheet, &options, 1e-8, &way);
+  if (status == PENDRES_OK) status = drift(sheet, way.ours, p, periods, &ours);
+  if (status == PENDRES_OK) status = drift(sheet, way.naive, p, (periods + 99) / 100, &theirs);
   (void)snprintf(quantity, sizeof quantity, "largest change of the energy, of eight amplitudes, "
                  "in %g periods (naive: in a hundredth of them)", (double)periods);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "energy", quantity, ours, 2.0 * options.tolerance, theirs);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways_close(&way);
   return status;
 }

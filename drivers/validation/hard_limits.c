@@ -64,12 +64,12 @@ static pendres_status follow(hard_sheet *sheet, pendres_context *ctx, int estima
 /* Errors claimed at tolerances of 1e-13, and relative ones at any: more would not be an answer. */
 static const double most_claimed = 1e-6;
 
-static pendres_status put_advanced(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive)
+static pendres_status put_advanced(hard_sheet *sheet, const hard_ways *way)
 {
   crowd ours, theirs;
   double silent = 0.0, worst = 0.0, missed = 0.0;
-  pendres_status status = follow(sheet, ctx, 1, &ours);
-  if (status == PENDRES_OK) status = follow(sheet, naive, 0, &theirs);
+  pendres_status status = follow(sheet, way->ours, 1, &ours);
+  if (status == PENDRES_OK) status = follow(sheet, way->naive, 0, &theirs);
   for (int i = 0; i < STARTS && status == PENDRES_OK; i++) {
     silent += !(ours.error[i] <= tightest) && !(ours.estimate[i] > tightest);
     worst = hard_larger(worst, hard_over_claim(ours.error[i], ours.estimate[i], most_claimed));
@@ -111,7 +111,7 @@ static pendres_status orbit_error(pendres_context *ctx, const pendres_orbit_gues
 
 /* Damping from next to none to strong, at frequencies about the resonance. Where it is 1 all that
    is not the orbit is gone after 12 periods (exp(-34)): there the naive way gets to it too. */
-static pendres_status put_orbits(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive)
+static pendres_status put_orbits(hard_sheet *sheet, const hard_ways *way)
 {
   static const double damping[DAMPINGS] = { 0.001, 0.01, 0.05, 0.12, 0.24, 0.5, 1.0, 5.0 };
   static const double frequency[FREQUENCIES] = { 0.5, 0.7, 0.8, 0.9, 1.1 };
@@ -130,13 +130,13 @@ static pendres_status put_orbits(hard_sheet *sheet, pendres_context *ctx, pendre
     h.amplitude = fmin(h.amplitude, 1.0);
     g.x = 0.5 * pi + h.amplitude * cos(h.phase_lag);
     g.v = g.pendulum.drive_frequency * h.amplitude * sin(h.phase_lag);
-    status = orbit_error(ctx, &g, &error, &cycle);
-    if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
+    status = orbit_error(way->ours, &g, &error, &cycle);
+    if (status != PENDRES_OK) return hard_failed(sheet, status, way->ours);
     ours = hard_larger(ours, error);
     if (g.pendulum.damping != 1.0) continue;
     double x = g.x, v = g.v;
-    status = pendres_strobe_advance(naive, 1, &g.pendulum, &x, &v, SETTLED, NULL);
-    if (status != PENDRES_OK) return hard_failed(sheet, status, naive);
+    status = pendres_strobe_advance(way->naive, 1, &g.pendulum, &x, &v, SETTLED, NULL);
+    if (status != PENDRES_OK) return hard_failed(sheet, status, way->naive);
     theirs = hard_larger(theirs, point_error(&cycle, x, v));
   }
   return hard_sheet_add(sheet, "tolerance_orbits", "largest error of orbits said to be good to "
@@ -151,14 +151,12 @@ static pendres_status put_orbits(hard_sheet *sheet, pendres_context *ctx, pendre
 pendres_status hard_tolerance(hard_sheet *sheet)
 {
   const pendres_options options = { .tolerance = tightest };
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, tightest, &naive);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, tightest, &way);
   if (status == PENDRES_OK) status = put_refused(sheet);
-  if (status == PENDRES_OK) status = put_advanced(sheet, ctx, naive);
-  if (status == PENDRES_OK) status = put_orbits(sheet, ctx, naive);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  if (status == PENDRES_OK) status = put_advanced(sheet, &way);
+  if (status == PENDRES_OK) status = put_orbits(sheet, &way);
+  hard_ways_close(&way);
   return status;
 }
 
@@ -172,42 +170,42 @@ static pendres_pendulum driven_by(double drive_amplitude)
                              .drive_amplitude = drive_amplitude };
 }
 
-/* The orbit by Newton's method from (x, v), and where the naive way gets to from there. */
-static pendres_status both_ways(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive,
-                                double drive_amplitude, double x, double v, long wait,
-                                pendres_orbit *o, double *naive_x, double *naive_v)
-{
-  const pendres_orbit_guess g = { .pendulum = driven_by(drive_amplitude), .x = x, .v = v,
-                                  .period = 1 };
-  pendres_status outcome = PENDRES_OK;
-  pendres_status status = pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, o, &outcome);
-  if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
-  if (outcome == PENDRES_NOT_CONVERGED) return hard_failed(sheet, outcome, NULL);
-  *naive_x = x;
-  *naive_v = v;
-  status = pendres_strobe_advance(naive, 1, &g.pendulum, naive_x, naive_v, wait, NULL);
-  return status == PENDRES_OK ? status : hard_failed(sheet, status, naive);
-}
-
 /* Drive periods in which a free oscillation falls below a double's last digit. */
 static long until_gone(void)
 {
   return (long)ceil(-log(DBL_EPSILON) / (0.5 * drive_damping) * drive_frequency / (2.0 * pi));
 }
 
+typedef struct reached {
+  pendres_orbit orbit;
+  double x, v; /* by the naive way, where nothing is left of the start */
+} reached;
+
+/* The orbit by Newton's method from (x, v), and where the naive way gets to from there. */
+static pendres_status both_ways(hard_sheet *sheet, const hard_ways *way, double drive_amplitude,
+                                double x, double v, reached *out)
+{
+  const pendres_pendulum p = driven_by(drive_amplitude);
+  pendres_status status = hard_orbit(sheet, way->ours, &p, x, v, &out->orbit);
+  if (status != PENDRES_OK) return status;
+  out->x = x;
+  out->v = v;
+  status = pendres_strobe_advance(way->naive, 1, &p, &out->x, &out->v, until_gone(), NULL);
+  return status == PENDRES_OK ? status : hard_failed(sheet, status, way->naive);
+}
+
 /* Without a drive the orbit is rest. The last step of Newton's method is below 1e-7 and rounded to
    DBL_EPSILON of itself; there is nothing that could have a phase lag. */
-static pendres_status put_no_drive(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive)
+static pendres_status put_no_drive(hard_sheet *sheet, const hard_ways *way)
 {
-  pendres_orbit o;
-  double x, v;
-  const pendres_status status =
-    both_ways(sheet, ctx, naive, 0.0, 0.5 * pi + 0.3, 0.0, until_gone(), &o, &x, &v);
+  reached r;
+  const pendres_status status = both_ways(sheet, way, 0.0, 0.5 * pi + 0.3, 0.0, &r);
   if (status != PENDRES_OK) return status;
+  const pendres_orbit o = r.orbit;
   const double off = hard_larger(o.amplitude, hard_larger(fabs(o.x - 0.5 * pi), fabs(o.v)));
   return hard_sheet_add(sheet, "drive_0", "no drive: how far the orbit is from rest, if it has no "
                         "phase lag", isnan(o.phase_lag) ? off : INFINITY, 1e-7 * DBL_EPSILON,
-                        hard_larger(fabs(x - 0.5 * pi), fabs(v)));
+                        hard_larger(fabs(r.x - 0.5 * pi), fabs(r.v)));
 }
 
 /*
@@ -215,18 +213,17 @@ static pendres_status put_no_drive(hard_sheet *sheet, pendres_context *ctx, pend
  * order one, ten times the tolerance at the start of the search for steps, and the orbit feels it
  * enlarged by 1 / (1 - |multiplier|). Denormal numbers add a last place of theirs each step.
  */
-static pendres_status put_small_drive(hard_sheet *sheet, pendres_context *ctx,
-                                      pendres_context *naive, double drive_amplitude)
+static pendres_status put_small_drive(hard_sheet *sheet, const hard_ways *way,
+                                      double drive_amplitude)
 {
   const pendres_pendulum p = driven_by(drive_amplitude);
   pendres_harmonic h;
-  pendres_orbit o;
-  double x, v;
+  reached r;
   pendres_status status = pendres_harmonic_response(&p, &h);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
-  status = both_ways(sheet, ctx, naive, drive_amplitude, 0.5 * pi + 0.3, 0.0, until_gone(), &o, &x,
-                     &v);
+  status = both_ways(sheet, way, drive_amplitude, 0.5 * pi + 0.3, 0.0, &r);
   if (status != PENDRES_OK) return status;
+  const pendres_orbit o = r.orbit;
   const double resolvent = 1.0 / -expm1(-pi * drive_damping / drive_frequency);
   const double wanted_v = drive_frequency * h.amplitude * sin(h.phase_lag);
   return hard_sheet_add_at(sheet, "drive", drive_amplitude,
@@ -235,7 +232,7 @@ static pendres_status put_small_drive(hard_sheet *sheet, pendres_context *ctx,
                                        fabs(o.phase_lag - h.phase_lag)),
                            resolvent * (10.0 * drive_tolerance +
                                         o.steps * DBL_TRUE_MIN / h.amplitude),
-                           fabs(v - wanted_v) / h.amplitude);
+                           fabs(r.v - wanted_v) / h.amplitude);
 }
 
 /*
@@ -245,20 +242,19 @@ static pendres_status put_small_drive(hard_sheet *sheet, pendres_context *ctx,
  * (frequency / damping) times as much. That adds up at random over the steps of a period, three
  * standard errors of it, and by 1 / (1 - |multiplier|) over periods.
  */
-static pendres_status put_strong_drive(hard_sheet *sheet, pendres_context *ctx,
-                                       pendres_context *naive)
+static pendres_status put_strong_drive(hard_sheet *sheet, const hard_ways *way)
 {
   const double drive_amplitude = 1e3;
   const double a = drive_amplitude / (drive_frequency * hypot(drive_frequency, drive_damping));
   const double lag = atan2(drive_damping, -drive_frequency);
   const pendres_pendulum p = driven_by(drive_amplitude);
   pendres_reference_cycle c;
-  pendres_orbit o;
-  double x, v;
+  reached r;
   pendres_status status =
-    both_ways(sheet, ctx, naive, drive_amplitude, 1.5 * pi + a * cos(lag),
-              a * drive_frequency * sin(lag), until_gone(), &o, &x, &v);
+    both_ways(sheet, way, drive_amplitude, 1.5 * pi + a * cos(lag),
+              a * drive_frequency * sin(lag), &r);
   if (status != PENDRES_OK) return status;
+  const pendres_orbit o = r.orbit;
   status = pendres_reference_orbit(&p, (long double)o.x - half_pi_exact, o.v, 1, 0, &c);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
   const double off[] = { (double)fabsl(o.amplitude - c.amplitude),
@@ -270,8 +266,8 @@ static pendres_status put_strong_drive(hard_sheet *sheet, pendres_context *ctx,
   status = hard_sheet_add(sheet, "drive_1e3", "a drive of 1000: relative error of the amplitude "
                           "(naive: of the state, by waiting)", off[0] / a,
                           rounding + drive_tolerance / a,
-                          hypot(remainder(x - 0.5 * pi - (double)c.y, 2.0 * pi),
-                                v - (double)c.v) / a);
+                          hypot(remainder(r.x - 0.5 * pi - (double)c.y, 2.0 * pi),
+                                r.v - (double)c.v) / a);
   if (status != PENDRES_OK) return status;
   const double worst =
     hard_larger(hard_over_claim(off[0], o.amplitude_error, most_claimed * a),
@@ -313,22 +309,21 @@ static pendres_status put_strong_and_tight(hard_sheet *sheet)
  * A free pendulum, undamped, started with a speed that only denormal numbers hold: v = v0 cos t, to
  * the tolerance as any other of order one, and a last place of denormals each step.
  */
-static pendres_status put_denormal_start(hard_sheet *sheet, pendres_context *ctx,
-                                         pendres_context *naive)
+static pendres_status put_denormal_start(hard_sheet *sheet, const hard_ways *way)
 {
   const double v0 = 1e-310, t = PERIODS * 2.0 * pi / drive_frequency;
   const pendres_pendulum p = { .drive_frequency = drive_frequency };
-  pendres_context *const way[] = { ctx, naive };
+  pendres_context *const each[] = { way->ours, way->naive };
   double error[2] = { NAN, NAN };
   pendres_cost cost;
-  pendres_context_cost_reset(ctx);
+  pendres_context_cost_reset(way->ours);
   for (int i = 0; i < 2; i++) {
     double x = 0.5 * pi, v = v0;
-    const pendres_status status = pendres_strobe_advance(way[i], 1, &p, &x, &v, PERIODS, NULL);
-    if (status != PENDRES_OK) return hard_failed(sheet, status, way[i]);
+    const pendres_status status = pendres_strobe_advance(each[i], 1, &p, &x, &v, PERIODS, NULL);
+    if (status != PENDRES_OK) return hard_failed(sheet, status, each[i]);
     error[i] = fabs(v / v0 - cos(t));
   }
-  pendres_context_cost(ctx, &cost);
+  pendres_context_cost(way->ours, &cost);
   return hard_sheet_add_at(sheet, "drive_start", v0, "a start with so small a speed, no drive, no "
                            "damping: its error over the start", error[0],
                            drive_tolerance + cost.steps * DBL_TRUE_MIN / v0, error[1]);
@@ -338,16 +333,14 @@ static pendres_status put_denormal_start(hard_sheet *sheet, pendres_context *ctx
 pendres_status hard_drive(hard_sheet *sheet)
 {
   const pendres_options options = { .tolerance = drive_tolerance };
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, drive_tolerance, &naive);
-  if (status == PENDRES_OK) status = put_no_drive(sheet, ctx, naive);
-  if (status == PENDRES_OK) status = put_small_drive(sheet, ctx, naive, 1e-300);
-  if (status == PENDRES_OK) status = put_small_drive(sheet, ctx, naive, 1e-310);
-  if (status == PENDRES_OK) status = put_denormal_start(sheet, ctx, naive);
-  if (status == PENDRES_OK) status = put_strong_drive(sheet, ctx, naive);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, drive_tolerance, &way);
+  if (status == PENDRES_OK) status = put_no_drive(sheet, &way);
+  if (status == PENDRES_OK) status = put_small_drive(sheet, &way, 1e-300);
+  if (status == PENDRES_OK) status = put_small_drive(sheet, &way, 1e-310);
+  if (status == PENDRES_OK) status = put_denormal_start(sheet, &way);
+  if (status == PENDRES_OK) status = put_strong_drive(sheet, &way);
   if (status == PENDRES_OK) status = put_strong_and_tight(sheet);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways_close(&way);
   return status;
 }

@@ -17,18 +17,6 @@ static double off_point(const pendres_reference_cycle *c, double x, double v)
   return hard_larger((double)fabsl(remainderl(y, 4.0L * half_pi_exact)), (double)fabsl(v - c->v));
 }
 
-/* Newton's orbit next to a guess; out->stable = -1 if there is none. */
-static pendres_status find_orbit(hard_sheet *sheet, pendres_context *ctx,
-                                 const pendres_pendulum *p, double x, double v, pendres_orbit *out)
-{
-  const pendres_orbit_guess g = { .pendulum = *p, .x = x, .v = v, .period = 1 };
-  pendres_status outcome = PENDRES_OK;
-  const pendres_status status =
-    pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, out, &outcome);
-  if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
-  return outcome != PENDRES_NOT_CONVERGED ? PENDRES_OK : hard_failed(sheet, outcome, NULL);
-}
-
 static pendres_status refer(hard_sheet *sheet, const pendres_orbit *o, pendres_reference_cycle *c)
 {
   const pendres_status status =
@@ -81,7 +69,7 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
     pendres_status status = pendres_harmonic_response(&w->p[i], &h);
     if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
     const double y = i < SMALL ? h.amplitude * cos(h.phase_lag) : -4.0 * sqrt(1.0 - frequency[i]);
-    status = find_orbit(sheet, ctx, &w->p[i], 0.5 * pi + y, 0.0, &w->orbit[i]);
+    status = hard_orbit(sheet, ctx, &w->p[i], 0.5 * pi + y, 0.0, &w->orbit[i]);
     if (status == PENDRES_OK) status = refer(sheet, &w->orbit[i], &c);
     if (status != PENDRES_OK) return status;
     w->estimate = hard_larger(w->estimate, orbit_underestimated(&w->orbit[i], &c));
@@ -151,13 +139,13 @@ pendres_status hard_weak_damping(hard_sheet *sheet)
   const double left = 10.0 * weak_beside * exp(-0.5 * damping * (double)periods * shortest);
   double ours = NAN, theirs = NAN, wrong = NAN;
   weak w;
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, weak_tolerance, &naive);
-  if (status == PENDRES_OK) status = weak_orbits(sheet, ctx, damping, &w);
-  if (status == PENDRES_OK) status = weak_wait(sheet, ctx, &w, 0, 1, periods, &ours);
-  if (status == PENDRES_OK) status = weak_wait(sheet, naive, &w, 1, SMALL - 1, periods, &theirs);
-  if (status == PENDRES_OK) status = weak_settle(sheet, ctx, &w, &wrong);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, weak_tolerance, &way);
+  if (status == PENDRES_OK) status = weak_orbits(sheet, way.ours, damping, &w);
+  if (status == PENDRES_OK) status = weak_wait(sheet, way.ours, &w, 0, 1, periods, &ours);
+  if (status == PENDRES_OK)
+    status = weak_wait(sheet, way.naive, &w, 1, SMALL - 1, periods, &theirs);
+  if (status == PENDRES_OK) status = weak_settle(sheet, way.ours, &w, &wrong);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "weak_wait", "damping 1e-4: orbits by Newton's method less "
                             "where pendulums are after 1e5 periods (naive: two of seven)",
@@ -168,8 +156,7 @@ pendres_status hard_weak_damping(hard_sheet *sheet)
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "weak_labels", "of seven starts beside them, those not labelled "
                             "as settling on them", wrong, 0.0, NAN);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways_close(&way);
   return status;
 }
 
@@ -184,7 +171,7 @@ typedef struct ways {
   double naive_error; /* of the point, by waiting */
 } ways;
 
-static pendres_status both_ways(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive,
+static pendres_status both_ways(hard_sheet *sheet, const hard_ways *way,
                                 double drive_amplitude, double drive_frequency, ways *w)
 {
   const pendres_pendulum p = { .damping = frequency_damping, .drive_amplitude = drive_amplitude,
@@ -192,7 +179,7 @@ static pendres_status both_ways(hard_sheet *sheet, pendres_context *ctx, pendres
   const double slow = asin(fmin(drive_amplitude, 1.0));
   const double fast = -drive_amplitude / (drive_frequency * drive_frequency);
   double x = 0.5 * pi + (drive_frequency < 1.0 ? slow : fast), v = 0.0;
-  pendres_status status = find_orbit(sheet, ctx, &p, x, v, &w->orbit);
+  pendres_status status = hard_orbit(sheet, way->ours, &p, x, v, &w->orbit);
   if (status == PENDRES_OK) status = refer(sheet, &w->orbit, &w->cycle);
   if (status != PENDRES_OK) return status;
   w->error = hard_larger(off_point(&w->cycle, w->orbit.x, w->orbit.v),
@@ -200,9 +187,9 @@ static pendres_status both_ways(hard_sheet *sheet, pendres_context *ctx, pendres
                                      (double)fabsl(w->orbit.amplitude - w->cycle.amplitude)));
   /* Until a free oscillation has died down to a double's last digit. */
   const double gone = -log(DBL_EPSILON) / (0.5 * frequency_damping);
-  status = pendres_strobe_advance(naive, 1, &p, &x, &v,
+  status = pendres_strobe_advance(way->naive, 1, &p, &x, &v,
                                   (long)ceil(gone * drive_frequency / (2.0 * pi)), NULL);
-  if (status != PENDRES_OK) return hard_failed(sheet, status, naive);
+  if (status != PENDRES_OK) return hard_failed(sheet, status, way->naive);
   w->naive_error = off_point(&w->cycle, x, v);
   return PENDRES_OK;
 }
@@ -225,11 +212,11 @@ static pendres_status put_ways(hard_sheet *sheet, const char *name, const char *
  * small F0, and the powers of 1 / cos y that large angles add do not make it five times as much at
  * F0 = 0.9 (cos y >= 0.43: two of them).
  */
-static pendres_status put_slow(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive)
+static pendres_status put_slow(hard_sheet *sheet, const hard_ways *way)
 {
   const double w = 1e-3, f = 0.9;
   ways ways;
-  pendres_status status = both_ways(sheet, ctx, naive, f, w, &ways);
+  pendres_status status = both_ways(sheet, way, f, w, &ways);
   if (status == PENDRES_OK)
     status = put_ways(sheet, "frequency_1e-3", "frequency_1e-3_estimate", "drive frequency 0.001, "
                       "F0 = 0.9: largest error of point, loop area, amplitude", &ways);
@@ -245,12 +232,12 @@ static pendres_status put_slow(hard_sheet *sheet, pendres_context *ctx, pendres_
  * share of the amplitude a is 1 / w^2 of that, a^2 / (8 w^2) = 3e-13. Beside it a drive that shakes
  * the pendulum over one radian.
  */
-static pendres_status put_fast(hard_sheet *sheet, pendres_context *ctx, pendres_context *naive)
+static pendres_status put_fast(hard_sheet *sheet, const hard_ways *way)
 {
   const double w = 50.0;
   ways ways;
   pendres_harmonic h;
-  pendres_status status = both_ways(sheet, ctx, naive, 0.2, w, &ways);
+  pendres_status status = both_ways(sheet, way, 0.2, w, &ways);
   if (status == PENDRES_OK)
     status = put_ways(sheet, "frequency_50", "frequency_50_estimate", "drive frequency 50, "
                       "F0 = 0.2: largest error of point, loop area, amplitude", &ways);
@@ -262,7 +249,7 @@ static pendres_status put_fast(hard_sheet *sheet, pendres_context *ctx, pendres_
                           h.amplitude * h.amplitude / (8.0 * w * w) +
                             ways.orbit.amplitude_error / h.amplitude,
                           NAN);
-  if (status == PENDRES_OK) status = both_ways(sheet, ctx, naive, w * w, w, &ways);
+  if (status == PENDRES_OK) status = both_ways(sheet, way, w * w, w, &ways);
   if (status == PENDRES_OK)
     status = put_ways(sheet, "frequency_shaken", "frequency_shaken_estimate", "drive frequency "
                       "50, F0 = 2500: largest error of point, loop area, amplitude", &ways);
@@ -276,12 +263,10 @@ static pendres_status put_fast(hard_sheet *sheet, pendres_context *ctx, pendres_
 pendres_status hard_frequency(hard_sheet *sheet)
 {
   const pendres_options options = { .tolerance = frequency_tolerance };
-  pendres_context *ctx = NULL, *naive = NULL;
-  pendres_status status = hard_context(sheet, &options, &ctx);
-  if (status == PENDRES_OK) status = hard_naive_context(sheet, frequency_tolerance, &naive);
-  if (status == PENDRES_OK) status = put_slow(sheet, ctx, naive);
-  if (status == PENDRES_OK) status = put_fast(sheet, ctx, naive);
-  pendres_context_free(naive);
-  pendres_context_free(ctx);
+  hard_ways way;
+  pendres_status status = hard_ways_open(sheet, &options, frequency_tolerance, &way);
+  if (status == PENDRES_OK) status = put_slow(sheet, &way);
+  if (status == PENDRES_OK) status = put_fast(sheet, &way);
+  hard_ways_close(&way);
   return status;
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_parameter.h"
@@ -25,9 +26,7 @@ static pendres_orbit_guess between(const pendres_branch *b, size_t i, size_t k, 
                                    double value)
 {
   const pendres_orbit *p = &b->point[i].orbit, *q = &b->point[k].orbit;
-  const double turn = pendres_model_turn(&p->pendulum);
-  double dx = q->x - p->x;
-  dx -= turn * rint(dx / turn);
+  const double dx = pendres_less_turns(q->x - p->x, pendres_model_turn(&p->pendulum));
   return (pendres_orbit_guess){
     .pendulum = pendres_parameter_with(&p->pendulum, b->parameter, value),
     .x = p->x + part * dx,

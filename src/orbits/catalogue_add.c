@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "base/turns.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "model/model.h"
@@ -312,9 +313,8 @@ static size_t distinct_guesses(size_t n, const pendres_scout *s, const pendres_c
     const pendres_pendulum *p = &c[s[i].set].pendulum;
     int new = pendres_passage_refuses(p, s[i].y, s[i].w * p->drive_frequency) == NULL;
     for (size_t j = count; j-- > 0 && set[j] == s[i].set && new;) {
-      const double turn = pendres_model_turn(p);
-      double dx = g[j].x - pendres_model_origin(p) - s[i].y;
-      dx -= turn * rint(dx / turn);
+      const double dx =
+        pendres_less_turns(g[j].x - pendres_model_origin(p) - s[i].y, pendres_model_turn(p));
       new = g[j].period != s[i].period || g[j].winding != s[i].winding ||
             hypot(dx, g[j].v - s[i].w * p->drive_frequency) > same_guess;
     }

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/turns.h"
 #include "engine/passage.h"
 #include "engine/strobe_run.h"
 #include "model/model.h"
@@ -29,10 +30,7 @@ typedef struct job {
 
 double pendres_orbit_apart(const pendres_orbit *o, double x, double v)
 {
-  const double turn = pendres_model_turn(&o->pendulum);
-  double dx = x - o->x;
-  dx -= turn * rint(dx / turn);
-  return hypot(dx, v - o->v);
+  return hypot(pendres_less_turns(x - o->x, pendres_model_turn(&o->pendulum)), v - o->v);
 }
 
 static int is_same(const pendres_orbit *o, double x, double v)

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/turns.h"
+
 enum { SHORT_PERIOD = 32, LONGEST_PERIOD = PENDRES_RECURRENCE_POINTS - 1 };
 
 /* Points that come back closer than these may be near an orbit of a short or a long period ... */
@@ -28,8 +30,8 @@ int pendres_recurrence_find(int points, double turn, const double *y, const doub
   const int now = points - 1, longest = now < LONGEST_PERIOD ? now : LONGEST_PERIOD;
   const int few = longest < SHORT_PERIOD ? longest : SHORT_PERIOD;
   for (int q = 1; q <= longest; q++) {
-    const double dy = y[now] - y[now - q];
-    distance[q] = hypot(dy - turn * rint(dy / turn), w[now] - w[now - q]);
+    const double dy = pendres_less_turns(y[now] - y[now - q], turn);
+    distance[q] = hypot(dy, w[now] - w[now - q]);
   }
   double closest = least(distance, 1, few);
   const double far = least(distance, few + 1, longest);

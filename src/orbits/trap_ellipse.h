@@ -9,7 +9,7 @@
 #ifndef PENDRES_TRAP_ELLIPSE_H
 #define PENDRES_TRAP_ELLIPSE_H
 
-#include <math.h>
+#include "base/turns.h"
 
 typedef struct pendres_trap {
   double y, w;      /* centre: a Poincaré point of the orbit; y as in orbit.h, mean in well 0 */
@@ -23,9 +23,7 @@ typedef struct pendres_trap {
 /* (z - centre)' P (z - centre), the angle taken modulo whole turns. */
 static inline double pendres_trap_norm2(const pendres_trap *t, double y, double w)
 {
-  double dy = y - t->y;
-  const double dw = w - t->w;
-  dy -= t->turn * rint(dy / t->turn);
+  const double dy = pendres_less_turns(y - t->y, t->turn), dw = w - t->w;
   return t->metric[0] * dy * dy + 2.0 * t->metric[1] * dy * dw + t->metric[2] * dw * dw;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/turns.h"
 #include "engine/context_internal.h"
 
 /* Neighbours on a ring may drift apart by this many radii. Further apart they do not tell what
@@ -57,9 +58,7 @@ static int look(void *arg, size_t index, const pendres_strobe_lane *lane)
 static void chord_of(const pendres_trap_point *a, const pendres_trap_point *b, int k,
                      double chord[2])
 {
-  const double dy = b->y[k] - a->y[k];
-  const double turn = a->of->trap->turn;
-  chord[0] = dy - turn * rint(dy / turn);
+  chord[0] = pendres_less_turns(b->y[k] - a->y[k], a->of->trap->turn);
   chord[1] = b->w[k] - a->w[k];
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
+#include "base/turns.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/strobe_run.h"
@@ -188,10 +189,9 @@ static double distance_of(const pendres_boundary_seed *seed, const double u[PEND
 {
   const double omega = u[PENDRES_U_OMEGA];
   /* Forward again: w has its own sign. */
-  double dy = image->f[0] + u[PENDRES_U_Y] - seed->y;
+  const double dy = pendres_less_turns(image->f[0] + u[PENDRES_U_Y] - seed->y,
+                                       pendres_model_turn(&seed->backward));
   const double dw = image->f[1] + u[PENDRES_U_W] + seed->w;
-  const double turn = pendres_model_turn(&seed->backward);
-  dy -= turn * rint(dy / turn);
   const double a = dy * seed->e[0] - dw * seed->e[1], c = dy * seed->f[0] - dw * seed->f[1];
   const double off = c - seed->bend * a * a;
   const double by_y = seed->f[0] - 2.0 * seed->bend * a * seed->e[0];

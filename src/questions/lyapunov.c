@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/angles.h"
+#include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/passage.h"
@@ -108,9 +109,8 @@ static void take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
 
 static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
 {
-  const double turn = pendres_model_turn(l->pendulum);
-  double dx = o->x - (l->y + pendres_model_origin(l->pendulum));
-  dx -= turn * rint(dx / turn);
+  const double dx = pendres_less_turns(o->x - (l->y + pendres_model_origin(l->pendulum)),
+                                       pendres_model_turn(l->pendulum));
   return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
 }
 

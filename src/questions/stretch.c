@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/turns.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
@@ -34,8 +35,7 @@ void pendres_stretch_free(pendres_stretch *s)
 /* The distance from the position of an orbit to that of another, without whole turns. */
 static double angle_between(const pendres_orbit *to, const pendres_orbit *from)
 {
-  const double d = to->x - from->x, turn = pendres_model_turn(&from->pendulum);
-  return d - turn * rint(d / turn);
+  return pendres_less_turns(to->x - from->x, pendres_model_turn(&from->pendulum));
 }
 
 /* Distance of a point of the branch from an orbit with a value of the parameter. */

@@ -111,7 +111,8 @@ int main(int argc, char **argv)
   }
   if (argc != 3) return 2;
   if (strcmp(what, "dump") == 0) {
-    if (deck_read(argv[2], &d, &errors) == PENDRES_OK) failed = deck_dump(&d, stdout) != PENDRES_OK;
+    if (deck_read_set(argv[2], NULL, 0, &d, &errors) == PENDRES_OK)
+      failed = deck_dump(&d, stdout) != PENDRES_OK;
   } else if (namelist_read(argv[2], &nl, &errors) == PENDRES_OK) {
     if (strcmp(what, "read") == 0) print_syntax_group(&nl, &errors);
     else print_deck(&nl, &errors);
