@@ -9,17 +9,18 @@
 #include <stdlib.h>
 
 pendres_status pendres_store_set(pendres_store *store, hid_t object, const char *name,
-                                 hid_t file_type, hid_t memory_type, size_t n, const void *value)
+                                 const pendres_store_value *value)
 {
-  const hsize_t size = n;
-  hid_t space = n ? H5Screate_simple(1, &size, NULL) : H5Screate(H5S_SCALAR);
+  const hsize_t size = value->n;
+  hid_t space = size ? H5Screate_simple(1, &size, NULL) : H5Screate(H5S_SCALAR);
   hid_t attribute = H5I_INVALID_HID;
   pendres_status status = PENDRES_OK;
   const htri_t exists = H5Aexists(object, name);
 
   if (space < 0 || exists < 0 || (exists && H5Adelete(object, name) < 0) ||
-      (attribute = H5Acreate2(object, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT)) < 0 ||
-      H5Awrite(attribute, memory_type, value) < 0)
+      (attribute = H5Acreate2(object, name, value->file_type, space, H5P_DEFAULT,
+                              H5P_DEFAULT)) < 0 ||
+      H5Awrite(attribute, value->memory_type, value->at) < 0)
     status = pendres_store_fail_hdf5(store, "cannot write attribute '%s'", name);
   if (attribute >= 0 && H5Aclose(attribute) < 0 && !status)
     status = pendres_store_fail_hdf5(store, "cannot write attribute '%s'", name);
@@ -39,7 +40,8 @@ pendres_status pendres_store_set_text(pendres_store *store, hid_t object, const 
   else if (type < 0)
     status = pendres_store_fail_hdf5(store, "cannot write attribute '%s'", name);
   else
-    status = pendres_store_set(store, object, name, type, type, 0, &text);
+    status = pendres_store_set(store, object, name,
+                               &(pendres_store_value){ type, type, 0, &text });
   pendres_store_type_close(PENDRES_STORE_STRING, type);
   free(text);
   return status;
@@ -88,31 +90,31 @@ pendres_status pendres_store_attribute_text(pendres_store *store, const char *gr
   return pendres_store_leave(store, &quiet, status);
 }
 
-pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
-                                              const char *object, const char *name, double value)
+static pendres_status set_number(pendres_store *store, const char *group, const char *object,
+                                 const char *name, const pendres_store_value *value)
 {
   pendres_store_quiet quiet;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
   hid_t id = H5I_INVALID_HID;
 
   if (!status) status = target(store, group, object, name, &id);
-  if (!status)
-    status = pendres_store_set(store, id, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 0, &value);
+  if (!status) status = pendres_store_set(store, id, name, value);
   return pendres_store_leave(store, &quiet, status);
+}
+
+pendres_status pendres_store_attribute_double(pendres_store *store, const char *group,
+                                              const char *object, const char *name, double value)
+{
+  return set_number(store, group, object, name,
+                    &(pendres_store_value){ H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 0, &value });
 }
 
 pendres_status pendres_store_attribute_integer(pendres_store *store, const char *group,
                                                const char *object, const char *name,
                                                int64_t value)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
-  hid_t id = H5I_INVALID_HID;
-
-  if (!status) status = target(store, group, object, name, &id);
-  if (!status)
-    status = pendres_store_set(store, id, name, H5T_STD_I64LE, H5T_NATIVE_INT64, 0, &value);
-  return pendres_store_leave(store, &quiet, status);
+  return set_number(store, group, object, name,
+                    &(pendres_store_value){ H5T_STD_I64LE, H5T_NATIVE_INT64, 0, &value });
 }
 
 pendres_status pendres_store_provenance(pendres_store *store, const pendres_store_entry *entries,

@@ -179,8 +179,8 @@ pendres_status pendres_store_make(pendres_store *store, const char *path,
 /* ---- Writing --------------------------------------------------------------------------------- */
 
 /* Rows that HDF5 takes at once. */
-static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t space, uint64_t first,
-                          uint64_t rows, const void *data)
+static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t space,
+                          const pendres_store_piece *piece, const void *data)
 {
   hsize_t start[PENDRES_STORE_RANK] = { 0 }, count[PENDRES_STORE_RANK];
   hid_t memory = H5I_INVALID_HID;
@@ -188,8 +188,8 @@ static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t spac
 
   if (!node->rank) return H5Dwrite(node->id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
   memcpy(count, node->sizes, sizeof count);
-  start[0] = first;
-  count[0] = rows;
+  start[0] = piece->first;
+  count[0] = piece->rows;
   memory = H5Screate_simple(node->rank, count, NULL);
   if (memory >= 0 && H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0)
     result = H5Dwrite(node->id, type, memory, space, H5P_DEFAULT, data);
@@ -199,17 +199,16 @@ static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t spac
 
 /* The same for strings: all become UTF-8 on the way. */
 static pendres_status write_text_piece(pendres_store *store, const pendres_store_node *node,
-                                       hid_t type, hid_t space, uint64_t first, uint64_t rows,
-                                       const char *const *data)
+                                       hid_t type, hid_t space,
+                                       const pendres_store_piece *piece, const char *const *data)
 {
-  const size_t n = (size_t)rows * node->row;
-  char **list = pendres_store_utf8_list(data, n);
+  char **list = pendres_store_utf8_list(data, piece->n);
   pendres_status status = PENDRES_OK;
 
   if (!list) return PENDRES_OUT_OF_MEMORY;
-  if (write_piece(node, type, space, first, rows, list) < 0)
+  if (write_piece(node, type, space, piece, list) < 0)
     status = pendres_store_fail_hdf5(store, "cannot write '%s'", node->path);
-  pendres_store_utf8_free(list, n);
+  pendres_store_utf8_free(list, piece->n);
   return status;
 }
 
@@ -219,7 +218,7 @@ pendres_status pendres_store_node_write(pendres_store *store, const pendres_stor
   const size_t memory_element =
     node->type == PENDRES_STORE_STRING ? sizeof(char *) : element_bytes(node->type);
   const size_t row_bytes = node->row * memory_element;
-  const uint64_t piece = row_bytes && row_bytes < PIECE ? PIECE / row_bytes : 1;
+  const uint64_t most = row_bytes && row_bytes < PIECE ? PIECE / row_bytes : 1;
   const hid_t type = pendres_store_memory_type(node->type);
   const hid_t space = H5Dget_space(node->id);
   const char *from = data;
@@ -227,13 +226,14 @@ pendres_status pendres_store_node_write(pendres_store *store, const pendres_stor
 
   if (type < 0 || space < 0)
     status = pendres_store_fail_hdf5(store, "cannot write '%s'", node->path);
-  for (uint64_t done = 0; done < rows && row_bytes && !status; done += piece) {
-    const uint64_t now = rows - done < piece ? rows - done : piece;
+  for (uint64_t done = 0; done < rows && row_bytes && !status; done += most) {
+    const uint64_t now = rows - done < most ? rows - done : most;
+    const pendres_store_piece piece = { first + done, now, (size_t)now * node->row };
 
     if (node->type == PENDRES_STORE_STRING)
-      status = write_text_piece(store, node, type, space, first + done, now,
+      status = write_text_piece(store, node, type, space, &piece,
                                 (const char *const *)(const void *)from);
-    else if (write_piece(node, type, space, first + done, now, from) < 0)
+    else if (write_piece(node, type, space, &piece, from) < 0)
       status = pendres_store_fail_hdf5(store, "cannot write '%s'", node->path);
     if (store->file.error) status = PENDRES_IO; /* pendres_store_leave() says why */
     from += (size_t)now * row_bytes;
@@ -243,27 +243,36 @@ pendres_status pendres_store_node_write(pendres_store *store, const pendres_stor
   return status;
 }
 
-/* The variable of a number, with n elements at data for so many rows. */
-static pendres_status check_write(pendres_store *store, int id, uint64_t first, uint64_t rows,
-                                  const void *data, size_t n, const pendres_store_node **out)
+pendres_status pendres_store_check_rows(pendres_store *store, const char *name, uint64_t all,
+                                        const pendres_store_piece *piece)
+{
+  if (piece->first <= all && piece->rows <= all - piece->first) return PENDRES_OK;
+  return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
+                            "'%s' has %llu rows: %llu from row %llu on are too many", name,
+                            (unsigned long long)all, (unsigned long long)piece->rows,
+                            (unsigned long long)piece->first);
+}
+
+/* The variable of a number, with data for a piece of it. */
+static pendres_status check_write(pendres_store *store, int id, const pendres_store_piece *piece,
+                                  const void *data, const pendres_store_node **out)
 {
   const pendres_store_node *node;
+  pendres_status status;
 
   if (id < 0 || (size_t)id >= store->count ||
       store->nodes[id].kind != PENDRES_STORE_VARIABLE)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "there is no variable number %d",
                               id);
   node = *out = &store->nodes[id];
-  if (first > node->sizes[0] || rows > node->sizes[0] - first)
-    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
-                              "'%s' has %llu rows: %llu from row %llu on are too many", node->path,
-                              (unsigned long long)node->sizes[0], (unsigned long long)rows,
-                              (unsigned long long)first);
-  if (n != rows * node->row)
+  status = pendres_store_check_rows(store, node->path, node->sizes[0], piece);
+  if (status) return status;
+  if (piece->n != piece->rows * node->row)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
                               "'%s': %llu elements are wanted, %llu were given", node->path,
-                              (unsigned long long)(rows * node->row), (unsigned long long)n);
-  if (n && !data)
+                              (unsigned long long)(piece->rows * node->row),
+                              (unsigned long long)piece->n);
+  if (piece->n && !data)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data", node->path);
   return PENDRES_OK;
 }
@@ -272,10 +281,11 @@ pendres_status pendres_store_write_rows(pendres_store *store, int id, uint64_t f
                                         uint64_t rows, const void *data, size_t n)
 {
   pendres_store_quiet quiet;
+  const pendres_store_piece piece = { first, rows, n };
   const pendres_store_node *node = NULL;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
 
-  if (!status) status = check_write(store, id, first, rows, data, n, &node);
+  if (!status) status = check_write(store, id, &piece, data, &node);
   if (!status) status = pendres_store_node_write(store, node, first, rows, data);
   return pendres_store_leave(store, &quiet, status);
 }

@@ -103,13 +103,27 @@ pendres_status pendres_store_mark_text(pendres_store *store);
 
 /* store_attribute.c: make or replace an attribute of an open object. */
 
-/* n values, 0 for a scalar. */
+/* What an attribute becomes: n values, 0 for a scalar, and their types there and here. */
+typedef struct pendres_store_value {
+  hid_t file_type, memory_type;
+  size_t n;
+  const void *at;
+} pendres_store_value;
 pendres_status pendres_store_set(pendres_store *store, hid_t object, const char *name,
-                                 hid_t file_type, hid_t memory_type, size_t n, const void *value);
+                                 const pendres_store_value *value);
 pendres_status pendres_store_set_text(pendres_store *store, hid_t object, const char *name,
                                       const char *value);
 
 /* store_dataset.c */
+
+/* Rows of a variable, and the n elements in memory that are theirs. */
+typedef struct pendres_store_piece {
+  uint64_t first, rows;
+  size_t n;
+} pendres_store_piece;
+/* Refuse rows that a variable of so many has not. */
+pendres_status pendres_store_check_rows(pendres_store *store, const char *name, uint64_t all,
+                                        const pendres_store_piece *piece);
 
 /* A type in memory; close it with the second, since those of strings are made. */
 hid_t pendres_store_memory_type(pendres_store_type type);

@@ -174,25 +174,24 @@ static pendres_status write_index(pendres_store *store, const pendres_store_node
   return status;
 }
 
-static pendres_status define_dimension(pendres_store *store, const char *group, const char *name,
-                                       uint64_t size, pendres_store_type type, const void *values,
-                                       const char *long_name, const char *units)
+static pendres_status define_dimension(pendres_store *store, const pendres_store_spec *spec,
+                                       uint64_t size, const void *values)
 {
-  pendres_store_node node = { .kind = PENDRES_STORE_SCALE, .type = type, .rank = 1 };
+  pendres_store_node node = { .kind = PENDRES_STORE_SCALE, .type = spec->type, .rank = 1 };
   const pendres_store_node *made;
   char *path = NULL;
-  pendres_status status = check_new(store, group, name, long_name, &path);
+  pendres_status status = check_new(store, spec->group, spec->name, spec->long_name, &path);
 
   for (int k = 0; k < PENDRES_STORE_RANK; k++) node.sizes[k] = 1;
   node.sizes[0] = size;
   if (!status) status = pendres_store_measure(store, &node, path);
-  if (!status) status = pendres_store_need_group(store, group, NULL);
+  if (!status) status = pendres_store_need_group(store, spec->group, NULL);
   if (!status) status = pendres_store_make(store, path, &node, 0, 0);
   if (!status) {
     made = &store->nodes[store->count - 1];
-    if (H5DSset_scale(made->id, name) < 0)
+    if (H5DSset_scale(made->id, spec->name) < 0)
       status = pendres_store_fail_hdf5(store, "cannot make dimension '%s'", path);
-    if (!status) status = pendres_store_describe(store, made->id, long_name, units);
+    if (!status) status = pendres_store_describe(store, made->id, spec->long_name, spec->units);
     if (!status)
       status = values ? pendres_store_node_write(store, made, 0, size, values)
                : write_index(store, made);
@@ -201,18 +200,27 @@ static pendres_status define_dimension(pendres_store *store, const char *group, 
   return status;
 }
 
-pendres_status pendres_store_dimension(pendres_store *store, const char *group, const char *name,
-                                       uint64_t size, const double *values, const char *long_name,
-                                       const char *units)
+static pendres_status add_dimension(pendres_store *store, const pendres_store_spec *spec,
+                                    uint64_t size, const void *values)
 {
   pendres_store_quiet quiet;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
 
-  if (!status)
-    status = define_dimension(store, group, name, size,
-                              values ? PENDRES_STORE_DOUBLE : PENDRES_STORE_INT64, values,
-                              long_name, units);
+  if (!status && spec->type == PENDRES_STORE_STRING && size && !values)
+    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "dimension '%s' has no names",
+                                spec->name ? spec->name : "(null)");
+  if (!status) status = define_dimension(store, spec, size, values);
   return pendres_store_leave(store, &quiet, status);
+}
+
+pendres_status pendres_store_dimension(pendres_store *store, const char *group, const char *name,
+                                       uint64_t size, const double *values, const char *long_name,
+                                       const char *units)
+{
+  const pendres_store_spec spec = {
+    .group = group, .name = name, .long_name = long_name, .units = units,
+    .type = values ? PENDRES_STORE_DOUBLE : PENDRES_STORE_INT64 };
+  return add_dimension(store, &spec, size, values);
 }
 
 pendres_status pendres_store_dimension_integer(pendres_store *store, const char *group,
@@ -220,29 +228,18 @@ pendres_status pendres_store_dimension_integer(pendres_store *store, const char 
                                                const int64_t *values, const char *long_name,
                                                const char *units)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
-
-  if (!status)
-    status = define_dimension(store, group, name, size, PENDRES_STORE_INT64, values, long_name,
-                              units);
-  return pendres_store_leave(store, &quiet, status);
+  const pendres_store_spec spec = { .group = group, .name = name, .long_name = long_name,
+                                    .units = units, .type = PENDRES_STORE_INT64 };
+  return add_dimension(store, &spec, size, values);
 }
 
 pendres_status pendres_store_dimension_text(pendres_store *store, const char *group,
                                             const char *name, uint64_t size,
                                             const char *const *values, const char *long_name)
 {
-  pendres_store_quiet quiet;
-  pendres_status status = pendres_store_enter(store, &quiet, 1);
-
-  if (!status && size && !values)
-    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "dimension '%s' has no names",
-                                name ? name : "(null)");
-  if (!status)
-    status = define_dimension(store, group, name, size, PENDRES_STORE_STRING, values, long_name,
-                              NULL);
-  return pendres_store_leave(store, &quiet, status);
+  const pendres_store_spec spec = { .group = group, .name = name, .long_name = long_name,
+                                    .type = PENDRES_STORE_STRING };
+  return add_dimension(store, &spec, size, values);
 }
 
 /* ---- Variables ------------------------------------------------------------------------------- */
@@ -346,13 +343,12 @@ static pendres_status set_flags(pendres_store *store, const pendres_store_spec *
     if (i) strcat(meanings, " ");
     strcat(meanings, spec->flag_meanings[i]);
   }
-  status = pendres_store_set(store, id, "flag_values", H5T_STD_I8LE, H5T_NATIVE_INT8,
-                             (size_t)spec->flag_count, values);
+  pendres_store_value value = { H5T_STD_I8LE, H5T_NATIVE_INT8, (size_t)spec->flag_count, values };
+  status = pendres_store_set(store, id, "flag_values", &value);
   /* What is looked at for each: its own bit, and for none all of them. */
   for (int i = 0; i < spec->flag_count; i++) masks[i] = values[i] ? values[i] : all;
-  if (!status && spec->flag_bits)
-    status = pendres_store_set(store, id, "flag_masks", H5T_STD_I8LE, H5T_NATIVE_INT8,
-                               (size_t)spec->flag_count, masks);
+  value.at = masks;
+  if (!status && spec->flag_bits) status = pendres_store_set(store, id, "flag_masks", &value);
   if (!status) status = pendres_store_set_text(store, id, "flag_meanings", meanings);
   free(meanings);
   return status;

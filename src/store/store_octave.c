@@ -54,8 +54,8 @@ static pendres_status mark(pendres_store *store, const char *group, hid_t id)
     }
   }
   if (!status)
-    status = pendres_store_set(store, id, "OCTAVE_NEW_FORMAT", H5T_STD_U8LE, H5T_NATIVE_UINT8, 0,
-                               &one);
+    status = pendres_store_set(store, id, "OCTAVE_NEW_FORMAT",
+                               &(pendres_store_value){ H5T_STD_U8LE, H5T_NATIVE_UINT8, 0, &one });
   free(path);
   return status;
 }

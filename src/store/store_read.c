@@ -221,29 +221,26 @@ pendres_status pendres_store_dimension_of(pendres_store *store, const char *grou
 
 /* ---- values -------------------------------------------------------------------------------- */
 
-/* n elements at data are what so many rows of that shape hold. */
+/* There is room at data for as many elements as a piece of that shape holds. */
 static pendres_status check_read(pendres_store *store, const char *name, const hsize_t *sizes,
-                                 uint64_t first, uint64_t rows, const void *data, size_t n)
+                                 const pendres_store_piece *piece, const void *data)
 {
-  size_t row = 1;
+  const pendres_status status = pendres_store_check_rows(store, name, sizes[0], piece);
+  const size_t n = piece->n;
+  size_t wanted = piece->rows;
 
-  for (int k = 1; k < PENDRES_STORE_RANK; k++) row *= (size_t)sizes[k];
-  if (first > sizes[0] || rows > sizes[0] - first)
-    return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
-                              "'%s' has %llu rows: %llu from row %llu on are too many", name,
-                              (unsigned long long)sizes[0], (unsigned long long)rows,
-                              (unsigned long long)first);
-  if (n != rows * row || (n && !data))
+  if (status) return status;
+  for (int k = 1; k < PENDRES_STORE_RANK; k++) wanted *= (size_t)sizes[k];
+  if (n != wanted || (n && !data))
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT,
                               "'%s': room for %llu elements is wanted, not for %llu", name,
-                              (unsigned long long)(rows * row),
-                              (unsigned long long)(data ? n : 0));
+                              (unsigned long long)wanted, (unsigned long long)(data ? n : 0));
   return PENDRES_OK;
 }
 
 /* Read rows; for a scalar the only one. */
-static herr_t read_rows(hid_t id, hid_t type, int rank, const hsize_t *sizes, uint64_t first,
-                        uint64_t rows, void *data)
+static herr_t read_rows(hid_t id, hid_t type, int rank, const hsize_t *sizes,
+                        const pendres_store_piece *piece, void *data)
 {
   hsize_t start[PENDRES_STORE_RANK] = { 0 }, count[PENDRES_STORE_RANK];
   hid_t space = H5I_INVALID_HID, memory = H5I_INVALID_HID;
@@ -251,8 +248,8 @@ static herr_t read_rows(hid_t id, hid_t type, int rank, const hsize_t *sizes, ui
 
   if (!rank) return H5Dread(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
   memcpy(count, sizes, sizeof count);
-  start[0] = first;
-  count[0] = rows;
+  start[0] = piece->first;
+  count[0] = piece->rows;
   space = H5Dget_space(id);
   memory = H5Screate_simple(rank, count, NULL);
   if (space >= 0 && memory >= 0 &&
@@ -265,8 +262,8 @@ static herr_t read_rows(hid_t id, hid_t type, int rank, const hsize_t *sizes, ui
 
 /* rows UINT64_MAX: all of them, whatever there are. */
 static pendres_status read_numbers(pendres_store *store, const char *group, const char *name,
-                                   pendres_store_type type, uint64_t first, uint64_t rows,
-                                   void *data, size_t n)
+                                   pendres_store_type type, pendres_store_piece piece,
+                                   void *data)
 {
   hsize_t sizes[PENDRES_STORE_RANK];
   hid_t id = H5I_INVALID_HID;
@@ -276,10 +273,10 @@ static pendres_status read_numbers(pendres_store *store, const char *group, cons
   if ((int)type < 0 || type >= PENDRES_STORE_STRING)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "only numbers can be read so");
   status = open_dataset(store, group, name, &id, &rank, sizes);
-  if (!status && rows == UINT64_MAX) rows = sizes[0];
-  if (!status) status = check_read(store, name, sizes, first, rows, data, n);
-  if (!status && n &&
-      read_rows(id, pendres_store_memory_type(type), rank, sizes, first, rows, data) < 0)
+  if (!status && piece.rows == UINT64_MAX) piece.rows = sizes[0];
+  if (!status) status = check_read(store, name, sizes, &piece, data);
+  if (!status && piece.n &&
+      read_rows(id, pendres_store_memory_type(type), rank, sizes, &piece, data) < 0)
     status = pendres_store_fail_hdf5(store, "cannot read '%s'", name);
   if (id >= 0) H5Dclose(id);
   return status;
@@ -289,9 +286,10 @@ pendres_status pendres_store_read(pendres_store *store, const char *group, const
                                   pendres_store_type type, void *data, size_t n)
 {
   pendres_store_quiet quiet;
+  const pendres_store_piece all = { 0, UINT64_MAX, n };
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
-  if (!status) status = read_numbers(store, group, name, type, 0, UINT64_MAX, data, n);
+  if (!status) status = read_numbers(store, group, name, type, all, data);
   return pendres_store_leave(store, &quiet, status);
 }
 
@@ -300,11 +298,12 @@ pendres_status pendres_store_read_rows(pendres_store *store, const char *group, 
                                        void *data, size_t n)
 {
   pendres_store_quiet quiet;
+  const pendres_store_piece piece = { first, rows, n };
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
   if (!status && rows == UINT64_MAX)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "too many rows");
-  if (!status) status = read_numbers(store, group, name, type, first, rows, data, n);
+  if (!status) status = read_numbers(store, group, name, type, piece, data);
   return pendres_store_leave(store, &quiet, status);
 }
 
@@ -324,6 +323,7 @@ pendres_status pendres_store_read_text(pendres_store *store, const char *group, 
   char *words = NULL;
   const char *label = name ? name : "(null)";
   hid_t id = H5I_INVALID_HID, type = H5I_INVALID_HID;
+  const pendres_store_piece piece = { index, 1, 1 };
   int rank = 0;
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
@@ -336,7 +336,7 @@ pendres_status pendres_store_read_text(pendres_store *store, const char *group, 
                                 label, (unsigned long long)index);
   if (!status) {
     type = pendres_store_memory_type(PENDRES_STORE_STRING);
-    if (type < 0 || read_rows(id, type, rank, sizes, index, 1, &words) < 0)
+    if (type < 0 || read_rows(id, type, rank, sizes, &piece, &words) < 0)
       status = pendres_store_fail_hdf5(store, "cannot read '%s' as text", label);
     else
       status = take_text(words, text);
