@@ -11,6 +11,7 @@
 #include <pendres/strobe.h>
 
 #include "context_fixture.h"
+#include "questions/hysteresis_path.h"
 
 static int setup_exact(void **state)
 {
@@ -271,6 +272,76 @@ static void escaped(void **state)
   pendres_context_free(ctx);
 }
 
+/* Both paths are at the same place in the same state. */
+static void check_same_point(const pendres_hysteresis_point *a, const pendres_hysteresis_point *b)
+{
+  assert_int_equal(a->outcome, PENDRES_OK);
+  assert_int_equal(a->attractor.label, b->attractor.label);
+  assert_true(a->value == b->value && a->x == b->x && a->v == b->v);
+  assert_true(a->attractor.orbit.loop_area == b->attractor.orbit.loop_area);
+}
+
+/* A frequency that asks for more steps a period than there are is left out, first or later, and
+   twice where the path turns round: all others are as they are without it. */
+static void left_out(void **state)
+{
+  enum { ALL = 7, WITHOUT = 4 };
+  static const double value[ALL] = {1e-5, 0.8, 0.9, 1e-5, 1e-5, 0.9, 0.8};
+  static const double without[WITHOUT] = {0.8, 0.9, 0.9, 0.8};
+  static const int number[ALL] = {-1, 0, 1, -1, -1, 2, 3};
+  const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2};
+  pendres_hysteresis *h = NULL, *kept = NULL;
+  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_FREQUENCY, 1.6, 0.0, ALL, value,
+                                     &h));
+  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_FREQUENCY, 1.6, 0.0, WITHOUT,
+                                     without, &kept));
+  for (size_t i = 0; i < ALL; i++) {
+    const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+    if (number[i] >= 0) {
+      check_same_point(point, pendres_hysteresis_get(kept, (size_t)number[i]));
+      continue;
+    }
+    assert_true(point->value == value[i] && isnan(point->x));
+    assert_int_equal(point->outcome, PENDRES_TOLERANCE_UNREACHABLE);
+    assert_int_equal(point->attractor.label, PENDRES_LABEL_UNRESOLVED);
+  }
+  assert_int_equal(pendres_hysteresis_jumps(h), pendres_hysteresis_jumps(kept));
+  assert_true(pendres_hysteresis_jumps(h) >= 1);
+  assert_int_equal(pendres_hysteresis_jump(h, 0)->step, 2);
+  pendres_hysteresis_free(h);
+  pendres_hysteresis_free(kept);
+}
+
+/* The way to a torque far away takes more than a value may take here: it is left out as well,
+   whatever the size of blocks. 0.1 and 0.2 take a tenth of that. */
+static void not_worth_it(void **state)
+{
+  enum { VALUES = 3, SIZES = 2, FAR = 1 };
+  static const double value[VALUES] = {0.1, 30.0, 0.2};
+  static const int lanes[SIZES] = {8, 512};
+  double x[SIZES];
+  (void)state;
+  for (size_t k = 0; k < SIZES; k++) {
+    pendres_context *ctx =
+      context_with(&(pendres_options){.tolerance = 1e-6, .block_lanes = lanes[k]});
+    pendres_path w = {.ctx = ctx, .parameter = PENDRES_TORQUE, .n = VALUES, .all = value,
+                      .value = value, .most_slopes = 5e6};
+    w.pendulum = (pendres_pendulum){
+      .damping = 0.15, .drive_amplitude = 0.05, .drive_frequency = 0.9};
+    pendres_hysteresis *h = NULL;
+    check_ok(pendres_path_run(&w, 0.1, 0.0, &h));
+    for (size_t i = 0; i < VALUES; i++) {
+      const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
+      assert_int_equal(point->outcome, i == FAR ? PENDRES_UNRESOLVED : PENDRES_OK);
+      assert_int_equal(point->attractor.orbit.period, i == FAR ? 0 : 1);
+    }
+    x[k] = pendres_hysteresis_get(h, 2)->x;
+    pendres_hysteresis_free(h);
+    pendres_context_free(ctx);
+  }
+  assert_true(x[0] == x[1]);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -280,6 +351,8 @@ int main(void)
     cmocka_unit_test_setup_teardown(stopped, setup_exact, teardown),
     cmocka_unit_test(out_of_chaos),
     cmocka_unit_test(escaped),
+    cmocka_unit_test_setup_teardown(left_out, setup_exact, teardown),
+    cmocka_unit_test(not_worth_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

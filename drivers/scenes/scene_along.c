@@ -136,7 +136,7 @@ void scene_along_path_free(scene_along_path *path)
 /* A value that the path has not reached before its budget ended it. */
 static int not_reached(const pendres_hysteresis_point *p)
 {
-  return p->attractor.label == PENDRES_LABEL_UNRESOLVED && isnan(p->x);
+  return p->outcome == PENDRES_INTERRUPTED;
 }
 
 static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
@@ -165,6 +165,21 @@ static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
   return PENDRES_OK;
 }
 
+/* The attractor that a path starts on, at its first value that can be computed: the path leaves out
+   those before. */
+static pendres_status find_start(const deck *d, deck_axis_id axis, size_t n, const double *value,
+                                 pendres_context *ctx, pendres_attractor *start, farm_record *out)
+{
+  pendres_pendulum p = scene_along_pendulum(d);
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n; i++) {
+    scene_along_set(&p, axis, value[i]);
+    status = scene_along_named(ctx, &p, d->orbit.start, start, out->message, sizeof out->message);
+    if (status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED) break;
+  }
+  return status;
+}
+
 pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, const double *value,
                                   pendres_context *ctx, farm_record *out)
 {
@@ -174,7 +189,7 @@ pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, co
   pendres_status status = PENDRES_OK;
   if (d->orbit.start[0] != '\0') {
     pendres_attractor start;
-    status = scene_along_named(ctx, &p, d->orbit.start, &start, out->message, sizeof out->message);
+    status = find_start(d, axis, n, value, ctx, &start, out);
     if (status != PENDRES_OK) return status;
     x = start.orbit.x;
     v = start.orbit.v;
@@ -208,7 +223,10 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
 static scene_failure failure_of(const pendres_hysteresis_point *point)
 {
   if (point->attractor.label != PENDRES_LABEL_UNRESOLVED) return SCENE_FAILURE_NONE;
-  return not_reached(point) ? SCENE_FAILURE_OUT_OF_TIME : SCENE_FAILURE_UNRESOLVED;
+  if (not_reached(point)) return SCENE_FAILURE_OUT_OF_TIME;
+  if (point->outcome == PENDRES_OK) return SCENE_FAILURE_UNRESOLVED;
+  return point->outcome == PENDRES_UNRESOLVED ? SCENE_FAILURE_TOO_LONG
+                                              : scene_failure_of(point->outcome);
 }
 
 int scene_along_closed(const pendres_hysteresis_point *point)
@@ -261,6 +279,18 @@ const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
     .value = offsetof(scene_along_row, failed), .names = scene_failure_names },
 };
 
+/* Of values that a path has left out; NULL: what is said of all. */
+static const char *remedy_of(scene_failure failed)
+{
+  if (failed == SCENE_FAILURE_TOO_LONG)
+    return "left out: following the state there takes too much work; smaller steps of the "
+           "parameter on the way may do";
+  if (failed == SCENE_FAILURE_TOLERANCE)
+    return "left out: more steps a period are needed there than are taken; a looser "
+           "precision.tolerance may do";
+  return NULL;
+}
+
 void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways)
 {
   static const char *const words[] = { "upwards", "downwards" };
@@ -269,7 +299,7 @@ void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path 
     const scene_failure failed = failure_of(&path->point[i]);
     if (failed == SCENE_FAILURE_NONE) continue;
     run->failed_points++;
-    scene_failure_tell(run, failed, NULL, "%s %.10g, %s", deck_axis_name(axis),
+    scene_failure_tell(run, failed, remedy_of(failed), "%s %.10g, %s", deck_axis_name(axis),
                        path->point[i].value, words[i / values]);
   }
 }

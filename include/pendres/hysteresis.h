@@ -23,6 +23,11 @@
  * what is left of the way.
  * A pendulum that has escaped to infinity is gone for the rest of the path.
  *
+ * A value that cannot be computed is left out, and the path goes on as if it had never been there:
+ * where steps are too many, or an iteration fails, or where coming to the value would take more
+ * than 2e9 evaluations of the slope, some ten seconds to a minute. Values that are far apart cost
+ * more than those on a way in smaller steps.
+ *
  * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive:
  * its states off the stretches are told by averages, as in lyapunov.h, with its words on what is
  * quasi-periodic and what is chaos. A trial that averages cannot tell, as where a rotation slips
@@ -80,6 +85,10 @@ typedef struct pendres_hysteresis_point {
   double mean_velocity_error;  /**< its error: rounding of closed orbits, whose mean is exact; of
                                     quasi-periodic rotations a bound; else it holds with a
                                     confidence of 99.9 % */
+  pendres_status outcome;      /**< PENDRES_OK; else why the path left the value out:
+                                    PENDRES_TOLERANCE_UNREACHABLE, PENDRES_INTEGRATION_FAILED,
+                                    PENDRES_NOT_CONVERGED, PENDRES_UNRESOLVED (the way there takes
+                                    too much work); or did not reach it: PENDRES_INTERRUPTED */
 } pendres_hysteresis_point;
 
 /** How a state ends. */
@@ -127,6 +136,8 @@ typedef struct pendres_hysteresis pendres_hysteresis;
  * Orbits of one drive period are named SA and LA where two of them are met at the same value of the
  * path, by amplitude, and keep their names along the whole stretch that is followed; elsewhere they
  * are named as pendres_label says.
+ *
+ * Points that were left out have an outcome that says why, and nothing else.
  *
  * p and value are read. *out is to be freed by pendres_hysteresis_free; NULL on failure, but for
  * PENDRES_INTERRUPTED on the way: then it has what was met until then, and the points that were not

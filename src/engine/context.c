@@ -63,6 +63,7 @@ pendres_status pendres_context_create(const pendres_options *options, pendres_co
   pendres_context *ctx = calloc(1, sizeof *ctx);
   if (ctx == NULL) return status;
   pendres_guard_init(&ctx->guard);
+  ctx->most_slopes = INFINITY;
   if (options != NULL) ctx->options = *options;
   if (resolve(&ctx->options) != NULL) {
     status = PENDRES_INVALID_ARGUMENT;
@@ -148,17 +149,20 @@ void pendres_context_set_interrupt(pendres_context *ctx, int (*stop)(void *arg),
 
 pendres_status pendres_context_poll(pendres_context *ctx)
 {
-  if (ctx->stop == NULL) return PENDRES_OK;
-  pendres_guard_ask(&ctx->guard, 1);
-  const int stopped = ctx->stop(ctx->stop_arg) != 0;
-  pendres_guard_ask(&ctx->guard, 0);
-  if (!stopped) return PENDRES_OK;
+  if (ctx->most_slopes < INFINITY && pendres_context_slopes(ctx) > ctx->most_slopes)
+    return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "more work than is worth it");
+  if (!pendres_context_stops(ctx)) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted on request");
 }
 
-int pendres_context_stops(void *ctx)
+int pendres_context_stops(void *arg)
 {
-  return pendres_context_poll(ctx) != PENDRES_OK;
+  pendres_context *ctx = arg;
+  if (ctx->stop == NULL) return 0;
+  pendres_guard_ask(&ctx->guard, 1);
+  const int stopped = ctx->stop(ctx->stop_arg) != 0;
+  pendres_guard_ask(&ctx->guard, 0);
+  return stopped;
 }
 
 pendres_status pendres_context_fail(pendres_context *ctx, pendres_status status,

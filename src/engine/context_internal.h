@@ -36,6 +36,7 @@ struct pendres_context {
                             for a cell of the lattice, so they depend on what the context did before
                             */
   double probed_slopes;  /* likewise the evaluations of the slope */
+  double most_slopes;    /* pendres_context_slopes at which a computation ends; INFINITY: never */
   int (*stop)(void *arg);
   void *stop_arg;
 };
@@ -68,9 +69,14 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind
 pendres_status pendres_context_flow_adaptive(pendres_context *ctx, double tolerance,
                                              pendres_flow **out);
 
-/* PENDRES_INTERRUPTED when the caller asked to stop. */
+/*
+ * To be asked between drive periods: PENDRES_INTERRUPTED when the caller asked to stop, and beyond
+ * ctx->most_slopes. Whoever sets those looks at the slopes at the end as well: when it is asked
+ * depends on the size of blocks, but not what all of them take.
+ */
 pendres_status pendres_context_poll(pendres_context *ctx);
-/* The same as a function that can be handed to others; ctx is a context. */
+/* Whether the caller asked to stop, as a function that can be handed to others; ctx is a context.
+ */
 int pendres_context_stops(void *ctx);
 
 /* Record a failure of the integrator. */

@@ -214,14 +214,16 @@ static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p
     ctx, s->growing ? PENDRES_FLOW_VARIATIONAL : PENDRES_FLOW_STATE, s->steps, &b);
   if (status != PENDRES_OK) return status;
   const size_t capacity = pendres_block_capacity(&b);
-  const double before = pendres_flow_evaluations(b.flow);
-  for (s->first = 0; s->first < PROBES; s->first += capacity) {
+  const double before = pendres_flow_evaluations(b.flow), most = ctx->most_slopes;
+  ctx->most_slopes = INFINITY; /* probes are no part of what counts */
+  for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
     pendres_block_resize(&b, s->lanes);
     for (size_t i = 0; i < s->lanes; i++) load_probe(&b, i, (int)(s->first + i), p, speed);
     status = pendres_block_period_sampled(&b, look, s);
-    if (status != PENDRES_OK) return status;
   }
+  ctx->most_slopes = most;
+  if (status != PENDRES_OK) return status;
   ctx->probed_periods += PROBES;
   ctx->probed_slopes += pendres_flow_evaluations(b.flow) - before;
   return PENDRES_OK;

@@ -8,6 +8,7 @@
 #include "engine/context_internal.h"
 #include "questions/hysteresis_chaos.h"
 #include "questions/hysteresis_circle.h"
+#include "questions/hysteresis_left.h"
 #include "questions/hysteresis_rotation.h"
 #include "model/model.h"
 
@@ -19,6 +20,9 @@ enum {
 /* Rotations without a lock are looked for side by side at values this close, in the parameter's
    scale. */
 static const double close_by = 0.1;
+/* A state is followed on to the next value while that is so close, in the same scale: the way to
+   one further off is paid for by that one. */
+static const double in_sight = 100.0;
 
 const char *pendres_jump_kind_name(pendres_jump_kind kind)
 {
@@ -167,7 +171,10 @@ static pendres_status put_stretch(path *w, size_t first, size_t last)
   const size_t n = last - first;
   pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
   int *found = calloc(n + 1, sizeof *found);
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_status status = pendres_context_poll(w->ctx);
+  pendres_path_allow_all(w); /* they are known to be near, however many */
+  if (status != PENDRES_OK) goto done;
+  status = PENDRES_OUT_OF_MEMORY;
   if (orbit == NULL || found == NULL)
     (void)pendres_context_fail(w->ctx, status, "out of memory for %zu orbits", n);
   else
@@ -182,16 +189,19 @@ static pendres_status put_stretch(path *w, size_t first, size_t last)
       .pendulum = p, .attractor = a, .x = orbit[i].x, .v = orbit[i].v};
     w->at = w->value[first + i];
   }
+done:
   free(orbit);
   free(found);
   return status;
 }
 
-/* The last value that the path reaches from number i on before it turns round. */
+/* The last value that the path reaches from number i on before it turns round, or takes a step that
+   is further than anybody sees. */
 static double turning_point(const path *w, size_t i)
 {
   const int up = w->value[i] > w->at;
-  while (i + 1 < w->n &&
+  const double most = in_sight * pendres_parameter_scale(w->parameter);
+  while (i + 1 < w->n && fabs(w->value[i + 1] - w->value[i]) <= most &&
          (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i]))
     i++;
   return w->value[i];
@@ -234,9 +244,10 @@ static pendres_status follow_closed(path *w, size_t *i)
       status = pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,
                                     &w->stretch);
     if (status != PENDRES_OK) return status;
-    const size_t last = held(w, *i);
+    size_t last = held(w, *i);
     if (last > *i) {
       status = put_stretch(w, *i, last);
+      if (pendres_path_own(status) && last > *i + 1) status = put_stretch(w, *i, last = *i + 1);
       *i = last;
     } else if (direction != direction_to(w, *i)) {
       return PENDRES_OK;
@@ -313,7 +324,7 @@ static pendres_status settle_at(path *w, size_t *i)
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
   const int same = pendres_settled_closed(&old.attractor) &&
                    pendres_settled_alike(&old.attractor, &w->state.attractor);
-  if (status == PENDRES_OK && *i > 0 && pendres_settled_closed(&w->state.attractor) && !same) {
+  if (status == PENDRES_OK && w->settled && pendres_settled_closed(&w->state.attractor) && !same) {
     if (w->tried != *i) w->tries = 0;
     w->tried = *i;
     w->tries++;
@@ -326,35 +337,48 @@ static pendres_status settle_at(path *w, size_t *i)
   return status;
 }
 
-static pendres_status follow_path(path *w)
+/* A step of the path from where it is: to value number *i, beyond, or nearer to it. */
+static pendres_status go_on(path *w, size_t *i)
 {
-  size_t i = 0;
-  pendres_status status = settle_at(w, &i);
-  while (i < w->n && status == PENDRES_OK) {
-    const size_t before = i;
-    status = pendres_context_poll(w->ctx);
-    if (status != PENDRES_OK) break;
-    if (w->value[i] == w->value[i - 1]) {
-      pendres_path_put(w, i, &w->h->point[i - 1].attractor);
-      i++;
-      continue;
-    }
-    const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
-    if (rotates_freely(&w->state.attractor)) {
-      status = pendres_path_rotation(w, &i);
-      continue;
-    }
-    if (w->on_circle || rotates) status = pendres_path_circle(w, &i);
-    if (status != PENDRES_OK || i > before) continue;
-    if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
-      stay_away(w, &i);
-      continue;
-    }
-    if (is_short(&w->state.attractor)) status = follow_closed(w, &i);
-    else if (rotates) status = follow_rotation(w, &i);
-    if (status == PENDRES_OK && i == before && !rotates_freely(&w->state.attractor))
-      status = settle_at(w, &i);
+  const size_t before = *i;
+  pendres_status status = pendres_context_poll(w->ctx);
+  if (status != PENDRES_OK || !w->settled) return status == PENDRES_OK ? settle_at(w, i) : status;
+  if (w->value[*i] == w->value[*i - 1]) {
+    pendres_path_put(w, *i, &w->h->point[*i - 1].attractor);
+    ++*i;
+    return PENDRES_OK;
   }
+  const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
+  if (rotates_freely(&w->state.attractor)) return pendres_path_rotation(w, i);
+  if (w->on_circle || rotates) status = pendres_path_circle(w, i);
+  if (status != PENDRES_OK || *i > before) return status;
+  if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
+    stay_away(w, i);
+    return PENDRES_OK;
+  }
+  if (is_short(&w->state.attractor)) status = follow_closed(w, i);
+  else if (rotates) status = follow_rotation(w, i);
+  if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor)) return status;
+  return settle_at(w, i);
+}
+
+static pendres_status follow_path(path *w, pendres_path_left *left)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_path_mark mark = pendres_path_mark_here(w);
+  size_t at = 0;
+  pendres_path_allow(w);
+  for (size_t i = 0; i < w->n && status == PENDRES_OK;) {
+    status = go_on(w, &i);
+    const int came = pendres_path_came(w, left, &mark, at, &status);
+    if (!came) i = at;
+    if (came && i == at) continue;
+    w->settled = i > 0;
+    at = i;
+    mark = pendres_path_mark_here(w);
+    pendres_path_allow(w);
+  }
+  pendres_path_allow_all(w);
   pendres_stretch_free(&w->stretch);
   pendres_circles_free(w->circles);
   pendres_rotation_table_free(w->rotations);
@@ -376,18 +400,7 @@ static pendres_hysteresis *create(size_t n)
   return NULL;
 }
 
-/* Of the values that an interrupted path has not reached nothing is known. */
-static void leave_rest(path *w)
-{
-  for (size_t i = 0; i < w->n; i++) {
-    if (!isnan(w->h->point[i].value)) continue;
-    const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
-    w->state = pendres_settled_nothing_at(&p, NAN, NAN);
-    pendres_path_put(w, i, &w->state.attractor);
-  }
-}
-
-static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hysteresis **out)
+pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hysteresis **out)
 {
   w->state = (pendres_settled){.x = x, .v = v};
   for (size_t i = 0; i < w->n; i++) {
@@ -403,15 +416,18 @@ static pendres_status hysteresis_follow(path *w, double x, double v, pendres_hys
   if (w->h == NULL)
     return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
                                 w->n);
-  pendres_status status = w->n > 0 ? follow_path(w) : PENDRES_OK;
+  pendres_path_left left;
+  pendres_status status = pendres_path_left_open(w, &left);
+  if (status == PENDRES_OK) status = follow_path(w, &left);
   const int interrupted = status == PENDRES_INTERRUPTED;
-  if (interrupted) leave_rest(w);
   if (status == PENDRES_OK || interrupted) {
+    pendres_path_number(w, &left);
     const pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
     if (named != PENDRES_OK) status = named;
   }
   if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) *out = w->h;
   else pendres_hysteresis_free(w->h);
+  pendres_path_left_close(&left);
   return status;
 }
 
@@ -424,8 +440,9 @@ static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
   *out = NULL;
   if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown parameter");
-  path w = {.ctx = ctx, .pendulum = *p, .parameter = parameter, .n = n, .value = value};
-  return hysteresis_follow(&w, x, v, out);
+  path w = {.ctx = ctx, .pendulum = *p, .parameter = parameter, .all = value,
+            .n = n, .value = value};
+  return pendres_path_run(&w, x, v, out);
 }
 
 pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,

@@ -6,6 +6,7 @@
 #include "base/angles.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "questions/hysteresis_left.h"
 
 /* Where rotations end in a saddle-node the equilibrium that is left is taken up so far beyond, in
    the parameter's scale. */
@@ -77,6 +78,7 @@ pendres_status pendres_path_rotation(pendres_path *w, size_t *i)
 {
   const int forwards = w->state.pendulum.torque > 0.0;
   pendres_status status = PENDRES_OK;
+  pendres_path_allow_all(w); /* those of all values are looked for at once */
   if (w->rotations == NULL)
     status = pendres_rotation_table_create(w->ctx, &w->pendulum, w->parameter, w->n, w->value,
                                            &w->rotations);
