@@ -407,7 +407,7 @@ static pendres_status find_attractors(basins *b)
 /* The states that stayed without an attractor, and what may help. */
 static void tell_unresolved(const basins *b)
 {
-  char words[200];
+  char words[SCENE_TOLD];
   double weakest = NAN;
   for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
     const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;

@@ -125,6 +125,21 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
   return PENDRES_OK;
 }
 
+/* What to do about pendulums that do not settle; a longer wait helps neither one that escapes nor
+   one that may rotate on no closed orbit. */
+static const char *advice(const deck *d)
+{
+  pendres_pendulum p = deck_pendulum(d);
+  if (isnan(p.parametric_amplitude)) p.parametric_amplitude = 0.0; /* an axis */
+  if (pendres_pendulum_leaves(&p) && d->kind != DECK_BASINS) /* which counts them */
+    return "they may escape to infinity, as scene 'basins' tells; if not, raise "
+           "precision.period_budget";
+  if (p.torque != 0.0 && pendres_model_of(p.force)->period > 0.0)
+    return "they may rotate without locking to the drive, as scene 'hysteresis' tells; if not, "
+           "raise precision.period_budget";
+  return "raise precision.period_budget";
+}
+
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
                              double multiplier, char *words, size_t size)
 {
@@ -133,8 +148,8 @@ void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char 
     snprintf(periods, sizeof periods, "%lld periods", (long long)d->precision.period_budget);
   if (!isnan(multiplier))
     snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
-  snprintf(words, size, "%zu of %zu %s did not settle within %s%s: raise precision.period_budget",
-           some, all, what, periods, weakest);
+  snprintf(words, size, "%zu of %zu %s did not settle within %s%s: %s", some, all, what, periods,
+           weakest, advice(d));
 }
 
 /* ---- the terminal -------------------------------------------------------------------------- */

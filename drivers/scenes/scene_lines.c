@@ -234,7 +234,7 @@ static void leave_out(scene_lines *l)
 static void judge(scene_lines *l)
 {
   for (size_t i = 0; i < l->n; i++) {
-    char words[200];
+    char words[SCENE_TOLD];
     const char *message = NULL;
     const size_t unresolved = l->points[i].unresolved;
     const pendres_status outcome = pendres_phase_diagram_outcome(l->diagram, i, &message);
@@ -412,7 +412,9 @@ void scene_lines_print(const scene_lines *l, FILE *out)
             c->value[0], c->value_error[0]);
   if (doubts > 0)
     fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at damping "
-            "%.9g, drive amplitude %.9g, drive frequency %.9g (period %d): a bifurcation is missed "
-            "or misnamed there\n", (long)doubts, p->orbit.pendulum.damping,
-            p->orbit.pendulum.drive_amplitude, p->orbit.pendulum.drive_frequency, p->orbit.period);
+            "%.9g, drive amplitude %.9g, torque %.9g, parametric amplitude %.9g, drive frequency "
+            "%.9g (period %d): a bifurcation is missed or misnamed there\n", (long)doubts,
+            p->orbit.pendulum.damping, p->orbit.pendulum.drive_amplitude,
+            p->orbit.pendulum.torque, p->orbit.pendulum.parametric_amplitude,
+            p->orbit.pendulum.drive_frequency, p->orbit.period);
 }

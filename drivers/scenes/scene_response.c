@@ -149,7 +149,7 @@ static void judge_point(const grid *g, const pendres_response *p, scene_verdict 
 {
   if (verdict->reason != SCENE_FAILURE_NONE) return;
   if (p->unresolved > 0) {
-    char words[200];
+    char words[SCENE_TOLD];
     double weakest = NAN;
     for (size_t i = 0; i < p->states; i++) {
       const pendres_orbit *o = &p->state[i].orbit;
