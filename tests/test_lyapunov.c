@@ -349,6 +349,29 @@ static void caught_and_let_go(void **state)
   pendres_context_free(ctx);
 }
 
+/* x'' + 0.3 x' + x - x^2 = F cos(0.8 t) lets go of every pendulum at F = 0.5, where the well's
+   barrier is 1/6 high, and of none at 0.05; with -x^3 instead the last period leads to infinity. */
+static void escapes(void **state)
+{
+  enum { N = 4 };
+  const pendres_pendulum well = {.damping = 0.3, .drive_frequency = 0.8, .drive_amplitude = 0.05,
+                                 .force = PENDRES_FORCE_POLYNOMIAL,
+                                 .force_coefficients = {1.0, -1.0}};
+  pendres_pendulum p[N] = {well, well, well, well};
+  const double x[N] = {0.1, 0.1, 0.1, 3.0}, v[N] = {0.0};
+  pendres_lyapunov l[N];
+  p[1].drive_amplitude = 0.5;
+  p[2].force_coefficients[1] = p[3].force_coefficients[1] = 0.0;
+  p[2].force_coefficients[2] = p[3].force_coefficients[2] = -1.0;
+  check_ok(pendres_lyapunov_find(*state, N, p, x, v, NULL, l));
+  for (int i = 0; i < N; i++) {
+    const int away = i % 2;
+    assert_int_equal(l[i].label, away ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_PERIODIC);
+    assert_int_equal(l[i].period, 1 - away);
+    assert_true(isnan(l[i].exponent) == away && isnan(l[i].rotation_error) == away);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -363,6 +386,7 @@ int main(void)
     cmocka_unit_test(late),
     cmocka_unit_test_setup_teardown(unstable_orbit, setup, teardown),
     cmocka_unit_test_setup_teardown(neighbours, setup, teardown),
+    cmocka_unit_test_setup_teardown(escapes, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,8 @@ static row row_of(const pendres_lyapunov *l)
                                                               : SCENE_FAILURE_NONE};
 }
 
-/* Points from the first on; where their budget ends them, their halves, down to single ones. */
+/* Points from the first on; where their budget ends them, or one of them fails for its own sake,
+   their halves, down to single ones. */
 typedef struct some {
   size_t first, n;
   const pendres_pendulum *p;
@@ -86,10 +87,13 @@ static pendres_status find(const work *w, const some *s, pendres_context *ctx, f
   scene_point_begin(out, w->d, s->first, s->n, AXES, w->axis);
   pendres_status status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
   for (size_t i = 0; i < s->n && status == PENDRES_OK; i++) s->rows[i] = row_of(&s->found[i]);
-  if (!farm_gave_up(out, status)) return status;
+  const int late = farm_gave_up(out, status);
+  const scene_failure own = scene_failure_of(status);
+  if (!late && own == SCENE_FAILURE_NONE) return status;
   if (half == 0) {
-    farm_lost(out, words, sizeof words);
+    if (late) farm_lost(out, words, sizeof words);
     s->rows[0] = no_row;
+    if (!late) s->rows[0].failed = (int)own;
     return PENDRES_OK;
   }
   const some one = {s->first, half, s->p, s->x, s->v, s->found, s->rows};

@@ -38,6 +38,9 @@
  * be invariant and has to shrink; with a mirror symmetry it is its own image and does not
  * rotate. So rotations are looked for under a torque and a drive, or under both drives.
  *
+ * Unless the caller says how long to look, no transient and no average takes more than 5e7 steps:
+ * what would is unresolved.
+ *
  * Chaos that lasts for longer than it is watched, and then ends, is not told from chaos that lasts.
  */
 #ifndef PENDRES_LYAPUNOV_H
@@ -59,8 +62,9 @@ typedef struct pendres_lyapunov_options {
 
 /** What a pendulum does in the long run. Plain data. */
 typedef struct pendres_lyapunov {
-  pendres_label label;   /**< PERIODIC, RUNNING, QUASI_PERIODIC, CHAOTIC or UNRESOLVED; SA and LA
-                              are not told apart */
+  pendres_label label;   /**< PERIODIC, RUNNING, QUASI_PERIODIC, CHAOTIC, ESCAPE (as in
+                              attractor.h; all its numbers are NaN) or UNRESOLVED; SA and LA are
+                              not told apart */
   double exponent;       /**< largest Lyapunov exponent a unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
                               the exponent is the mean so far; of quasi-periodic rotations, whose

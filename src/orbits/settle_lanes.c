@@ -6,9 +6,9 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
-#include "engine/passage.h"
 #include "engine/steps.h"
 #include "model/model.h"
+#include "orbits/escape.h"
 #include "orbits/strobe_noise.h"
 
 /* A lane that is in a chaotic attractor's cells at so many strobes in a row is chaotic. */
@@ -175,42 +175,15 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
   judge(l, i, lane->added > 0.0 ? doubt_on_way(worst) : NAN);
 }
 
-/*
- * A force that grows faster than the distance leads to infinity within a period. The state at the
- * period's end is then no number, or a meaningless one of either sign, beyond all lengths of the
- * force.
- */
-static const double lost_beyond = 1e8;
-
-static int lost(const pendres_strobe_lane *lane)
-{
-  return !(fabs(lane->y) < lost_beyond && fabs(lane->w) < lost_beyond);
-}
-
 /* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
 static int escapes(const pendres_settle_labelling *l, size_t index, size_t i,
                    const pendres_strobe_lane *lane)
 {
-  if (lost(lane)) return 1;
+  if (pendres_escape_lost(lane->y, lane->w)) return 1;
   l->before[index] = (pendres_settle_place){lane->y, lane->w, lane->worst};
   if (!pendres_model_escapes(lane->pendulum, lane->y, lane->w)) return 0;
   note_escape(l, i, lane, lane->worst);
   return 1;
-}
-
-typedef struct last_period {
-  const pendres_pendulum *pendulum;
-  int escapes, lost;
-} last_period;
-
-static void watch_escape(void *arg, int step, const pendres_rows *rows)
-{
-  last_period *p = arg;
-  const double y = pendres_rows_get(rows, PENDRES_ROW_Y, 0);
-  const double w = pendres_rows_get(rows, PENDRES_ROW_W, 0);
-  (void)step;
-  p->lost |= !(fabs(y) < lost_beyond && fabs(w) < lost_beyond);
-  if (!p->lost) p->escapes |= pendres_model_escapes(p->pendulum, y, w);
 }
 
 /* Note an escape if a lane was on its way to infinity for certain at a step of its last period. */
@@ -218,14 +191,9 @@ static pendres_status look_back(pendres_context *ctx, const pendres_settle_label
                                 size_t index, const pendres_strobe_lane *lane)
 {
   const pendres_settle_place *from = &l->before[index];
-  last_period p = {.pendulum = lane->pendulum};
-  pendres_block block;
-  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, lane->steps, &block);
-  if (status != PENDRES_OK) return status;
-  pendres_block_resize(&block, 1);
-  pendres_block_load(&block, 0, lane->pendulum, from->y, from->w);
-  status = pendres_block_period_sampled(&block, watch_escape, &p);
-  if (status == PENDRES_OK && p.escapes) note_escape(l, l->origin[index], lane, from->worst);
+  int away = 0;
+  const pendres_status status = pendres_escape_within(ctx, lane, from->y, from->w, &away);
+  if (away) note_escape(l, l->origin[index], lane, from->worst);
   return status;
 }
 
@@ -263,7 +231,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     if (pendres_settle_ended(&l->outcome[i])) continue;
     if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
     covers |= c->covers > 0;
-    open |= !(pendres_model_of(c->pendulum.force)->period > 0.0);
+    open |= pendres_escape_possible(&c->pendulum);
     origin[left] = i;
     rest[left++] = lanes[i];
   }
@@ -285,7 +253,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
     lanes[origin[i]] = rest[i];
     if (pendres_settle_ended(o)) continue;
     *o = pendres_settle_unresolved;
-    if (open && lost(&rest[i]))
+    if (open && pendres_escape_lost(rest[i].y, rest[i].w))
       status = look_back(ctx, l, i, &rest[i]);
   }
   goto done;

@@ -202,6 +202,14 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
+/* Beyond the end of the state by a distance; but friction and frequency stay above 0. */
+static void put_beyond(const pendres_bifurcation *at, double distance, pendres_pendulum *p)
+{
+  const int above = at->parameter == PENDRES_DAMPING || at->parameter == PENDRES_DRIVE_FREQUENCY;
+  const double value = at->value + distance;
+  pendres_parameter_set(at->parameter, above ? fmax(value, 0.5 * at->value) : value, p);
+}
+
 /* The trials of a jump, each so far beyond the end of the state. */
 static void begin(const pendres_bifurcation *at, int direction, double distance[TRIALS],
                   pendres_settled went[TRIALS])
@@ -234,7 +242,7 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
       if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
       if (!pendres_lyapunov_may_rotate(&s->pendulum)) continue;
       distance[i] *= further;
-      pendres_parameter_set(at->parameter, at->value + direction * distance[i], &s->pendulum);
+      put_beyond(at, direction * distance[i], &s->pendulum);
       some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);
       which[n++] = i;
     }

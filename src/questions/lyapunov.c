@@ -14,6 +14,7 @@
 #include "engine/strobe_run.h"
 #include "model/model.h"
 #include "orbits/catalogue.h"
+#include "orbits/escape.h"
 #include "orbits/orbit_prime.h"
 #include "questions/lyapunov_move.h"
 #include "questions/lyapunov_runner.h"
@@ -51,11 +52,16 @@ static const double passing = 30.0;
    neighbours grow or shrink by less than this. */
 static const double same_mean = 1e-5;
 
+/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more: half
+   a minute's where it is alone. */
+static const double most_steps = 5e7;
+
 typedef struct job {
   size_t n;
   pendres_runner *runner;
   pendres_orbit *orbit; /* that runners are on; NULL where nobody asks */
   long transient, periods;
+  int asked; /* so many periods, by the caller */
   int rounds;
   pendres_lyapunov_care care;
 } job;
@@ -70,24 +76,28 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 /* ---- coming back --------------------------------------------------------------------------- */
 
 /* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
-static long transient_of(const job *j, const pendres_pendulum *p)
+static long transient_of(const job *j, const pendres_strobe_lane *lane)
 {
+  const pendres_pendulum *p = lane->pendulum;
   if (j->transient > 0) return j->transient;
   /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
   const double forgets = p->drive_frequency / (two_pi * p->damping);
   if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
-  return (long)fmax(TRANSIENT, fmin(1e7, 80.0 * p->drive_frequency / (two_pi * p->damping)));
+  const double most = fmin(1e7, most_steps / lane->steps);
+  return (long)fmax(TRANSIENT,
+                    fmin(most, 80.0 * p->drive_frequency / (two_pi * p->damping)));
 }
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
 {
   const job *j = arg;
   pendres_runner *r = &j->runner[index];
+  if (pendres_runner_leaves(r, lane)) return 1;
   if (pendres_runner_comes_back(r, lane)) {
     r->state = PENDRES_RUNNER_CAUGHT;
     return 1;
   }
-  return lane->period >= transient_of(j, lane->pendulum) ||
+  return lane->period >= transient_of(j, lane) ||
          !(isfinite(lane->y) && isfinite(lane->w));
 }
 
@@ -174,6 +184,25 @@ static pendres_status settle_caught(pendres_context *ctx, job *j, pendres_lyapun
   free(guess);
   free(orbit);
   free(outcome);
+  return status;
+}
+
+/* ---- escapes ---- */
+
+/* Those that are on their way to infinity, and those of which nothing more can be known. */
+static pendres_status tell_away(pendres_context *ctx, const job *j, pendres_lyapunov *out)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    pendres_runner *r = &j->runner[i];
+    int away = r->state == PENDRES_RUNNER_AWAY;
+    if (!away && r->state != PENDRES_RUNNER_LOST) continue;
+    if (!away) status = pendres_escape_within(ctx, &r->lane, r->before_y, r->before_w, &away);
+    r->state = PENDRES_RUNNER_DONE;
+    out[i] = (pendres_lyapunov){
+      .label = away ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+      .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+  }
   return status;
 }
 
@@ -266,6 +295,20 @@ static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
   }
 }
 
+/* Runners whose averages would take too many steps go no further. */
+static void give_up(job *j, long batch, int first, pendres_lyapunov *out)
+{
+  for (size_t i = 0; i < j->n && !j->asked; i++) {
+    pendres_runner *r = &j->runner[i];
+    const double steps = (double)(batch * BATCHES) * r->lane.steps;
+    if (r->state != PENDRES_RUNNER_MOVING || steps <= most_steps) continue;
+    r->state = PENDRES_RUNNER_DONE;
+    if (first)
+      out[i] = (pendres_lyapunov){.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+                                  .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+  }
+}
+
 /* ---- the call ------------------------------------------------------------------------------ */
 
 static pendres_status start(pendres_context *ctx, const job *j, const pendres_pendulum *p,
@@ -306,10 +349,13 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = start(ctx, j, p, x, v);
   if (status == PENDRES_OK) status = run_transient(ctx, j);
+  if (status == PENDRES_OK) status = tell_away(ctx, j, out);
   if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
   /* Chaos leaves no doubt in most cases, and tangent vectors show it at half the cost. */
   for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
+    give_up(j, batch, round == 0, out);
     status = pendres_runners_average(ctx, j->n, j->runner, batch);
+    if (status == PENDRES_OK) status = tell_away(ctx, j, out);
     if (status == PENDRES_OK) status = settle_caught(ctx, j, out);
     /* Runners whose orbit was not stable have averages of this round, and no result yet. */
     if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx), out);
@@ -362,6 +408,7 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
   }
   job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner),
            .transient = o->transient, .periods = o->periods > 0 ? o->periods : PERIODS,
+           .asked = o->periods > 0,
            .rounds = ROUNDS, .care = PENDRES_CARE_FULL};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);

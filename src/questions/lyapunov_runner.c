@@ -9,6 +9,7 @@
 #include "engine/passage.h"
 #include "engine/rank.h"
 #include "model/model.h"
+#include "orbits/escape.h"
 
 enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
@@ -62,9 +63,25 @@ int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
   return 0;
 }
 
+int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l)
+{
+  if (!r->open) return 0;
+  if (pendres_escape_lost(l->y, l->w)) {
+    r->state = PENDRES_RUNNER_LOST;
+    return 1;
+  }
+  r->before_y = l->y;
+  r->before_w = l->w;
+  if (!pendres_model_escapes(l->pendulum, l->y, l->w)) return 0;
+  r->state = PENDRES_RUNNER_AWAY;
+  return 1;
+}
+
 pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 {
-  runner r = {.lane = *lane, .u = {{0.6, 0.8}, {0.6, 0.8}}, .near = near, .next = 8};
+  runner r = {.lane = *lane, .u = {{0.6, 0.8}, {0.6, 0.8}}, .near = near, .next = 8,
+              .open = pendres_escape_possible(lane->pendulum),
+              .before_y = lane->y, .before_w = lane->w};
   look_from(&r, lane);
   return r;
 }
@@ -151,6 +168,7 @@ static void arrive(const average_job *a, size_t lane, long step, runner *r)
   pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);
+  if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_leaves(r, l)) return;
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_comes_back(r, l))
     r->state = PENDRES_RUNNER_CAUGHT;
 }

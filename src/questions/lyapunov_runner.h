@@ -17,6 +17,8 @@ enum { PENDRES_RUNNER_BATCHES = 16 };
 typedef enum pendres_runner_state {
   PENDRES_RUNNER_MOVING,
   PENDRES_RUNNER_CAUGHT, /* has come back next to where it was */
+  PENDRES_RUNNER_AWAY,   /* escapes to infinity for certain, ... */
+  PENDRES_RUNNER_LOST,   /* ... or is beyond all numbers: its last period tells then */
   PENDRES_RUNNER_DONE
 } pendres_runner_state;
 
@@ -27,6 +29,8 @@ typedef struct pendres_runner {
   double ref_y, ref_w, near;
   long ref_turns, ref_period, next;
   int period, winding; /* of the orbit that it seems to be near */
+  int open;            /* it may escape, */
+  double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
   int neighbour;       /* it runs beside a neighbour, which takes the place of the tangent vectors:
                           exact, at twice the cost */
@@ -43,6 +47,9 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near);
 
 /* Whether the latest strobe point is next to the one that it is compared with. */
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l);
+
+/* Whether the latest strobe point shows that a runner escapes, or is lost: its state says which. */
+int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l);
 
 /* Averages of all of n runners that are moving, over so many periods a batch. Those that come back
    meanwhile are caught, and run to the end all the same. */

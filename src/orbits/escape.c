@@ -1,0 +1,54 @@
+/* escape.c -- pendulums on their way to infinity; see escape.h. */
+#include "orbits/escape.h"
+
+#include <math.h>
+
+#include "engine/passage.h"
+#include "model/model.h"
+
+/*
+ * A force that grows faster than the distance leads to infinity within a period. The state at the
+ * period's end is then no number, or a meaningless one of either sign, beyond all lengths of the
+ * force.
+ */
+static const double lost_beyond = 1e8;
+
+int pendres_escape_possible(const pendres_pendulum *p)
+{
+  return !(pendres_model_of(p->force)->period > 0.0);
+}
+
+int pendres_escape_lost(double y, double w)
+{
+  return !(fabs(y) < lost_beyond && fabs(w) < lost_beyond);
+}
+
+typedef struct last_period {
+  const pendres_pendulum *pendulum;
+  int escapes, lost;
+} last_period;
+
+static void watch_escape(void *arg, int step, const pendres_rows *rows)
+{
+  last_period *p = arg;
+  const double y = pendres_rows_get(rows, PENDRES_ROW_Y, 0);
+  const double w = pendres_rows_get(rows, PENDRES_ROW_W, 0);
+  (void)step;
+  p->lost |= pendres_escape_lost(y, w);
+  if (!p->lost) p->escapes |= pendres_model_escapes(p->pendulum, y, w);
+}
+
+pendres_status pendres_escape_within(pendres_context *ctx, const pendres_strobe_lane *lane,
+                                     double y, double w, int *away)
+{
+  last_period p = {.pendulum = lane->pendulum};
+  pendres_block block;
+  *away = 0;
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, lane->steps, &block);
+  if (status != PENDRES_OK) return status;
+  pendres_block_resize(&block, 1);
+  pendres_block_load(&block, 0, lane->pendulum, y, w);
+  status = pendres_block_period_sampled(&block, watch_escape, &p);
+  *away = status == PENDRES_OK && p.escapes;
+  return status;
+}
