@@ -366,6 +366,43 @@ static void summaries(void **state)
   assert_true(s.count == 0 && isnan(s.mean));
 }
 
+/* A ship in x'' + 0.3 x' + x - x^2 = F cos(0.8 t) capsizes on a ramp to F = 0.5, where it escapes
+   from every state, and does not come back: before that it is known, from there on nothing is. */
+static void capsizes(void **state)
+{
+  enum { PERIODS = 40, POINTS = PERIODS + 1, VALUES = 4 };
+  static const long period[] = {0, PERIODS};
+  static const double value[VALUES] = {0.05, 0.06, 0.3, 0.5}, ends[] = {0.05, 0.5};
+  const pendres_pendulum p = {.damping = 0.3, .drive_frequency = 0.8, .drive_amplitude = 0.05,
+                              .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}};
+  double x[POINTS], v[POINTS], x_error[POINTS], v_error[POINTS];
+  const pendres_ramp_record record = {1, x, v, x_error, v_error};
+  pendres_ramp_jump jump[8];
+  pendres_hysteresis *path = NULL;
+  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_AMPLITUDE, 0.1, 0.0, VALUES, value,
+                                     &path));
+  assert_int_equal(pendres_hysteresis_get(path, VALUES - 1)->attractor.label,
+                   PENDRES_LABEL_ESCAPE);
+  const pendres_ramp ramp = {.pendulum = p, .parameter = PENDRES_DRIVE_AMPLITUDE, .corners = 2,
+                             .period = period, .value = ends, .points = VALUES,
+                             .point = pendres_hysteresis_get(path, 0),
+                             .jumps = pendres_hysteresis_jumps(path),
+                             .jump = pendres_hysteresis_jump(path, 0)};
+  assert_true(ramp.jumps <= 8);
+  check_ok(pendres_ramp_follow(*state, &ramp, &record, jump));
+  int known = 0;
+  while (known < POINTS && !isnan(x[known])) {
+    assert_true(fabs(x[known]) < 1e8 && x_error[known] >= 0.0);
+    known++;
+  }
+  assert_true(known > 4 && known < POINTS);
+  /* Small swings at first: their error is told. */
+  assert_true(fabs(x[2]) < 0.5 && x_error[2] < 1e-4);
+  for (int k = known; k < POINTS; k++)
+    assert_true(isnan(x[k]) && isnan(v[k]) && isnan(x_error[k]) && isnan(v_error[k]));
+  pendres_hysteresis_free(path);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -373,6 +410,7 @@ int main(void)
     cmocka_unit_test(there_and_back),  cmocka_unit_test(tables_of_times),
     cmocka_unit_test(noisy_jumps),     cmocka_unit_test(streams),
     cmocka_unit_test(summaries),
+    cmocka_unit_test_setup_teardown(capsizes, setup_seeded, teardown),
   };
   return cmocka_run_group_tests(tests, setup_seeded, teardown);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scenes/scene_columns.h"
+#include "scenes/scene_failed.h"
 
 /* A task's trajectories: some blocks. */
 enum { DIRECTIONS = 2, PART = 192 };
@@ -21,6 +22,7 @@ typedef struct work {
   size_t points;               /* recorded each way */
   double *x, *v, *x_error, *v_error; /* [DIRECTIONS * points], both ways in the order of time */
   pendres_ramp_jump *jump;
+  scene_verdict verdict;       /* of the ramp without noise */
   size_t trajectories;         /* 0: no noise */
   double *noisy;               /* [jumps][trajectories] values */
   pendres_ramp_summary *summary; /* [jumps] */
@@ -118,7 +120,8 @@ static void clear(work *w)
 
 /* ---- tasks --------------------------------------------------------------------------------- */
 
-/* A record: the jumps, then x, v and their errors. The turning point is one strobe of both ways. */
+/* A record: the jumps, then x, v and their errors, and what became of it. The turning point is one
+   strobe of both ways. */
 static size_t samples(const work *w)
 {
   return DIRECTIONS * (w->points - 1) + 1;
@@ -133,7 +136,13 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   double *x = (double *)(jump + w->ramp.jumps);
   const pendres_ramp_record record = {.every = w->every, .x = x, .v = x + n, .x_error = x + 2 * n,
                                       .v_error = x + 3 * n};
-  return pendres_ramp_follow(ctx, &w->ramp, &record, jump);
+  pendres_status status = pendres_ramp_follow(ctx, &w->ramp, &record, jump);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  for (size_t k = 0; k < w->ramp.jumps; k++)
+    jump[k] = (pendres_ramp_jump){.time = NAN, .value = NAN, .value_error = NAN, .delay = NAN,
+                                  .delay_error = NAN};
+  for (size_t k = 0; k < 4 * n; k++) x[k] = NAN;
+  return scene_verdict_note((scene_verdict *)(x + 4 * n), status, pendres_context_message(ctx));
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
@@ -144,6 +153,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   const double *x = (const double *)(jump + w->ramp.jumps);
   double *const to[4] = {w->x, w->v, w->x_error, w->v_error};
   (void)task;
+  memcpy(&w->verdict, x + 4 * n, sizeof w->verdict);
   memcpy(w->jump, jump, w->ramp.jumps * sizeof *jump);
   for (int k = 0; k < 4; k++) {
     memcpy(to[k], x + (size_t)k * n, points * sizeof *x);
@@ -217,6 +227,34 @@ static pendres_status put_way(scene_run *run, const work *w)
   return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
+/* What the pendulum does at a point of the ramp. */
+static const char *state_names(int value)
+{
+  static const char *const names[] = {"followed", "escape", "failed"};
+  return value >= 0 && value < 3 ? names[value] : NULL;
+}
+
+static pendres_status put_states(scene_run *run, const work *w)
+{
+  static const scene_column column = {
+    .name = "ramp_state", .type = SCENE_FLAG, .names = state_names,
+    .long_name = "whether the ramp's pendulum is still there, without noise"};
+  const size_t n = DIRECTIONS * w->points;
+  const int failed = w->verdict.reason != SCENE_FAILURE_NONE;
+  int *state = malloc(n * sizeof *state);
+  if (state == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory: %zu points", n);
+  for (size_t i = 0; i < n; i++) state[i] = failed ? 2 : isnan(w->x[i]);
+  const scene_table table = {.dimensions = {"direction", "point"}, .n = n, .stride = sizeof *state,
+                             .rows = state};
+  const pendres_status status = scene_columns_write(run, &table, 1, &column);
+  free(state);
+  if (!failed) return status;
+  run->failed_points++;
+  scene_failure_tell(run, (scene_failure)w->verdict.reason, w->verdict.words,
+                     "the ramp of %s in real time", w->name);
+  return status;
+}
+
 static pendres_status put_delays(scene_run *run, const work *w)
 {
   static const scene_column columns[] = {
@@ -287,12 +325,15 @@ static pendres_status compute(scene_run *run, work *w)
   const size_t tasks = (w->trajectories + PART - 1) / PART;
   const farm_stage ramp = {
     .what = "ramps", .tasks = 1, .task = follow, .collect = collect, .arg = w,
-    .record_size = w->ramp.jumps * sizeof *w->jump + 4 * samples(w) * sizeof(double)};
+    .record_size = w->ramp.jumps * sizeof *w->jump + 4 * samples(w) * sizeof(double) +
+                   sizeof w->verdict};
   const farm_stage noise = {.what = "parts of the noisy trajectories", .tasks = tasks,
                             .record_size = 1, .last = 1, .task = scatter,
                             .collect = collect_part, .arg = w};
   pendres_status status = scene_compute(run, &ramp);
-  if (status != PENDRES_OK || tasks == 0 || w->ramp.jumps == 0) return status;
+  const int failed = w->verdict.reason != SCENE_FAILURE_NONE;
+  for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;
+  if (status != PENDRES_OK || tasks == 0 || w->ramp.jumps == 0 || failed) return status;
   status = scene_compute(run, &noise);
   for (size_t k = 0; k < w->ramp.jumps && status == PENDRES_OK; k++)
     status = pendres_ramp_summarize(w->trajectories, w->noisy + k * w->trajectories,
@@ -308,6 +349,7 @@ pendres_status scene_ramp_run(scene_run *run, deck_axis_id axis, const scene_alo
   if (status != PENDRES_OK) (void)scene_fail(run, status, "out of memory for a ramp");
   if (status == PENDRES_OK) status = compute(run, &w);
   if (status == PENDRES_OK) status = put_way(run, &w);
+  if (status == PENDRES_OK) status = put_states(run, &w);
   if (status == PENDRES_OK) status = put_delays(run, &w);
   if (status == PENDRES_OK && w.trajectories > 0) status = put_scatter(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);

@@ -89,6 +89,9 @@ double pendres_ramp_value(const pendres_ramp *ramp, double time);
 /**
  * Follow a ramp without noise. record may be NULL, jump[ramp->jumps] as well.
  *
+ * Where a force lets pendulums escape to infinity, x, v and their errors are NaN from the first
+ * point on at which one is beyond 1e8.
+ *
  * The temperature is not looked at. Steps are chosen such that the errors of the strobe points meet
  * the context's tolerance while the pendulum is in the states of the path (or are the context's
  * steps_per_period); the run is repeated with half as many.

@@ -31,7 +31,7 @@ static pendres_status follow(pendres_context *ctx, pendres_langevin_block *b, si
     if (pendres_langevin_show(ctx, b, first, k + 1, run->observer) == PENDRES_LANGEVIN_STOP)
       return pendres_context_fail(ctx, PENDRES_INTERRUPTED, "interrupted by the observer");
   }
-  return pendres_langevin_check_ends(ctx, b, first);
+  return run->may_leave ? PENDRES_OK : pendres_langevin_check_ends(ctx, b, first);
 }
 
 pendres_status pendres_langevin_move(pendres_context *ctx, const pendres_langevin_moving *run)

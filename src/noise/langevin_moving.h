@@ -20,6 +20,7 @@ typedef struct pendres_langevin_moving {
   long periods;
   int steps;         /* a period */
   double x, v;       /* where they start */
+  int may_leave;     /* for infinity: that some end there is no failure; the observer sees it */
   const pendres_langevin_observer *observer; /* never answers ENOUGH */
 } pendres_langevin_moving;
 

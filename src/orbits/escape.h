@@ -13,7 +13,8 @@
 /* Whether pendulums of this force may escape at all: others turn round instead. */
 int pendres_escape_possible(const pendres_pendulum *p);
 
-/* Whether a state of a pendulum that may escape is beyond all lengths of its force, or no number. */
+/* Whether a state of a pendulum that may escape is beyond all lengths of its force, or no number.
+ */
 int pendres_escape_lost(double y, double w);
 
 /* *away: whether a lane that is lost was on its way to infinity for certain at a step of its last

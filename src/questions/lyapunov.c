@@ -52,8 +52,8 @@ static const double passing = 30.0;
    neighbours grow or shrink by less than this. */
 static const double same_mean = 1e-5;
 
-/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more: half
-   a minute's where it is alone. */
+/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
+   half a minute's where it is alone. */
 static const double most_steps = 5e7;
 
 typedef struct job {

@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/strobe_run.h"
 #include "noise/langevin_moving.h"
+#include "orbits/escape.h"
 #include "questions/ramp_watch.h"
 
 enum { FEWEST_STEPS = 16, MOST_STEPS = 65536, PROBES = 8 };
@@ -140,6 +141,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, 
   const size_t apart = (r->points + PROBES - 1) / PROBES;
   for (size_t i = 0; i < r->points; i += apart) {
     if (!(isfinite(r->point[i].x) && isfinite(r->point[i].v))) continue;
+    if (r->point[i].attractor.label == PENDRES_LABEL_ESCAPE) continue; /* no state to stay in */
     for (;;) {
       double off = 0.0;
       const pendres_status status = probe(ctx, r, &r->point[i], *steps, &off);
@@ -181,7 +183,8 @@ static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t 
   const pendres_langevin_moving moving = {
     .motion = pendulum_at, .arg = m, .n = n, .first_id = first_id,
     .periods = pendres_ramp_periods(ramp), .steps = steps, .x = ramp->point[0].x,
-    .v = ramp->point[0].v, .observer = &observer};
+    .v = ramp->point[0].v, .may_leave = pendres_escape_possible(&ramp->pendulum),
+    .observer = &observer};
   if (x != NULL) {
     x[0] = moving.x;
     v[0] = moving.v;
@@ -239,6 +242,25 @@ static void compare(const pendres_ramp *r, const pendres_ramp_record *record, si
   if (n > 0) record->x_error[0] = record->v_error[0] = 0.0;
 }
 
+/* Where one of both runs is on its way to infinity, beyond all lengths of the force, nothing is
+   known from there on: the number of the first such point, n if there is none. x_error and v_error
+   hold the coarser run. */
+static size_t bounded(const pendres_ramp *r, const pendres_ramp_record *record, size_t n)
+{
+  size_t k = 0;
+  if (!pendres_escape_possible(&r->pendulum)) return n;
+  while (k < n && !pendres_escape_lost(record->x[k], record->v[k]) &&
+         !pendres_escape_lost(record->x_error[k], record->v_error[k]))
+    k++;
+  return k;
+}
+
+static void forget(const pendres_ramp_record *record, size_t from, size_t n)
+{
+  for (size_t k = from; k < n; k++)
+    record->x[k] = record->v[k] = record->x_error[k] = record->v_error[k] = NAN;
+}
+
 static void judge(const pendres_ramp *r, const double *coarse, const double *fine,
                   double rounding, pendres_ramp_jump *jump)
 {
@@ -286,8 +308,12 @@ static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp
     status = follow(ctx, &m, 2 * half, 1, 0, to->every, to->x, to->v, fine);
   const double rounding = rounding_of(ramp, 2 * half);
   if (status == PENDRES_OK && jump != NULL) judge(ramp, time, fine, rounding, jump);
-  if (status == PENDRES_OK && record != NULL)
-    compare(ramp, record, (size_t)(pendres_ramp_periods(ramp) / to->every) + 1, rounding);
+  if (status == PENDRES_OK && record != NULL) {
+    const size_t n = (size_t)(pendres_ramp_periods(ramp) / to->every) + 1;
+    const size_t known = bounded(ramp, record, n);
+    compare(ramp, record, known, rounding);
+    forget(record, known, n);
+  }
   free(time);
   return status;
 }
