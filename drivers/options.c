@@ -204,7 +204,8 @@ static int threads_of_environment(options *out, const char *name)
   if (length < sizeof text) snprintf(text, sizeof text, "%.*s", (int)length, value);
   out->threads = threads_of(text);
   if (out->threads > 0) return 0;
-  fprintf(stderr, "%s: OMP_NUM_THREADS takes a number from 1 to %d, and it is '%.60s'\n", name,
+  fprintf(stderr, "%s: OMP_NUM_THREADS must be a number from 1 to %d, and is '%.60s': set or unset "
+          "it, or give --threads\n", name,
           MOST_THREADS, value);
   return complain(name);
 }
@@ -218,8 +219,8 @@ static int take_operands(int argc, char **argv, const char *name, options *out)
     char *one = operand[i];
     if (deck_is_setting(one)) continue;
     if (strchr(one, '=') != NULL && access(one, F_OK) != 0) {
-      fprintf(stderr, "%s: '%s' is no deck, and sets no key: that is written GROUP.KEY=VALUE, as "
-              "in pendulum.damping=0.13\n", name, one);
+      fprintf(stderr, "%s: there is no deck '%s', and it sets no key: that is written "
+              "GROUP.KEY=VALUE, as in pendulum.damping=0.13\n", name, one);
       return complain(name);
     }
     memmove(&operand[out->deck_count + 1], &operand[out->deck_count],
@@ -235,7 +236,7 @@ static int take_operands(int argc, char **argv, const char *name, options *out)
     return complain(name);
   }
   if (out->deck_count > 0) return 0;
-  fprintf(stderr, "%s: no deck was given\n", name);
+  fprintf(stderr, "%s: no deck was given: name a file, or - for standard input\n", name);
   return complain(name);
 }
 
@@ -245,7 +246,7 @@ static int take_files(int argc, char **argv, const char *name, options *out)
   out->deck = argv + optind;
   out->deck_count = (size_t)(argc - optind);
   if (out->deck_count > 0) return 0;
-  fprintf(stderr, "%s: --verify: no file was given\n", name);
+  fprintf(stderr, "%s: --verify: no file was given: name the files of results to be read\n", name);
   return complain(name);
 }
 
@@ -276,11 +277,13 @@ int options_parse(int argc, char **argv, options *out)
   if (out->action == OPTIONS_VERIFY) return take_files(argc, argv, name, out);
   if (out->action >= OPTIONS_LIST) return 0;
   if (out->no_journal && (out->resume || out->shards > 0 || out->merge)) {
-    fprintf(stderr, "%s: --resume, --shard and --merge need a journal\n", name);
+    fprintf(stderr, "%s: --resume, --shard and --merge need a journal: leave out --no-journal\n",
+            name);
     return complain(name);
   }
   if (out->merge && out->shards > 0) {
-    fprintf(stderr, "%s: --merge puts together what --shard has computed: one at a time\n", name);
+    fprintf(stderr, "%s: --merge puts together what --shard has computed: give one of the two\n",
+            name);
     return complain(name);
   }
   const int code = take_operands(argc, argv, name, out);

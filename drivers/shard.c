@@ -68,8 +68,8 @@ int shard_parse(const char *text, size_t *shard, size_t *shards, char *words, si
   const char *rest = NULL;
   if (strcmp(text, "auto") == 0) {
     if (ask_scheduler(shard, shards)) return 1;
-    snprintf(words, size, "auto finds no array of jobs of Slurm or Grid Engine; PBS tells the "
-             "number of a job alone: auto/N takes N from you");
+    snprintf(words, size, "auto finds no array of jobs of Slurm or Grid Engine; PBS tells only the "
+             "number of a job: give auto/N, where N is the number of parts");
     return 0;
   }
   if (strncmp(text, "auto/", 5) == 0 && number_of(text + 5, '\0', 1, shards, NULL)) {

@@ -16,7 +16,7 @@ static void complain(deck_builder *b, const deck_given *at, const char *name, co
                     b->errors, "%s", message);
 }
 
-/* Of a group as a whole or, where the deck has none, of the kind that makes it needed. */
+/* Complain of a group as a whole or, where the deck has none, of the kind that needs it. */
 static void complain_of_group(deck_builder *b, const namelist_group *g, const char *message)
 {
   if (g != NULL)
@@ -35,7 +35,7 @@ static const deck_given *given(const deck_builder *b, const char *group, const c
   return row < deck_table_size ? &b->given[row] : &absent;
 }
 
-/* Present in the deck with its own name, be the value good or bad. */
+/* Whether a key is in the deck under its own name, with a good value or a bad one. */
 static int is_there(const deck_given *g)
 {
   return g->line > 0 && (g->given || g->broken);
@@ -49,8 +49,8 @@ static int in_scene(const deck_builder *b, const char *group, const char *name)
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
-/* Given, or tried in vain, itself or, of an axis in &sweep and its value in &pendulum, the
-   other. */
+/* Whether a key was given, with a good value or a bad one, or that which may take its place: an
+   axis in &sweep and its value in &pendulum take each other's. */
 static int was_tried(const deck_builder *b, size_t row)
 {
   const deck_key *key = &deck_table[row];
@@ -61,7 +61,7 @@ static int was_tried(const deck_builder *b, size_t row)
   return other->given || other->broken;
 }
 
-/* One message for a group that is absent altogether: it names all keys that are missed. */
+/* Report a group that is absent altogether by one message, which names all keys that are missed. */
 static void report_missing_group(deck_builder *b, size_t row)
 {
   const char *group = deck_table[row].group;
@@ -151,11 +151,12 @@ static void check_axis_sources(deck_builder *b)
     const deck_given *sweep = given(b, "sweep", key->name);
     if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
     namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
-                      b->errors, "'%s' is given in &sweep too (line %d)", key->name, sweep->line);
+                      b->errors, "'%s' is given in &sweep too (line %d): leave out one of the two",
+                      key->name, sweep->line);
   }
 }
 
-/* Keys that count only together with others. */
+/* Check keys that have an effect only together with others. */
 static void check_idle_keys(deck_builder *b)
 {
   static const char *const why[] = {
@@ -222,14 +223,14 @@ static void expand_axes(deck_builder *b)
     if (axis->listed_count + axis->range_count == 0) continue;
     if (count_of(b->d, axis) > DECK_MAX_COUNT) {
       complain(b, given(b, "sweep", "resolution"), "resolution",
-               "'resolution' makes more than 1000000 values of a range");
+               "'resolution' makes more than 1000000 values of a range: give a smaller number");
       return;
     }
     if (!expand_axis(b->d, axis)) b->out_of_memory = 1;
   }
 }
 
-/* Scenes in which some parameters move: as many as they are about. */
+/* Check that as many parameters move as the scene is about. */
 static void check_moving(deck_builder *b)
 {
   static const struct {
@@ -289,7 +290,8 @@ static void check_ramp(deck_builder *b)
     namelist_error_at(protocol->nl, protocol->line, protocol->column, 8, b->errors,
                       "'protocol' %s", why);
   if (rate->given && (a->value[a->count - 1] - a->value[0]) / d->ramp.rate > 1e9)
-    complain(b, rate, "rate", "at so small a 'rate' the sweep takes more than 1e9 drive periods");
+    complain(b, rate, "rate",
+             "at so small a 'rate' the sweep takes more than 1e9 drive periods: give a larger one");
   if (t->count > 1) complain(b, temperature, "temperature", "a ramp has one 'temperature'");
   else if (t->count == 1 && t->value[0] > 0.0 && !deck_has_ramp(d))
     complain(b, temperature, "temperature",
@@ -312,11 +314,13 @@ static void check_size(deck_builder *b)
                       b->scene == 1u << DECK_BASINS ? " without refine = .true." : "");
   if (in_scene(b, "orbit", "samples") && (double)d->orbit.periods * (double)d->orbit.samples > 1e8)
     complain(b, given(b, "orbit", "periods"), "periods",
-             "'periods' times 'samples' must not exceed 1e8");
+             "'periods' times 'samples' must not exceed 1e8: give fewer of one of them");
   if (d->switching.from == 0 && d->switching.to != 0)
-    complain(b, given(b, "switching", "to"), "to", "'to' needs 'from'");
+    complain(b, given(b, "switching", "to"), "to",
+             "'to' needs 'from', the number of the attractor that is left");
   else if (d->switching.from != 0 && d->switching.from == d->switching.to)
-    complain(b, given(b, "switching", "to"), "to", "'from' and 'to' are the same attractor");
+    complain(b, given(b, "switching", "to"), "to",
+             "'from' and 'to' are the same attractor: give two different numbers");
   if (d->basins.boundary && (d->axis[DECK_AXIS_X].count == 1 || d->axis[DECK_AXIS_V].count == 1))
     complain(b, given(b, "basins", "boundary"), "boundary",
              "'boundary' is looked for in a window: give x and v at least two values");
@@ -344,7 +348,8 @@ static void check_ensemble(deck_builder *b)
              "'members' must make whole 'rows' of a rectangle");
 }
 
-/* Of drive amplitude, torque and parametric amplitude one is an axis of results; 0: more are. */
+/* Check that only one of drive amplitude, torque and parametric amplitude is an axis; 0: more
+   are. */
 static int one_extra(deck_builder *b, deck_axis_id extra)
 {
   static const deck_axis_id extras[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,

@@ -153,7 +153,7 @@ const deck_key deck_table[] = {
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
-         "another of theirs (docs/models.md)") },
+         "another one (docs/models.md)") },
   { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients), IN(MODELS),
     RANGE(-BIG, BIG),
     SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "

@@ -128,7 +128,7 @@ int scene_axes(const deck *d, deck_axis_id axis[SCENE_AXES])
   return 3;
 }
 
-/* Is it one of the scene's axes? */
+/* Whether it is one of the scene's axes. */
 static int is_axis(const deck *d, deck_axis_id axis)
 {
   deck_axis_id axes[SCENE_AXES];
@@ -142,7 +142,7 @@ double scene_fixed(const deck *d, deck_axis_id axis)
 {
   deck_axis_id extra;
   if (d->axis[axis].count > 0) {
-    /* A scene of which some parameters move has the others as axes of one value. */
+    /* In a scene in which some parameters move, the others are axes of one value. */
     const int moves = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
                       d->kind == DECK_LYAPUNOV_MAP;
     const int curve = d->kind == DECK_RESONANCE_CURVE; /* has one axis */
@@ -198,7 +198,7 @@ pendres_status scene_write_identity(scene_run *run)
     const deck_axis_id axis = parameters[i];
     const double value = scene_fixed(d, axis);
     if (isnan(value)) continue;
-    /* Elsewhere it is a dimension, also where it has one value. */
+    /* In other scenes the temperature is a dimension, even with one value. */
     if (axis == DECK_AXIS_TEMPERATURE && d->kind != DECK_HYSTERESIS) continue;
     const pendres_store_spec spec = { .name = deck_axis_name(axis),
                                       .long_name = about[axis].words,

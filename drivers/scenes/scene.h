@@ -25,7 +25,7 @@ typedef struct scene_run {
   pendres_store *store;
   FILE *table;          /* where the short table of results goes; NULL: nowhere */
   size_t failed_points; /* points without a result (marked in the file): exit code 3 */
-  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines on the first of them, see scene_failed.h */
+  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines about the first of them, see scene_failed.h */
   size_t told_count;
   char message[512];    /* why run() failed */
 } scene_run;
@@ -67,11 +67,11 @@ pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id a
  */
 pendres_status scene_write_identity(scene_run *run);
 
-/* Where the deck tells the natural frequency: results in Hz and s beside ours, in the file and, the
-   short ones, behind the table. */
+/* Where the deck gives the natural frequency, write results in Hz and s beside the dimensionless
+   ones, and print the short ones behind the table. */
 pendres_status scene_write_units(scene_run *run);
 
-/* What the measures in the file are, in their attributes `comment`; called by the above. */
+/* Define the measures in the file, in their attributes `comment`; called by the above. */
 pendres_status scene_define(scene_run *run);
 
 /* The two axes of a scene's points, the slower first: damping and the drive's frequency or period;

@@ -51,7 +51,7 @@ pendres_parameter scene_along_parameter(deck_axis_id axis)
   }
 }
 
-/* "sa, la": what there is instead. */
+/* List the attractors that there are instead, as in "sa, la". */
 static void list_labels(const pendres_attractors *set, char *text, size_t size)
 {
   text[0] = '\0';
@@ -61,8 +61,8 @@ static void list_labels(const pendres_attractors *set, char *text, size_t size)
 }
 
 /*
- * A chaotic attractor has no point of its own: the one that a start which leads to it is at when it
- * has settled. PENDRES_NOT_FOUND if none of the starts does.
+ * Find a point on a chaotic attractor: the state of a start that leads to it, once it has settled.
+ * PENDRES_NOT_FOUND if none of the starts leads to it.
  */
 static pendres_status find_point(pendres_context *ctx, const pendres_pendulum *p,
                                  const pendres_attractors *set, int number, pendres_orbit *out)
@@ -133,7 +133,7 @@ void scene_along_path_free(scene_along_path *path)
   *path = (scene_along_path){ .points = 0 };
 }
 
-/* A value that the path has not reached before its budget ended it. */
+/* Whether the path had not reached this value when its budget ended it. */
 static int not_reached(const pendres_hysteresis_point *p)
 {
   return p->outcome == PENDRES_INTERRUPTED;
@@ -154,7 +154,7 @@ static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
   return PENDRES_OK;
 }
 
-/* A path that its budget has ended has what it came to. */
+/* A path that its budget has ended keeps the points that it had reached. */
 static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
 {
   char words[SCENE_TOLD];

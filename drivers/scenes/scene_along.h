@@ -10,7 +10,7 @@
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
-/* The deck's pendulum; what moves has its first value. */
+/* The deck's pendulum; a parameter that moves has its first value. */
 pendres_pendulum scene_along_pendulum(const deck *d);
 
 /* Set the quantity of an axis. */
@@ -73,8 +73,8 @@ scene_along_jump *scene_along_jumps(const scene_along_path *path);
 enum { SCENE_ALONG_VERDICTS = 2 };
 extern const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS];
 
-/* Count what failed and tell it. Points of the way back, if there are two ways, are in the order of
-   the axis, too. */
+/* Count the points that failed, and tell the first of them. If there are two ways, points of the
+   way back are in the order of the axis, too. */
 void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways);
 
 #endif

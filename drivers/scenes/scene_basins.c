@@ -1,10 +1,10 @@
 /*
  * scene_basins.c -- basins of attraction over a grid of initial states; the paper's Fig. 7.
  *
- * One task a handful of rows, each state integrated; or, with refine, one task a slice of the
- * states that a plan (basin.h) asks for. Rows are written as they come: memory stays bounded.
- * What stays unresolved is searched for attractors that the scouts have missed; if there are any,
- * all rows are done again with them, so that results do not depend on who found what.
+ * A task integrates all states of some rows or, with refine, a slice of the states that a plan
+ * (basin.h) asks for. Rows are written as they are finished, so that memory stays bounded. From
+ * states that stay unresolved, attractors are looked for that the scouts have missed; if there are
+ * any, all rows are computed again with them, so that results do not depend on who found what.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,8 +15,8 @@
 
 enum {
   STATES_A_TASK = 65536, /* whole rows of about so many states */
-  SLICE = 4096,           /* states a task of a refinement: several blocks */
-  SMALL = 2048,           /* so few are not worth a task */
+  SLICE = 4096,           /* states of a task in a refinement: several blocks */
+  SMALL = 2048,           /* so few states are not worth a task */
   BAND_STATES = 1 << 24,  /* states that a plan holds at a time */
   LEAST_SAMPLE = 10000,   /* filled states that are verified, or one of SAMPLED states if more */
   SAMPLED = 256,
@@ -60,7 +60,7 @@ static size_t rows_of(const sweep *s, size_t task)
   return left < s->rows ? left : s->rows;
 }
 
-/* What has been deferred gets its time now. */
+/* Finish the states of rows that had been deferred. */
 static pendres_status finish_rows(pendres_context *ctx, const basins *b, size_t offset, size_t n,
                                   size_t deferred, pendres_basin_state *state)
 {
@@ -93,7 +93,8 @@ static void begin_states(const basins *b, size_t first, size_t n, farm_record *o
   farm_point(out, n, "%s%s", name, more);
 }
 
-/* States by their numbers; where their budget ends them, their halves, down to single ones. */
+/* Integrate states by their numbers. Where the budget ends them, either half is tried, down to
+   single states. */
 static pendres_status find_states(const basins *b, size_t n, const size_t *index,
                                   pendres_context *ctx, farm_record *out,
                                   pendres_basin_state *state)
@@ -115,7 +116,7 @@ static pendres_status find_states(const basins *b, size_t n, const size_t *index
   return find_states(b, n - half, index + half, ctx, out, state + half);
 }
 
-/* n states from number `first` on, without those that end their budget. */
+/* Integrate n states from number `first` on, and leave out those that use up their budget. */
 static pendres_status find_apart(const basins *b, size_t first, size_t n, pendres_context *ctx,
                                  farm_record *out, pendres_basin_state *state)
 {
@@ -163,7 +164,7 @@ static pendres_status compute_rows(const void *arg, size_t task, pendres_context
   return status;
 }
 
-/* States that their budget has ended, of which the first are told. */
+/* Count states that their budget has ended, and keep the first of them to be told. */
 static void take_given_up(basins *b, size_t n, const size_t *index)
 {
   for (size_t k = 0; k < n && k < BASINS_NAMED && b->given_up + k < BASINS_NAMED; k++)
@@ -197,7 +198,7 @@ static pendres_status restart(basins *b)
   return status == PENDRES_OK ? status : scene_fail(b->run, status, "out of memory for statistics");
 }
 
-/* Attractors that are known by unresolved states alone. */
+/* Look for attractors that only unresolved states lead to. */
 static pendres_status extend(basins *b, size_t n, const size_t *index, size_t *grown)
 {
   *grown = 0;
@@ -294,7 +295,8 @@ static pendres_status follow_plan(basins *b, pendres_basin_plan *p)
   return status;
 }
 
-/* A sample of what was filled in; what turns out wrong is put right with its surroundings. */
+/* Verify a sample of the states that were filled in; wrong ones are corrected, and so are their
+   surroundings. */
 static pendres_status verify_once(basins *b, pendres_basin_plan *p, size_t sample, uint64_t seed,
                                   size_t *drawn, size_t *missed)
 {
@@ -310,8 +312,8 @@ static pendres_status verify_once(basins *b, pendres_basin_plan *p, size_t sampl
   return status == PENDRES_OK ? follow_plan(b, p) : status;
 }
 
-/* Samples until one is clean: each that is not makes the plan's lattice finer, so that there is an
-   end. */
+/* Verify samples until one is clean. Each that is not makes the plan's lattice finer, so that this
+   comes to an end. */
 static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
 {
   const size_t all = b->grid.nx * b->grid.nv / SAMPLED;
@@ -326,7 +328,8 @@ static pendres_status verify_plan(basins *b, pendres_basin_plan *p, size_t rows)
   return status;
 }
 
-/* Rows first .. first + rows - 1 by a plan; index[0 .. *lost) are some that are unresolved. */
+/* Compute rows first .. first + rows - 1 by a plan; index[0 .. *lost) are some unresolved
+   states. */
 static pendres_status refine_band(basins *b, size_t first, size_t rows, size_t *lost, size_t *index)
 {
   pendres_basin_plan *p = NULL;
@@ -404,7 +407,7 @@ static pendres_status find_attractors(basins *b)
                               : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
 }
 
-/* The states that stayed without an attractor, and what may help. */
+/* Tell how many states stayed without an attractor, and what may help. */
 static void tell_unresolved(const basins *b)
 {
   char words[SCENE_TOLD];

@@ -26,8 +26,8 @@ typedef struct basins {
   int variable[BASINS_VARIABLES];
   size_t unresolved, uncertain;
   size_t given_up, given_up_index[BASINS_NAMED]; /* of the unresolved: by their budget */
-  size_t random_states; /* that the uncertainty exponent is from; 0: the grid's */
-  const char *curve; /* what was found of the boundary as a curve; NULL: nobody asked */
+  size_t random_states; /* that the uncertainty exponent comes from; 0: it comes from the grid */
+  const char *curve; /* what was found of the boundary as a curve; NULL: it was not asked for */
   /* refinement alone: */
   size_t integrated, verified, missed;
   size_t filled, clean; /* filled states in the end, and those of clean samples among them */
@@ -48,7 +48,7 @@ pendres_status basins_write_results(basins *b);
 /* Write how many of the states go to each of the attractors, and to each of their wells. */
 pendres_status basins_write_wells(basins *b, size_t attractors);
 
-/* Say so where attractors have more than one well. */
+/* Print a line where attractors have more than one well. */
 void basins_print_wells(const basins *b, FILE *out);
 
 /* Find and write the stable manifold of the orbit between the first attractor and its neighbour,

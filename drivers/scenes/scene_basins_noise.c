@@ -2,8 +2,9 @@
  * scene_basins_noise.c -- stroboscopic clouds around attractors under thermal noise, as in the
  * paper's Fig. 7, with their covariances beside those of linear noise theory, and escapes.
  *
- * One task a temperature and attractor for theory and steps, then one a temperature, attractor and
- * part of the trajectories (cloud.h). A cloud of which a part fails is marked and has no results.
+ * There is one task for each temperature and attractor, which finds the theory's values and the
+ * steps; then one for each temperature, attractor and part of the trajectories (cloud.h). A cloud
+ * of which a part fails is marked and has no results.
  */
 #include "scenes/scene_basins_noise.h"
 
@@ -83,7 +84,7 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   return scene_verdict_note(&m->verdict, status, pendres_context_message(ctx));
 }
 
-/* A cloud of which a part fails has its first failure. */
+/* A cloud of which parts fail is marked with the first failure. */
 static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
 {
   cloud_work *w = arg;
@@ -100,7 +101,7 @@ static pendres_status collect_part(void *arg, size_t task, const farm_record *in
   return PENDRES_OK;
 }
 
-/* All parts of a cloud together; nothing is left of one that is broken, but the reason why. */
+/* Put all parts of a cloud together; of a cloud that failed nothing is kept but the reason. */
 static pendres_status conclude(cloud_work *w, size_t number)
 {
   const pendres_cloud_request q = cloud_request(w, number);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { QUICK = 1 /* compression of what there is most of: higher levels gain little */ };
+enum { QUICK = 1 /* level of compression for the largest arrays: higher ones gain little */ };
 
 /* ---- states -------------------------------------------------------------------------------- */
 
@@ -33,7 +33,7 @@ static const scene_column of_states[BASINS_VARIABLES] = {
    .comment = "0: not so, or not integrated"},
 };
 
-/* Where a force may drive pendulums to infinity, the first two can say so. */
+/* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
 static void state_columns(const deck *d, scene_column columns[BASINS_VARIABLES])
 {
   memcpy(columns, of_states, sizeof of_states);
@@ -230,7 +230,7 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
                               : scene_store_failed(b->run, status);
 }
 
-/* How many states became of what. */
+/* How many states there are of each kind. */
 typedef struct counts {
   size_t unresolved, uncertain, integrated, filled, verified, missed, suspected;
 } counts;
@@ -253,7 +253,7 @@ static const scene_column of_refinement[] = {
          "filled states that may be wrong at most, with a confidence of 95 %"),
 };
 
-/* What goes to infinity, where a force may drive there. */
+/* The states that go to infinity, where a force may drive them there. */
 static const scene_column of_escapes[] = {
   {.name = "escaped_states", .long_name = "states that escape to infinity", .type = SCENE_COUNT,
    .value = offsetof(pendres_basin_statistics, escaped)},

@@ -82,7 +82,7 @@ static pendres_status find_cascade(const work *w, pendres_context *ctx, farm_rec
   return PENDRES_OK;
 }
 
-/* Attractors at a value, and strobe points of the one that the path is on. */
+/* Find the attractors at a value, and strobe points of the one that the path is on. */
 static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, record *r, double *x)
 {
   const pendres_hysteresis_point *point = &w->path.point[i];
@@ -183,7 +183,7 @@ static const scene_column of_cascade[] = {
 #define WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
-/* What the budget has ended, beside what the path says. */
+/* Mark the points that the budget has ended, beside those that the path marks. */
 static void mark_late(scene_run *run, const work *w, scene_along_row *rows)
 {
   for (size_t i = 0; i < w->values; i++) {

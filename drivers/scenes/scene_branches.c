@@ -153,8 +153,8 @@ static const scene_column of_backbone[] = {
   SCENE_COLUMN(backbone_row, loop_area, "loop area of that orbit", "1"),
 };
 
-/* Dampings in geometric order, from below where the backbone begins to twice the deck's own; but
-   not to where steps are legion and the pendulum has long been a linear one. */
+/* Dampings in a geometric series, from below where the backbone begins to twice the deck's own; but
+   not to where too many steps are needed, and the pendulum has long been a linear one. */
 static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double *damping)
 {
   const double first = l->grid.line_value[0], last = l->grid.line_value[l->grid.lines - 1];
@@ -167,7 +167,7 @@ static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double 
   }
 }
 
-/* What cannot be had of all dampings at a time is had, or not, of each. */
+/* Find the backbone at all dampings at once or, where that fails, at each of them alone. */
 static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum *p,
                                     pendres_orbit *orbit, double *error, pendres_status *outcome)
 {
@@ -275,7 +275,7 @@ static part part_of(const scene_lines *l, const pendres_branch *b, const pendres
   return out;
 }
 
-/* Wherever branches attract: their number; rows may be NULL. */
+/* Take all parts of branches that attract; returns their number. rows may be NULL. */
 static size_t take_parts(const scene_lines *l, part *rows)
 {
   size_t count = 0;

@@ -23,8 +23,7 @@ NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
 NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
 NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
 
-/* Only sweeps and maps tell rotations without a lock, and a plain pendulum has none: files about it
-   list the names of attractors. */
+/* The names without that of rotations which are not locked: only sweeps and maps tell those. */
 const char *scene_fate_names(int value)
 {
   return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;

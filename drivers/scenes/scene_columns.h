@@ -2,7 +2,7 @@
  * scene_columns.h -- tables of results from arrays of structs.
  *
  * Owns: writing a table whose columns are fields of a struct, and printing a short one. A scene
- * says of every column its name, its words and where the field stands.
+ * gives for each column its name, its words and the place of the field.
  */
 #ifndef SCENE_COLUMNS_H
 #define SCENE_COLUMNS_H
@@ -40,11 +40,11 @@ typedef struct scene_column {
   {.name = #field, .long_name = words, .units = unit,           \
    .value = offsetof(row, field), .error = offsetof(row, field##_error)}
 
-/* A column of another type than real, called as its field. */
+/* A column of another type than real, with the name of its field. */
 #define SCENE_COLUMN_OF(kind, row, field, words) \
   {.name = #field, .long_name = words, .type = kind, .value = offsetof(row, field)}
 
-/* Of the means of an ensemble. */
+/* The column that stands beside the means of an ensemble. */
 #define SCENE_UNCERTAIN(row, field)                                                             \
   {.name = "uncertain_members", .long_name = "members that may belong to another state",       \
    .type = SCENE_COUNT, .value = offsetof(row, field)}

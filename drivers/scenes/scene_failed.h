@@ -40,11 +40,11 @@ typedef enum scene_failure {
 scene_failure scene_failure_of(pendres_status status);
 
 /*
- * Would pendulums of these parameters, settled `runs` times one after another, take more steps than
- * a run is worth waiting for? Strong damping asks for short steps (their length times the damping
- * stays below 4) and for a long time: the rate at which an overdamped pendulum settles is one over
- * the damping, so that steps go with its square. By the parameters alone, so that the same points
- * are refused in all runs. words[size] then says how many steps.
+ * Whether pendulums of these parameters, settled `runs` times one after another, would take more
+ * steps than one would wait for. Strong damping needs short steps (their length times the damping
+ * stays below 4) and a long time: the rate at which an overdamped pendulum settles is one over the
+ * damping, so that the number of steps goes with its square. It depends on the parameters alone, so
+ * that the same points are refused in all runs. words[size] then says how many steps.
  */
 int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
 

@@ -1,7 +1,7 @@
 /*
- * scene_free_oscillation.c -- frequency of the undamped, undriven pendulum against its amplitude:
- * Fig. 1 of the paper. The elliptic integral and two approximations (eqs. 1.1 to 1.5), and beside
- * them the frequency found by integrating the equation of motion: a check from end to end.
+ * scene_free_oscillation.c -- the frequency of the undamped, undriven pendulum against its
+ * amplitude, Fig. 1 of the paper: by the elliptic integral, by two approximations (eqs. 1.1 to
+ * 1.5), and by integrating the equation of motion, which is a check from end to end.
  */
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
@@ -48,7 +48,7 @@ static pendres_status integrate(const void *arg, size_t task, pendres_context *c
   pendres_status status =
     pendres_free_frequency_integrate(ctx, n, amplitude, r->frequency, r->error);
   if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
-  /* What cannot be had of several at a time is had, or not, of each. */
+  /* Where several amplitudes fail together, each is computed alone. */
   status = PENDRES_OK;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     status =

@@ -9,7 +9,7 @@
 
 #include <pendres/rotation.h>
 
-/* As long as settling its members: following branches and curves through a point. */
+/* Following branches and curves through a point takes as long as settling its members again. */
 enum { RUNS_A_POINT = 5 };
 
 /* ---- axes ---------------------------------------------------------------------------------- */
@@ -97,7 +97,8 @@ pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
   return p;
 }
 
-/* A line as a whole, in its own diagram; one whose budget ends it has no points. */
+/* Compute a line as a whole, in a diagram of its own; where its budget ends it, it has no
+   points. */
 static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
                                     pendres_phase_diagram *alone, farm_record *out,
                                     pendres_phase_record **r)
@@ -111,7 +112,8 @@ static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_c
   return pendres_phase_diagram_compute_line(ctx, alone, 0, r);
 }
 
-/* A line that its budget has ended, without the points that end their own. */
+/* Compute a line that its budget has ended, without the points that use up a budget of their
+   own. */
 static pendres_status compute_by_points(const scene_lines *l, size_t task, pendres_context *ctx,
                                         farm_record *out, pendres_phase_record **r)
 {
@@ -167,7 +169,7 @@ static pendres_status complete(const void *arg, size_t task, pendres_context *ct
   return PENDRES_OK;
 }
 
-/* What is left out of a line though the deck has it has had its time. */
+/* Points of the deck that a line's record leaves out were ended by their budget. */
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   scene_lines *l = arg;
@@ -199,7 +201,8 @@ static pendres_status take_family(void *arg, size_t task, const farm_record *in)
   return pendres_phase_diagram_take_family(l->diagram, task, in->size, in->data);
 }
 
-/* Curves through the bifurcations of all lines, and what they show the lines, until that is all. */
+/* Follow curves through the bifurcations of all lines, and complete the lines by them, until
+   nothing new is found. */
 static pendres_status follow_curves(scene_lines *l)
 {
   for (;;) {
@@ -257,7 +260,7 @@ static void judge(scene_lines *l)
   }
 }
 
-/* That there may be more curves is said once. */
+/* Tell once that there may be more curves. */
 static void judge_curves(scene_lines *l)
 {
   const char *message = NULL;

@@ -35,8 +35,8 @@ pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene
 /* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
 pendres_status scene_lines_write_doubtful(const scene_lines *l);
 
-/* Lines of the short table: the cusp, if there is one; what the branches' own bifurcations do not
-   explain of them, if there is any. */
+/* Print lines of the short table: the cusp, if there is one, and what branches do that their
+   bifurcations do not explain, if there is anything. */
 void scene_lines_print(const scene_lines *l, FILE *out);
 
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */

@@ -96,8 +96,8 @@ static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
 /* ---- the trajectory ------------------------------------------------------------------------ */
 
 /*
- * Samples of the closed orbit over some of the deck's periods. Their errors: samples with 1.4 times
- * the steps differ by the error of integration, and the orbit's own point carries its error around.
+ * Take samples of the closed orbit over some of the deck's periods. Their errors have two parts:
+ * the difference from samples with 1.4 times the steps, and the error of the orbit's own point.
  */
 static pendres_status sample_orbit(const orbit_work *w, pendres_context *ctx, long first,
                                    long periods, const orbit_samples *out)
@@ -159,7 +159,7 @@ static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
   return PENDRES_OK;
 }
 
-/* What there is to record. The budget is of this search: a record takes its known time. */
+/* Find what there is to record. The budget applies to this search; a record takes a known time. */
 static pendres_status find(orbit_work *w, pendres_context *ctx, farm_record *out)
 {
   const int named = w->d->orbit.start[0] != '\0';

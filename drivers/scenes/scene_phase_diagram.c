@@ -74,7 +74,7 @@ static void print_table(const scene_lines *l, FILE *out)
 
 static pendres_status run_scene(scene_run *run)
 {
-  /* Nobody sees the branches themselves: their points may be sparse. */
+  /* The branches themselves are not written: their points may be sparse. */
   static const double sparse = 0.1;
   scene_lines l;
   pendres_status status = scene_lines_compute(run, sparse, &l);

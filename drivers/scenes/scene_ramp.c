@@ -8,7 +8,7 @@
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
-/* A task's trajectories: some blocks. */
+/* The trajectories of a task: some blocks. */
 enum { DIRECTIONS = 2, PART = 192 };
 
 typedef struct work {

@@ -1,9 +1,9 @@
 /*
- * scene_resonance_curve.c -- resonance frequency against amplitude, a point a damping.
+ * scene_resonance_curve.c -- resonance frequency against amplitude, one point for each damping.
  *
- * The paper's Fig. 2 and its inset. One task a few dampings next to each other, which are searched
- * side by side: pendres_resonance_find_many. With drive amplitudes, torques or parametric
- * amplitudes in &sweep there is a point each of these instead, at one damping.
+ * The paper's Fig. 2 and its inset. A task has some neighbouring dampings, which are searched side
+ * by side: pendres_resonance_find_many. With drive amplitudes, torques or parametric amplitudes in
+ * &sweep there is one point for each of these instead, at one damping.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -60,9 +60,9 @@ static void describe(const deck *d, FILE *out)
 }
 
 /*
- * Points of a task: neighbours side by side take less time, but few tasks keep few processors busy,
- * and a search may take some hundred times as long as others. By the deck alone, so that a journal
- * fits whatever the threads are.
+ * How many points a task has: neighbours side by side take less time, but few tasks keep few
+ * processors busy, and a search may take some hundred times as long as others. The number depends
+ * on the deck alone, so that a journal fits whatever the threads are.
  */
 static size_t group_of(size_t points)
 {

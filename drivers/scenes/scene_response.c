@@ -1,11 +1,11 @@
 /*
  * scene_response.c -- amplitude and phase lag of the mean loop along lines of pendulums.
  *
- * The paper's Figs. 3 and 4: a line a damping, along the drive period or frequency. One task a
- * handful of its points, and one for its resonance. A line may be one of a drive amplitude, torque
- * or parametric amplitude instead, or of such a parameter and a damping, which makes a volume; or
- * it may go along one of these: then it has no resonance. With temperatures in the deck the results
- * have one more dimension: see scene_response_noise.c.
+ * The paper's Figs. 3 and 4 have one line for each damping, along the drive period or frequency.
+ * Each task computes some points of a line, or its resonance. There may be one line for each drive
+ * amplitude, torque or parametric amplitude instead, or for each pair of such a parameter and a
+ * damping, which makes a volume; or lines may go along one of these, and then have no resonance.
+ * With temperatures in the deck the results have one more dimension: see scene_response_noise.c.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -110,8 +110,7 @@ static pendres_response no_response(const pendres_pendulum *p, size_t members)
   return r;
 }
 
-/* The n points from the first on. What cannot be had of several at a time is had, or not, of
-   each. */
+/* Compute n points from the first on, together or, where that fails, each alone. */
 static pendres_status compute_points(const grid *g, size_t first, size_t n,
                                      const pendres_pendulum *pendulums, pendres_context *ctx,
                                      farm_record *out)
@@ -144,7 +143,7 @@ static pendres_status compute_points(const grid *g, size_t first, size_t n,
   return status;
 }
 
-/* A point that was computed, but not wholly. */
+/* Mark a point that was computed, but not wholly. */
 static void judge_point(const grid *g, const pendres_response *p, scene_verdict *verdict)
 {
   if (verdict->reason != SCENE_FAILURE_NONE) return;
@@ -192,7 +191,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   return status;
 }
 
-/* Of a line, whose parameters are the axes but the last. */
+/* The resonance of a line, whose parameters are the axes but the last. */
 static scene_peak peak_of(const grid *g, size_t line, const peak_record *r)
 {
   const deck_axis *last = &g->d->axis[g->axis[g->axes - 2]], *first = &g->d->axis[g->axis[0]];
@@ -310,7 +309,7 @@ static pendres_status write_peaks(scene_run *run, const grid *g)
 {
   const scene_table table = table_of_peaks(g);
   pendres_status status = scene_columns_write(run, &table, 1, &by_period);
-  /* Who asked for frequencies gets the frequency too. */
+  /* Where the deck has frequencies, the resonance frequency is written, too. */
   if (status == PENDRES_OK && g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY)
     status = scene_columns_write(run, &table, 1, &by_frequency);
   return status == PENDRES_OK

@@ -1,7 +1,7 @@
 /*
  * scene_response_noise.c -- loop area, phase lag and amplitude against temperature.
  *
- * One task a temperature, damping and drive period: see pendres_response_add_noise.
+ * There is one task for each temperature, damping and drive period: see pendres_response_add_noise.
  */
 #include "scenes/scene_response_noise.h"
 
@@ -78,7 +78,7 @@ static const scene_column steps = {
   .name = "noise_steps_per_period", .long_name = "steps a drive period of the noisy integrator",
   .type = SCENE_NUMBER, .value = offsetof(pendres_response_noise, steps_per_period)};
 
-/* What is known without noise alone. */
+/* The columns of results that exist only without noise. */
 #define STILL(field, words, unit)                                                             \
   {.name = #field, .long_name = words, .units = unit, .comment = "at temperature 0 alone",    \
    .value = offsetof(scene_response_row, field),                                              \

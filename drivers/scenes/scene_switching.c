@@ -2,9 +2,9 @@
  * scene_switching.c -- how often noise carries a pendulum from the small-amplitude state to the
  * large-amplitude one and back, against temperature, and the activation energies.
  *
- * One task a state for the steps a period, then one a temperature and part of the trajectories
- * (switching.h). A temperature at which a part fails is marked and has no results; so are all where
- * the steps of a state cannot be chosen.
+ * There is one task for each state, which chooses the steps a period; then one for each temperature
+ * and part of the trajectories (switching.h). A temperature at which a part fails is marked and has
+ * no results; all are, if the steps of a state cannot be chosen.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -136,7 +136,7 @@ static pendres_status count(const void *arg, size_t task, pendres_context *ctx, 
   return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
 }
 
-/* A temperature of which a part fails has its first failure. */
+/* A temperature of which parts fail is marked with the first failure. */
 static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;

@@ -25,7 +25,8 @@ static int ends(const char *name, const char *with)
   return n >= m && strcmp(name + n - m, with) == 0;
 }
 
-/* 0: neither a frequency nor a time of the drive. What is swept is told by the deck. */
+/* How a result is converted; 0: it is neither a frequency nor a time of the drive. The deck tells
+   what is swept. */
 static int convert(const deck *d, const char *name, conversion *out)
 {
   const double natural = d->units.natural_frequency;

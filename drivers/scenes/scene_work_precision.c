@@ -1,9 +1,9 @@
 /*
  * scene_work_precision.c -- speed against error, of the library's methods and of a peer.
  *
- * Every method and tolerance advances the same pendulums by 100 drive periods; how far they are off
- * then is known from extended precision (work_unit.h). contest.h says how each is run and timed;
- * one after another, so that whoever is timed is alone.
+ * Every method and tolerance advances the same pendulums by 100 drive periods; their errors then
+ * are known from extended precision (work_unit.h). contest.h says how each is run and timed: one
+ * after another, so that the one that is timed runs alone.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +30,8 @@ static const struct {
   { "arkode_single", { 0.05, 0.03, 0.02, NAN } },
 };
 
-/* What a pendulum costs that is only asked what it settles on; the share that is resolved. */
+/* What it costs to find the attractor on which a pendulum settles, and the share of pendulums for
+   which it is found. */
 typedef struct settling {
   double cost_periods, cost_periods_error, seconds, seconds_error, resolved, resolved_error;
 } settling;

@@ -104,7 +104,7 @@ const pendres_attractor *pendres_attractors_get(const pendres_attractors *set, s
 /** Instead of the number of an attractor. */
 enum {
   PENDRES_ATTRACTOR_UNKNOWN = -1, /**< unresolved */
-  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on none, on the way to infinity */
+  PENDRES_ATTRACTOR_ESCAPED = -2  /**< on no attractor, but on the way to infinity */
 };
 
 /**

@@ -24,8 +24,8 @@
  * spectrally accurate. Floquet multipliers are the eigenvalues of the derivative of
  * the q-th iterate of the map; their product is exp(-gamma q tau) (Liouville).
  *
- * Errors: every result x has x_error, from repeating the computation with 1.4 times
- * the steps a period, plus a bound on rounding. See docs/accuracy.md.
+ * Errors: a result x has its error estimate in x_error, from repeating the computation with 1.4
+ * times the steps a period, plus an estimate of rounding. See docs/accuracy.md.
  */
 #ifndef PENDRES_ORBIT_H
 #define PENDRES_ORBIT_H

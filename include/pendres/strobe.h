@@ -24,15 +24,15 @@ extern "C" {
  * pendulums[n] are read; x[n] and v[n] (position and velocity at drive phase 0) are
  * replaced in place. x keeps its whole turns: it is not wrapped.
  *
- * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice what is
- * between the first run and better ones, which are taken to be off by up to half as much. That is
- * one with twice the steps a period; or, where the method's steps are adaptive, two with a tenth
- * and a hundredth of the tolerance (1e-6 at most), and, but for CVODE's methods, at least 1.4 times
- * and twice the steps. It covers discretisation and rounding, amplified
- * along each trajectory as that itself amplifies them; where runs lose each other on the way, even
- * if they meet again, the estimate says so (infinite: nothing is known), it is not an error of
- * the function. With fixed steps all of it takes three times as long as without an estimate. Runs
- * with adaptive steps are compared at 64 strobes at most.
+ * error[n], if not NULL, receives an estimate of the larger of the errors of x and v: twice the
+ * distance between the first run and better ones, which may be off by half as much themselves. With
+ * fixed steps there is one better run, with twice the steps a period. With adaptive steps there are
+ * two, with a tenth and a hundredth of the tolerance (1e-6 at most), and, but for CVODE's methods,
+ * at least 1.4 times and twice the steps. The estimate covers discretisation and rounding,
+ * amplified as each trajectory amplifies them. Where the runs lose each other on the way, even if
+ * they meet again, the estimate is infinite: nothing is known then, which is not a failure of the
+ * function. With fixed steps the call takes three times as long as without an estimate. Runs with
+ * adaptive steps are compared at 64 strobes at most.
  *
  * The steps a period of each pendulum depend on its own parameters, its initial speed
  * and the tolerance alone; so do the results, whatever the other pendulums.

@@ -333,7 +333,8 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
   if (n > 0 && (guess == NULL || to->orbit == NULL || outcome == NULL))
     return PENDRES_CONTEXT_NULL(ctx, "guess, out and outcome");
   if (want != PENDRES_ORBIT_PLAIN && want != PENDRES_ORBIT_FREQUENCY_SLOPE)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown wish for an orbit");
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "what is wanted of orbits is no value of pendres_orbit_want");
   if (n == 0) return PENDRES_OK;
 
   pendres_status status = PENDRES_OK;

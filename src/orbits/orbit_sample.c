@@ -113,9 +113,10 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
   curve coarse = {.memory = NULL}, fine = {.memory = NULL};
   if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
   const char *why = pendres_orbit_refuses(orbit);
-  if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS)) why = "it has no steps";
+  if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS))
+    why = "its number of steps must lie between 1 and 1000000, as orbits that were found have it";
   if (why == NULL && (count < 1 || count > MOST_SAMPLES / orbit->period))
-    why = "one a period at least, 100 million in all at most";
+    why = "there must be one a period at least, and 100 million in all at most";
   if (why != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "samples of an orbit: %s", why);
   int steps = orbit->steps;

@@ -24,8 +24,8 @@ static pendres_status check(pendres_context *ctx, size_t n, const pendres_pendul
 {
   const char *why = NULL;
   if (periods < 0)
-    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%ld periods: not negative, please",
-                                periods);
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "the number of periods is %ld, and must not be negative", periods);
   for (size_t i = 0; i < n; i++) {
     if (pendres_pendulum_check(&p[i], &why) == PENDRES_OK)
       why = pendres_passage_refuses(&p[i], x[i], v[i]);

@@ -141,7 +141,8 @@ static pendres_status check(pendres_context *ctx, const pendres_pendulum *p, dou
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
     if (periods < 0) why = "the number of periods must not be negative";
-    else if (samples < 1 || samples > MOST_SAMPLES) why = "1 to 1000000 samples a period, please";
+    else if (samples < 1 || samples > MOST_SAMPLES)
+      why = "the number of samples a period must lie between 1 and 1000000";
     else if (periods >= LONG_MAX / 64 / samples) why = "there are too many samples in all";
     else why = pendres_passage_refuses(p, x0, v0);
   }
@@ -192,7 +193,8 @@ static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long per
   if (r->samples < 1 || r->stretch < 1 || r->periods < 0 || periods < 0 ||
       periods >= LONG_MAX / 64 / r->samples - r->periods)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "a recording that was begun, and how many periods it goes on");
+                                "the recording was not begun by pendres_recording_begin(), or the "
+                                "number of periods is negative or too large");
   pendres_recording next = *r;
   const size_t last = (size_t)periods * (size_t)r->samples;
   const piece first = { .of = r, .at = &next.place, .periods = periods, .stretch = r->stretch,

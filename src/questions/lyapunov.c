@@ -400,7 +400,8 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
   if (o->transient < 0 || o->periods < 0 || o->transient > LONG_MAX / 64 ||
       o->periods > LONG_MAX / 64)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
-                                "transient and periods: numbers of drive periods, please");
+                                "transient and periods are numbers of drive periods: they must not "
+                                "be negative or too large");
   for (size_t i = 0; i < n; i++) {
     const char *why = refuses(&p[i], x[i], v[i]);
     if (why != NULL)

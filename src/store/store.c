@@ -34,7 +34,7 @@ pendres_status pendres_store_fail(pendres_store *store, pendres_status status, c
   return status;
 }
 
-/* Keep the first entry of a walk that starts where the error arose. */
+/* Keep the first entry of HDF5's list of errors, which is the one where the error arose. */
 static herr_t first_words(unsigned n, const H5E_error2_t *error, void *to)
 {
   if (n == 0)
@@ -65,7 +65,7 @@ const char *pendres_store_message(const pendres_store *store)
 
 /* ---- Into and out of HDF5 -------------------------------------------------------------------- */
 
-/* No messages of HDF5 from now on. Negative if there is no HDF5: it could not start. */
+/* Silence HDF5's messages. Negative if HDF5 could not start. */
 static int quiet_begin(pendres_store_quiet *quiet)
 {
   /* Called again, an HDF5 that could not start would crash. */
@@ -111,7 +111,7 @@ pendres_status pendres_store_enter(pendres_store *store, pendres_store_quiet *qu
   const int dead = quiet_begin(quiet) < 0;
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
-  if (store->failed) return store->failed; /* with the message of then */
+  if (store->failed) return store->failed; /* the message is still that of the failure */
   if (dead) return no_hdf5(store);
   store->message[0] = '\0';
   if (store->h5 < 0)
@@ -217,7 +217,7 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
   if (status == PENDRES_IO) pendres_store_fail(store, status, "%s", store->file.why);
   if (!status) status = create_h5(store);
   if (!status) status = set_root(store, options);
-  /* Reaching the disk once finds a full one before any work is done. */
+  /* A first write to the disk tells whether it is full before any work is done. */
   if (!status && H5Fflush(store->h5, H5F_SCOPE_LOCAL) < 0)
     status = pendres_store_fail_hdf5(store, "cannot write '%s'", store->file.part);
 leave:
@@ -311,11 +311,11 @@ pendres_status pendres_store_abandon(pendres_store *store, int keep_part)
 
   if (!store) return PENDRES_INVALID_ARGUMENT;
   (void)quiet_begin(&quiet);
-  /* First, since an HDF5 that is short of memory may crash when it closes. */
+  /* This comes first, since an HDF5 that is short of memory may crash when it closes. */
   if (!keep_part) pendres_store_drop_part(store);
   if (store->h5 >= 0) status = close_h5(store);
   pendres_store_file_abandon(&store->file, keep_part || store->whole);
-  /* What is thrown away may have been broken. */
+  /* Where the file is thrown away its failures do not matter. */
   return pendres_store_leave(store, &quiet, keep_part ? status : PENDRES_OK);
 }
 
@@ -323,7 +323,8 @@ void pendres_store_free(pendres_store *store)
 {
   if (!store) return;
   pendres_store_abandon(store, 0);
-  /* What HDF5 could not close it closes at exit, through our file: leaked rather than dangling. */
+  /* HDF5 closes at exit what it could not close, through our file, which must still be there: it is
+     leaked. */
   if (store->h5 >= 0) return;
   pendres_store_file_destroy(&store->file);
   free(store);

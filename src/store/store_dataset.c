@@ -6,7 +6,7 @@
  * that writes row by row then compresses each chunk once. Every chunk has a checksum, Fletcher32
  * of the bytes on disk; what is not cut into chunks, scalars and short arrays, stands in the header
  * of its dataset, which has a checksum of HDF5's own. Texts have none: HDF5 keeps those of variable
- * length in a heap without one. Sizes in elements unless said otherwise.
+ * length in a heap without one. Sizes are in elements unless a comment says otherwise.
  */
 #include "store/store_internal.h"
 
@@ -39,7 +39,7 @@ static hid_t string_type(void)
   return type;
 }
 
-/* A type on disk, to be closed likewise. */
+/* A type on disk, to be closed like one in memory. */
 static hid_t file_type(pendres_store_type type)
 {
   switch (type) {
@@ -98,7 +98,7 @@ pendres_status pendres_store_measure(pendres_store *store, pendres_store_node *n
   return PENDRES_OK;
 }
 
-/* Whole rows, as many as make CHUNK_GOAL bytes, unless a row alone exceeds CHUNK_LIMIT. */
+/* A chunk is as many whole rows as make CHUNK_GOAL bytes, unless one row exceeds CHUNK_LIMIT. */
 static void chunk_sizes(const pendres_store_node *node, size_t rows_wanted, hsize_t *chunk)
 {
   hsize_t bytes = element_bytes(node->type), rows;
@@ -116,7 +116,8 @@ static void chunk_sizes(const pendres_store_node *node, size_t rows_wanted, hsiz
   chunk[0] = rows ? rows : 1;
 }
 
-/* The checksum comes last: it is of the bytes on disk, and looked at before these are expanded. */
+/* The checksum comes last: it is that of the bytes on disk, and is checked before these are
+   expanded. */
 static herr_t set_filters(hid_t creation, size_t element, int deflate)
 {
   if (deflate >= 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0 &&
@@ -178,7 +179,7 @@ pendres_status pendres_store_make(pendres_store *store, const char *path,
 
 /* ---- Writing --------------------------------------------------------------------------------- */
 
-/* Rows that HDF5 takes at once. */
+/* Write so many rows as HDF5 takes at once. */
 static herr_t write_piece(const pendres_store_node *node, hid_t type, hid_t space,
                           const pendres_store_piece *piece, const void *data)
 {
@@ -253,7 +254,7 @@ pendres_status pendres_store_check_rows(pendres_store *store, const char *name, 
                             (unsigned long long)piece->first);
 }
 
-/* The variable of a number, with data for a piece of it. */
+/* Find the variable with this number, and check that there are data for a piece of it. */
 static pendres_status check_write(pendres_store *store, int id, const pendres_store_piece *piece,
                                   const void *data, const pendres_store_node **out)
 {
@@ -304,7 +305,7 @@ pendres_status pendres_store_put(pendres_store *store, const pendres_store_spec 
                                  const void *data, size_t n)
 {
   int id = -1;
-  /* Before there is a variable that nobody fills. */
+  /* This is checked before a variable is made that would stay empty. */
   if (store && spec && n && !data)
     return pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "'%s': no data",
                               spec->name ? spec->name : "");

@@ -62,8 +62,8 @@ static char *joined(const char *head, size_t length, const char *tail)
   return text;
 }
 
-/* Are locks to be believed? The variable is HDF5's own; where it says that they are not, a file
-   without a lock may still be somebody's. */
+/* Whether locks tell who writes a file. HDF5's own environment variable may switch them off; then a
+   file without a lock may still be another run's. */
 static int locks_count(void)
 {
   const char *use = getenv("HDF5_USE_FILE_LOCKING");
@@ -93,8 +93,8 @@ static pendres_status close_again(pendres_store_file *file, pendres_status statu
 }
 
 /*
- * Take over a part file that is there: one that a run has left when it was killed holds no lock any
- * more. *again: it has gone meanwhile, and the name is free.
+ * Take over a part file that is there already: one that a killed run has left is no longer locked.
+ * *again: it has gone meanwhile, and the name is free.
  */
 static pendres_status take_over(pendres_store_file *file, int *again)
 {
@@ -128,9 +128,9 @@ static pendres_status take_over(pendres_store_file *file, int *again)
 }
 
 /*
- * The part file of this run alone. It is created, never just opened, so that of two runs one is
- * told at once, locks or none; a lock is held where there are locks, and tells others that the file
- * is not left over.
+ * Make the part file of this run. It is created, never just opened, so that the later of two runs
+ * is refused at once, with or without locks. Where there are locks one is held, which tells others
+ * that the file is in use.
  */
 static pendres_status open_own(pendres_store_file *file)
 {
@@ -140,7 +140,7 @@ static pendres_status open_own(pendres_store_file *file)
 
     file->fd = open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file->fd >= 0) {
-      /* Somebody may have taken it for a leftover before it was locked: then it is theirs. */
+      /* Another run may have taken it for a leftover before it was locked: then it is theirs. */
       if (flock(file->fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
         return close_again(file, busy(file));
       return PENDRES_OK;
@@ -158,7 +158,7 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
 
   memset(file, 0, sizeof *file);
   file->fd = -1;
-  /* What the rename would refuse hours later is refused now. */
+  /* Refuse now what the rename would refuse hours later. */
   status = pendres_store_target(path, &file->path, file->why, sizeof file->why);
   if (status) return status;
   file->part = joined(file->path, strlen(file->path), ".part");
@@ -182,7 +182,7 @@ void pendres_store_file_destroy(pendres_store_file *file)
 
 void pendres_store_file_unlink(const pendres_store_file *file)
 {
-  /* Only our own: with locking off, another process may have taken the name. */
+  /* Remove it only if it is our own: with locking off, another process may have taken the name. */
   if (file->fd >= 0 && is_same_file(file->fd, file->part)) unlink(file->part);
 }
 
@@ -194,7 +194,7 @@ void pendres_store_file_abandon(pendres_store_file *file, int keep)
   file->fd = -1;
 }
 
-/* The folder's entry to the disk. File systems that cannot do this say EINVAL. */
+/* Write the folder's entry to the disk. File systems that cannot do this return EINVAL. */
 static int sync_folder(const char *path)
 {
   const char *slash = strrchr(path, '/');
@@ -223,7 +223,7 @@ pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
   if (fsync(file->fd) && errno != EINVAL)
     return file_failed(file, "write", file->part, file->error = errno);
   *whole = 1;
-  /* Renamed while still locked: nobody can take the name in between. */
+  /* The file is renamed while it is still locked: nobody can take the name in between. */
   if (rename(file->part, file->path))
     return file_fail(file, "cannot rename '%s' to '%s': %s; the results are whole in the former",
                      file->part, file->path, strerror(errno));

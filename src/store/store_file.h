@@ -43,8 +43,8 @@ void pendres_store_file_unlink(const pendres_store_file *file);
 /* Close the part file if it is open, and remove it unless `keep`. */
 void pendres_store_file_abandon(pendres_store_file *file, int keep);
 
-/* Everything to the disk, close, rename to path, and the folder to the disk. *whole is set once
- * the part is complete on disk, even where the rename then fails. */
+/* Write everything to the disk, close, rename the part file to path, and write the folder to the
+ * disk. *whole is set once the part is complete on disk, even where the rename then fails. */
 pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole);
 
 /*

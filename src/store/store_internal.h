@@ -1,7 +1,7 @@
 /*
- * store_internal.h -- what the files src/store*.c share. The only header that includes hdf5.h.
+ * store_internal.h -- what the files of src/store share. The only header that includes hdf5.h.
  *
- * Owns: nothing; the store is laid out here.
+ * Owns: what a store holds while it is open; functions are declared by the files that define them.
  */
 #ifndef PENDRES_STORE_INTERNAL_H
 #define PENDRES_STORE_INTERNAL_H
@@ -86,11 +86,12 @@ void pendres_store_utf8_free(char **list, size_t n);
 
 /* store_layout.c: what a store made. */
 
-/* The node of that path, NULL if there is none. */
+/* Find the node with that path; NULL if there is none. */
 pendres_store_node *pendres_store_find(const pendres_store *store, const char *path);
-/* Room for one more node, and a malloc'd copy of its path. */
+/* Make room for one more node, and a malloc'd copy of its path. */
 pendres_status pendres_store_reserve(pendres_store *store, const char *path, char **copy);
-/* The group of that path, made with its parents if missing. Moves nodes: older pointers die. */
+/* Find the group with that path, or make it with its parents. Nodes may move: older pointers to
+   them are no longer valid. */
 pendres_status pendres_store_need_group(pendres_store *store, const char *group,
                                         pendres_store_node **out);
 
@@ -103,7 +104,8 @@ pendres_status pendres_store_mark_text(pendres_store *store);
 
 /* store_attribute.c: make or replace an attribute of an open object. */
 
-/* What an attribute becomes: n values, 0 for a scalar, and their types there and here. */
+/* The value of an attribute: n numbers, 0 for a scalar, and their types in the file and in
+   memory. */
 typedef struct pendres_store_value {
   hid_t file_type, memory_type;
   size_t n;

@@ -61,7 +61,7 @@ static pendres_status make_group(pendres_store *store, const char *path)
   return status;
 }
 
-/* Every part of the path is a name, and none is taken by a variable. */
+/* Check that every part of the path is a name, and that none is taken by a variable. */
 static pendres_status check_group(pendres_store *store, char *path)
 {
   char *from = path, *slash;
@@ -124,7 +124,8 @@ pendres_status pendres_store_group(pendres_store *store, const char *group)
 
 /* ---- What dimensions and variables share ----------------------------------------------------- */
 
-/* The name is one, the group can be one, and nothing is there yet. *path is the caller's. */
+/* Check that the name is valid, that the group can be made, and that nothing is there yet. *path is
+   the caller's to free. */
 static pendres_status check_new(pendres_store *store, const char *group, const char *name,
                                 const char *long_name, char **path)
 {
@@ -158,7 +159,7 @@ pendres_status pendres_store_describe(pendres_store *store, hid_t id, const char
 
 /* ---- Dimensions ------------------------------------------------------------------------------ */
 
-/* 0, 1, ... size - 1 in bounded pieces. */
+/* Write 0, 1, ... size - 1, in bounded pieces. */
 static pendres_status write_index(pendres_store *store, const pendres_store_node *node)
 {
   int64_t index[1024];
@@ -260,7 +261,7 @@ static pendres_status check_flags(pendres_store *store, const pendres_store_spec
   return PENDRES_OK;
 }
 
-/* Rank and sizes from the dimensions' names, each of which must exist in the group, and once. */
+/* Set rank and sizes from the dimensions' names, which must exist in the group and differ. */
 static pendres_status check_dimensions(pendres_store *store, const pendres_store_spec *spec,
                                        pendres_store_node *node)
 {
@@ -286,7 +287,7 @@ static pendres_status check_dimensions(pendres_store *store, const pendres_store
   return PENDRES_OK;
 }
 
-/* Everything that can be wrong with a specification. *path is the caller's, to be freed. */
+/* Check everything that can be wrong with a specification. *path is the caller's to free. */
 static pendres_status check_spec(pendres_store *store, const pendres_store_spec *spec,
                                  pendres_store_node *node, char **path)
 {
@@ -345,7 +346,7 @@ static pendres_status set_flags(pendres_store *store, const pendres_store_spec *
   }
   pendres_store_value value = { H5T_STD_I8LE, H5T_NATIVE_INT8, (size_t)spec->flag_count, values };
   status = pendres_store_set(store, id, "flag_values", &value);
-  /* What is looked at for each: its own bit, and for none all of them. */
+  /* The mask of each flag is its own bit; that of the value 0 has all bits. */
   for (int i = 0; i < spec->flag_count; i++) masks[i] = values[i] ? values[i] : all;
   value.at = masks;
   if (!status && spec->flag_bits) status = pendres_store_set(store, id, "flag_masks", &value);

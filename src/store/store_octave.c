@@ -39,7 +39,7 @@ static pendres_status mark(pendres_store *store, const char *group, hid_t id)
   char *path = pendres_store_path(group, "type");
   pendres_status status = path ? PENDRES_OK : PENDRES_OUT_OF_MEMORY;
 
-  /* A variable of that name is somebody's own. If it is a number it serves as well. */
+  /* A variable of that name is the caller's own. If it is a number it serves as well. */
   if (!status && !pendres_store_find(store, path)) {
     for (int k = 0; k < PENDRES_STORE_RANK; k++) sign.sizes[k] = 1;
     status = pendres_store_measure(store, &sign, path);

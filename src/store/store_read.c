@@ -42,7 +42,7 @@ static pendres_status existing_path(pendres_store *store, const char *group, con
   return PENDRES_OK;
 }
 
-/* A dataset and its shape. On success close *id. */
+/* Open a dataset, and get its shape. On success *id must be closed. */
 static pendres_status open_dataset(pendres_store *store, const char *group, const char *name,
                                    hid_t *id, int *rank, hsize_t *sizes)
 {
@@ -221,7 +221,7 @@ pendres_status pendres_store_dimension_of(pendres_store *store, const char *grou
 
 /* ---- values -------------------------------------------------------------------------------- */
 
-/* There is room at data for as many elements as a piece of that shape holds. */
+/* Check that there is room at data for as many elements as a piece of that shape holds. */
 static pendres_status check_read(pendres_store *store, const char *name, const hsize_t *sizes,
                                  const pendres_store_piece *piece, const void *data)
 {
@@ -260,7 +260,7 @@ static herr_t read_rows(hid_t id, hid_t type, int rank, const hsize_t *sizes,
   return result;
 }
 
-/* rows UINT64_MAX: all of them, whatever there are. */
+/* Read numbers; rows UINT64_MAX: all rows that there are. */
 static pendres_status read_numbers(pendres_store *store, const char *group, const char *name,
                                    pendres_store_type type, pendres_store_piece piece,
                                    void *data)

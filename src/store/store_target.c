@@ -65,8 +65,8 @@ static char *read_link(const char *path)
   return next;
 }
 
-/* Is the name one of the system's own? Such a name may lead to a plain file, as /dev/stdout does,
-   which is then a stream all the same. */
+/* Whether the name belongs to the system. It may lead to a plain file, as /dev/stdout does, which
+   is then a stream all the same. */
 static int is_stream(const char *path)
 {
   const size_t length = folder_length(path);
@@ -83,7 +83,7 @@ static int is_stream(const char *path)
   return stream;
 }
 
-/* What is there already. */
+/* Check what is there already. */
 static pendres_status check_old(const char *path, const char *target, char *why, size_t size)
 {
   struct stat info;

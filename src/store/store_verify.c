@@ -11,7 +11,7 @@
 
 /* Bytes that are read at once, unless a single row or chunk is larger. */
 #define PIECE ((hsize_t)16 * 1024 * 1024)
-/* Groups within groups: more are a damaged file's circle. */
+/* The depth of groups within groups: what is deeper is a circle in a damaged file. */
 enum { DEEPEST = 32, MOST_RANK = 32 };
 
 /* What HDF5 has allocated for n elements: texts and lists of variable length. */
@@ -65,7 +65,7 @@ static herr_t read_some(hid_t id, hid_t type, hid_t space, const hsize_t *start,
   return result;
 }
 
-/* Whole chunks at a time, so that none is read twice. */
+/* How many rows are read at a time: whole chunks, so that none is read twice. */
 static hsize_t rows_at_once(hid_t id, int rank, hsize_t row_bytes)
 {
   const hid_t creation = H5Dget_create_plist(id);
