@@ -5,9 +5,9 @@
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
  * doublings and symmetry breakings on the way; curves of these in two parameters; cusps.
  *
- * All pendulums are served, with torque, parametric drive or a polynomial force, as long as there
- * is a drive of either kind where orbits go round: without one a rotation has a period of its own,
- * and is no orbit of the strobe map (PENDRES_INVALID_ARGUMENT).
+ * All pendulums are served, with torque, parametric drive or another force, as long as there is a
+ * drive of either kind where orbits go round: without one a rotation has a period of its own, and
+ * is no orbit of the strobe map (PENDRES_INVALID_ARGUMENT).
  *
  * Method: Newton's method on the strobe map with its variational equations and parameter
  * sensitivities, pseudo-arclength steps. An orbit that is its own mirror image is a fixed point
@@ -44,7 +44,7 @@ extern "C" {
 /**
  * A parameter of the pendulum that orbits can be followed in: a field of pendres_pendulum.
  * PENDRES_DRIVE_FREQUENCY: omega; PENDRES_DAMPING: gamma; PENDRES_DRIVE_AMPLITUDE: F0;
- * PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; of a polynomial force
+ * PENDRES_TORQUE: I; PENDRES_PARAMETRIC_AMPLITUDE: b; of a force with coefficients
  * PENDRES_FORCE_COEFFICIENT_1: a1, PENDRES_FORCE_COEFFICIENT_2: a2, PENDRES_FORCE_COEFFICIENT_3:
  * a3, PENDRES_FORCE_COEFFICIENT_4: a4, PENDRES_FORCE_COEFFICIENT_5: a5 (a pendulum has none of
  * these); PENDRES_PARAMETER_COUNT: how many there are.
@@ -151,7 +151,7 @@ typedef enum pendres_branch_end {
   PENDRES_END_CLOSED,    /**< it is back at its start: an isola */
   PENDRES_END_WILD,      /**< errors grow too much along the orbit to follow it */
   PENDRES_END_POINTS,    /**< most_points */
-  PENDRES_END_STUCK,     /**< arc steps became too short */
+  PENDRES_END_STUCK,     /**< steps along the arc became too short */
   PENDRES_END_COUNT      /**< how many there are; not an end */
 } pendres_branch_end;
 

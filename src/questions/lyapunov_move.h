@@ -14,14 +14,14 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p);
 
 /* How much is done for a verdict. */
 typedef enum pendres_lyapunov_care {
-  PENDRES_CARE_FULL, /* as pendres_lyapunov_find */
+  PENDRES_CARE_FULL, /* as pendres_lyapunov_find, with two further averages, the longest ones */
   PENDRES_CARE_ONCE, /* one average; a pendulum that it does not decide about is unresolved */
   PENDRES_CARE_CLOSE /* pendulums next to rotations that are not locked, which are told sooner */
 } pendres_lyapunov_care;
 
-/* As pendres_lyapunov_find with its defaults, of pendulums that are known to be good; x[n] and v[n]
-   become states at drive phase 0 that the pendulums are in at the end, less whole turns, and
-   orbit[n] the orbits that they have come to: of period 0 where there is none. */
+/* As pendres_lyapunov_find with its defaults but for `care`, for pendulums that have been checked.
+   x[n] and v[n] become states at drive phase 0 that the pendulums are in at the end, less whole
+   turns, and orbit[n] the orbits that they have come to: of period 0 where there is none. */
 pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
                                      double *x, double *v, pendres_lyapunov_care care,
                                      pendres_lyapunov *out, pendres_orbit *orbit);
