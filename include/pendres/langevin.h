@@ -10,8 +10,9 @@
  * (1995) 425; scheme 4B of Chin, Phys. Lett. A 226 (1997) 344; for noise: Forbert and Chin,
  * Phys. Rev. E 63 (2000) 016703). Free motion, with friction and drive solved exactly,
  * alternates with kicks by force and noise, two a step, at Gauss's points; the fourth-order
- * correction multiplies both by 1 - h^2 (2 - sqrt 3)/12 cos y, h the step. The weak order is four
- * at any temperature; at temperature zero it is an ordinary method of order four, without noise.
+ * correction multiplies both by 1 - h^2 (2 - sqrt 3)/12 f'(y), h the step and f the force, sin y of
+ * a plain pendulum. The weak order is four at any temperature; at temperature zero it is an
+ * ordinary method of order four, without noise.
  *
  * Random numbers: Philox4x32-10 (Random123) and Box-Muller. The key is the context's seed, the
  * counter the trajectory's id, the number of the period and of the draw within it. Results are

@@ -88,7 +88,8 @@ typedef struct pendres_reference_cycle {
   long double multiplier_im[2];   /**< their imaginary parts */
   long double monodromy[2][2];    /**< over the whole period */
   long double loop_area;          /**< closed integral of F dx */
-  long double dissipation;        /**< damping times the integral of v^2 dt; equals loop_area */
+  long double dissipation;        /**< damping times the integral of v^2 dt; equals loop_area, with
+                                       a torque or a parametric drive and what these give */
   long double amplitude;          /**< half peak to peak of the angle */
   long double first_harmonic_amplitude; /**< of cos(theta - phase_lag) in the angle */
   long double phase_lag;          /**< behind the force, 0 to pi; NaN without a first harmonic */
