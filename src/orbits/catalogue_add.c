@@ -166,30 +166,47 @@ static pendres_status guess_points(pendres_context *ctx, const long_orbits *l,
   return status;
 }
 
-/* Refine each point at its own place. */
+/* Whether an orbit is back at its first point before its period is over, by where its other points
+   are guessed to be. A guess is off by far less than what tells points of one orbit apart. */
+static int returns_earlier(const pendres_orbit *o, const pendres_orbit_guess *guess)
+{
+  for (int d = 1; d < o->period; d++)
+    if (o->period % d == 0 &&
+        pendres_orbit_apart(o, guess[d].x, guess[d].v) < 0.5 * same_point)
+      return 1;
+  return 0;
+}
+
+/* Refine each point at its own place, but for orbits that have a shorter period: a hundred points
+   of an orbit of period 1 would take ten thousand periods each time. */
 static pendres_status find_points(pendres_context *ctx, long_orbits *l)
 {
   pendres_orbit_guess *guess = malloc(l->points * sizeof *guess);
   pendres_status *outcome = malloc(l->points * sizeof *outcome), status = PENDRES_OK;
+  size_t n = 0;
   if (guess == NULL || outcome == NULL)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
   if (status == PENDRES_OK) status = guess_points(ctx, l, guess);
   /* The first point of each orbit is known already: close the gaps that it leaves among guesses. */
-  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++)
-    memmove(guess + l->first[i] - i, guess + l->first[i] + 1,
-            (size_t)(l->orbit[i]->period - 1) * sizeof *guess);
+  for (size_t i = 0; i < l->count && status == PENDRES_OK; i++) {
+    const pendres_orbit_guess *from = guess + l->first[i];
+    const size_t others = (size_t)l->orbit[i]->period - 1;
+    l->complete[i] = (char)!returns_earlier(l->orbit[i], from);
+    if (!l->complete[i]) continue;
+    memmove(guess + n, from + 1, others * sizeof *guess);
+    n += others;
+  }
   if (status == PENDRES_OK)
-    status = pendres_orbit_refine(ctx, l->points - l->count, guess, PENDRES_ORBIT_PLAIN, l->point,
-                                  outcome);
+    status = pendres_orbit_refine(ctx, n, guess, PENDRES_ORBIT_PLAIN, l->point, outcome);
   for (size_t i = l->count; i-- > 0 && status == PENDRES_OK;) {
+    if (!l->complete[i]) continue;
     const int q = l->orbit[i]->period;
-    const size_t from = l->first[i] - i;
     pendres_orbit *point = l->point + l->first[i];
-    memmove(point + 1, l->point + from, (size_t)(q - 1) * sizeof *point);
+    n -= (size_t)q - 1;
+    memmove(point + 1, l->point + n, (size_t)(q - 1) * sizeof *point);
     point[0] = *l->orbit[i];
-    l->complete[i] = 1;
     for (int j = 1; j < q; j++)
-      if (outcome[from + (size_t)j - 1] == PENDRES_NOT_CONVERGED || !point[j].stable)
+      if (outcome[n + (size_t)j - 1] == PENDRES_NOT_CONVERGED || !point[j].stable)
         l->complete[i] = 0;
     if (l->complete[i] && closes_earlier(point, q)) l->complete[i] = 0;
   }
