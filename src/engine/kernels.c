@@ -162,7 +162,19 @@ PENDRES_VECTOR_INLINE felt feel(pendres_model_terms model, const pendres_coeffic
   return a;
 }
 
-/* stride: lanes, the distance between two rows. */
+/* Slopes of lane i's state and of its derivatives by the initial state. stride: lanes, the distance
+   between two rows. */
+PENDRES_VECTOR_INLINE void vary(const felt *a, double drag, size_t stride, size_t i,
+                                const double *s, double *d)
+{
+  d[i] = s[stride + i];
+  d[stride + i] = a->slope;
+  d[2 * stride + i] = s[3 * stride + i];
+  d[3 * stride + i] = FMA(a->spring, s[2 * stride + i], drag * s[3 * stride + i]);
+  d[4 * stride + i] = s[5 * stride + i];
+  d[5 * stride + i] = FMA(a->spring, s[4 * stride + i], drag * s[5 * stride + i]);
+}
+
 PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t stride,
                                            const pendres_coefficients *coefficients,
                                            double cos_theta, const double *restrict s,
@@ -171,15 +183,8 @@ PENDRES_VECTOR_INLINE void rhs_variational(pendres_model_terms model, size_t str
   const pendres_coefficients k = *coefficients;
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
-    const double y = s[i], w = s[stride + i];
-    const felt a = feel(model, &k, i, cos_theta, y, w);
-    const double drag = -k.friction[i];
-    d[i] = w;
-    d[stride + i] = a.slope;
-    d[2 * stride + i] = s[3 * stride + i];
-    d[3 * stride + i] = FMA(a.spring, s[2 * stride + i], drag * s[3 * stride + i]);
-    d[4 * stride + i] = s[5 * stride + i];
-    d[5 * stride + i] = FMA(a.spring, s[4 * stride + i], drag * s[5 * stride + i]);
+    const felt a = feel(model, &k, i, cos_theta, s[i], s[stride + i]);
+    vary(&a, -k.friction[i], stride, i, s, d);
   }
 }
 
@@ -198,13 +203,12 @@ PENDRES_VECTOR_INLINE void rhs_sensitivity(pendres_model_terms model, size_t str
                                            double *restrict d)
 {
   const pendres_coefficients k = *coefficients;
-
-  rhs_variational(model, stride, &k, cos_theta, s, d);
 #pragma omp simd
   for (size_t i = 0; i < stride; i++) {
     const double w = s[stride + i];
     const felt a = feel(model, &k, i, cos_theta, s[i], w);
     const double drag = -k.friction[i];
+    vary(&a, drag, stride, i, s, d);
     /* d/domega of the slope at fixed state:
        (2 (stiffness f - drive cos - torque) + friction w)/omega */
     const double push = k.drive[i] * cos_theta;
