@@ -28,7 +28,7 @@ def resonance_axes(ax, h, labels):
     `labels` of dampings, some of the others."""
     name = h.axis_of("mean_loop_amplitude", 0)
     amplitude, peak, values = h["mean_loop_amplitude"], h["peak"], h[name]
-    if name != "damping":
+    if name != "damping" or not np.isin(labels, values).any() or len(values) <= 8:
         labels = values[::-(-len(values) // 8)]
     omega, label = frequency(h, h["resonance_frequency"])
     x = np.linspace(0, max(0.5, np.nanmax(amplitude, initial=0.5) * 1.12), 400)
@@ -51,7 +51,7 @@ def resonance_axes(ax, h, labels):
         within = omega[i] < free[i]
         left = within and amplitude[i] >= top
         ax.annotate(f"{value:g}", (amplitude[i], omega[i]), textcoords="offset points",
-                    xytext=(-5 if left else 5, -3 if within else 1),
+                    xytext=(-4 if left else 4, -6 if within else 1),
                     ha="right" if left else "left", va="top" if within else "bottom",
                     fontsize=plt.rcParams["legend.fontsize"] - 0.5)
     ax.set(xlim=(0, x[-1]), ylim=around(np.append(omega, frequency(h, 1.0)[0]), 0.12))

@@ -80,6 +80,16 @@ def balanced(text, most):
     return textwrap.fill(text, shorter)
 
 
+def title(run):
+    """The deck's title, and behind it the parameters that were set on the command line, of which
+    the title does not know."""
+    settings = re.split(r" (?=[a-z_]+\.\w+=)", run.settings())
+    found = [s.split(".", 1)[1] for s in settings if s.startswith("pendulum.")]
+    if not found or any(s.startswith("scene.title=") for s in settings):
+        return run.text("title")
+    return f"{run.text('title')} (set: {'; '.join(found)})"
+
+
 def draw(path, options):
     """The figure of a file; ValueError says why there is none."""
     try:
@@ -98,7 +108,7 @@ def draw(path, options):
         except KeyError as missing:
             raise ValueError(f"something is missing from it: {missing}") from None
         most = max(20, int(120 * figure.get_size_inches()[0] / plt.rcParams["font.size"]))
-        figure.suptitle(balanced(run.text("title"), most), fontsize=plt.rcParams["font.size"])
+        figure.suptitle(balanced(title(run), most), fontsize=plt.rcParams["font.size"])
         return figure
 
 

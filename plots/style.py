@@ -41,6 +41,11 @@ class Run:
         value = self.file.attrs.get(attribute, "")
         return value.decode() if isinstance(value, bytes) else str(value)
 
+    def settings(self):
+        """Keys that were set on the command line."""
+        value = self.file["provenance/settings"][()] if "provenance/settings" in self.file else b""
+        return value.decode()
+
     def axis_of(self, name, dimension):
         """The name of one of a variable's dimensions."""
         dimensions = self.file[name].dims
