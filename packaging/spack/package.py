@@ -1,6 +1,12 @@
 # Spack recipe: put this folder as packages/pendres into a repository of your own
-# (`spack repo create`), then `spack install pendres`.
+# (`spack repo create`), then `spack dev-build -d FOLDER pendres@0.1.0` builds what is in FOLDER, the
+# source tree.
 from spack.package import *
+
+try:  # Since Spack 1.0 build systems are beside the packages; before, spack.package has them.
+    from spack_repo.builtin.build_systems.makefile import MakefilePackage
+except ImportError:
+    pass
 
 
 class Pendres(MakefilePackage):
