@@ -22,8 +22,9 @@
   X(REFUSED, "refused", "the parameters are beyond what can be computed")                        \
   X(NO_MEAN, "no_mean", "no pendulum has what the mean is taken of")                             \
   X(TOO_LONG, "too_long", "settling would take too many steps of the integrator")                \
-  X(BUDGET, "budget", "the search could look at too few frequencies: there may be more; a "     \
-                      "narrower sweep.drive_frequency_range leaves more for each frequency")     \
+  X(BUDGET, "budget", "the search could look at too few frequencies: there may be more; a "      \
+                      "narrower range of the search (sweep.drive_frequency_range, in scene "     \
+                      "'response' sweep.resonance_range) leaves more for each frequency")        \
   X(OUT_OF_TIME, "out_of_time", "ended by its budget of processor time: raise "                 \
                                 "--budget=SECONDS, or bound its drive periods by "              \
                                 "precision.period_budget")
