@@ -44,10 +44,15 @@ def resonance_axes(ax, h, labels):
     # the right of what is beyond that line.
     top = amplitude[np.nanargmax(omega)] if np.any(np.isfinite(omega)) else 0
     free = frequency(h, free_frequency(amplitude))[0]
+    apart = 0.1 * x[-1], 0.05 * (np.nanmax(omega, initial=0) - np.nanmin(omega, initial=1))
+    numbered = np.empty((0, 2))
     for value in labels:
         i = np.argmin(abs(values - value))
-        if abs(values[i] - value) > 1e-9 or not np.isfinite(amplitude[i]):
+        here = np.array([amplitude[i], omega[i]])
+        if abs(values[i] - value) > 1e-9 or not np.isfinite(amplitude[i]) \
+                or np.any(np.all(abs(numbered - here) < apart, axis=1)):
             continue
+        numbered = np.vstack([numbered, here])
         within = omega[i] < free[i]
         left = within and amplitude[i] >= top
         ax.annotate(f"{value:g}", (amplitude[i], omega[i]), textcoords="offset points",
@@ -73,7 +78,7 @@ def draw_resonance_curve(h, path):
         small.set_title("$F_0 = 0.1$", fontsize=7.5, pad=2)
         small.tick_params(labelsize=7)
     axis = h.axis_of("mean_loop_amplitude", 0).replace("_", " ")
-    legend(ax, loc="lower right" if inset else "lower left", title="numbers: " + axis,
+    legend(ax, loc="lower right" if inset else "best", title="numbers: " + axis,
            title_fontsize=7.5, framealpha=1)
     return fig
 
