@@ -81,7 +81,7 @@ static void stopped_by_signal(void **state)
   write_text("deck.nml", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
                          "&sweep damping_range = 0.5, 1.5, 2000 /\n&ensemble members = 8 /\n");
   const pid_t pid = start("stdout.txt", 0, (const char *const[]){ "deck.nml", "-t2", NULL });
-  /* Until tasks are finished, however busy the machine: the head alone has 645 bytes, a task 61 kB. */
+  /* Until tasks are finished, however busy the machine: the head has 645 bytes, a task 61 kB. */
   for (int k = 0; k < 6000 && bytes("deck.h5.journal") < 4096; k++) wait_seconds(0.01);
   assert_int_equal(kill(pid, SIGTERM), 0);
   const double sent = now();
