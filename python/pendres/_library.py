@@ -85,6 +85,18 @@ lib = _open(ffi, declared.constants)
 # ---- Enumerations and exceptions ---------------------------------------------------------------
 
 
+def types_of(kind):
+    """Names of the library's types of a kind, "enum" or "struct"; cffi has no types for functions'
+    names."""
+    for name in ffi.list_types()[0]:
+        try:
+            found = ffi.typeof(name)
+        except cffi.CDefError:
+            continue
+        if found.kind == kind:
+            yield name
+
+
 def _enumeration(name):
     """An IntEnum of one of the library's: members without what all their names begin with."""
     elements = ffi.typeof(name).relements
@@ -97,8 +109,7 @@ def _enumeration(name):
                         module="pendres")
 
 
-enumerations = {name: _enumeration(name) for name in ffi.list_types()[0]
-                if ffi.typeof(name).kind == "enum"}
+enumerations = {name: _enumeration(name) for name in types_of("enum")}
 Status = enumerations["pendres_status"]
 
 
