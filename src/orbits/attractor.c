@@ -114,7 +114,8 @@ static pendres_status attractors_find(pendres_context *ctx, const pendres_pendul
   set->catalogues[0].pendulum = *p;
   /* Whoever asks for attractors alone has many pendulums to come. */
   set->catalogues[0].effort = PENDRES_TRAP_MANY;
-  status = pendres_settle_batch(ctx, 1, set->catalogues, 1, n, zero, x, v, outcome);
+  const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
+  status = pendres_settle_batch(ctx, 1, set->catalogues, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   if (status == PENDRES_OK) {
@@ -145,7 +146,8 @@ static pendres_status attractors_settle(pendres_context *ctx, const pendres_attr
                                 "these are attractors of several parameter sets");
   pendres_status status = check_states(ctx, n, &set->catalogues[0].pendulum, 0, x, v);
   if (status != PENDRES_OK || n == 0) return status;
-  return pendres_settle_known(ctx, set->catalogues, n, x, v, pendres_accuracy_to_settle(ctx),
+  const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
+  return pendres_settle_known(ctx, set->catalogues, &starts, pendres_accuracy_to_settle(ctx),
                               PENDRES_SETTLE_FULL, outcome);
 }
 
@@ -161,11 +163,12 @@ pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractor
 {
   size_t *zero = calloc(n + 1, sizeof *zero);
   pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
+  const pendres_settle_starts starts = {.n = n, .set = zero, .x = x, .v = v};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (zero == NULL || outcome == NULL)
     (void)pendres_context_fail(ctx, status, "out of memory for attractors");
   else
-    status = pendres_settle_batch(ctx, 1, set->catalogues, 1, n, zero, x, v, outcome);
+    status = pendres_settle_batch(ctx, 1, set->catalogues, &starts, outcome);
   if (status == PENDRES_OK && index_sets(set) != 0)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
   free(zero);
@@ -208,8 +211,9 @@ static pendres_status settle_all(pendres_context *ctx, size_t n,
       set[last] = next_set - 1 - base;
     }
     pendres_catalogue *c = all->catalogues + base;
-    status = pendres_settle_batch(ctx, next_set - base, c, 1, last - first, set + first, x + first,
-                                  v + first, outcome + first);
+    const pendres_settle_starts some = {
+      .n = last - first, .set = set + first, .x = x + first, .v = v + first};
+    status = pendres_settle_batch(ctx, next_set - base, c, &some, outcome + first);
     /* Numbers within a set become numbers in the list of all attractors. */
     size_t starts[BATCH_SETS];
     for (size_t s = 0; s < next_set - base; s++) {

@@ -64,17 +64,18 @@ static pendres_status order_all(pendres_context *ctx, size_t sets, pendres_catal
 }
 
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
-                                    pendres_catalogue *catalogues, int explore, size_t n,
-                                    const size_t *set, const double *x, const double *v,
-                                    pendres_outcome *outcome)
+                                    pendres_catalogue *catalogues,
+                                    const pendres_settle_starts *from, pendres_outcome *outcome)
 {
   pendres_status status = PENDRES_OK;
+  const size_t n = from->n, *set = from->set;
+  const double *x = from->x, *v = from->v;
   const double accuracy = pendres_accuracy_to_settle(ctx);
-  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes), *starts = NULL;
+  pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
+  pendres_strobe_lane *starts = malloc((n + 1) * sizeof *starts);
   double *doubt = malloc((n + 1) * sizeof *doubt);
   long *budget = malloc((sets + 1) * sizeof *budget);
-  if (explore) starts = malloc((n + 1) * sizeof *starts);
-  if (lanes == NULL || doubt == NULL || budget == NULL || (explore && starts == NULL)) {
+  if (lanes == NULL || starts == NULL || doubt == NULL || budget == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
@@ -87,18 +88,17 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     else
       status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
   }
-  if (explore && status == PENDRES_OK) memcpy(starts, lanes, n * sizeof *lanes);
+  if (status == PENDRES_OK) memcpy(starts, lanes, n * sizeof *lanes);
   for (size_t s = 0; s < sets; s++) {
     budget[s] = pendres_settle_last_budget(ctx, &catalogues[s]);
     const long first = pendres_settle_first_budget(&catalogues[s].pendulum);
-    if (explore && first < budget[s]) budget[s] = first;
+    if (first < budget[s]) budget[s] = first;
   }
-  if (explore && status == PENDRES_OK)
-    status = send_scouts(ctx, sets, catalogues, n, set, lanes);
+  if (status == PENDRES_OK) status = send_scouts(ctx, sets, catalogues, n, set, lanes);
   pendres_settle_labelling l = {
     .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, n, lanes, &l);
-  if (explore && status == PENDRES_OK)
+  if (status == PENDRES_OK)
     status = pendres_settle_hunt(
       ctx, &(pendres_settle_quarry){.sets = sets, .catalogues = catalogues, .budget = budget,
                                     .n = n, .set = set, .starts = starts, .lanes = lanes,
@@ -106,8 +106,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
                                             .accuracy = accuracy};
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
-  if (explore && status == PENDRES_OK)
-    status = order_all(ctx, sets, catalogues, n, set, outcome);
+  if (status == PENDRES_OK) status = order_all(ctx, sets, catalogues, n, set, outcome);
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
@@ -157,9 +156,11 @@ static void order_by_steps(size_t n, const int *steps, size_t *order)
 }
 
 pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
-                                    size_t n, const double *x, const double *v, double accuracy,
+                                    const pendres_settle_starts *starts, double accuracy,
                                     pendres_settle_budget budget, pendres_outcome *outcome)
 {
+  const size_t n = starts->n;
+  const double *x = starts->x, *v = starts->v;
   const pendres_pendulum *p = &catalogue->pendulum;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   speed_table *table = calloc(1, sizeof *table);

@@ -6,14 +6,21 @@
 
 #include "orbits/catalogue.h"
 
+/* Pendulums to be labelled, by the states that they start from. */
+typedef struct pendres_settle_starts {
+  size_t n;
+  const size_t *set; /* number of each one's parameter set, those of one set being consecutive; not
+                        looked at where there is one catalogue alone, of known attractors */
+  const double *x, *v;
+} pendres_settle_starts;
+
 /*
- * Label n pendulums; set[i] is the catalogue of pendulum i, members of one set being consecutive.
- * With `explore` attractors are found on the way and added to the catalogues; without, the
- * catalogues are only read. outcome[i].attractor counts within its set.
+ * Label pendulums of parameter sets that have a catalogue each. Attractors are found on the way and
+ * added to the catalogues. outcome[i].attractor counts within its set.
  */
 pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
-                                    pendres_catalogue *catalogues, int explore, size_t n,
-                                    const size_t *set, const double *x, const double *v,
+                                    pendres_catalogue *catalogues,
+                                    const pendres_settle_starts *starts,
                                     pendres_outcome *outcome);
 
 /* For how many periods pendulums are followed that may only settle on known attractors. */
@@ -22,10 +29,10 @@ typedef enum pendres_settle_budget {
   PENDRES_SETTLE_FULL
 } pendres_settle_budget;
 
-/* Label n pendulums of one parameter set, integrated with this error a period. The catalogue is
-   only read. */
+/* Label pendulums of one parameter set, integrated with this error a period. The catalogue is only
+   read. */
 pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
-                                    size_t n, const double *x, const double *v, double accuracy,
+                                    const pendres_settle_starts *starts, double accuracy,
                                     pendres_settle_budget budget, pendres_outcome *outcome);
 
 #endif

@@ -103,24 +103,32 @@ double pendres_basin_accuracy(const pendres_context *ctx, const pendres_basin_gr
   return pendres_accuracy_to_picture(ctx, spacing);
 }
 
+/* States of a grid that are to settle on known attractors. */
+typedef struct picture {
+  pendres_context *ctx;
+  const pendres_attractors *set;
+  const pendres_basin_grid *grid;
+} picture;
+
 /* Settle the states with these numbers; outcomes are in the order of the numbers. */
-static pendres_status settle_states(pendres_context *ctx, const pendres_attractors *set,
-                                    const pendres_basin_grid *grid, size_t n, const size_t *index,
+static pendres_status settle_states(const picture *of, size_t n, const size_t *index,
                                     pendres_settle_budget budget, pendres_basin_state *state)
 {
+  const pendres_basin_grid *grid = of->grid;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   double *x = calloc(n + 1, sizeof *x), *v = calloc(n + 1, sizeof *v);
   pendres_outcome *outcome = malloc((n + 1) * sizeof *outcome);
   if (x == NULL || v == NULL || outcome == NULL) {
-    (void)pendres_context_fail(ctx, status, "out of memory for %zu states", n);
+    (void)pendres_context_fail(of->ctx, status, "out of memory for %zu states", n);
     goto done;
   }
   for (size_t k = 0; k < n; k++) {
     x[k] = grid->x[index[k] / grid->nv];
     v[k] = grid->v[index[k] % grid->nv];
   }
-  status = pendres_settle_known(ctx, set->catalogues, n, x, v,
-                                pendres_basin_accuracy(ctx, grid), budget, outcome);
+  const pendres_settle_starts starts = {.n = n, .x = x, .v = v};
+  status = pendres_settle_known(of->ctx, of->set->catalogues, &starts,
+                                pendres_basin_accuracy(of->ctx, grid), budget, outcome);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) compact(&outcome[k], &state[k]);
 done:
   free(x);
@@ -141,7 +149,7 @@ static pendres_status basin_states(pendres_context *ctx, const pendres_attractor
     if (index[k] >= grid->nx * grid->nv)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "state %zu is not in the grid",
                                   index[k]);
-  return settle_states(ctx, set, grid, n, index, PENDRES_SETTLE_FULL, state);
+  return settle_states(&(picture){ctx, set, grid}, n, index, PENDRES_SETTLE_FULL, state);
 }
 
 pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
@@ -152,8 +160,7 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
 }
 
 /* Finish the states that have not settled soon if there are many of them; otherwise mark them. */
-static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
-                            const pendres_basin_grid *grid, size_t offset, size_t n,
+static pendres_status defer(const picture *of, size_t offset, size_t n,
                             pendres_basin_state *state, size_t *deferred)
 {
   size_t left = 0;
@@ -168,13 +175,14 @@ static pendres_status defer(pendres_context *ctx, const pendres_attractors *set,
   size_t *index = malloc(left * sizeof *index);
   pendres_basin_state *rest = malloc(left * sizeof *rest);
   if (index == NULL || rest == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", left);
+    status =
+      pendres_context_fail(of->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", left);
     goto done;
   }
   left = 0;
   for (size_t k = 0; k < n; k++)
     if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) index[left++] = offset + k;
-  status = settle_states(ctx, set, grid, left, index, PENDRES_SETTLE_FULL, rest);
+  status = settle_states(of, left, index, PENDRES_SETTLE_FULL, rest);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) state[index[k] - offset] = rest[k];
   if (deferred != NULL) *deferred = 0;
 done:
@@ -199,9 +207,10 @@ static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors 
   if (index == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
   for (size_t k = 0; k < n; k++) index[k] = offset + k;
-  status = settle_states(ctx, set, grid, n, index, PENDRES_SETTLE_SHORT, state);
+  const picture of = {ctx, set, grid};
+  status = settle_states(&of, n, index, PENDRES_SETTLE_SHORT, state);
   free(index);
-  return status == PENDRES_OK ? defer(ctx, set, grid, offset, n, state, deferred) : status;
+  return status == PENDRES_OK ? defer(&of, offset, n, state, deferred) : status;
 }
 
 pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,

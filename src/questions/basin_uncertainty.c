@@ -104,9 +104,10 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
   for (size_t i = 0; i < count; i++)
     place(a->window, a->seed, (uint64_t)(out->states + i), out->scales, out->distance,
           &a->x[i * each], &a->v[i * each]);
+  const pendres_settle_starts starts = {.n = count * each, .x = a->x, .v = a->v};
   const pendres_status status =
-    pendres_settle_known(ctx, a->set->catalogues, count * each, a->x, a->v,
-                         pendres_accuracy_to_sample(ctx), PENDRES_SETTLE_FULL, a->outcome);
+    pendres_settle_known(ctx, a->set->catalogues, &starts, pendres_accuracy_to_sample(ctx),
+                         PENDRES_SETTLE_FULL, a->outcome);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
     out->unresolved += a->outcome[i * each].attractor == PENDRES_ATTRACTOR_UNKNOWN;

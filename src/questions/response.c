@@ -284,7 +284,8 @@ static pendres_status compute_batch(pendres_context *ctx, size_t sets,
       pendres_ensemble_start(e, k, &x[i], &v[i]);
     }
   }
-  status = pendres_settle_batch(ctx, sets, catalogues, 1, n, set, x, v, outcome);
+  const pendres_settle_starts starts = {.n = n, .set = set, .x = x, .v = v};
+  status = pendres_settle_batch(ctx, sets, catalogues, &starts, outcome);
   for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
     status = pendres_response_summarize(ctx, &catalogues[s], e->members, outcome + s * e->members,
                                         where != NULL ? where + s * e->members : NULL, &out[s]);
