@@ -64,7 +64,8 @@ static int read_file(const void *arg)
   pendres_store *store = NULL;
   const pendres_status status = pendres_store_open(file, &store);
   const int code = status == PENDRES_OK ? read_store(file, store)
-                   : tell(file, "damaged, or no HDF5 file",
+                   : tell(file, status == PENDRES_BUSY ? "cannot be read"
+                                                       : "damaged, or no HDF5 file",
                           store != NULL ? pendres_store_message(store)
                                         : pendres_status_message(status));
   pendres_store_free(store);

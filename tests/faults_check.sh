@@ -1,8 +1,9 @@
 #!/bin/sh
 # faults_check.sh -- what the system refuses, call by call: memory, writing, syncing, renaming,
 # opening; a full disk, a folder that cannot be written, a clock that runs backwards, a deck of many
-# megabytes. Whatever fails, the program ends with 0 or 1 and a message, an output is whole or not
-# there, and the same command with --resume then ends well.
+# megabytes; locks that are denied, and outputs that are open elsewhere. Whatever fails, the program
+# ends with 0 or 1 and a message, an output is whole or not there, and the same command with --resume
+# then ends well.
 # Run by make check, which sets BUILD, CC and RESONANCE.
 set -u
 [ -n "${RESONANCE:-}" ] || exit 77
@@ -51,6 +52,17 @@ count()
   [ "$count" -gt 0 ] || fail "$*: never called"
 }
 
+# run_without_locks flock|off ARGUMENT...: locks fail, or are switched off.
+run_without_locks()
+{
+  how=$1
+  shift
+  case $how in
+  off) HDF5_USE_FILE_LOCKING=FALSE "$RESONANCE" "$@" >out 2>err ;;
+  *) FAULT_CALL=flock FAULT_AT=1 LD_PRELOAD=$preload "$RESONANCE" "$@" >out 2>err ;;
+  esac
+}
+
 # Every so-manieth, so that some twelve of each are tried; all, where that is asked for.
 some=${FAULTS:-12}
 : >err
@@ -77,6 +89,50 @@ done
 
 run clock 3
 [ "$code" -eq 0 ] || fail "a clock that runs backwards"
+
+# Locks are denied, as on some network disks, or switched off by HDF5's own variable: a run does
+# without, and what has to read its output says so. What was there before is another deck's for all
+# one knows, and is kept.
+for denied in flock off; do
+  rm -f d.h5*
+  for again in 1 2; do
+    run_without_locks $denied -q -t 1 d.nml || fail "locks ($denied), run $again"
+  done
+  cp d.h5 kept.h5
+  run_without_locks $denied --verify d.h5
+  told=$?
+  if [ $denied = off ]; then
+    [ $told -eq 0 ] || fail "locks are off: no verifying"
+  else
+    [ $told -eq 1 ] || fail "locks are denied: not told"
+    grep -q 'cannot be locked: .*HDF5_USE_FILE_LOCKING' out || fail "locks are denied: other words"
+    "$RESONANCE" --verify d.h5 d.h5.~1~ >out 2>err || fail "locks are denied: damaged"
+  fi
+done
+
+# The output is open elsewhere: for reading, in a program that goes on to see what it had opened;
+# then for writing, under the lock of which HDF5 makes use, by a program that nobody takes it from.
+exec 9<d.h5
+"$RESONANCE" -q -t 1 d.nml ensemble.members=5 >out 2>err 9<&- || fail "an output that is read"
+cmp -s kept.h5 - <&9 || fail "an output changes under its reader"
+exec 9<&-
+rm -f d.h5*
+"$RESONANCE" -q -t 1 d.nml >out 2>err || fail "an output that is to be held"
+cp d.h5 kept.h5
+flock d.h5 "$RESONANCE" --verify d.h5 >out 2>err && fail "an output that is written: verified"
+grep -q 'cannot be read: .* is open for writing in another process' out ||
+  fail "an output that is written: other words"
+flock d.h5 "$RESONANCE" -t 1 d.nml >out 2>err || fail "an output that is written elsewhere"
+grep -q 'is kept as d.h5.~1~' err || fail "an output that is written elsewhere: not told"
+cmp -s kept.h5 d.h5.~1~ || fail "an output that is written elsewhere is lost"
+"$RESONANCE" --verify d.h5 >out 2>err || fail "an output that was written elsewhere: damaged"
+
+# The part is being written by another run: this one says so, and leaves it alone.
+: >e.h5.part
+flock e.h5.part "$RESONANCE" -q -t 1 -o e.h5 d.nml >out 2>err
+[ $? -eq 1 ] || fail "a part of another run: taken"
+grep -q 'is being written by another process' err || fail "a part of another run: other words"
+[ -e e.h5.part ] || fail "a part of another run: gone"
 
 # A deck of a hundred megabytes (a hole in the file) is refused, without being read.
 cp d.nml long.nml

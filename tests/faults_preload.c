@@ -3,7 +3,8 @@
  * faults_check.sh. FAULT_CALL names the call and FAULT_AT which of its occurrences, from 1 on; 0:
  * none, and FAULT_COUNT names a file that gets the number of them. Of allocations those alone count
  * that are made by FAULT_BY, a part of the name of a library, or by the program itself ("").
- * FAULT_CALL=clock: from then on clocks run backwards. glibc's own names are used.
+ * FAULT_CALL=clock: from then on clocks run backwards; FAULT_CALL=flock: all locks are denied.
+ * glibc's own names are used.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -15,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <time.h>
 #include <unistd.h>
@@ -142,6 +144,13 @@ int fdatasync(int fd)
 {
   FAIL("fsync", EIO);
   return NEXT(fdatasync)(fd);
+}
+
+int flock(int fd, int operation)
+{
+  if (!is("flock")) return NEXT(flock)(fd, operation);
+  errno = ENOLCK;
+  return -1;
 }
 
 int rename(const char *from, const char *to)

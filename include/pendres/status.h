@@ -54,7 +54,8 @@ extern "C" {
  * - PENDRES_IO: reading or writing a file failed
  * - PENDRES_UNSUPPORTED: not supported by this build
  * - PENDRES_INTERNAL: an error of the library itself
- * - PENDRES_BUSY: the handle is in use by another thread, or by the call that asks this one
+ * - PENDRES_BUSY: the handle is in use by another thread, or by the call that asks this one; of a
+ *   file: it cannot be locked, as where another process has it open for writing
  * - PENDRES_STATUS_COUNT: how many there are; not a status
  */
 typedef enum pendres_status {

@@ -242,7 +242,9 @@ pendres_status pendres_store_open(const char *path, pendres_store **out)
     if (!store->file.path)
       status = PENDRES_OUT_OF_MEMORY;
     else if ((store->h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)) < 0)
-      status = pendres_store_fail_hdf5(store, "cannot read '%s'", path);
+      status = pendres_store_file_unlockable(path, store->message)
+                 ? PENDRES_BUSY
+                 : pendres_store_fail_hdf5(store, "cannot read '%s'", path);
   }
   store->failed = status;
   return pendres_store_leave(store, &quiet, status);

@@ -165,6 +165,22 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
   return file->part ? open_own(file) : PENDRES_OUT_OF_MEMORY;
 }
 
+int pendres_store_file_unlockable(const char *path, char *why)
+{
+  const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int error = 0;
+
+  if (fd < 0) return 0;
+  if (locks_count() && flock(fd, LOCK_SH | LOCK_NB)) error = errno;
+  close(fd);
+  if (error == EWOULDBLOCK)
+    snprintf(why, PENDRES_STORE_WHY, "'%s' is open for writing in another process", path);
+  else if (error)
+    snprintf(why, PENDRES_STORE_WHY, "'%s' cannot be locked: %s. HDF5_USE_FILE_LOCKING=FALSE in "
+             "the environment reads it without a lock", path, strerror(error));
+  return error != 0;
+}
+
 void pendres_store_file_destroy(pendres_store_file *file)
 {
   while (file->refused) {

@@ -34,6 +34,9 @@ typedef struct pendres_store_file {
  * destroy it in any case. */
 pendres_status pendres_store_file_create(pendres_store_file *file, const char *path);
 
+/* Can the file not be locked for reading, as HDF5 locks it? 1: why[PENDRES_STORE_WHY] tells. */
+int pendres_store_file_unlockable(const char *path, char *why);
+
 /* Close what is open and free; the part file stays where it is. */
 void pendres_store_file_destroy(pendres_store_file *file);
 
