@@ -46,7 +46,7 @@ def main():
     options = parser.parse_args()
     print("workers  task s  efficiency  rank 0 busy")
     for workers in (100, 1000, 10000):
-        for mean in (0.26, 1.0, 3.0, 10.0, 30.0):
+        for mean in (0.21, 1.0, 3.0, 10.0, 30.0):
             efficiency, busy = run(workers, mean, options.service, options.tasks)
             print(f"{workers:7d}  {mean:6.2f}  {efficiency:9.2f}  {busy:10.2f}")
 

@@ -5,6 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_spill.h"
+
+/* Bytes of rows that are gathered at a time, or those of one value of the first dimension. */
+enum { PIECE = 1 << 20 };
+
 /* Room for a column, as it is stored. */
 typedef struct buffers {
   double *value, *error;
@@ -141,15 +146,51 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
     v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
 }
 
-static pendres_status write_column(scene_run *run, const scene_table *t, const scene_column *c,
-                                   buffers *b)
+/* Values of the first dimension from number `first` on, `values` of them, or all there is. */
+static pendres_status write_values(scene_run *run, const scene_table *t, size_t first,
+                                   size_t values, const scene_column *c, int id, const void *data)
 {
-  variable v;
   const size_t n = c->pairs ? 2 * t->n : t->n;
-  const void *data = gather(t, c, b);
+  return t->first > 0 ? pendres_store_write_rows(run->store, id, first, values, data, n)
+                      : pendres_store_write(run->store, id, data, n);
+}
+
+/* The rows of some values of the first dimension; `rows` has room for them. */
+static pendres_status piece_of(const scene_table *t, size_t first, size_t values, void *rows,
+                               scene_table *piece, char *why, size_t size)
+{
+  const size_t each = t->n / (t->first > 0 ? t->first : 1);
+  *piece = *t;
+  piece->n = values * each;
+  if (t->missing != NULL) piece->missing = t->missing + first * each;
+  piece->rows = t->spill != NULL ? rows : field(t, first * each, 0);
+  return t->spill == NULL
+           ? PENDRES_OK
+           : scene_spill_get(t->spill, first * each, piece->n, rows, why, size);
+}
+
+/* A column, `most` values of the first dimension at a time. */
+static pendres_status write_column(scene_run *run, const scene_table *t, size_t most,
+                                   const scene_column *c, void *rows, buffers *b)
+{
+  const size_t all = t->first > 0 ? t->first : 1;
+  variable v;
+  int id = -1, error_id = -1;
+  char why[200];
   describe(run, t, c, &v);
-  return c->type == SCENE_REAL ? pendres_store_put_result(run->store, &v.spec, data, b->error, n)
-                               : pendres_store_put(run->store, &v.spec, data, n);
+  pendres_status status = c->type == SCENE_REAL
+                            ? pendres_store_result(run->store, &v.spec, &id, &error_id)
+                            : pendres_store_variable(run->store, &v.spec, &id);
+  for (size_t at = 0; at < all && status == PENDRES_OK; at += most) {
+    const size_t values = all - at < most ? all - at : most;
+    scene_table piece;
+    status = piece_of(t, at, values, rows, &piece, why, sizeof why);
+    if (status != PENDRES_OK) return scene_fail(run, status, "%s", why);
+    status = write_values(run, &piece, at, values, c, id, gather(&piece, c, b));
+    if (status == PENDRES_OK && c->type == SCENE_REAL)
+      status = write_values(run, &piece, at, values, c, error_id, b->error);
+  }
+  return status == PENDRES_OK ? status : scene_store_failed(run, status);
 }
 
 static void release(buffers *b)
@@ -179,12 +220,17 @@ static pendres_status reserve(scene_run *run, size_t n, buffers *b)
 pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
                                    const scene_column *columns)
 {
+  const size_t each = t->first > 0 ? t->n / t->first : t->n, bytes = each * t->stride;
+  const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
+  const size_t room = most * each < t->n ? most * each : t->n;
   buffers b;
-  pendres_status status = reserve(run, t->n, &b);
-  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
-    status = write_column(run, t, &columns[k], &b);
-    if (status != PENDRES_OK) (void)scene_store_failed(run, status);
-  }
+  char *rows = t->spill != NULL ? malloc(room * t->stride + 1) : NULL;
+  pendres_status status = reserve(run, room, &b);
+  if (status == PENDRES_OK && t->spill != NULL && rows == NULL)
+    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
+  for (size_t k = 0; k < count && status == PENDRES_OK; k++)
+    status = write_column(run, t, most, &columns[k], rows, &b);
+  free(rows);
   release(&b);
   return status;
 }

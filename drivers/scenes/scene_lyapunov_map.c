@@ -163,7 +163,8 @@ static pendres_status write_all(scene_run *run, const work *w)
 {
   const scene_table table = {
     .dimensions = {deck_axis_name(w->axis[0]), deck_axis_name(w->axis[1])},
-    .n = w->count, .stride = sizeof *w->rows, .rows = w->rows};
+    .n = w->count, .stride = sizeof *w->rows, .rows = w->rows,
+    .first = w->d->axis[w->axis[0]].count};
   pendres_status status = scene_dimension(run, NULL, w->axis[0]);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis[1]);
   return status == PENDRES_OK

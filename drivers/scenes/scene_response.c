@@ -28,7 +28,7 @@ typedef struct grid {
   size_t chunks;              /* tasks a line */
   int peaked;                 /* whether lines have resonances: along the drive's frequency */
   scene_spill points;         /* [line][value] of pendres_response, until its line has names */
-  scene_response_row *rows;   /* [line][value] */
+  scene_spill rows;           /* [line][value] of scene_response_row */
   scene_peak *peaks;          /* [line] */
   int8_t *no_peak;            /* [line] not 0: there is none */
   scene_failures failed;      /* [line][value] */
@@ -251,7 +251,12 @@ static pendres_status collect_names(void *arg, size_t task, const farm_record *i
   const grid *g = arg;
   const pendres_response *points = in->data;
   const size_t first = task * g->values;
-  for (size_t i = 0; i < g->values; i++) g->rows[first + i] = row_of(&points[i]);
+  char why[200];
+  for (size_t i = 0; i < g->values; i++) {
+    const scene_response_row row = row_of(&points[i]);
+    const pendres_status status = scene_spill_put(&g->rows, first + i, 1, &row, why, sizeof why);
+    if (status != PENDRES_OK) return scene_fail(g->run, status, "%s", why);
+  }
   /* Noise begins from the whole of a point. */
   if (g->d->axis[DECK_AXIS_TEMPERATURE].count == 0) return PENDRES_OK;
   return keep_points(g, first, g->values, points);
@@ -275,7 +280,8 @@ static const scene_column uncertain = SCENE_UNCERTAIN(scene_response_row, uncert
 static pendres_status write_points(scene_run *run, const grid *g, size_t count,
                                    const scene_column *some)
 {
-  scene_table table = {.n = g->lines * g->values, .stride = sizeof *g->rows, .rows = g->rows};
+  scene_table table = {.n = g->lines * g->values, .stride = sizeof(scene_response_row),
+                       .spill = &g->rows, .first = g->d->axis[g->axis[0]].count};
   for (int i = 0; i < g->axes; i++) table.dimensions[i] = deck_axis_name(g->axis[i]);
   return scene_columns_write(run, &table, count, some);
 }
@@ -344,7 +350,7 @@ static pendres_status write_results(scene_run *run, const grid *g)
   const scene_response_grid noisy = {
     .dampings = g->lines, .drives = g->values, .damping = deck_axis_name(g->axis[0]),
     .drive = deck_axis_name(g->axis[1]), .points = &g->points,
-    .rows = g->rows};
+    .rows = &g->rows};
   pendres_status status = PENDRES_OK;
   for (int i = 0; i < g->axes && status == PENDRES_OK; i++) status = write_axis(run, g->axis[i]);
   if (status == PENDRES_OK)
@@ -398,6 +404,9 @@ static pendres_status compute_all(scene_run *run, grid *g)
                             .collect = collect_names, .arg = g};
   pendres_status status = scene_spill_create(run, g->lines * g->values, sizeof(pendres_response),
                                              SCENE_SPILL_MEMORY, &g->points);
+  if (status == PENDRES_OK)
+    status = scene_spill_create(run, g->lines * g->values, sizeof(scene_response_row),
+                                SCENE_SPILL_MEMORY, &g->rows);
   if (status == PENDRES_OK) status = scene_compute(run, &points);
   return status == PENDRES_OK ? scene_compute(run, &names) : status;
 }
@@ -416,10 +425,9 @@ static pendres_status run_scene(scene_run *run)
   g.values = d->axis[g.axis[g.axes - 1]].count;
   g.peaked = deck_searches(d);
   g.chunks = (g.values + CHUNK - 1) / CHUNK;
-  g.rows = malloc(g.lines * g.values * sizeof *g.rows);
   g.peaks = calloc(g.lines, sizeof *g.peaks);
   g.no_peak = calloc(g.lines, 1);
-  if (g.rows == NULL || g.peaks == NULL || g.no_peak == NULL ||
+  if (g.peaks == NULL || g.no_peak == NULL ||
       scene_failures_create(g.lines * g.values, &g.failed) != PENDRES_OK ||
       scene_failures_create(g.lines, &g.peak_failed) != PENDRES_OK) {
     (void)scene_fail(run, status, "out of memory for %zu points", g.lines * g.values);
@@ -431,7 +439,7 @@ static pendres_status run_scene(scene_run *run)
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &g);
 done:
   scene_spill_free(&g.points);
-  free(g.rows);
+  scene_spill_free(&g.rows);
   free(g.peaks);
   free(g.no_peak);
   scene_failures_free(&g.failed);

@@ -101,8 +101,14 @@ static pendres_status write_still(scene_run *run, const work *w, const scene_tab
     (void)scene_fail(run, status, "out of memory for %zu results", table->n);
     goto done;
   }
+  char why[200];
+  status = scene_spill_get(w->grid->rows, 0, plane, rows, why, sizeof why);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(run, status, "%s", why);
+    goto done;
+  }
   for (size_t i = 0; i < table->n; i++) {
-    rows[i] = w->grid->rows[i % plane];
+    rows[i] = rows[i % plane];
     warm[i] = temperature[i / plane] > 0.0;
   }
   scene_table without = *table;

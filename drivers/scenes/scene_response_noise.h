@@ -21,7 +21,7 @@ typedef struct scene_response_grid {
   size_t dampings, drives;
   const char *damping, *drive;   /* names of the dimensions */
   const scene_spill *points;      /* [damping][drive] of pendres_response */
-  const scene_response_row *rows; /* [damping][drive] */
+  const scene_spill *rows;        /* [damping][drive] of scene_response_row */
 } scene_response_grid;
 
 /*
