@@ -20,7 +20,7 @@
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
 
-enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 256 };
+enum { PENDRES_CIRCLE_LEAST = 32, PENDRES_CIRCLE_MOST = 512 };
 
 /* A trigonometric polynomial of an angle y: c[0] + sum of c[2k - 1] cos ky + c[2k] sin ky, and of n
    values at 2 pi i/n. */

@@ -81,7 +81,9 @@ pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter paramet
   jump->from = old->attractor.label;
   jump->share = NAN;
   jump->certain = 0;
-  pendres_status status = try_birth(ctx, parameter, old, from, state, jump);
+  pendres_status status = PENDRES_OK;
+  if (state->attractor.orbit.period <= PENDRES_HYSTERESIS_PERIOD)
+    status = try_birth(ctx, parameter, old, from, state, jump);
   if (status == PENDRES_OK && !jump->certain)
     status = halve(ctx, parameter, old, from, state, jump);
   jump->to = state->attractor.label;
