@@ -56,6 +56,21 @@ static void reasons_of_statuses(void **state)
   scene_failures_free(&f);
 }
 
+/* Steps go with one over a weak damping, and with the square of a strong one. */
+static void what_takes_too_long(void **state)
+{
+  static const struct { double damping; int too_long; } cases[] = {
+    { 1e-9, 1 }, { 1e-4, 0 }, { 0.2, 0 }, { 20.0, 0 }, { 2e5, 1 } };
+  char words[SCENE_TOLD] = "";
+  (void)state;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const pendres_pendulum p = { .damping = cases[i].damping, .drive_frequency = 0.8 };
+    assert_int_equal(scene_failure_too_long(&p, 1.0, words, sizeof words), cases[i].too_long);
+    /* 18 times 2 / damping, of two steps in three units of time. */
+    if (i == 0) assert_non_null(strstr(words, "damping 1e-09 asks for some 2.4e+10 steps"));
+  }
+}
+
 /* The last damping needs more steps than anybody waits for, or than are allowed in a period. */
 static void response_keeps_the_others(void **state)
 {
@@ -172,6 +187,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(reasons_of_statuses),
+    cmocka_unit_test(what_takes_too_long),
     cmocka_unit_test(response_keeps_the_others),
     cmocka_unit_test(lines_keep_the_others),
     cmocka_unit_test(states_are_marked),

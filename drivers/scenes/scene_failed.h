@@ -44,8 +44,9 @@ scene_failure scene_failure_of(pendres_status status);
  * Whether pendulums of these parameters, settled `runs` times one after another, would take more
  * steps than one would wait for. Strong damping needs short steps (their length times the damping
  * stays below 4) and a long time: the rate at which an overdamped pendulum settles is one over the
- * damping, so that the number of steps goes with its square. It depends on the parameters alone, so
- * that the same points are refused in all runs. words[size] then says how many steps.
+ * damping, so that the number of steps goes with its square. At weak damping it goes with the
+ * damping's reciprocal, and more steps are allowed. It depends on the parameters alone, so that the
+ * same points are refused in all runs. words[size] then says how many steps.
  */
 int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
 
