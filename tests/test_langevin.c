@@ -225,6 +225,24 @@ static void chosen_steps_keep_their_bias(void **state)
   }
 }
 
+/* Under a torque alone the coordinate does not swing with the drive's clock: no steps make a bias
+ * small beside a harmonic of nothing, but beside the cloud's width. */
+static void harmonics_of_nothing_have_steps(void **state)
+{
+  (void)state;
+  pendres_langevin_request q = {.pendulum = figure7(1e-4), .trajectories = 192, .settle = 20,
+                                .record = 60};
+  pendres_langevin_bias bias;
+  pendres_context *ctx = make(9, 0, 0);
+  q.pendulum.drive_amplitude = 0.0;
+  q.pendulum.torque = 0.3;
+  q.x = asin(0.3) + acos(0.0); /* at rest, where sin(x - pi/2) balances the torque */
+  check_ok(pendres_langevin_choose_steps(ctx, &q, PENDRES_LANGEVIN_RESPONSE, 1e-4, &bias));
+  check_near(bias.scale[PENDRES_LANGEVIN_COSINE], bias.scale[PENDRES_LANGEVIN_MEAN_X], 0.0);
+  check_near(bias.statistics[PENDRES_LANGEVIN_LOOP_AREA].value, 0.0, 0.0);
+  pendres_context_free(ctx);
+}
+
 static pendres_langevin_answer keep_strobe(void *arg, const pendres_langevin_strobe *strobe)
 {
   double *out = arg;
@@ -411,6 +429,7 @@ int main(void)
     cmocka_unit_test(equilibrium_is_boltzmann),
     cmocka_unit_test(clouds_of_figure7_are_linear),
     cmocka_unit_test(chosen_steps_keep_their_bias),
+    cmocka_unit_test(harmonics_of_nothing_have_steps),
     cmocka_unit_test(harmonics_and_work),
     cmocka_unit_test(those_who_left_do_not_count),
     cmocka_unit_test(lyapunov_equation),

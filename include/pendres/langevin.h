@@ -205,7 +205,8 @@ typedef struct pendres_langevin_bias {
   /** Bias (too large is positive) and its own standard error, by the statistics' names. */
   pendres_langevin_estimate statistics[PENDRES_LANGEVIN_STATISTICS];
   /** What each is measured by: the cloud's standard deviations for means, their products for
-   *  covariances, the first harmonic's amplitude, the loop area. */
+   *  covariances; for a harmonic the first harmonic's amplitude, or the standard deviation of x
+   *  where that is larger; the loop area. */
   double scale[PENDRES_LANGEVIN_STATISTICS];
 } pendres_langevin_bias;
 

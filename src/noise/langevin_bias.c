@@ -18,8 +18,9 @@ static void scales_of(const pendres_sums *total, double scale[STATISTICS])
   scale[PENDRES_LANGEVIN_COV_XX] = xx;
   scale[PENDRES_LANGEVIN_COV_XV] = sqrt(xx * vv);
   scale[PENDRES_LANGEVIN_COV_VV] = vv;
+  /* A harmonic that vanishes, as under a torque alone, is told by the width of the cloud. */
   scale[PENDRES_LANGEVIN_COSINE] = scale[PENDRES_LANGEVIN_SINE] =
-    hypot(d[PENDRES_LANGEVIN_COSINE], d[PENDRES_LANGEVIN_SINE]);
+    fmax(hypot(d[PENDRES_LANGEVIN_COSINE], d[PENDRES_LANGEVIN_SINE]), sqrt(xx));
   scale[PENDRES_LANGEVIN_LOOP_AREA] = fabs(d[PENDRES_LANGEVIN_LOOP_AREA]);
 }
 
