@@ -141,16 +141,28 @@ def draw_spectrum(h, ax):
            xlim=(0, omega[-1] / h["drive_frequency"]))
 
 
+def unit_of_x(h, name="x(0)"):
+    """What positions are divided by, and the label of their axis: only a pendulum's are angles."""
+    return (1.0, f"${name}$") if "a1" in h else (np.pi, rf"${name}/\pi$")
+
+
+def within_turn(h, x):
+    """Positions of a pendulum within one turn; others as they are."""
+    return x if "a1" in h else np.remainder(x + np.pi / 2, 2 * np.pi) - np.pi / 2
+
+
 def draw_section(h, samples):
-    """Chaos once a drive period: its Poincaré section, x within one turn; its spectrum if there."""
+    """Chaos once a drive period: its Poincaré section, angles within one turn; its spectrum if
+    there."""
     spectrum = "power_spectrum" in h
     fig, axes = figure(h, 5.0, 6.0 if spectrum else 4.2, 1 + spectrum, 1,
                        **({"height_ratios": (2, 1)} if spectrum else {}))
     ax = np.atleast_1d(axes)[0]
-    x, v = np.mod(h["x"][::samples] + np.pi / 2, 2 * np.pi) - np.pi / 2, h["v"][::samples]
-    ax.plot(x / np.pi, v, ".", ms=max(0.6, 4 - 0.7 * np.log10(len(x) + 1)), mew=0,
+    x, v = within_turn(h, h["x"][::samples]), h["v"][::samples]
+    unit, label = unit_of_x(h, "x")
+    ax.plot(x / unit, v, ".", ms=max(0.6, 4 - 0.7 * np.log10(len(x) + 1)), mew=0,
             color=EXACT, rasterized=True)
-    ax.set(xlabel=r"$x/\pi$", ylabel="$v$")
+    ax.set(xlabel=label, ylabel="$v$")
     title = "Poincaré points; " + orbit_title(h)
     if "correlation_dimension" in h and np.isfinite(h["correlation_dimension"]):
         title += f"\ndimensions: correlation {h['correlation_dimension']:.3f}" \
@@ -277,8 +289,7 @@ def draw_ramp(h, name):
     top = axes[0] if noisy else axes
     for way in range(2):
         x, label = parameter_axis(h, h["ramp_parameter"][way], name)
-        angle = np.remainder(h["ramp_x"][way] + np.pi / 2, 2 * np.pi) - np.pi / 2
-        top.plot(x, angle, lw=0.9, color=f"C{way}", label=f"{('up', 'down')[way]}, strobe")
+        top.plot(x, within_turn(h, h["ramp_x"][way]), lw=0.9, color=f"C{way}", label=f"{('up', 'down')[way]}, strobe")
     for k, way in enumerate(h["jump_direction"]):
         lines = [("jump_parameter", "-", "quasi-static"), ("jump_ramp_parameter", "--", "real time")]
         for what, style, text in lines:

@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from curves import bifurcation_curves, column_of
+from curves import bifurcation_curves, column_of, unit_of_x
 from curves import draw_response as curve_response
 from style import (COEXISTENCE, ESCAPE, LA, MORE, NAMED, OTHER, SA, SINGLE, UNRESOLVED, around,
                    colours_of, figure, frequency, legend, parameter_axis, plt)
@@ -48,11 +48,6 @@ def label_plane(fig, ax, index, extent, names, colours):
     step = -(-n // MOST_NAMES)
     bar = fig.colorbar(mesh, ax=ax, ticks=np.arange(0, len(names), step) + first)
     bar.ax.set_yticklabels(names[::step])
-
-
-def unit_of_x(h):
-    """What positions are divided by, and the label of their axis: only a pendulum's are angles."""
-    return (1.0, "$x(0)$") if "a1" in h else (np.pi, r"$x(0)/\pi$")
 
 
 def write_wells(ax, h, thin):

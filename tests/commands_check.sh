@@ -46,7 +46,7 @@ settings_of()
     ramp.nml) echo hysteresis.rate=1e-3 noise.trajectories=9 ;;
     cascade.nml) echo sweep.drive_amplitude_range=1.04,1.07,4 ;;
     lyapunov.nml) echo sweep.drive_amplitude_range=0.9,1.5,4 sweep.drive_frequency_range=0.6,0.7,3 ;;
-    section.nml) echo orbit.periods=600 ;;
+    section.nml | ueda_section.nml) echo orbit.periods=600 ;;
     *) echo --dump-namelist ;; # read and checked; its kind is run by tests of scenes
   esac
 }
