@@ -15,6 +15,8 @@ same=$PWD/tests/same_bytes.py
 kinds=$PWD/tests/kinds
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe
+PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe # the same for Open MPI 5
+export PRTE_MCA_rmaps_default_mapping_policy
 
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT

@@ -73,11 +73,12 @@ typedef enum pendres_store_type {
     Thread safe. */
 const char *pendres_store_type_name(pendres_store_type type);
 
-/** Attributes of the root group. NULL leaves one out. What changes from run to run (dates,
- *  hosts) belongs into the provenance instead, so that equal results stay equal bytes. */
+/** Attributes of the root group. NULL leaves one out. Here only the history may tell the
+ *  date, as the CF conventions ask; whatever else changes from run to run (hosts, times taken)
+ *  belongs into the provenance, so that what is left of equal results is equal. */
 typedef struct pendres_store_options {
   const char *title;      /**< what the file holds, in a line (CF conventions, 2.6.2) */
-  const char *history;    /**< what was done to the data */
+  const char *history;    /**< what was done to the data, and when */
   const char *source;     /**< how the data were made: the program and its version */
   const char *references; /**< publications that describe them */
 } pendres_store_options;
