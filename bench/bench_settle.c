@@ -75,7 +75,7 @@ static double run_deck(const char *name, pendres_cost *cost)
   scene_run run = { .deck = &d };
   snprintf(path, sizeof path, "input/%s.nml", name);
   snprintf(out, sizeof out, "%.40s/bench/%s.h5", folder != NULL ? folder : "build", name);
-  need_ok(deck_read(path, &d, &errors), path, "not a deck");
+  need_ok(deck_read_set(path, NULL, 0, &d, &errors), path, "not a deck");
   need_ok(scene_precision(&d, &options.library, &why), path, why);
   need_ok(farm_create(&options, &run.farm), path, "no threads");
   need_ok(pendres_store_create(out, NULL, &run.store), out, pendres_store_message(run.store));
