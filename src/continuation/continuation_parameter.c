@@ -55,6 +55,12 @@ double pendres_parameter_scale(pendres_parameter parameter)
   return pendres_arc_scale[PENDRES_U_OMEGA + (int)parameter];
 }
 
+double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance)
+{
+  const int above = parameter == PENDRES_DAMPING || parameter == PENDRES_DRIVE_FREQUENCY;
+  return above ? fmax(value + distance, 0.5 * value) : value + distance;
+}
+
 const char *pendres_continuation_refuses(const pendres_orbit *o, pendres_parameter parameter)
 {
   if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";

@@ -14,6 +14,10 @@ pendres_pendulum pendres_parameter_with(const pendres_pendulum *p, pendres_param
 /* Lengths that count as one in arclength. */
 double pendres_parameter_scale(pendres_parameter parameter);
 
+/* The value at a signed distance from another one; but the damping and the drive frequency, which
+   stay above 0, are at least half of the other. */
+double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance);
+
 /* Why an orbit cannot be followed in a parameter, a static sentence; NULL if it can. */
 const char *pendres_continuation_refuses(const pendres_orbit *orbit, pendres_parameter parameter);
 

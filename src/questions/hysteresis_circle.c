@@ -171,16 +171,19 @@ pendres_status pendres_path_onto_circle(pendres_path *w, const pendres_bifurcati
   if (end->kind != PENDRES_FOLD || !pendres_lyapunov_may_rotate(&o->pendulum)) return PENDRES_OK;
   pendres_status status = open_circles(w);
   if (status != PENDRES_OK) return status;
-  status = pendres_circles_tell(w->circles, end->value + direction * distance, &v);
+  status = pendres_circles_tell(
+    w->circles, pendres_parameter_beyond(w->parameter, end->value, direction * distance), &v);
   if (status == PENDRES_OK && !v.found) {
-    const double there = end->value + direction * well_beyond * scale;
+    const double there =
+      pendres_parameter_beyond(w->parameter, end->value, direction * well_beyond * scale);
     status = pendres_circles_begin(w->circles, there, o->x, o->v);
   }
   if (status == PENDRES_OK)
     status = pendres_circles_distance(w->circles, end->value, o->x, o->v, &off);
   if (status != PENDRES_OK || !(off < on_it)) return status;
   for (int k = 0; k < FURTHER && status == PENDRES_OK; k++, distance *= 10.0) {
-    status = pendres_circles_tell(w->circles, end->value + direction * distance, &v);
+    status = pendres_circles_tell(
+      w->circles, pendres_parameter_beyond(w->parameter, end->value, direction * distance), &v);
     if (v.found && v.turn.motion == PENDRES_CIRCLE_UNLOCKED) break;
   }
   if (status != PENDRES_OK || !v.found || v.turn.motion != PENDRES_CIRCLE_UNLOCKED) return status;

@@ -202,12 +202,11 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
-/* Beyond the end of the state by a distance; but friction and frequency stay above 0. */
-static void put_beyond(const pendres_bifurcation *at, double distance, pendres_pendulum *p)
+/* The pendulum beyond the end of its state by a distance. */
+static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance)
 {
-  const int above = at->parameter == PENDRES_DAMPING || at->parameter == PENDRES_DRIVE_FREQUENCY;
-  const double value = at->value + distance;
-  pendres_parameter_set(at->parameter, above ? fmax(value, 0.5 * at->value) : value, p);
+  return pendres_parameter_with(&at->orbit.pendulum, at->parameter,
+                                pendres_parameter_beyond(at->parameter, at->value, distance));
 }
 
 /* The trials of a jump, each so far beyond the end of the state. */
@@ -217,8 +216,7 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
   for (int i = 0; i < TRIALS; i++) {
     const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
     distance[i] = pendres_parameter_scale(at->parameter) * beyond[i % 2] * (1.0 + 0.5 * part);
-    const pendres_pendulum p = pendres_parameter_with(
-      &at->orbit.pendulum, at->parameter, at->value + direction * distance[i]);
+    const pendres_pendulum p = beyond_by(at, direction * distance[i]);
     const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
     went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
                                          at->orbit.v + off * sin(angle));
@@ -242,7 +240,7 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
       if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
       if (!pendres_lyapunov_may_rotate(&s->pendulum)) continue;
       distance[i] *= further;
-      put_beyond(at, direction * distance[i], &s->pendulum);
+      s->pendulum = beyond_by(at, direction * distance[i]);
       some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);
       which[n++] = i;
     }
