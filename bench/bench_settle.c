@@ -2,9 +2,10 @@
  * bench_settle.c -- what whole jobs cost: decks as users run them, on one thread.
  *
  * Drive periods, right-hand sides and Newton steps are counts: they do not depend on the machine.
- * Time is compared with a block's own, measured before and after: what a right-hand side costs
- * within the job, searching, judging and storing included, over what it costs in a block that does
- * nothing else. Decks are read from input/, as from the top of the tree.
+ * Time is compared with a block's own: what a right-hand side costs within the job, searching,
+ * judging and storing included, over what it costs in a block that does nothing else. Job and block
+ * take turns, and the best time of each counts, since whatever else a machine does can only make
+ * either slower. Decks are read from input/, as from the top of the tree.
  */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime, unlink */
 #include <math.h>
@@ -17,7 +18,7 @@
 #include "engine/kernels.h"
 #include "scenes/scene.h"
 
-enum { LANES = 512, PERIODS = 4, REPEATS = 60 };
+enum { LANES = 512, PERIODS = 4, REPEATS = 60, ROUNDS = 5 };
 
 /* Figures of a job, by name; a deck with bounds for what a bench may take. */
 static const char *const jobs[] = { "f02", "f03", "f07" };
@@ -100,10 +101,12 @@ int main(void)
          "periods each", "rhs each", "Newton", "s", "job : block");
   for (size_t i = 0; i < sizeof jobs / sizeof *jobs; i++) {
     pendres_cost cost;
-    double block = block_seconds();
-    const double took = run_deck(jobs[i], &cost), n = cost.settled_pendulums;
-    block = fmin(block, block_seconds());
-    const double share = took / cost.rhs_evaluations / block;
+    double took = INFINITY, block = block_seconds();
+    for (int k = 0; k < ROUNDS; k++) {
+      took = fmin(took, run_deck(jobs[i], &cost));
+      block = fmin(block, block_seconds());
+    }
+    const double n = cost.settled_pendulums, share = took / cost.rhs_evaluations / block;
     printf("%6s %10.0f %12.1f %14.3f %14.1f %10.0f %8.2f %12.2f\n", jobs[i], n,
            1e-6 * cost.rhs_evaluations, cost.pendulum_periods / n, cost.rhs_evaluations / n,
            cost.newton_steps, took, share);
