@@ -179,7 +179,6 @@ SHARED := $(BUILD)/libpendres.so.$(VERSION)
 DRIVER := $(BUILD)/libdriver.a
 # Other build directories leave the program at the top alone.
 PROGRAM := $(if $(wildcard drivers/main.c),$(patsubst build/resonance,resonance,$(BUILD)/resonance))
-PC := $(BUILD)/pendres.pc
 
 TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
@@ -199,7 +198,7 @@ FUZZ_SECONDS ?= 60
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
-all: $(STATIC) $(SHARED) $(BUILD)/libpendres.so $(BUILD)/$(SONAME) $(PC) $(PROGRAM)
+all: $(STATIC) $(SHARED) $(BUILD)/libpendres.so $(BUILD)/$(SONAME) $(PROGRAM)
 
 help:
 	@sed -n '2,/^$$/s/^# \{0,1\}//p' Makefile
@@ -356,15 +355,15 @@ bench bench-baseline: all $(BENCH_PROGRAMS)
 
 # ---- Installation ----------------------------------------------------------------------------
 
-# What a program needs that links libpendres.a; the shared library knows by itself.
-$(PC): pendres.pc.in $(VERSION_H) $(BUILD)/flags FORCE
-	@mkdir -p $(@D)
-	@sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
-	  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
-	  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
-	  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
-	      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm)|' pendres.pc.in >$@.new
-	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+# What pkg-config reads, on standard output: what a program needs that links libpendres.a, which the
+# shared library knows by itself. An installation writes it, like the manual page, where
+# it belongs and nowhere else: two that run at once, each with its own PREFIX, keep apart.
+PRINT_PC = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
+  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
+  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
+  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
+      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm)|' \
+  pendres.pc.in
 
 # What share/pendres holds, beside what a compiler reads.
 SHARED_FILES = $(shell find examples input plots docs python -type f ! -name '*.h5' ! -name '*.pyc' \
@@ -377,7 +376,8 @@ install: all
 	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/$(SONAME)
 	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/libpendres.so
 	$(INSTALL) -m 644 $(HEADERS) $(DESTDIR)$(INCLUDEDIR)/pendres
-	$(INSTALL) -m 644 $(PC) $(DESTDIR)$(LIBDIR)/pkgconfig
+	$(PRINT_PC) >$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc
+	chmod 644 $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc
 ifneq ($(PROGRAM),)
 	$(INSTALL) -d $(DESTDIR)$(BINDIR)
 	$(INSTALL) -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)
@@ -385,8 +385,8 @@ ifneq ($(PROGRAM),)
 	$(INSTALL) -m 644 man/resonance.1 $(DESTDIR)$(MANDIR)/man1
 endif
 	$(INSTALL) -d $(DESTDIR)$(MANDIR)/man3
-	sh man/pendres.3.sh $(VERSION) $(DATADIR) >$(BUILD)/pendres.3
-	$(INSTALL) -m 644 $(BUILD)/pendres.3 $(DESTDIR)$(MANDIR)/man3
+	sh man/pendres.3.sh $(VERSION) $(DATADIR) >$(DESTDIR)$(MANDIR)/man3/pendres.3
+	chmod 644 $(DESTDIR)$(MANDIR)/man3/pendres.3
 	$(INSTALL) -d $(addprefix $(DESTDIR)$(DATADIR)/,$(sort $(dir $(SHARED_FILES))))
 	@for file in $(SHARED_FILES); do \
 	  if [ -x "$$file" ]; then mode=755; else mode=644; fi; \
@@ -435,7 +435,7 @@ style:
 
 # A build directory of another name is kept if it holds anything else.
 clean:
-	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags pendres.pc pendres.3) \
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags) \
 	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a $(PROGRAM)
 ifeq ($(BUILD),build)
 	rm -rf build
