@@ -329,6 +329,36 @@ static void symmetric_after_three_periods(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Under a parametric drive alone orbits of two periods may be born of orbits of one, by doubling, and
+ * not of rest: the branch leads through that doubling to the same orbits one period later. That is
+ * a doubling of the orbit of one period, by the oracle, and no fold of theirs; and both halves of
+ * the branch meet the next doubling at one frequency.
+ */
+static void born_of_a_doubling(void **state)
+{
+  static const int periods[] = {2, 1, 2};
+  const pendres_pendulum p = {
+    .damping = 0.1, .drive_frequency = 0.85, .parametric_amplitude = 0.9};
+  const pendres_orbit_guess g = {.pendulum = p, .x = 1.706, .v = 1.909, .period = 2};
+  pendres_context *ctx = context(1e-10);
+  pendres_status outcome = PENDRES_INTERNAL;
+  pendres_orbit o;
+  (void)state;
+  check_ok(pendres_orbit_refine(ctx, 1, &g, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  check_ok(outcome);
+  pendres_branch *b = branch_of(ctx, &o, PENDRES_DRIVE_FREQUENCY, 0.836, 0.86);
+  assert_int_equal(pendres_branch_bifurcations(b), COUNT(periods));
+  for (size_t i = 0; i < COUNT(periods); i++) {
+    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
+    assert_int_equal(f->kind, PENDRES_PERIOD_DOUBLING);
+    assert_int_equal(f->orbit.period, periods[i]);
+    check_bifurcation(f);
+  }
+  pendres_branch_free(b);
+  pendres_context_free(ctx);
+}
+
 /* What cannot be followed, or not along this, is refused. */
 static void refusals(void **state)
 {
@@ -357,6 +387,7 @@ int main(void)
                                      cmocka_unit_test(damped_tongues),
                                      cmocka_unit_test(born_of_rest),
                                      cmocka_unit_test(symmetric_after_three_periods),
+                                     cmocka_unit_test(born_of_a_doubling),
                                      cmocka_unit_test(refusals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

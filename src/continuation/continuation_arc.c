@@ -207,6 +207,27 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
   return status;
 }
 
+/* Fail the candidates that close by half map number `which`, of arcs that began off such orbits. */
+static pendres_status keep_off(pendres_context *ctx, int which, size_t n, candidate *c,
+                               size_t *index, double (*u)[PENDRES_U_COUNT],
+                               pendres_continuation_miss *miss)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n; i++)
+    c[i].waiting = c[i].state == CONVERGED && (c[i].arc->apart >> which & 1) != 0;
+  for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
+    pendres_continuation_map half;
+    if (!c[first].waiting) continue;
+    const size_t count = gather(n, c, first, index, u);
+    if (!pendres_continuation_map_half(&c[first].arc->map, which, &half)) continue;
+    status = pendres_continuation_map_closes(ctx, &half, c[first].steps, count,
+                                             (const double (*)[PENDRES_U_COUNT])u, miss);
+    for (size_t i = 0; i < count && status == PENDRES_OK; i++)
+      if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close)) c[index[i]].state = FAILED;
+  }
+  return status;
+}
+
 /*
  * Where branches cross, Newton's method may lead to the other one. That of orbits that close by
  * half is told by their closing; such points are dropped.
@@ -218,15 +239,8 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
   pendres_continuation_miss *miss = malloc((n + 1) * sizeof *miss);
   if (miss == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
-  for (size_t i = 0; i < n; i++) c[i].waiting = c[i].state == CONVERGED && c[i].arc->apart;
-  for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
-    if (!c[first].waiting) continue;
-    const size_t count = gather(n, c, first, index, u);
-    status = pendres_continuation_map_closes(ctx, &c[first].arc->half, c[first].steps, count,
-                                             (const double (*)[PENDRES_U_COUNT])u, miss);
-    for (size_t i = 0; i < count && status == PENDRES_OK; i++)
-      if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close)) c[index[i]].state = FAILED;
-  }
+  for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++)
+    status = keep_off(ctx, which, n, c, index, u, miss);
   free(miss);
   return status;
 }
@@ -373,11 +387,13 @@ pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
   status = pendres_arc_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
   if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
   if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
-  if (status == PENDRES_OK && pendres_continuation_map_half(&w->map, 0, &w->half)) {
+  for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
+    pendres_continuation_map half;
     pendres_continuation_miss miss;
-    status = pendres_continuation_map_closes(ctx, &w->half, steps, 1,
+    if (!pendres_continuation_map_half(&w->map, which, &half)) break;
+    status = pendres_continuation_map_closes(ctx, &half, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])place, &miss);
-    w->apart = status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close;
+    if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close) w->apart |= 1 << which;
   }
   if (status != PENDRES_OK) return status;
   memcpy(w->here.u, place[0], sizeof w->here.u);

@@ -63,39 +63,51 @@ static double test_flip(const pendres_arc_point *p)
   return pendres_continuation_map_flip(&p->image);
 }
 
-/* Find the half map by which an orbit at a place nearly closes; the first one if there is none. */
-static pendres_status half_at(pendres_context *ctx, const pendres_trail *t,
+/* Half map number `which` of a trail's, about the place that an orbit at u is about, and by how far
+   that misses closing by it. PENDRES_NOT_CONVERGED: there is none. */
+static pendres_status half_at(pendres_context *ctx, const pendres_trail *t, int which,
                               const double u[PENDRES_U_COUNT], pendres_continuation_map *half,
-                              int *twice)
+                              double *off)
 {
   int steps = 0;
-  pendres_continuation_map one;
-  *twice = 0;
-  if (!pendres_continuation_map_half(&t->kind.map, 0, half)) return PENDRES_NOT_CONVERGED;
+  pendres_continuation_miss miss = {.off = {NAN, NAN}};
+  if (!pendres_continuation_map_half(&t->kind.map, which, half)) return PENDRES_NOT_CONVERGED;
   pendres_status status =
     pendres_continuation_map_steps(ctx, t->kind.map.force, u, pendres_accuracy_first(ctx),
                                    &steps);
-  for (int k = 0; !*twice && status == PENDRES_OK; k++) {
-    pendres_continuation_miss miss = {.off = {NAN, NAN}};
-    if (!pendres_continuation_map_half(&t->kind.map, k, &one)) break;
-    status = pendres_continuation_map_closes(ctx, &one, steps, 1,
+  if (status == PENDRES_OK)
+    status = pendres_continuation_map_closes(ctx, half, steps, 1,
                                              (const double (*)[PENDRES_U_COUNT])u, &miss);
-    if (status == PENDRES_OK) one.winding = miss.winding;
-    *twice = hypot(miss.off[0], miss.off[1]) < 1e-3;
-    if (k == 0 || *twice) *half = one;
-  }
+  half->winding = miss.winding;
+  *off = hypot(miss.off[0], miss.off[1]);
   return status;
 }
 
-/* Locate where the branch was born from orbits of the half map: a flip of that. */
+/* Find the number of the half map by which an orbit at a place nearly closes; -1: by none. */
+static pendres_status closing_half(pendres_context *ctx, const pendres_trail *t,
+                                   const double u[PENDRES_U_COUNT], int *which)
+{
+  for (*which = 0; *which < PENDRES_MAP_HALVES; ++*which) {
+    pendres_continuation_map half;
+    double off = NAN;
+    const pendres_status status = half_at(ctx, t, *which, u, &half, &off);
+    if (status == PENDRES_NOT_CONVERGED) break;
+    if (status != PENDRES_OK || off < 1e-3) return status;
+  }
+  *which = -1;
+  return PENDRES_OK;
+}
+
+/* Locate where the branch was born from orbits of the half map that the zero tells: a flip of
+   that. */
 static pendres_status locate_birth(pendres_context *ctx, const pendres_trail *t,
                                    const double u[PENDRES_U_COUNT], double reach,
                                    pendres_course_special *m)
 {
   pendres_continuation_map half;
   pendres_located flip;
-  int twice = 0;
-  pendres_status status = half_at(ctx, t, u, &half, &twice);
+  double off = NAN;
+  pendres_status status = half_at(ctx, t, m->at.half, u, &half, &off);
   const pendres_continuation_system flips =
     pendres_continuation_system_of(&half, PENDRES_CONDITION_FLIP, t->kind.unknown);
   if (status == PENDRES_OK) status = pendres_continuation_locate(ctx, &flips, u, reach, &flip);
@@ -107,15 +119,14 @@ static pendres_status locate_birth(pendres_context *ctx, const pendres_trail *t,
 
 /*
  * Locate a zero of the fold's test function. Where a branch was born it turns round: that looks
- * like a fold of its own map, but is the flip of the half map. What closes by half and is no flip
- * of that is a fold all the same.
+ * like a fold of its own map, but is the flip of a half map, of the one by which orbits close there.
+ * What closes by half and is no flip of that is a fold all the same.
  */
 static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
                                   const double u[PENDRES_U_COUNT], double reach,
                                   pendres_course_special *m)
 {
-  pendres_continuation_map half;
-  int twice = 0;
+  int which = -1;
   m->condition = PENDRES_CONDITION_FOLD;
   /* Rest has no folds: there the other map has a flip. */
   if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && t->kind.map.period <= 2 && !t->kind.apart)
@@ -123,10 +134,12 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
   const pendres_continuation_system folds =
     pendres_continuation_system_of(&t->kind.map, m->condition, t->kind.unknown);
   const pendres_status fold = pendres_continuation_locate(ctx, &folds, u, reach, &m->located);
-  if (!pendres_located_found(fold))
-    return fold == PENDRES_NOT_CONVERGED ? locate_birth(ctx, t, u, reach, m) : fold;
-  const pendres_status asked = half_at(ctx, t, m->located.pair.coarse, &half, &twice);
-  if (asked != PENDRES_OK || !twice) return asked == PENDRES_NOT_CONVERGED ? fold : asked;
+  const int found = pendres_located_found(fold);
+  if (!found && fold != PENDRES_NOT_CONVERGED) return fold;
+  const pendres_status asked = closing_half(ctx, t, found ? m->located.pair.coarse : u, &which);
+  if (asked != PENDRES_OK) return asked;
+  if (found && which < 0) return fold;
+  m->at.half = which > 0 ? which : 0;
   const pendres_status born = locate_birth(ctx, t, u, reach, m);
   return born == PENDRES_NOT_CONVERGED ? fold : born;
 }

@@ -258,7 +258,7 @@ void pendres_continuation_map_unfold(pendres_continuation_map *map)
 int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half)
 {
-  /* Orbits are kept apart from those of map 0: most of one or two periods are born of rest. */
+  /* Most orbits of one or two periods are born of rest, or of orbits that are their own image. */
   const int reflects = map->reflects && map->winding == 0 && reflected_after(map->period) > 0;
   *half = *map;
   if (reflects && which == (map->period > 2) && map->mirror == PENDRES_MIRROR_NONE) {

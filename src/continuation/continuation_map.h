@@ -122,8 +122,10 @@ pendres_status pendres_continuation_map_states(pendres_context *ctx,
  * The half map: one whose second iterate is `map`, so that its fixed points are those of `map` as
  * well, as where orbits of the latter are born from those of the former. For an odd period it has a
  * reflection; for an even period it is the map of half the period, with a reflection or without.
- * There may be two (which = 0, 1). 0 if there is none.
+ * There may be two (which = 0, 1), of which the one that orbits are more often born from comes
+ * first. 0 if there is none.
  */
+enum { PENDRES_MAP_HALVES = 2 };
 int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
                                   pendres_continuation_map *half);
 

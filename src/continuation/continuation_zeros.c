@@ -127,13 +127,26 @@ size_t pendres_trail_zeros(const pendres_trail *t, pendres_trail_test *test, siz
 /* ---- births ---- */
 
 /*
- * An orbit and its image by the half map lie on either side of the orbit that both were born from,
+ * An orbit and its image by a half map lie on either side of the orbit that both were born from,
  * and change places there: the way from one to the other turns round.
  */
+static void turns_round(const pendres_trail *t, int half, const pendres_continuation_miss *miss,
+                        size_t room, pendres_trail_zero *zeros, size_t *count)
+{
+  const size_t n = t->count, chords = t->closed ? n : n - 1;
+  for (size_t i = 0; i < chords && *count < room; i++) {
+    const double *a = miss[i].off, *b = miss[(i + 1) % n].off;
+    const double from = hypot(a[0], a[1]), to = hypot(b[0], b[1]);
+    if (a[0] * b[0] + a[1] * b[1] < 0.0)
+      zeros[(*count)++] =
+        (pendres_trail_zero){.i = i, .part = from / (from + to), .half = half};
+  }
+}
+
 pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t, size_t room,
                                     pendres_trail_zero *zeros, size_t *count)
 {
-  const size_t n = t->count, chords = t->closed ? n : n - 1;
+  const size_t n = t->count;
   pendres_status status = PENDRES_OK;
   *count = 0;
   if (!t->kind.apart || n < 2) return status;
@@ -148,14 +161,14 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
     status = pendres_continuation_map_steps(ctx, t->kind.map.force, u[i], t->kind.tolerance, &here);
     if (here > steps) steps = here;
   }
-  if (status == PENDRES_OK)
-    status = pendres_continuation_map_closes(ctx, &t->kind.half, steps, n,
+  for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
+    pendres_continuation_map half;
+    if ((t->kind.apart >> which & 1) == 0 ||
+        !pendres_continuation_map_half(&t->kind.map, which, &half))
+      continue;
+    status = pendres_continuation_map_closes(ctx, &half, steps, n,
                                              (const double (*)[PENDRES_U_COUNT])u, miss);
-  for (size_t i = 0; i < chords && *count < room && status == PENDRES_OK; i++) {
-    const double *a = miss[i].off, *b = miss[(i + 1) % n].off;
-    const double from = hypot(a[0], a[1]), to = hypot(b[0], b[1]);
-    if (a[0] * b[0] + a[1] * b[1] < 0.0)
-      zeros[(*count)++] = (pendres_trail_zero){.i = i, .part = from / (from + to)};
+    if (status == PENDRES_OK) turns_round(t, which, miss, room, zeros, count);
   }
   free(u);
   free(miss);
