@@ -330,10 +330,10 @@ static void symmetric_after_three_periods(void **state)
 }
 
 /*
- * Under a parametric drive alone orbits of two periods may be born of orbits of one, by doubling, and
- * not of rest: the branch leads through that doubling to the same orbits one period later. That is
- * a doubling of the orbit of one period, by the oracle, and no fold of theirs; and both halves of
- * the branch meet the next doubling at one frequency.
+ * Under a parametric drive alone orbits of two periods may be born of orbits of one, by doubling,
+ * and not of rest: the branch leads through that doubling to the same orbits one period later. That
+ * is a doubling of the orbit of one period, by the oracle, and no fold of theirs; and both halves
+ * of the branch meet the next doubling at one frequency.
  */
 static void born_of_a_doubling(void **state)
 {

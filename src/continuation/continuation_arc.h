@@ -38,8 +38,9 @@ typedef struct pendres_arc {
   double longest;                               /* the largest spacing of points, in scaled
                                                    arclength */
   /* The arc's own: */
-  int apart; /* bit k: the arc began off the orbits that already close by half map number k, and stays
-                off them: where its branch meets the one that it was born from, it stays on its own */
+  int apart; /* bit k: the arc began off the orbits that already close by half map number k, and
+                stays off them: where its branch meets the one that it was born from, it stays on
+                its own */
   int stuck;
   double step; /* spacing of the points ahead */
   pendres_arc_point here;

@@ -119,8 +119,8 @@ static pendres_status locate_birth(pendres_context *ctx, const pendres_trail *t,
 
 /*
  * Locate a zero of the fold's test function. Where a branch was born it turns round: that looks
- * like a fold of its own map, but is the flip of a half map, of the one by which orbits close there.
- * What closes by half and is no flip of that is a fold all the same.
+ * like a fold of its own map, but is the flip of a half map, of the one by which orbits close
+ * there. What closes by half and is no flip of that is a fold all the same.
  */
 static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
                                   const double u[PENDRES_U_COUNT], double reach,

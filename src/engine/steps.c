@@ -116,14 +116,13 @@ static double reach_of(const pendres_pendulum *p, double speed)
   return high;
 }
 
-/* The frequency of oscillations as fast as the stiffest spring up to there, parametric drive and
-   all. */
-static double pace_of(const pendres_pendulum *p, double speed)
+/* The frequency of oscillations as fast as the stiffest spring up to `reach`, parametric drive and
+   all; where the coordinate has a period the reach is that. */
+static double pace_of(const pendres_pendulum *p, double speed, double reach)
 {
   const double modulation = 1.0 + fabs(p->parametric_amplitude);
   if (p->force == PENDRES_FORCE_PENDULUM) return sqrt(modulation) * fmax(1.0, speed / 4.0);
-  const double reach = open_ended(p) ? reach_of(p, speed) : PENDRES_PI;
-  const double stiffest = pendres_model_stiffest(p, reach);
+  const double stiffest = pendres_model_stiffest(p, open_ended(p) ? reach : PENDRES_PI);
   return sqrt(modulation * stiffest) * (open_ended(p) ? 1.0 : fmax(1.0, speed / 4.0));
 }
 
@@ -144,15 +143,19 @@ double pendres_steps_turning_speed(const pendres_pendulum *p)
 
 /* ---- probes ---- */
 
-static void load_probe(pendres_block *b, size_t lane, int i, const pendres_pendulum *p,
-                       double speed)
+/* What is probed, computed once: how far out the speed leads takes many values of the force. */
+typedef struct probed {
+  pendres_pendulum pendulum;
+  double speed, reach, pace;
+} probed;
+
+static void load_probe(pendres_block *b, size_t lane, int i, const probed *of)
 {
   /* Half start at rest over the well, half at the largest speed either way. */
   const int half = PROBES / 2, k = i % half;
-  const double reach = open_ended(p) ? reach_of(p, speed) : 2.75;
-  const double y = -reach + 2.0 * reach * k / (half - 1);
-  const double v = i < half ? 0.0 : (k % 2 == 0 ? speed : -speed);
-  pendres_block_load(b, lane, p, y, v / p->drive_frequency);
+  const double y = -of->reach + 2.0 * of->reach * k / (half - 1);
+  const double v = i < half ? 0.0 : (k % 2 == 0 ? of->speed : -of->speed);
+  pendres_block_load(b, lane, &of->pendulum, y, v / of->pendulum.drive_frequency);
 }
 
 /*
@@ -179,10 +182,10 @@ static sight sight_of(const pendres_pendulum *p, int steps, int stride, int grow
 }
 
 /* Steps in half a unit of time, in which errors grow by no more than e^(1/2). */
-static int stride_of(const pendres_pendulum *p, double speed, int steps)
+static int stride_of(const probed *of, int steps)
 {
-  double period = two_pi / p->drive_frequency;
-  if (open_ended(p)) period *= pace_of(p, speed);
+  double period = two_pi / of->pendulum.drive_frequency;
+  if (open_ended(&of->pendulum)) period *= of->pace;
   return (int)fmax(1.0, fmin(steps, floor(0.5 * steps / period)));
 }
 
@@ -206,8 +209,7 @@ static void look(void *arg, int step, const pendres_rows *rows)
 }
 
 /* All probes over one period, looked at on the way. */
-static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p, double speed,
-                                 sight *s)
+static pendres_status run_probes(pendres_context *ctx, const probed *of, sight *s)
 {
   pendres_block b;
   pendres_status status = pendres_block_open(
@@ -219,7 +221,7 @@ static pendres_status run_probes(pendres_context *ctx, const pendres_pendulum *p
   for (s->first = 0; s->first < PROBES && status == PENDRES_OK; s->first += capacity) {
     s->lanes = PROBES - s->first < capacity ? PROBES - s->first : capacity;
     pendres_block_resize(&b, s->lanes);
-    for (size_t i = 0; i < s->lanes; i++) load_probe(&b, i, (int)(s->first + i), p, speed);
+    for (size_t i = 0; i < s->lanes; i++) load_probe(&b, i, (int)(s->first + i), of);
     status = pendres_block_period_sampled(&b, look, s);
   }
   ctx->most_slopes = most;
@@ -257,11 +259,11 @@ static double largest_error(const sight *coarse, const sight *fine)
 }
 
 /* Least steps that resolve the drive's period, the pendulum's own and explicit stability. */
-static double least_steps(const pendres_pendulum *p, double speed)
+static double least_steps(const probed *of)
 {
-  const double period = two_pi / p->drive_frequency;
+  const double period = two_pi / of->pendulum.drive_frequency;
   /* The real stability interval of the order-8 tables is about 4 to 5. */
-  return fmax(period * p->damping / 4.0, period * pace_of(p, speed) / 1.5);
+  return fmax(period * of->pendulum.damping / 4.0, period * of->pace / 1.5);
 }
 
 /* A drive that swings a pendulum so far in a period leaves it less than two steps a turn. */
@@ -275,19 +277,22 @@ static int shaken(const pendres_pendulum *p)
 /* PENDRES_TOLERANCE_UNREACHABLE, without words: MOST_STEPS are too few. */
 static pendres_status probe(pendres_context *ctx, const pendres_steps_cell *c, int *steps)
 {
-  pendres_pendulum p;
-  double speed, tolerance;
+  probed of;
+  const pendres_pendulum *const p = &of.pendulum;
+  double tolerance;
   const int order = pendres_table_order(ctx->options.table);
 
-  worst_of(c, &p, &speed, &tolerance);
-  if (p.drive_frequency == 0.0 || shaken(&p)) return PENDRES_TOLERANCE_UNREACHABLE;
-  double wanted = fmax(FEWEST_STEPS, least_steps(&p, speed)), last_error = INFINITY;
+  worst_of(c, &of.pendulum, &of.speed, &tolerance);
+  if (p->drive_frequency == 0.0 || shaken(p)) return PENDRES_TOLERANCE_UNREACHABLE;
+  of.reach = open_ended(p) ? reach_of(p, of.speed) : 2.75;
+  of.pace = pace_of(p, of.speed, of.reach);
+  double wanted = fmax(FEWEST_STEPS, least_steps(&of)), last_error = INFINITY;
   while (wanted <= MOST_STEPS) {
     const int n = pendres_steps_rung((int)ceil(wanted));
-    const int stride = stride_of(&p, speed, n);
-    sight coarse = sight_of(&p, n, stride, 0), fine = sight_of(&p, 2 * n, 2 * stride, 1);
-    pendres_status status = run_probes(ctx, &p, speed, &coarse);
-    if (status == PENDRES_OK) status = run_probes(ctx, &p, speed, &fine);
+    const int stride = stride_of(&of, n);
+    sight coarse = sight_of(p, n, stride, 0), fine = sight_of(p, 2 * n, 2 * stride, 1);
+    pendres_status status = run_probes(ctx, &of, &coarse);
+    if (status == PENDRES_OK) status = run_probes(ctx, &of, &fine);
     if (status != PENDRES_OK) return status;
     const double error = largest_error(&coarse, &fine);
     /* Where the error no longer falls it is rounding alone: more steps would not help. */
