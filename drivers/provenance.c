@@ -79,12 +79,20 @@ static pendres_status write_origin(const provenance *p, const deck *d, const far
     { .key = "system", .text = system, .long_name = "operating system and processor" },
     { .key = "date", .text = p->date, .long_name = "start of the run, UTC" },
     { .key = "threads", .integer = farm_threads(f), .is_integer = 1, .long_name = "threads" },
-    { .key = "tolerance", .number = d->precision.tolerance,
-      .long_name = "tolerance of the results" },
     { .key = "seed", .integer = noise ? (int64_t)deck_seed(d) : 0, .is_integer = 1,
       .long_name = noise ? "seed of the random numbers" : "no random numbers were used" },
   };
   return pendres_store_provenance(store, entries, sizeof entries / sizeof *entries);
+}
+
+/* Not where tolerances are compared: they are a dimension of the file, and h5netcdf does not open a
+   group with a number that has the name of a dimension above it. */
+static pendres_status write_tolerance(const deck *d, pendres_store *store)
+{
+  const pendres_store_entry entry = { .key = "tolerance", .number = d->precision.tolerance,
+                                      .long_name = "tolerance of the results" };
+  if (d->axis[DECK_AXIS_TOLERANCE].count > 0) return PENDRES_OK;
+  return pendres_store_provenance(store, &entry, 1);
 }
 
 static pendres_status write_cost(const provenance *p, const farm *f, size_t failed_points,
@@ -125,6 +133,7 @@ pendres_status provenance_write(const provenance *p, const deck *d, const farm *
 {
   pendres_status status = write_deck(d, store);
   if (status == PENDRES_OK) status = write_origin(p, d, f, store);
+  if (status == PENDRES_OK) status = write_tolerance(d, store);
   if (status == PENDRES_OK) status = write_cost(p, f, failed_points, store);
   return status;
 }

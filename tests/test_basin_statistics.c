@@ -456,6 +456,29 @@ static void few_rows(void **state)
   free(v);
 }
 
+/* A grid without a boundary: shares and entropy are zero, and known to one state and one box. */
+static void no_boundary(void **state)
+{
+  enum { ROWS = 40, N = 50 };
+  double *x = spaced(ROWS, 0.0, 1.0), *v = spaced(N, 0.0, 1.0);
+  const pendres_basin_grid grid = {.nx = ROWS, .nv = N, .x = x, .v = v};
+  const pendres_basin_state row[N] = {{0}};
+  pendres_basin_sums *sums = NULL;
+  pendres_basin_statistics s;
+  (void)state;
+  check_ok(pendres_basin_sums_create(&grid, 1, &sums));
+  for (int i = 0; i < ROWS; i++) check_ok(pendres_basin_sums_add(sums, 1, row));
+  check_ok(pendres_basin_sums_result(sums, &s, NULL, NULL));
+  assert_true(s.entropy == 0.0 && s.uncertain[0] == 0.0);
+  /* One unlike state in one of 8 x 10 boxes of 25. */
+  check_near(s.entropy_error, (log(25.0) - 24.0 / 25.0 * log(24.0)) / 80.0, 1e-9);
+  /* One unlike state of those that have neighbours on both sides. */
+  check_near(s.uncertain_error[0], 1.0 / (ROWS * (N - 2)), 1e-15);
+  pendres_basin_sums_free(sums);
+  free(x);
+  free(v);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -470,6 +493,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(wells_by_reference, setup, teardown),
     cmocka_unit_test(doubt_counts),
     cmocka_unit_test(few_rows),
+    cmocka_unit_test(no_boundary),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -194,6 +194,8 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { CURVE "&sweep damping_range=0.1,1,1000 resolution=2000 /",
     { "3:33 'resolution' makes more than 1000000 values of a range" } },
   { ORBIT "&orbit start='sa' periods=1000000 samples=1000 /", { "3:19 must not exceed 1e8" } },
+  { ORBIT "&orbit start='sa' spectrum=T periods=3 samples=1 /", { "3:30 'periods' of 4 or more" } },
+  { ORBIT "&orbit start='sa' spectrum=T segment=1 samples=5 /", { "3:30 'segment' of 2 or more" } },
   /* output */
   { "&scene kind='hard_cases' output='' /", { "1:26 must not be empty" } },
   { "&scene kind='hard_cases' output='a/' /", { "1:26 not a folder" } },

@@ -270,6 +270,9 @@ int deck_extra_axis(const deck *d, deck_axis_id *axis);
     resonances may be anywhere, one is looked for only where the deck says in which range. */
 int deck_searches(const deck *d);
 
+/** The shortest segment of a spectrum in drive periods: an even number of samples, 4 or more. */
+int64_t deck_spectrum_least(const deck *d);
+
 /** Does the deck ask for the plain pendulum: no torque, no parametric drive, no other force? */
 int deck_is_plain(const deck *d);
 

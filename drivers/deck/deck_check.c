@@ -326,6 +326,23 @@ static void check_size(deck_builder *b)
              "'boundary' is looked for in a window: give x and v at least two values");
 }
 
+/* Segments of a spectrum have an even number of samples, 4 or more. */
+static void check_spectrum(deck_builder *b)
+{
+  const deck *d = b->d;
+  const int64_t least = deck_spectrum_least(d);
+  const char *name = d->orbit.periods < least ? "periods" : "segment";
+  const deck_given *at = given(b, "orbit", name);
+  char message[160];
+  if (!in_scene(b, "orbit", "spectrum") || !d->orbit.spectrum) return;
+  if (d->orbit.periods >= least && (d->orbit.segment == 0 || d->orbit.segment >= least)) return;
+  snprintf(message, sizeof message,
+           "a spectrum takes 4 samples or more, an even number: with samples = %lld give '%s' of "
+           "%lld or more", (long long)d->orbit.samples, name, (long long)least);
+  if (is_there(at)) complain(b, at, name, message);
+  else complain(b, given(b, "orbit", "spectrum"), "spectrum", message);
+}
+
 static void check_ensemble(deck_builder *b)
 {
   const deck *d = b->d;
@@ -468,6 +485,7 @@ void deck_check(deck_builder *b)
   if (b->errors->count == 0) check_noise(b);
   check_output(b);
   check_ensemble(b);
+  check_spectrum(b);
   if (d->precision.block_lanes % 8 != 0)
     complain(b, given(b, "precision", "block_lanes"), "block_lanes",
              "'block_lanes' must be a multiple of 8");

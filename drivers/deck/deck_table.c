@@ -449,6 +449,12 @@ int deck_searches(const deck *d)
          (!deck_extra_axis(d, &extra) || along->count > 1);
 }
 
+int64_t deck_spectrum_least(const deck *d)
+{
+  const int64_t samples = d->orbit.samples;
+  return samples == 1 ? 4 : samples == 2 || samples % 2 != 0 ? 2 : 1;
+}
+
 int deck_is_plain(const deck *d)
 {
   static const deck_axis_id others[] = { DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };

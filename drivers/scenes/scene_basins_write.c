@@ -15,6 +15,11 @@ typedef struct state_row {
   int label, attractor, well, settling_periods, failed, uncertain;
 } state_row;
 
+static const char *doubt_names(int value)
+{
+  return value == 0 ? "no" : value == 1 ? "yes" : NULL;
+}
+
 static const scene_column of_states[BASINS_VARIABLES] = {
   {.name = "label", .long_name = "what the pendulum settles on", .type = SCENE_FLAG,
    .value = offsetof(state_row, label), .names = scene_label_names},
@@ -29,8 +34,9 @@ static const scene_column of_states[BASINS_VARIABLES] = {
   {.name = "failed", .long_name = "why there is no label for the state", .type = SCENE_FLAG,
    .value = offsetof(state_row, failed), .names = scene_failure_names},
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
-   .long_name = "1: the errors that the pendulum carried may change where it settles",
-   .comment = "0: not so, or not integrated"},
+   .names = doubt_names,
+   .long_name = "whether the errors that the pendulum carried may change where it settles",
+   .comment = "no: they may not, or the state was not integrated"},
 };
 
 /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */

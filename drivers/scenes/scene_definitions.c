@@ -36,7 +36,7 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
     "mean over the members of the work of the drive a drive cycle, the closed integral of F "
     "dx" },
   { "mean_loop_amplitude", "half peak to peak of the loop averaged over the members, each shifted "
-                           "to its own well, in rad",
+                           "to its own well, in rad. NaN where members rotate or escape",
     "half peak to peak of the loop averaged over the members" },
   { "mean_amplitude", "mean over the members of half peak to peak of the angle, in rad",
     "mean over the members of half peak to peak of x" },
@@ -70,7 +70,20 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
                              "errors, and what the slope differs by within the range", NULL },
   { "power_spectrum", "mean square of v that each unit of angular frequency holds, one-sided: the "
                       "integral over frequency is the mean square of v; by Welch's method, with "
-                      "Hann windows. Its error is a standard error", NULL },
+                      "Hann windows. Its error is a standard error from the scatter of segments, "
+                      "infinite where there is one alone", NULL },
+  { "basin_entropy", "mean over boxes of 5 x 5 states of -sum p log p, p being shares of a box. "
+                     "Its error is from the scatter of rows of boxes, and NaN where there are "
+                     "fewer than four", NULL },
+  { "boundary_basin_entropy", "the same over the boxes that hold more than one basin; above log 2 "
+                              "the boundary is fractal. NaN where there is no such box", NULL },
+  { "uncertain_fraction", "share of pairs of states this far apart that settle differently. Its "
+                          "error is from the scatter between rows, and NaN where too few rows "
+                          "are there for one", NULL },
+  { "estimated_error", "largest over the members; infinite where the method says of one that "
+                       "nothing is known of it, NaN where the method makes no estimate", NULL },
+  { "seconds", "of the fastest of several runs. Its error is the distance to the next, and NaN "
+               "where one run took so long that it was the only one", NULL },
   { "rotation", "mean whole turns of the angle a drive period", NULL },
   { "mean_velocity", "mean of dx/dt in the long run, in omega0; of an orbit that closes after q "
                      "drive periods but for p turns, p omega / q",

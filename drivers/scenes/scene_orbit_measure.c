@@ -23,6 +23,7 @@ static long segment_of(const deck *d)
   long segment = (long)d->orbit.segment;
   if (segment == 0)
     for (segment = 1; 2 * segment * SEGMENTS <= all; segment *= 2) continue;
+  segment = segment < deck_spectrum_least(d) ? (long)deck_spectrum_least(d) : segment;
   if (segment > all) segment = all;
   if (segment > longest) segment = longest;
   return segment - (segment * samples % 2);

@@ -149,7 +149,8 @@ static row row_of(const work *w, size_t i)
            .error_10 = c->error[0], .error_10_error = end_rounding,
            .error_100 = c->error[1], .error_100_error = end_rounding,
            .estimated_error = c->estimate,
-           .estimated_error_error = fabs(c->estimate - c->error[1]),
+           .estimated_error_error =
+             isfinite(c->estimate) ? fabs(c->estimate - c->error[1]) : NAN,
            .steps_per_period = c->steps, .rhs_per_period = c->rhs,
            .seconds = c->seconds, .seconds_error = c->spread,
            .throughput = c->throughput,

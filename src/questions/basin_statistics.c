@@ -334,6 +334,8 @@ static void conclude_entropy(const pendres_basin_sums *s, pendres_basin_statisti
   out->entropy = entropy / boxes;
   out->entropy_error = sqrt(pendres_scatter_variance(&s->scatter, weight)) +
                        (part * s->entropy_doubt + suspect) / boxes;
+  /* Nor is no boundary at all a certainty: one state may be unlike the others of its box. */
+  if (out->entropy_error < state_entropy / boxes) out->entropy_error = state_entropy / boxes;
   if (boundary == 0.0) return;
   weight[PENDRES_SCATTER_ENTROPY] = 1.0 / boundary;
   weight[PENDRES_SCATTER_BOUNDARY_BOXES] = -entropy / (boundary * boundary);
@@ -367,6 +369,8 @@ static void conclude_exponent(const pendres_basin_sums *s, pendres_basin_statist
       used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped) / tried[k] +
                3.0 * s->suspect / ((double)s->nv * rows)
            : NAN;
+    /* Not below one state in all of them: that none is unlike is no certainty. */
+    if (out->uncertain_error[k] < 1.0 / tried[k]) out->uncertain_error[k] = 1.0 / tried[k];
   }
   pendres_scatter_exponent(&scatter, out->scales, out->distance, tried,
                            &out->uncertainty_exponent, &out->uncertainty_exponent_error);

@@ -71,7 +71,8 @@ static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
     const double share = k < out->scales ? s->total[k] / n : NAN;
     tried[k] = n;
     out->uncertain[k] = share;
-    out->uncertain_error[k] = sqrt(share * (1.0 - share) / n);
+    /* Not below one state in all of them: none or all that are alike is no certainty. */
+    out->uncertain_error[k] = fmax(sqrt(share * (1.0 - share) / n), 1.0 / n);
   }
   pendres_scatter_exponent(s, out->scales, out->distance, tried, &out->uncertainty_exponent,
                            &out->uncertainty_exponent_error);
