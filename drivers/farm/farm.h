@@ -55,7 +55,8 @@ typedef pendres_status farm_collect(void *arg, size_t task, const farm_record *r
  * By this name the user is told what is worked on, and which points are costly beside those before.
  * When they have taken so many times the budget of a point, the library is stopped, as by a signal:
  * a task for which farm_gave_up() then says yes goes on with farm_point() for the next, or for some
- * of the same, and calls farm_lost() for each point that it gives up, to be marked; words say why.
+ * of the same, and calls farm_lost() for each point that it gives up, to be marked; words, which
+ * may be NULL, say why.
  * Such a record is not kept in the journal, nor is what depends on it.
  */
 void farm_point(farm_record *record, size_t points, const char *format, ...)

@@ -112,6 +112,7 @@ void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size)
 {
   const farm_watch *w = record->watch;
   record->lost += lost;
+  if (words == NULL) return;
   const double mean = mean_of(w->crew), spent = w->spent / (double)w->points;
   char times[80] = "";
   if (mean > 0.0)

@@ -62,9 +62,31 @@ pendres_status scene_fail(scene_run *run, pendres_status status, const char *for
   return status;
 }
 
-pendres_status scene_store_failed(scene_run *run, pendres_status status)
+pendres_status scene_stored(scene_run *run, pendres_status status)
 {
-  return scene_fail(run, status, "%s", pendres_store_message(run->store));
+  return status == PENDRES_OK ? status
+                              : scene_fail(run, status, "%s", pendres_store_message(run->store));
+}
+
+pendres_context *scene_context(scene_run *run)
+{
+  pendres_context *ctx = farm_context(run->farm);
+  if (ctx == NULL) (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a context");
+  return ctx;
+}
+
+pendres_status scene_asked(scene_run *run, pendres_status status)
+{
+  if (status == PENDRES_OK) return status;
+  return scene_fail(run, status, "%s", pendres_context_message(farm_context(run->farm)));
+}
+
+void *scene_rows(scene_run *run, size_t n, size_t size)
+{
+  void *rows = calloc(n + 1, size);
+  if (rows == NULL)
+    (void)scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  return rows;
 }
 
 pendres_status scene_compute(scene_run *run, const farm_stage *stage)
@@ -92,10 +114,14 @@ static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
 {
   const deck_axis *a = &run->deck->axis[axis];
-  const pendres_status status =
-    pendres_store_dimension(run->store, group, deck_axis_name(axis), a->count, a->value,
-                            about[axis].words, about[axis].units);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, pendres_store_dimension(run->store, group, deck_axis_name(axis),
+                                                   a->count, a->value, about[axis].words,
+                                                   about[axis].units));
+}
+
+pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
+{
+  return scene_stored(run, pendres_store_dimension(run->store, NULL, name, n, NULL, words, "1"));
 }
 
 void scene_plane(const deck *d, deck_axis_id axis[2])
@@ -210,7 +236,7 @@ pendres_status scene_write_identity(scene_run *run)
   if (status == PENDRES_OK) status = write_coefficients(run, coordinates);
   if (status == PENDRES_OK && coordinates[0] != '\0')
     status = pendres_store_attribute_text(run->store, "", NULL, "coordinates", coordinates);
-  return status == PENDRES_OK ? scene_define(run) : scene_store_failed(run, status);
+  return status == PENDRES_OK ? scene_define(run) : scene_stored(run, status);
 }
 
 pendres_ensemble scene_ensemble(const deck *d)
@@ -288,7 +314,7 @@ pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *
   status = pendres_store_dimension_text(run->store, "paper", "quantity", n, name, "quantity");
   for (int which = 0; which < PAPER_COUNT && status == PENDRES_OK; which++)
     status = put_paper(run->store, n, values, which, number, number + n);
-  if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+  (void)scene_stored(run, status);
 done:
   free(name);
   free(number);

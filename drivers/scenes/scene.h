@@ -52,14 +52,25 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
 pendres_status scene_fail(scene_run *run, pendres_status status, const char *format, ...)
   __attribute__((format(printf, 3, 4)));
 
-/* The same with the store's own words. */
-pendres_status scene_store_failed(scene_run *run, pendres_status status);
+/* Of what the store was asked for: its own words, if it has failed. Returns the status. */
+pendres_status scene_stored(scene_run *run, pendres_status status);
+
+/* The context for work outside of tasks, and the status of such work: its words, if it has failed.
+   NULL without memory, which is on record then. */
+pendres_context *scene_context(scene_run *run);
+pendres_status scene_asked(scene_run *run, pendres_status status);
+
+/* Room for n rows of results, to be freed; NULL without memory, which is on record then. */
+void *scene_rows(scene_run *run, size_t n, size_t size);
 
 /* Run a stage on the run's farm; on failure the run has the farm's words. */
 pendres_status scene_compute(scene_run *run, const farm_stage *stage);
 
 /* An axis of the deck as a dimension of a group, with its usual name, words and units. */
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis);
+
+/* A dimension of the root that numbers things from 0 on. */
+pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words);
 
 /*
  * Which run this is: attributes `scene` and `deck` of the file, and the pendulum's parameters that

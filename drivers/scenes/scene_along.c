@@ -157,11 +157,10 @@ static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
 /* A path that its budget has ended keeps the points that it had reached. */
 static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
 {
-  char words[SCENE_TOLD];
   size_t left = 0;
   for (size_t i = 0; i < pendres_hysteresis_count(h); i++)
     left += not_reached(pendres_hysteresis_get(h, i)) != 0;
-  farm_lost_some(out, left, words, sizeof words);
+  farm_lost_some(out, left, NULL, 0);
   return PENDRES_OK;
 }
 
@@ -234,9 +233,9 @@ int scene_along_closed(const pendres_hysteresis_point *point)
   return point->attractor.orbit.period > 0;
 }
 
-scene_along_row *scene_along_rows(const scene_along_path *path)
+scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
 {
-  scene_along_row *rows = malloc((path->points + 1) * sizeof *rows);
+  scene_along_row *rows = scene_rows(run, path->points, sizeof *rows);
   for (size_t i = 0; i < path->points && rows != NULL; i++) {
     const pendres_hysteresis_point *p = &path->point[i];
     const pendres_attractor *a = &p->attractor;
@@ -256,9 +255,9 @@ scene_along_row *scene_along_rows(const scene_along_path *path)
   return rows;
 }
 
-scene_along_jump *scene_along_jumps(const scene_along_path *path)
+scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path)
 {
-  scene_along_jump *rows = malloc((path->jumps + 1) * sizeof *rows);
+  scene_along_jump *rows = scene_rows(run, path->jumps, sizeof *rows);
   for (size_t i = 0; i < path->jumps && rows != NULL; i++) {
     const pendres_jump *j = &path->jump[i];
     rows[i] = (scene_along_jump){

@@ -65,9 +65,9 @@ typedef struct scene_along_jump {
   int direction, kind, from, to, gradual, certain, to_period;
 } scene_along_jump;
 
-/* All points and jumps of a path as rows, to be freed by free(); NULL without memory. */
-scene_along_row *scene_along_rows(const scene_along_path *path);
-scene_along_jump *scene_along_jumps(const scene_along_path *path);
+/* All points and jumps of a path as rows; see scene_rows(). */
+scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
+scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path);
 
 /* Columns of a table of scene_along_row: `label` and `failed`. */
 enum { SCENE_ALONG_VERDICTS = 2 };

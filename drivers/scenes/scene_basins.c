@@ -99,13 +99,12 @@ static pendres_status find_states(const basins *b, size_t n, const size_t *index
                                   pendres_context *ctx, farm_record *out,
                                   pendres_basin_state *state)
 {
-  char words[SCENE_TOLD];
   const size_t half = n / 2;
   begin_states(b, index[0], n, out);
   pendres_status status = pendres_basin_states(ctx, b->set, &b->grid, n, index, state);
   if (!farm_gave_up(out, status)) return status;
   if (half == 0) {
-    farm_lost(out, words, sizeof words);
+    farm_lost(out, NULL, 0);
     *state = (pendres_basin_state){.settling_periods = BASINS_GIVEN_UP,
                                    .attractor = PENDRES_ATTRACTOR_UNKNOWN,
                                    .label = PENDRES_LABEL_UNRESOLVED};
@@ -203,11 +202,9 @@ static pendres_status extend(basins *b, size_t n, const size_t *index, size_t *g
 {
   *grown = 0;
   if (n == 0) return PENDRES_OK;
-  pendres_context *ctx = farm_context(b->run->farm);
-  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status = pendres_basin_extend(ctx, b->set, &b->grid, n, index, grown);
-  return status == PENDRES_OK ? status
-                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(b->run, pendres_basin_extend(ctx, b->set, &b->grid, n, index, grown));
 }
 
 static pendres_status sweep_once(basins *b, size_t *grown, int last)
@@ -217,9 +214,8 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
   pendres_status status = restart(b);
   *grown = 0;
   if (status != PENDRES_OK) return status;
-  s.index = malloc(tasks * LOST_A_TASK * sizeof *s.index);
-  if (s.index == NULL)
-    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu tasks", tasks);
+  s.index = scene_rows(b->run, tasks * LOST_A_TASK, sizeof *s.index);
+  if (s.index == NULL) return PENDRES_OUT_OF_MEMORY;
   status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
                                                 .element = sizeof(pendres_basin_state),
                                                 .task = compute_rows, .collect = collect_rows,
@@ -265,19 +261,16 @@ static pendres_status collect_slice(void *arg, size_t task, const farm_record *i
 static pendres_status integrate(basins *b, size_t n, const size_t *index,
                                 pendres_basin_state **state)
 {
-  *state = malloc((n + 1) * sizeof **state);
-  if (*state == NULL)
-    return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu states", n);
+  *state = scene_rows(b->run, n, sizeof **state);
+  if (*state == NULL) return PENDRES_OUT_OF_MEMORY;
   slices s = {.b = b, .n = n, .index = index, .state = *state};
   if (n > SMALL)
     return scene_compute(b->run, &(farm_stage){ .what = "slices", .tasks = (n + SLICE - 1) / SLICE,
                                                 .task = compute_slice, .collect = collect_slice,
                                                 .arg = &s });
-  pendres_context *ctx = farm_context(b->run->farm);
-  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status = pendres_basin_states(ctx, b->set, &b->grid, n, index, *state);
-  return status == PENDRES_OK ? status
-                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(b->run, pendres_basin_states(ctx, b->set, &b->grid, n, index, *state));
 }
 
 static pendres_status follow_plan(basins *b, pendres_basin_plan *p)
@@ -384,27 +377,21 @@ static pendres_status compute_cut(basins *b)
 {
   static const double rest = 0.0;
   basins line = *b;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  size_t *index = malloc(b->grid.nx * sizeof *index);
+  size_t *index = scene_rows(b->run, b->grid.nx, sizeof *index);
   line.grid.nv = 1;
   line.grid.v = &rest;
-  if (index == NULL) {
-    (void)scene_fail(b->run, status, "out of memory for the line v = 0");
-  } else {
-    for (size_t i = 0; i < b->grid.nx; i++) index[i] = i;
-    status = integrate(&line, b->grid.nx, index, &b->cut);
-  }
+  if (index == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < b->grid.nx; i++) index[i] = i;
+  const pendres_status status = integrate(&line, b->grid.nx, index, &b->cut);
   free(index);
   return status;
 }
 
 static pendres_status find_attractors(basins *b)
 {
-  pendres_context *ctx = farm_context(b->run->farm);
-  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status = pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set);
-  return status == PENDRES_OK ? status
-                              : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(b->run, pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set));
 }
 
 /* Tell how many states stayed without an attractor, and what may help. */

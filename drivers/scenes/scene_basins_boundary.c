@@ -5,14 +5,15 @@
 
 #include <pendres/boundary.h>
 
-static pendres_status put_boundary(pendres_store *store, const pendres_boundary *curve)
+static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve)
 {
+  pendres_store *store = run->store;
   static const char *const names[] = {"boundary_x", "boundary_v"};
   static const char *const words[] = {"position on the boundary of basins",
                                       "velocity on the boundary of basins"};
   const size_t n = pendres_boundary_count(curve);
-  pendres_status status = pendres_store_dimension(store, "", "boundary_point", n, NULL,
-                                                  "point of the boundary, in order along it", "1");
+  pendres_status status = scene_numbering(run, "boundary_point", n,
+                                          "point of the boundary, in order along it");
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     const pendres_store_spec spec = {.name = names[k], .dimensions = {"boundary_point"},
                                      .long_name = words[k], .units = k == 0 ? "rad" : "1"};
@@ -42,20 +43,17 @@ pendres_status basins_write_boundary(basins *b)
                                            .v_low = v->value[0], .v_high = v->value[v->count - 1]};
   pendres_boundary *curve = NULL;
   pendres_orbit saddle;
-  pendres_context *ctx = farm_context(b->run->farm);
+  pendres_context *ctx = scene_context(b->run);
   const pendres_attractor *first = pendres_attractors_get(b->set, 0);
-  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
   b->curve = "none: the first attractor has no unstable orbit beside it on its branch";
   if (first == NULL || first->orbit.period != 1 || first->orbit.winding != 0) return PENDRES_OK;
   pendres_status status = pendres_saddle_find(ctx, &first->orbit, &saddle);
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* nothing beside it on its branch */
   if (status == PENDRES_OK) status = pendres_boundary_find(ctx, &saddle, &window, &curve);
-  if (status != PENDRES_OK) {
-    (void)scene_fail(b->run, status, "%s", pendres_context_message(ctx));
-  } else {
+  if (scene_asked(b->run, status) == PENDRES_OK) {
     b->curve = pendres_boundary_complete(curve) ? "all of it" : "a part, it goes on";
-    status = put_boundary(b->run->store, curve);
-    if (status != PENDRES_OK) (void)scene_store_failed(b->run, status);
+    status = scene_stored(b->run, put_boundary(b->run, curve));
   }
   pendres_boundary_free(curve);
   return status;

@@ -71,8 +71,8 @@ static pendres_status write_strobes(scene_run *run, const cloud_work *w)
   static const char *const words[2] = { "position at drive phase 0, around well 0",
                                         "velocity at drive phase 0" };
   static const char *const units[2] = { "rad", "1" };
-  pendres_status status = pendres_store_dimension(run->store, "", "strobe", w->strobes, NULL,
-                                                  "number of the strobe point", "1");
+  pendres_status status =
+    scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     const pendres_store_spec spec = {
       .name = names[k], .dimensions = { "temperature", "attractor", "strobe" },
@@ -92,17 +92,15 @@ static pendres_cloud_verdict verdict_of(const cloud_work *w, size_t number)
 static pendres_status write_clouds(scene_run *run, const cloud_work *w)
 {
   const size_t n = w->temperatures * w->attractors;
-  row *rows = malloc((n + 1) * sizeof *rows);
+  row *rows = scene_rows(run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = n,
                              .stride = sizeof *rows, .rows = rows, .missing = w->failed.reason};
-  if (rows == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu clouds", n);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {
     rows[i] = (row){w->clouds[i], (double)w->clouds[i].measured.left};
     rows[i].of.verdict = verdict_of(w, i);
   }
-  const pendres_status status =
-    scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  const pendres_status status = SCENE_WRITE(run, &table, columns);
   free(rows);
   return status;
 }
@@ -128,7 +126,7 @@ pendres_status scene_basins_clouds_write(scene_run *run, const cloud_work *w)
   if (status == PENDRES_OK) status = write_strobes(run, w);
   if (status == PENDRES_OK) status = write_clouds(run, w);
   if (status == PENDRES_OK) status = write_failed(run, w);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 void scene_basins_clouds_print(FILE *out, const cloud_work *w)

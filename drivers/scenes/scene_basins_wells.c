@@ -28,7 +28,7 @@ static pendres_status write_counts(basins *b, size_t attractors, size_t n,
   for (size_t i = 0; i < n; i++) rows[wells[i].attractor].wells++;
   const scene_table table = {.dimensions = {"attractor"}, .n = attractors, .stride = sizeof *rows,
                              .rows = rows};
-  if (status == PENDRES_OK) status = scene_columns_write(b->run, &table, 2, of_attractors);
+  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
 done:
   free(states);
   free(rows);
@@ -71,16 +71,15 @@ static pendres_status make_wells(const basins *b, size_t n, const pendres_basin_
 
 static pendres_status write_each(basins *b, size_t n, const pendres_basin_well *wells)
 {
-  well *rows = malloc((n + 1) * sizeof *rows);
+  well *rows = scene_rows(b->run, n, sizeof *rows);
   const scene_table table = {.dimensions = {"basin_well"}, .prefix = "basin_well", .n = n,
                              .stride = sizeof *rows, .rows = rows};
   pendres_status status =
     rows != NULL ? make_wells(b, n, wells, rows) : PENDRES_OUT_OF_MEMORY;
   if (status == PENDRES_OK)
-    status = pendres_store_dimension(b->run->store, "", "basin_well", n, NULL,
-                                     "well of an attractor, by attractor, then by well", "1");
-  if (status == PENDRES_OK)
-    status = scene_columns_write(b->run, &table, sizeof of_wells / sizeof *of_wells, of_wells);
+    status = scene_numbering(b->run, "basin_well", n,
+                             "well of an attractor, by attractor, then by well");
+  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_wells);
   if (status == PENDRES_OK && b->grid.by == PENDRES_BASIN_BY_WELL)
     status = scene_columns_write(b->run, &table, 1, &of_shares);
   free(rows);

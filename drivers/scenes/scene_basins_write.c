@@ -110,8 +110,8 @@ static pendres_status write_cut(basins *b)
   scene_column columns[BASINS_VARIABLES];
   pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
   if (status != PENDRES_OK) return status;
-  state_row *rows = malloc(n * sizeof *rows);
-  if (rows == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for a line");
+  state_row *rows = scene_rows(b->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   const scene_table table = state_table("cut", NULL, n, rows);
   state_columns(b->d, columns);
   state_rows(n, b->cut, rows);
@@ -120,7 +120,7 @@ static pendres_status write_cut(basins *b)
   if (status != PENDRES_OK) return status;
   status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
                                         "the line v = 0");
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+  return scene_stored(b->run, status);
 }
 
 /* ---- attractors ---------------------------------------------------------------------------- */
@@ -179,26 +179,21 @@ static pendres_status write_attractors(basins *b, size_t n, const row *rows)
 {
   const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
                              .rows = rows};
-  pendres_status status = pendres_store_dimension(
-    b->run->store, "", "attractor", n, NULL, "attractor, by amplitude, then by position", "1");
-  if (status == PENDRES_OK)
-    status = scene_columns_write(b->run, &table, sizeof of_attractors / sizeof *of_attractors,
-                                 of_attractors);
+  pendres_status status =
+    scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
+  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
   if (status == PENDRES_OK) status = basins_write_wells(b, n);
-  return status == PENDRES_OK ? status : scene_store_failed(b->run, status);
+  return scene_stored(b->run, status);
 }
 
 /* ---- statistics ---------------------------------------------------------------------------- */
 
 static pendres_status look_closer(basins *b, pendres_basin_statistics *s)
 {
-  pendres_context *ctx = farm_context(b->run->farm);
-  if (ctx == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status =
-    pendres_basin_statistics_refine(ctx, b->set, &b->grid, s, &b->random_states);
-  return status == PENDRES_OK
-           ? status
-           : scene_fail(b->run, status, "%s", pendres_context_message(ctx));
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(b->run, pendres_basin_statistics_refine(ctx, b->set, &b->grid, s,
+                                                             &b->random_states));
 }
 
 #define STATISTIC(label, field, words)                                          \
@@ -226,14 +221,13 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
   const scene_table states = {.n = 1, .stride = sizeof b->random_states, .rows = &b->random_states};
   const scene_table distances = {.dimensions = {"distance"}, .n = (size_t)s->scales,
                                  .stride = sizeof s->uncertain[0], .rows = s};
-  pendres_status status = scene_columns_write(
-    b->run, &whole, sizeof of_statistics / sizeof *of_statistics, of_statistics);
+  pendres_status status = SCENE_WRITE(b->run, &whole, of_statistics);
   if (status == PENDRES_OK) status = scene_columns_write(b->run, &states, 1, &random);
   if (status != PENDRES_OK || s->scales == 0) return status;
   status = pendres_store_dimension(b->run->store, "", "distance", (uint64_t)s->scales, s->distance,
                                    "distance in initial velocity", "1");
   return status == PENDRES_OK ? scene_columns_write(b->run, &distances, 1, &of_distances)
-                              : scene_store_failed(b->run, status);
+                              : scene_stored(b->run, status);
 }
 
 /* How many states there are of each kind. */
@@ -272,7 +266,7 @@ static pendres_status write_escapes(basins *b, const pendres_basin_statistics *s
 {
   const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
   if (strcmp(b->d->pendulum.force, "polynomial") != 0) return PENDRES_OK;
-  return scene_columns_write(b->run, &table, sizeof of_escapes / sizeof *of_escapes, of_escapes);
+  return SCENE_WRITE(b->run, &table, of_escapes);
 }
 
 static pendres_status write_counts(basins *b)
@@ -283,12 +277,9 @@ static pendres_status write_counts(basins *b)
     .missed = b->missed,
     .suspected = (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
-  const pendres_status status =
-    scene_columns_write(b->run, &table, sizeof of_counts / sizeof *of_counts, of_counts);
-  return status == PENDRES_OK && b->d->basins.refine
-           ? scene_columns_write(b->run, &table, sizeof of_refinement / sizeof *of_refinement,
-                                 of_refinement)
-           : status;
+  const pendres_status status = SCENE_WRITE(b->run, &table, of_counts);
+  return status == PENDRES_OK && b->d->basins.refine ? SCENE_WRITE(b->run, &table, of_refinement)
+                                                     : status;
 }
 
 /* ---- what the paper says ------------------------------------------------------------------- */
@@ -372,7 +363,7 @@ static void print_table(const basins *b, const pendres_basin_statistics *s, size
   FILE *out = b->run->table;
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
   if (out == NULL) return;
-  scene_columns_print(out, &table, n, sizeof cells / sizeof *cells, cells, NULL);
+  SCENE_PRINT(out, &table, n, cells, NULL);
   if (s->escaped > 0)
     fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
             s->escape_fraction_error);

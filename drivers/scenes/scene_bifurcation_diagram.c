@@ -102,7 +102,6 @@ static pendres_status find_strobes(const void *arg, size_t task, pendres_context
                                    farm_record *out)
 {
   const work *w = arg;
-  char words[SCENE_TOLD];
   if (task == w->values) return find_cascade(w, ctx, out);
   record *r = farm_record_resize(out, sizeof *r + 2 * w->strobes * sizeof(double));
   if (r == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -111,7 +110,7 @@ static pendres_status find_strobes(const void *arg, size_t task, pendres_context
   scene_point_begin(out, w->d, task, 1, 1, &w->axis);
   const pendres_status status = find_at(w, task, ctx, r, x);
   if (!farm_gave_up(out, status)) return status;
-  farm_lost(out, words, sizeof words);
+  farm_lost(out, NULL, 0);
   for (size_t k = 0; k < 2 * w->strobes; k++) x[k] = NAN;
   r->attractors = NO_TIME;
   return PENDRES_OK;
@@ -180,9 +179,6 @@ static const scene_column of_cascade[] = {
   SCENE_COLUMN(pendres_cascade, ratio, "ratio of the last two distances of doublings", "1"),
 };
 
-#define WRITE(run, table, columns) \
-  scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
-
 /* Mark the points that the budget has ended, beside those that the path marks. */
 static void mark_late(scene_run *run, const work *w, scene_along_row *rows)
 {
@@ -203,7 +199,7 @@ static void mark_late(scene_run *run, const work *w, scene_along_row *rows)
 static pendres_status write_values(scene_run *run, const work *w)
 {
   const char *axis = deck_axis_name(w->axis);
-  scene_along_row *rows = scene_along_rows(&w->path);
+  scene_along_row *rows = scene_along_rows(run, &w->path);
   const scene_table strobes = {.dimensions = {axis, "strobe"}, .prefix = "strobe",
                                .n = w->values * w->strobes, .stride = sizeof *w->strobe,
                                .rows = w->strobe};
@@ -211,10 +207,10 @@ static pendres_status write_values(scene_run *run, const work *w)
                               .rows = rows};
   const scene_table counts = {.dimensions = {axis}, .n = w->values,
                               .stride = sizeof *w->attractors, .rows = w->attractors};
-  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for results");
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   mark_late(run, w, rows);
-  pendres_status status = WRITE(run, &strobes, of_strobes);
-  if (status == PENDRES_OK) status = WRITE(run, &points, of_points);
+  pendres_status status = SCENE_WRITE(run, &strobes, of_strobes);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &points, of_points);
   if (status == PENDRES_OK) status = scene_columns_write(run, &counts, 1, &of_attractors);
   if (status == PENDRES_OK)
     status = scene_columns_write(run, &points, SCENE_ALONG_VERDICTS, scene_along_verdicts);
@@ -225,15 +221,12 @@ static pendres_status write_values(scene_run *run, const work *w)
 
 static pendres_status write_bifurcations(scene_run *run, const work *w)
 {
-  scene_along_jump *rows = scene_along_jumps(&w->path);
+  scene_along_jump *rows = scene_along_jumps(run, &w->path);
   const scene_table table = {.dimensions = {"bifurcation"}, .prefix = "bifurcation",
                              .n = w->path.jumps, .stride = sizeof *rows, .rows = rows};
-  pendres_status status = PENDRES_OK;
-  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
-  status = pendres_store_dimension(run->store, NULL, "bifurcation", table.n, NULL,
-                                   "number of the bifurcation", "1");
-  if (status == PENDRES_OK) status = WRITE(run, &table, of_bifurcations);
-  else (void)scene_store_failed(run, status);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = scene_numbering(run, "bifurcation", table.n, "number of the bifurcation");
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_bifurcations);
   free(rows);
   return status;
 }
@@ -245,21 +238,17 @@ static pendres_status write_cascade(scene_run *run, const work *w)
                                  .n = (size_t)c->doublings, .stride = sizeof c->value[0],
                                  .rows = c};
   const scene_table whole = {.prefix = "cascade", .n = 1, .stride = sizeof *c, .rows = c};
-  pendres_status status = pendres_store_dimension(run->store, NULL, "cascade", doublings.n, NULL,
-                                                  "number of the doubling", "1");
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = scene_columns_write(run, &doublings, 1, &of_doublings);
-  return status == PENDRES_OK ? WRITE(run, &whole, of_cascade) : status;
+  pendres_status status = scene_numbering(run, "cascade", doublings.n, "number of the doubling");
+  if (status == PENDRES_OK) status = scene_columns_write(run, &doublings, 1, &of_doublings);
+  return status == PENDRES_OK ? SCENE_WRITE(run, &whole, of_cascade) : status;
 }
 
 static pendres_status write_all(scene_run *run, const work *w)
 {
   pendres_status status = scene_dimension(run, NULL, w->axis);
-  if (status != PENDRES_OK) return status;
-  status = pendres_store_dimension(run->store, NULL, "strobe", w->strobes, NULL,
-                                   "number of the strobe point", "1");
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = write_values(run, w);
+  if (status == PENDRES_OK)
+    status = scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
+  if (status == PENDRES_OK) status = write_values(run, w);
   if (status == PENDRES_OK) status = write_bifurcations(run, w);
   return status == PENDRES_OK ? write_cascade(run, w) : status;
 }

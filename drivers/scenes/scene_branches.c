@@ -120,19 +120,16 @@ static size_t take_points(const scene_lines *l, row *rows)
 static pendres_status write_branches(const scene_lines *l)
 {
   const size_t n = take_points(l, NULL);
-  row *rows = malloc((n + 1) * sizeof *rows);
-  if (rows == NULL)
-    return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points of branches", n);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_points(l, rows);
   const scene_table table = {.dimensions = {"point"}, .prefix = "branch", .inner = "multiplier",
                              .n = n, .stride = sizeof *rows, .rows = rows};
   pendres_status status =
-    pendres_store_dimension(l->run->store, "", "point", n, NULL,
-                            "number of the point, in order along each branch", "1");
+    scene_numbering(l->run, "point", n, "number of the point, in order along each branch");
   if (status == PENDRES_OK)
-    status = pendres_store_dimension(l->run->store, "", "multiplier", 2, NULL,
-                                     "Floquet multiplier, the larger modulus first", "1");
-  if (status != PENDRES_OK) (void)scene_store_failed(l->run, status);
+    status = scene_numbering(l->run, "multiplier", 2,
+                             "Floquet multiplier, the larger modulus first");
   if (status == PENDRES_OK)
     status = scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points,
                                       of_points);
@@ -191,8 +188,8 @@ static pendres_status put_backbone(const scene_lines *l, const double *damping,
   const pendres_status status =
     pendres_store_dimension(l->run->store, "", "backbone_damping", BACKBONE, damping,
                             "friction coefficient", "1");
-  if (status != PENDRES_OK) return scene_store_failed(l->run, status);
-  return scene_columns_write(l->run, &table, sizeof of_backbone / sizeof *of_backbone, of_backbone);
+  if (status != PENDRES_OK) return scene_stored(l->run, status);
+  return SCENE_WRITE(l->run, &table, of_backbone);
 }
 
 static pendres_status write_backbone(const scene_lines *l)
@@ -242,7 +239,7 @@ static pendres_status write_free(scene_run *run)
     run->store, "", "free_amplitude", FREE, amplitude, "amplitude of the free pendulum", "rad");
   if (status == PENDRES_OK)
     status = pendres_store_put_result(run->store, &spec, frequency, error, FREE);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 /* ---- the scene ----------------------------------------------------------------------------- */
@@ -313,13 +310,13 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
     {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
   };
   const size_t n = take_parts(l, NULL);
-  part *rows = malloc((n + 1) * sizeof *rows);
+  part *rows = scene_rows(l->run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for a table");
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_parts(l, rows);
   snprintf(line, sizeof line, "%-15s  ", scene_lines_words(l->grid.across));
   snprintf(from, sizeof from, "attracts from %s", scene_lines_words(l->grid.options.parameter));
-  scene_columns_print(out, &table, n, sizeof cells / sizeof *cells, cells, NULL);
+  SCENE_PRINT(out, &table, n, cells, NULL);
   free(rows);
   scene_lines_print(l, out);
   return PENDRES_OK;

@@ -190,7 +190,7 @@ static pendres_status write_column(scene_run *run, const scene_table *t, size_t 
     if (status == PENDRES_OK && c->type == SCENE_REAL)
       status = write_values(run, &piece, at, values, c, error_id, b->error);
   }
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 static void release(buffers *b)
@@ -244,7 +244,7 @@ pendres_status scene_columns_define(scene_run *run, const scene_table *t, size_t
     describe(run, t, &columns[k], &v);
     status = pendres_store_variable(run->store, &v.spec, &variable_of[k]);
   }
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
@@ -256,7 +256,7 @@ pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, si
   for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
     status = pendres_store_write_rows(run->store, variable_of[k], first, rows,
                                       gather(t, &columns[k], &b), t->n);
-    if (status != PENDRES_OK) (void)scene_store_failed(run, status);
+    (void)scene_stored(run, status);
   }
   release(&b);
   return status;

@@ -64,9 +64,11 @@ typedef struct scene_table {
   int deflate;               /* level of compression; 0: as the file has it */
 } scene_table;
 
-/* Write all columns; their dimensions exist. */
+/* Write all columns; their dimensions exist. SCENE_WRITE writes those of an array. */
 pendres_status scene_columns_write(scene_run *run, const scene_table *table, size_t count,
                                    const scene_column *columns);
+#define SCENE_WRITE(run, table, columns) \
+  scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
 /*
  * A table that comes in pieces: define the variables of its columns, of which none has an error,
@@ -103,8 +105,11 @@ typedef struct scene_cell {
   {.heading = words, .format = form, .value = offsetof(row, field)}
 
 /* A line of headings and at most `lines` rows of the table, evenly chosen, with the last one; all
-   if there are not many more. A row that is missing has its first cell and the words instead. */
+   if there are not many more. A row that is missing has its first cell and the words instead.
+   SCENE_PRINT takes all cells of an array. */
 void scene_columns_print(FILE *out, const scene_table *table, size_t lines, size_t count,
                          const scene_cell *cells, const char *(*instead)(const void *row));
+#define SCENE_PRINT(out, table, lines, cells, instead) \
+  scene_columns_print(out, table, lines, sizeof cells / sizeof *cells, cells, instead)
 
 #endif

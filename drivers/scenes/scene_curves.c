@@ -79,10 +79,10 @@ static pendres_status write_table(const scene_lines *l, const char *dimension, s
   const scene_column *rest = dimension[0] == 'b' ? of_bifurcations
                              : dimension[1] == 'o' ? of_folds
                                                    : of_flips;
-  pendres_status status =
-    pendres_store_dimension(l->run->store, "", dimension, n, NULL, "number of the point", "1");
-  if (status != PENDRES_OK) return scene_store_failed(l->run, status);
-  status = scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns, columns);
+  pendres_status status = scene_numbering(l->run, dimension, n, "number of the point");
+  if (status == PENDRES_OK)
+    status = scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns,
+                                      columns);
   return status == PENDRES_OK
            ? scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest)
            : status;
@@ -112,9 +112,8 @@ static size_t take_curves(const scene_lines *l, int folds, row *rows)
 static pendres_status write_curves(const scene_lines *l, int folds)
 {
   const size_t n = take_curves(l, folds, NULL);
-  row *rows = malloc((n + 1) * sizeof *rows);
-  if (rows == NULL)
-    return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points of curves", n);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   (void)take_curves(l, folds, rows);
   const pendres_status status = write_table(l, folds ? "fold" : "flip", n, rows);
   free(rows);
@@ -126,9 +125,8 @@ static pendres_status write_bifurcations(const scene_lines *l)
 {
   size_t n = 0;
   const pendres_bifurcation *b = pendres_phase_diagram_bifurcations(l->diagram, &n);
-  row *rows = malloc((n + 1) * sizeof *rows);
-  if (rows == NULL)
-    return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu bifurcations", n);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(l, &b[i].orbit, (const double[2]){b[i].value_error, 0.0}, b[i].kind,
                      b[i].curvature);
@@ -147,7 +145,7 @@ static pendres_status put_scalar(const scene_lines *l, const char *name, const c
   const pendres_store_spec spec = {.name = name, .long_name = long_name, .units = units};
   const pendres_status status =
     pendres_store_put_result(l->run->store, &spec, &value[0], &value[1], 1);
-  return status == PENDRES_OK ? status : scene_store_failed(l->run, status);
+  return scene_stored(l->run, status);
 }
 
 static pendres_status write_cusp(const scene_lines *l)
@@ -181,7 +179,7 @@ static pendres_status write_failed(const scene_lines *l)
     (int8_t)scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, NULL));
   scene_failure_flags(&spec);
   const pendres_status status = pendres_store_put(l->run->store, &spec, &reason, 1);
-  return status == PENDRES_OK ? status : scene_store_failed(l->run, status);
+  return scene_stored(l->run, status);
 }
 
 pendres_status scene_curves_write(const scene_lines *l)

@@ -162,5 +162,5 @@ pendres_status scene_define(scene_run *run)
         run->store, "", definitions[i].name, "comment",
         angle || no_angle == NULL ? definitions[i].definition : no_angle);
   }
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }

@@ -198,7 +198,7 @@ pendres_status scene_failures_write(scene_run *run, const scene_failures *f, con
   scene_failure_flags(&spec);
   for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
   const pendres_status status = pendres_store_put(run->store, &spec, f->reason, f->n);
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
+  if (status != PENDRES_OK) return scene_stored(run, status);
   for (size_t i = 0; i < f->n; i++) {
     if (f->reason[i] == SCENE_FAILURE_NONE) continue;
     run->failed_points++;

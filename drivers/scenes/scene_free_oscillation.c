@@ -115,7 +115,7 @@ static void tabulate(FILE *out, const scene_table *table, const row *rows)
   double largest = 0.0;
   for (size_t i = 0; i < table->n; i++)
     largest = fmax(largest, fabs(rows[i].frequency_integrated / rows[i].frequency_exact - 1.0));
-  scene_columns_print(out, table, TABLE_ROWS, sizeof cells / sizeof *cells, cells, NULL);
+  SCENE_PRINT(out, table, TABLE_ROWS, cells, NULL);
   fprintf(out, "largest relative difference of integrated and exact: %.1e\n", largest);
 }
 
@@ -138,7 +138,7 @@ static pendres_status run(scene_run *r)
                               .rows = w.rows };
   if (status == PENDRES_OK) status = scene_dimension(r, NULL, DECK_AXIS_AMPLITUDE);
   if (status == PENDRES_OK)
-    status = scene_columns_write(r, &table, sizeof columns / sizeof *columns, columns);
+    status = SCENE_WRITE(r, &table, columns);
   static const deck_axis_id axes[] = { DECK_AXIS_AMPLITUDE };
   if (status == PENDRES_OK)
     status = scene_failures_write(r, &w.failed, "failed", "frequency", 1, axes);

@@ -125,13 +125,11 @@ static pendres_status report(scene_run *run, work *w)
 {
   const scene_table table = {.dimensions = {"case"}, .n = w->rows, .stride = sizeof *w->row,
                              .rows = w->row};
-  pendres_status status = pendres_store_dimension(run->store, NULL, "case", w->rows, NULL,
-                                                  "case, by number", "1");
+  pendres_status status = scene_numbering(run, "case", w->rows, "case, by number");
   for (size_t k = 0; k < w->rows; k++) run->failed_points += !w->row[k].holds;
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, columns);
   if (status == PENDRES_OK && run->table != NULL)
-    scene_columns_print(run->table, &table, w->rows, sizeof cells / sizeof *cells, cells, NULL);
+    SCENE_PRINT(run->table, &table, w->rows, cells, NULL);
   return status;
 }
 

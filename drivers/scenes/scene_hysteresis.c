@@ -95,13 +95,11 @@ static const scene_column of_jumps[] = {
 
 static pendres_status write_points(scene_run *run, const work *w)
 {
-  scene_along_row *rows = scene_along_rows(&w->path);
+  scene_along_row *rows = scene_along_rows(run, &w->path);
   const scene_table table = {.dimensions = {"direction", deck_axis_name(w->axis)},
                              .n = w->path.points, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", table.n);
-  pendres_status status =
-    scene_columns_write(run, &table, sizeof of_points / sizeof *of_points, of_points);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = SCENE_WRITE(run, &table, of_points);
   if (status == PENDRES_OK)
     status = scene_columns_write(run, &table, SCENE_ALONG_VERDICTS, scene_along_verdicts);
   free(rows);
@@ -111,18 +109,12 @@ static pendres_status write_points(scene_run *run, const work *w)
 
 static pendres_status write_jumps(scene_run *run, const work *w)
 {
-  scene_along_jump *rows = scene_along_jumps(&w->path);
+  scene_along_jump *rows = scene_along_jumps(run, &w->path);
   const scene_table table = {.dimensions = {"jump"}, .prefix = "jump", .n = w->path.jumps,
                              .stride = sizeof *rows, .rows = rows};
-  pendres_status status = PENDRES_OK;
-  if (rows == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu jumps", table.n);
-  status =
-    pendres_store_dimension(run->store, NULL, "jump", table.n, NULL, "number of the jump", "1");
-  if (status == PENDRES_OK)
-    status = scene_columns_write(run, &table, sizeof of_jumps / sizeof *of_jumps, of_jumps);
-  else
-    (void)scene_store_failed(run, status);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  pendres_status status = scene_numbering(run, "jump", table.n, "number of the jump");
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_jumps);
   free(rows);
   return status;
 }
@@ -149,8 +141,8 @@ static pendres_status write_all(scene_run *run, const work *w)
 {
   pendres_status status = pendres_store_dimension_text(
     run->store, NULL, "direction", DIRECTIONS, directions, "way in which the parameter goes");
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = scene_dimension(run, NULL, w->axis);
+  (void)scene_stored(run, status);
+  if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis);
   if (status == PENDRES_OK) status = write_points(run, w);
   if (status == PENDRES_OK) status = write_jumps(run, w);
   return status;

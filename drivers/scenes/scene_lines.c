@@ -103,11 +103,10 @@ static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_c
                                     pendres_phase_diagram *alone, farm_record *out,
                                     pendres_phase_record **r)
 {
-  char words[SCENE_TOLD];
   scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
   pendres_status status = pendres_phase_diagram_compute_line(ctx, alone, 0, r);
   if (!farm_gave_up(out, status)) return status;
-  farm_lost(out, words, sizeof words);
+  farm_lost(out, NULL, 0);
   for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
   return pendres_phase_diagram_compute_line(ctx, alone, 0, r);
 }
@@ -124,7 +123,6 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
   grid.line_value = &l->grid.line_value[task];
   pendres_status status = pendres_phase_diagram_create(&grid, &alone);
   for (size_t k = 0; k < values && status == PENDRES_OK; k++) {
-    char words[SCENE_TOLD];
     const size_t point = task * values + k;
     const pendres_pendulum p = scene_lines_pendulum(l, point);
     pendres_response response;
@@ -133,7 +131,7 @@ static pendres_status compute_by_points(const scene_lines *l, size_t task, pendr
     if (!left_out)
       status = pendres_response_compute(ctx, 1, &p, &grid.options.ensemble, &response);
     if (farm_gave_up(out, status)) {
-      farm_lost(out, words, sizeof words);
+      farm_lost(out, NULL, 0);
       left_out = 1;
     }
     /* What fails otherwise is sorted out with the line. */
@@ -160,12 +158,11 @@ static pendres_status complete(const void *arg, size_t task, pendres_context *ct
                                farm_record *out)
 {
   const scene_lines *l = arg;
-  char words[SCENE_TOLD];
   pendres_phase_record *r = NULL;
   scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
   const pendres_status status = pendres_phase_diagram_complete_line(ctx, l->diagram, task, &r);
   if (!farm_gave_up(out, status)) return hand_over(status, r, out);
-  farm_lost(out, words, sizeof words);
+  farm_lost(out, NULL, 0);
   return PENDRES_OK;
 }
 
@@ -401,7 +398,7 @@ pendres_status scene_lines_write_doubts(const scene_lines *l)
     .type = PENDRES_STORE_INT32,
     .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
   const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, 1);
-  return status == PENDRES_OK ? status : scene_store_failed(l->run, status);
+  return scene_stored(l->run, status);
 }
 
 void scene_lines_print(const scene_lines *l, FILE *out)

@@ -83,7 +83,6 @@ static pendres_status find(const work *w, const some *s, pendres_context *ctx, f
   const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
                                             .periods = (long)w->d->lyapunov.periods};
   const size_t half = s->n / 2;
-  char words[SCENE_TOLD];
   scene_point_begin(out, w->d, s->first, s->n, AXES, w->axis);
   pendres_status status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
   for (size_t i = 0; i < s->n && status == PENDRES_OK; i++) s->rows[i] = row_of(&s->found[i]);
@@ -91,7 +90,7 @@ static pendres_status find(const work *w, const some *s, pendres_context *ctx, f
   const scene_failure own = scene_failure_of(status);
   if (!late && own == SCENE_FAILURE_NONE) return status;
   if (half == 0) {
-    if (late) farm_lost(out, words, sizeof words);
+    if (late) farm_lost(out, NULL, 0);
     s->rows[0] = no_row;
     if (!late) s->rows[0].failed = (int)own;
     return PENDRES_OK;
@@ -167,9 +166,7 @@ static pendres_status write_all(scene_run *run, const work *w)
     .first = w->d->axis[w->axis[0]].count};
   pendres_status status = scene_dimension(run, NULL, w->axis[0]);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis[1]);
-  return status == PENDRES_OK
-           ? scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns)
-           : status;
+  return status == PENDRES_OK ? SCENE_WRITE(run, &table, columns) : status;
 }
 
 static void tabulate(FILE *out, const work *w)
@@ -206,10 +203,8 @@ static pendres_status run_scene(scene_run *run)
                             .tasks = (w.count + w.chunk - 1) / w.chunk,
                             .record_size = w.chunk * sizeof(row), .task = compute,
                             .collect = collect, .arg = &w};
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  w.rows = malloc((w.count + 1) * sizeof *w.rows);
-  if (w.rows == NULL) (void)scene_fail(run, status, "out of memory for %zu points", w.count);
-  else status = scene_compute(run, &stage);
+  w.rows = scene_rows(run, w.count, sizeof *w.rows);
+  pendres_status status = w.rows != NULL ? scene_compute(run, &stage) : PENDRES_OUT_OF_MEMORY;
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tell_failed(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);

@@ -82,17 +82,15 @@ static pendres_status measure_correlation(orbit_work *w)
 {
   orbit_measures *m = &w->measures;
   pendres_correlation *c = &m->correlation;
-  pendres_context *ctx = farm_context(w->run->farm);
+  pendres_context *ctx = scene_context(w->run);
   *c = (pendres_correlation){ .dimension = NAN, .dimension_error = NAN };
   if (w->found.closed) c->dimension = c->dimension_error = 0.0;
   if (m->points < 2) return PENDRES_OK;
-  if (ctx == NULL) return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory");
-  const pendres_status status =
-    pendres_correlation_measure(ctx, m->points, m->x, m->v,
-                                pendres_model_of(w->pendulum.force)->period,
-                                RESOLUTION * w->d->precision.tolerance, c);
-  return status == PENDRES_OK ? status
-                              : scene_fail(w->run, status, "%s", pendres_context_message(ctx));
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(w->run, pendres_correlation_measure(
+                               ctx, m->points, m->x, m->v,
+                               pendres_model_of(w->pendulum.force)->period,
+                               RESOLUTION * w->d->precision.tolerance, c));
 }
 
 typedef struct dimensions {
@@ -128,7 +126,7 @@ static pendres_status put_over(scene_run *run, const char *dimension, const char
   const pendres_status status =
     pendres_store_dimension(run->store, NULL, dimension, n, at, words, "1");
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, column)
-                              : scene_store_failed(run, status);
+                              : scene_stored(run, status);
 }
 
 static pendres_status put_dimensions(orbit_work *w)
@@ -142,9 +140,7 @@ static pendres_status put_dimensions(orbit_work *w)
   d.correlation_dimension = c->dimension;
   d.correlation_dimension_error = c->dimension_error;
   const scene_table table = {.n = 1, .stride = sizeof d, .rows = &d};
-  if (status == PENDRES_OK)
-    status = scene_columns_write(w->run, &table, sizeof of_dimensions / sizeof *of_dimensions,
-                                 of_dimensions);
+  if (status == PENDRES_OK) status = SCENE_WRITE(w->run, &table, of_dimensions);
   if (status != PENDRES_OK || c->scales == 0) return status;
   for (int k = 0; k < c->scales; k++) rows[k] = (row){c->sum[k], c->sum_error[k]};
   return put_over(w->run, "distance", "distance of strobe points", (size_t)c->scales, c->distance,

@@ -96,7 +96,7 @@ static pendres_status put_label(scene_run *run, const orbit_work *w)
     scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
                        "orbit");
   run->failed_points = (size_t)lost;
-  return scene_columns_write(run, &table, sizeof of_verdicts / sizeof *of_verdicts, of_verdicts);
+  return SCENE_WRITE(run, &table, of_verdicts);
 }
 
 typedef struct multiplier {
@@ -120,11 +120,9 @@ static pendres_status put_multipliers(scene_run *run, const orbit_work *w)
     rows[i] = f->closed ? (multiplier){f->orbit.multiplier_re[i], f->orbit.multiplier_im[i],
                                        f->orbit.multiplier_error}
                         : (multiplier){NAN, NAN, NAN};
-  const pendres_status status = pendres_store_dimension(
-    run->store, NULL, "multiplier", MULTIPLIERS, NULL, "number of the Floquet multiplier", "1");
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  return scene_columns_write(run, &table, sizeof of_multipliers / sizeof *of_multipliers,
-                             of_multipliers);
+  const pendres_status status =
+    scene_numbering(run, "multiplier", MULTIPLIERS, "number of the Floquet multiplier");
+  return status == PENDRES_OK ? SCENE_WRITE(run, &table, of_multipliers) : status;
 }
 
 /* ---- samples ------------------------------------------------------------------------------- */
@@ -136,16 +134,15 @@ static pendres_status define(orbit_work *w, const char *name, const char *long_n
                                     .long_name = long_name, .units = units };
   const pendres_status status =
     pendres_store_result(w->run->store, &spec, &out->value, &out->error);
-  return status == PENDRES_OK ? status : scene_store_failed(w->run, status);
+  return scene_stored(w->run, status);
 }
 
 static pendres_status define_samples(orbit_work *w)
 {
-  const uint64_t n = (uint64_t)w->d->orbit.periods * (uint64_t)w->d->orbit.samples;
-  pendres_status status = pendres_store_dimension(w->run->store, NULL, "sample", n, NULL,
-                                                  "number of the sample", "1");
-  if (status != PENDRES_OK) return scene_store_failed(w->run, status);
-  status = define(w, "drive_phase", "phase of the drive, omega t", "rad", &w->phase);
+  const size_t n = (size_t)w->d->orbit.periods * (size_t)w->d->orbit.samples;
+  pendres_status status = scene_numbering(w->run, "sample", n, "number of the sample");
+  if (status == PENDRES_OK)
+    status = define(w, "drive_phase", "phase of the drive, omega t", "rad", &w->phase);
   if (status == PENDRES_OK) status = define(w, "x", "position", "rad", &w->x);
   if (status == PENDRES_OK) status = define(w, "v", "velocity", "1", &w->v);
   if (status == PENDRES_OK)
@@ -160,7 +157,7 @@ static pendres_status put_rows(orbit_work *w, const orbit_variable *to, uint64_t
   pendres_status status = pendres_store_write_rows(store, to->value, first, n, value, n);
   if (status == PENDRES_OK)
     status = pendres_store_write_rows(store, to->error, first, n, error, n);
-  return status == PENDRES_OK ? status : scene_store_failed(w->run, status);
+  return scene_stored(w->run, status);
 }
 
 pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,

@@ -207,8 +207,7 @@ static pendres_status put_way(scene_run *run, const work *w)
                              .long_name = "drive periods since the ramp's start"};
   memcpy(spec.dimensions, dimensions, sizeof dimensions);
   pendres_status status =
-    pendres_store_dimension(run->store, NULL, "point", w->points, NULL,
-                            "number of the point of a way", "1");
+    scene_numbering(run, "point", w->points, "number of the point of a way");
   if (status == PENDRES_OK) status = pendres_store_put(run->store, &spec, time, n);
   spec.name = "ramp_parameter";
   spec.long_name = "value of the parameter that moves";
@@ -224,7 +223,7 @@ static pendres_status put_way(scene_run *run, const work *w)
   if (status == PENDRES_OK)
     status = pendres_store_put_result(run->store, &spec, w->v, w->v_error, n);
   free(time);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 /* What the pendulum does at a point of the ramp. */
@@ -270,7 +269,7 @@ static pendres_status put_delays(scene_run *run, const work *w)
   };
   const scene_table table = {.dimensions = {"jump"}, .n = w->ramp.jumps,
                              .stride = sizeof *w->jump, .rows = w->jump};
-  return scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  return SCENE_WRITE(run, &table, columns);
 }
 
 static pendres_status put_scatter(scene_run *run, const work *w)
@@ -291,12 +290,11 @@ static pendres_status put_scatter(scene_run *run, const work *w)
     .name = "jump_noisy_parameter", .dimensions = {"jump", "trajectory"}, .units = "1",
     .long_name = "value at which each noisy trajectory leaves the state; NaN: it does not"};
   pendres_status status =
-    pendres_store_dimension(run->store, NULL, "trajectory", w->trajectories, NULL,
-                            "number of the noisy trajectory", "1");
+    scene_numbering(run, "trajectory", w->trajectories, "number of the noisy trajectory");
   if (status == PENDRES_OK)
-    status = pendres_store_put(run->store, &spec, w->noisy, w->ramp.jumps * w->trajectories);
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  return scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+    status = scene_stored(run, pendres_store_put(run->store, &spec, w->noisy,
+                                                 w->ramp.jumps * w->trajectories));
+  return status == PENDRES_OK ? SCENE_WRITE(run, &table, columns) : status;
 }
 
 static void tabulate(FILE *out, const work *w)

@@ -186,7 +186,7 @@ static void print_table(FILE *out, const curve *c)
      .names = scene_peak_names},
   };
   const scene_table table = table_of(c);
-  scene_columns_print(out, &table, 20, sizeof cells / sizeof *cells, cells, scene_peak_instead);
+  SCENE_PRINT(out, &table, 20, cells, scene_peak_instead);
 }
 
 static pendres_status write_results(scene_run *run, const curve *c)
@@ -198,13 +198,12 @@ static pendres_status write_results(scene_run *run, const curve *c)
     own ? pendres_store_dimension(run->store, "", deck_axis_name(c->axis), axis->count, axis->value,
                                   c->axis == DECK_AXIS_DAMPING ? "damping" : "drive amplitude", "1")
         : scene_dimension(run, "", c->axis);
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = scene_columns_write(run, &table, sizeof columns / sizeof *columns, columns);
+  if (status != PENDRES_OK) return scene_stored(run, status);
+  status = SCENE_WRITE(run, &table, columns);
   if (status == PENDRES_OK && deck_is_plain(c->d))
     status = scene_columns_write(run, &table, 1, free_frequency);
   if (status == PENDRES_OK)
-    status = scene_columns_write(run, &table, sizeof more_columns / sizeof *more_columns,
-                                 more_columns);
+    status = SCENE_WRITE(run, &table, more_columns);
   return status == PENDRES_OK
            ? scene_failures_write(run, &c->failed, "failed", "resonance", 1, &c->axis)
            : status;
@@ -230,17 +229,14 @@ static pendres_status turning_point(scene_run *run, const curve *c, pendres_reso
                                          c->points[top].resonance_frequency))
       top = i;
   if (top == 0 || c->points[top].kind != PENDRES_PEAK_SMOOTH) return PENDRES_OK;
-  pendres_context *ctx = farm_context(run->farm);
-  if (ctx == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for the turning point");
+  pendres_context *ctx = scene_context(run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
   const pendres_pendulum near = {.damping = axis->value[top],
                                  .drive_amplitude = c->d->pendulum.drive_amplitude};
   const pendres_status status = pendres_resonance_turn_find(
     ctx, &near, c->d->search[0], c->d->search[1], &c->ensemble, turn);
   *there = status == PENDRES_OK;
-  if (status != PENDRES_OK && scene_failure_of(status) == SCENE_FAILURE_NONE)
-    return scene_fail(run, status, "%s", pendres_context_message(ctx));
-  return PENDRES_OK;
+  return scene_failure_of(status) == SCENE_FAILURE_NONE ? scene_asked(run, status) : PENDRES_OK;
 }
 
 /* Middle of the gap in damping where the peak turns from an edge to smooth. */

@@ -318,9 +318,7 @@ static pendres_status write_peaks(scene_run *run, const grid *g)
   /* Where the deck has frequencies, the resonance frequency is written, too. */
   if (status == PENDRES_OK && g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY)
     status = scene_columns_write(run, &table, 1, &by_frequency);
-  return status == PENDRES_OK
-           ? scene_columns_write(run, &table, sizeof of_peaks / sizeof *of_peaks, of_peaks)
-           : status;
+  return status == PENDRES_OK ? SCENE_WRITE(run, &table, of_peaks) : status;
 }
 
 static pendres_status write_failures(scene_run *run, const grid *g)
@@ -360,7 +358,7 @@ static pendres_status write_results(scene_run *run, const grid *g)
   if (status == PENDRES_OK) status = write_points(run, g, 1, &uncertain);
   if (status == PENDRES_OK && g->peaked) status = write_peaks(run, g);
   if (status == PENDRES_OK) status = write_failures(run, g);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }
 
 static pendres_status write_paper(scene_run *run, const grid *g)

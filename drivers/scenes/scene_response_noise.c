@@ -115,7 +115,7 @@ static pendres_status write_still(scene_run *run, const work *w, const scene_tab
   without.stride = sizeof *rows;
   without.rows = rows;
   without.missing = warm;
-  status = scene_columns_write(run, &without, sizeof still / sizeof *still, still);
+  status = SCENE_WRITE(run, &without, still);
 done:
   free(rows);
   free(warm);
@@ -128,8 +128,7 @@ static pendres_status write_results(scene_run *run, const work *w)
                              .n = w->temperatures * w->grid->dampings * w->grid->drives,
                              .stride = sizeof *w->points, .rows = w->points};
   pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
-  if (status == PENDRES_OK)
-    status = scene_columns_write(run, &table, sizeof results / sizeof *results, results);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, results);
   if (status == PENDRES_OK) status = write_still(run, w, &table);
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &steps) : status;
 }

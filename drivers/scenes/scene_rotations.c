@@ -48,9 +48,8 @@ static row row_of(const pendres_pendulum *p)
 
 pendres_status scene_rotations_write(const scene_lines *l)
 {
-  row *rows = malloc((l->n + 1) * sizeof *rows);
-  if (rows == NULL)
-    return scene_fail(l->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu rotations", l->n);
+  row *rows = scene_rows(l->run, l->n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < l->n; i++) {
     const pendres_pendulum p = scene_lines_pendulum(l, i);
     rows[i] = row_of(&p);
@@ -58,8 +57,7 @@ pendres_status scene_rotations_write(const scene_lines *l)
   const scene_table table = {
     .dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])}, .prefix = "rotation",
     .n = l->n, .stride = sizeof *rows, .rows = rows};
-  const pendres_status status =
-    scene_columns_write(l->run, &table, sizeof columns / sizeof *columns, columns);
+  const pendres_status status = SCENE_WRITE(l->run, &table, columns);
   free(rows);
   return status;
 }

@@ -155,8 +155,8 @@ static pendres_status find_states(scene_run *run, work *w)
   const deck *d = w->d;
   const long wanted[STATES] = { (long)d->switching.from, (long)d->switching.to };
   const pendres_pendulum p = deck_pendulum(d);
-  pendres_context *ctx = farm_context(run->farm);
-  if (ctx == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory");
+  pendres_context *ctx = scene_context(run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
   const pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &w->set);
   if (status != PENDRES_OK)
     return scene_fail(run, status, "attractors: %s", pendres_context_message(ctx));
@@ -330,13 +330,13 @@ static pendres_status write_results(scene_run *run, const work *w)
     const scene_table table = {
       .dimensions = {"temperature"}, .star = w->suffix[k], .words = w->words[k],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].way[k]};
-    status = scene_columns_write(run, &table, sizeof of_rates / sizeof *of_rates, of_rates);
+    status = SCENE_WRITE(run, &table, of_rates);
   }
   for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
     const pendres_switching_way k = w->way[i];
     const scene_table table = {.star = w->suffix[k], .words = w->words[k], .n = 1,
                                .stride = sizeof *w->activation, .rows = &w->activation[k]};
-    status = scene_columns_write(run, &table, sizeof of_fits / sizeof *of_fits, of_fits);
+    status = SCENE_WRITE(run, &table, of_fits);
   }
   if (status == PENDRES_OK) status = write_circumstances(run, w);
   return status == PENDRES_OK
@@ -388,12 +388,12 @@ static pendres_status print_table(scene_run *run, const work *w)
     SCENE_CELL(line, rate.events, "events", "%.0f"),
   };
   const size_t n = (size_t)w->told * w->temperatures;
-  line *rows = malloc((n + 1) * sizeof *rows);
+  line *rows = scene_rows(run, n, sizeof *rows);
   const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for a table");
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++)
     rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
-  scene_columns_print(run->table, &table, n, sizeof cells / sizeof *cells, cells, NULL);
+  SCENE_PRINT(run->table, &table, n, cells, NULL);
   free(rows);
   for (int i = 0; i < w->ways; i++) {
     const pendres_switching_way k = w->way[i];

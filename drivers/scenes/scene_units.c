@@ -161,5 +161,5 @@ pendres_status scene_write_units(scene_run *run)
   if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
     status = pendres_store_put(run->store, &spec, &natural, 1);
   if (status == PENDRES_OK) status = extend_coordinates(run);
-  return status == PENDRES_OK ? status : scene_store_failed(run, status);
+  return scene_stored(run, status);
 }

@@ -185,7 +185,7 @@ static pendres_status write_left_out(scene_run *run, const work *w)
     run->store, NULL, "mark", WORK_UNIT_MARKS, (const int64_t[]){10, 100},
     "drive periods after which errors are measured", "1");
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
-                              : scene_store_failed(run, status);
+                              : scene_stored(run, status);
 }
 
 static pendres_status write_settling(scene_run *run, const settling *settled)
@@ -198,7 +198,7 @@ static pendres_status write_settling(scene_run *run, const settling *settled)
   };
   const scene_table table = {.prefix = "settling", .n = 1, .stride = sizeof *settled,
                              .rows = settled};
-  return scene_columns_write(run, &table, sizeof about / sizeof *about, about);
+  return SCENE_WRITE(run, &table, about);
 }
 
 /* Speeds at equal errors, [method][error], in a group of their own. */
@@ -217,7 +217,7 @@ static pendres_status write_speeds(scene_run *run, const char *group, size_t met
     status = pendres_store_dimension(run->store, group, "error", ERRORS, error_marks,
                                      "largest error after 100 drive periods", "1");
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
-                              : scene_store_failed(run, status);
+                              : scene_stored(run, status);
 }
 
 static pendres_status write_ours(scene_run *run, const work *w)
@@ -260,18 +260,15 @@ static pendres_status write_results(scene_run *run, const work *w, const scene_t
                                     .type = SCENE_TEXT};
   const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
                                .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
-  pendres_status status =
-    pendres_store_dimension(run->store, NULL, "method", w->methods, NULL, "method, by number", "1");
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = scene_columns_write(run, &methods, 1, &name);
+  pendres_status status = scene_numbering(run, "method", w->methods, "method, by number");
+  if (status == PENDRES_OK) status = scene_columns_write(run, &methods, 1, &name);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
-  if (status == PENDRES_OK)
-    status = scene_columns_write(run, contests, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, contests, columns);
   if (status == PENDRES_OK) status = write_left_out(run, w);
-  if (status != PENDRES_OK) return status;
-  status = pendres_store_put_text(run->store, NULL, "unit", "pendulums that were run", w->d->unit);
-  if (status != PENDRES_OK) return scene_store_failed(run, status);
-  status = write_settling(run, &w->settled);
+  if (status == PENDRES_OK)
+    status = scene_stored(run, pendres_store_put_text(run->store, NULL, "unit",
+                                                      "pendulums that were run", w->d->unit));
+  if (status == PENDRES_OK) status = write_settling(run, &w->settled);
   if (status == PENDRES_OK) status = write_ours(run, w);
   return status == PENDRES_OK ? write_others(run) : status;
 }
@@ -295,7 +292,7 @@ static const scene_cell cells[] = {
 static void print_table(FILE *out, const work *w, const scene_table *contests)
 {
   const row *rows = contests->rows;
-  scene_columns_print(out, contests, contests->n, sizeof cells / sizeof *cells, cells, NULL);
+  SCENE_PRINT(out, contests, contests->n, cells, NULL);
   fprintf(out, "least: of estimate over true error, over all n members; %zu of %zu members are "
                "left out of error 10\nand %zu of error 100, which grow whatever was off at the "
                "start %d-fold. M/s: million pendulum-periods\na second of one thread.\n",
@@ -318,11 +315,10 @@ static void print_table(FILE *out, const work *w, const scene_table *contests)
 static pendres_status tell(scene_run *run, const work *w)
 {
   const size_t n = w->methods * w->tolerances;
-  row *rows = malloc(n * sizeof *rows);
+  row *rows = scene_rows(run, n, sizeof *rows);
   const scene_table contests = {.dimensions = {"method", "tolerance"}, .n = n,
                                 .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL)
-    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) {
     rows[i] = row_of(w, i);
     run->failed_points += rows[i].failure[0] != '\0';
