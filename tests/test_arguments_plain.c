@@ -136,6 +136,10 @@ static void models(void **state)
   INVALID(pendres_rotation_most_damping(&x, NULL));
   INVALID(pendres_rotation_most_damping(NULL, &x));
   assert_true(isnan(pendres_pendulum_acceleration(NULL, 0.0, 0.0, 0.0)));
+  const pendres_pendulum forceless = {.drive_frequency = 1.0, .force = (pendres_force)77};
+  assert_true(isnan(pendres_pendulum_acceleration(&forceless, 0.0, 0.0, 0.0)));
+  pendres_pendulum_jacobian(&forceless, 0.0, 0.0, &x, &v);
+  assert_true(isnan(x));
   pendres_pendulum_jacobian(NULL, 0.0, 0.0, &x, &v);
   pendres_pendulum_jacobian(&good, 0.0, 0.0, NULL, NULL);
   assert_null(pendres_model_of((pendres_force)77));

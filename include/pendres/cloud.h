@@ -31,7 +31,7 @@ extern "C" {
 typedef struct pendres_cloud_request {
   const pendres_attractors *set; /**< attractors of one parameter set; not owned */
   size_t attractor;              /**< the one of them that all trajectories start on, in well 0 */
-  double temperature;            /**< T >= 0, in units of m omega_0^2 */
+  double temperature;            /**< T >= 0, in units of m g l */
   size_t trajectories;           /**< at least 2; a few hundred make good errors */
   long record;                   /**< strobes of each trajectory that count, at least 1 */
   int steps_per_period;          /**< steps a drive period, from 2 to 1000000; 0: as few as keep the

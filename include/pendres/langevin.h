@@ -4,15 +4,15 @@
  *
  * Owns: ensembles of noisy trajectories seen once a drive period, statistics of the clouds of their
  * strobe points with errors and biases, rates of rare events, and linear noise theory. Equation and
- * units as in pendulum.h; what clouds around attractors are compared with is in cloud.h.
+ * units as in pendulum.h; cloud.h compares clouds around attractors with that theory.
  *
  * Integrator: a fourth-order splitting with positive coefficients (Suzuki, Phys. Lett. A 201
  * (1995) 425; scheme 4B of Chin, Phys. Lett. A 226 (1997) 344; for noise: Forbert and Chin,
  * Phys. Rev. E 63 (2000) 016703). Free motion, with friction and drive solved exactly,
  * alternates with kicks by force and noise, two a step, at Gauss's points; the fourth-order
- * correction multiplies both by 1 - h^2 (2 - sqrt 3)/12 f'(y), h the step and f the force, sin y of
- * a plain pendulum. The weak order is four at any temperature; at temperature zero it is an
- * ordinary method of order four, without noise.
+ * correction multiplies both by 1 - h^2 (2 - sqrt 3)/12 f'(y), where h is the step and f the force,
+ * sin y for the plain pendulum. The weak order is four at any temperature; at temperature zero it
+ * is an ordinary method of order four.
  *
  * Random numbers: Philox4x32-10 (Random123) and Box-Muller. The key is the context's seed, the
  * counter the trajectory's id, the number of the period and of the draw within it. Results are
@@ -51,11 +51,11 @@ typedef struct pendres_langevin_strobe {
   const double *cosine; /**< [count] (1/pi) integral of y cos(theta) dtheta over the drive period
                              that has just ended, in rad: first harmonic of the angle
                              y = x - pi/2. NULL unless the observer asks for harmonics. Like the
-                             next two it is a sum over the ends of steps: its mean over a settled
-                             ensemble is of order four, the number of a single period that does not
-                             close of order two */
+                             next two it is the trapezoidal sum over the steps: its mean over a
+                             settled ensemble converges with order four, its value for a single
+                             period that does not close with order two */
   const double *sine;   /**< [count] (1/pi) integral of y sin(theta) dtheta, likewise */
-  const double *work;   /**< [count] F0 integral of cos(theta) dx, in units of m omega_0^2: the loop
+  const double *work;   /**< [count] F0 integral of cos(theta) dx, in units of m g l: the loop
                              area of that period, likewise */
 } pendres_langevin_strobe;
 
@@ -86,7 +86,7 @@ typedef struct pendres_langevin_run {
   size_t n;                          /**< number of trajectories */
   const pendres_pendulum *pendulums; /**< [n] parameters, the temperature among them */
   const uint64_t *ids;               /**< [n] who each trajectory is; NULL: 0 .. n-1. Those of equal
-                                          seed, id and period have the same noise */
+                                          seed, id and period number have the same noise */
   long first_period;                 /**< number of the first period: how many each trajectory has
                                           behind it, from 0 on */
   long periods;                      /**< drive periods to advance by; all of them must be numbered
@@ -94,7 +94,7 @@ typedef struct pendres_langevin_run {
   int steps_per_period;              /**< steps a drive period, from 2 to 1000000; 0: those of the
                                           context's options or, if these have none,
                                           PENDRES_LANGEVIN_STEPS */
-  const pendres_langevin_observer *observer; /**< NULL: nobody looks on */
+  const pendres_langevin_observer *observer; /**< who is shown the trajectories; NULL: nobody */
   int unbounded; /**< nonzero: trajectories may go to infinity, where x and v are infinite or no
                       numbers; else that is a failure */
 } pendres_langevin_run;
@@ -123,15 +123,15 @@ typedef struct pendres_langevin_estimate {
 
 /** Statistics of a cloud of strobe points; their names index arrays. */
 typedef enum pendres_langevin_statistic {
-  PENDRES_LANGEVIN_MEAN_X = 0, /**< mean of x at drive phase 0, in rad, turns included */
-  PENDRES_LANGEVIN_MEAN_V,     /**< mean of v at drive phase 0 */
-  PENDRES_LANGEVIN_COV_XX,     /**< variance of x */
-  PENDRES_LANGEVIN_COV_XV,     /**< covariance of x and v */
-  PENDRES_LANGEVIN_COV_VV,     /**< variance of v */
+  PENDRES_LANGEVIN_MEAN_X = 0, /**< mean of x at drive phase 0, in rad, whole turns included */
+  PENDRES_LANGEVIN_MEAN_V,     /**< mean of v at drive phase 0, in omega_0 */
+  PENDRES_LANGEVIN_COV_XX,     /**< variance of x, in rad^2 */
+  PENDRES_LANGEVIN_COV_XV,     /**< covariance of x and v, in rad omega_0 */
+  PENDRES_LANGEVIN_COV_VV,     /**< variance of v, in omega_0^2 */
   PENDRES_LANGEVIN_COSINE,     /**< a, in rad, of the mean first harmonic of the angle:
                                     y ~ a cos(theta) + b sin(theta) */
   PENDRES_LANGEVIN_SINE,       /**< b, in rad, of the same */
-  PENDRES_LANGEVIN_LOOP_AREA,  /**< mean work of the drive a drive period, in m omega_0^2 */
+  PENDRES_LANGEVIN_LOOP_AREA,  /**< mean work of the drive a drive period, in m g l */
   PENDRES_LANGEVIN_STATISTICS  /**< how many there are */
 } pendres_langevin_statistic;
 
@@ -161,16 +161,18 @@ typedef struct pendres_langevin_request {
   long record;               /**< strobes of each trajectory that count, at least 1 */
   int steps_per_period;      /**< steps a drive period, as in pendres_langevin_run */
   uint64_t first_id;         /**< trajectory i has id first_id + i */
-  /** NULL, or: sets left[i] nonzero for trajectories that have left the attractor; asked at
-   *  every strobe. What comes after does not count. Marks are kept, from strobe to strobe. */
+  /** NULL, or a function that sets left[i] to nonzero where trajectory i of the strobe has left
+   *  the attractor. It is called at every strobe; marks stay set from strobe to strobe. From the
+   *  strobe at which a trajectory is marked it does not count. */
   void (*leave)(void *arg, const pendres_langevin_strobe *strobe, unsigned char *left);
   void *arg;                 /**< handed to leave(); not owned */
 } pendres_langevin_request;
 
-/** A cloud. Errors are standard errors by comparison of trajectories, which are independent. */
+/** A cloud. Errors are standard errors from the scatter among trajectories, which are
+    independent. */
 typedef struct pendres_langevin_cloud {
   pendres_langevin_estimate statistics[PENDRES_LANGEVIN_STATISTICS]; /**< by their names */
-  pendres_langevin_estimate phase_lag; /**< atan2(b, a) of the mean first harmonic, 0 .. 2 pi */
+  pendres_langevin_estimate phase_lag; /**< atan2(b, a) of the mean first harmonic, 0 to 2 pi */
   size_t left;      /**< trajectories that left */
   double exposure;  /**< drive periods, summed over trajectories, until they left or the end:
                          left / exposure is the rate of leaving, a drive period */
@@ -190,31 +192,31 @@ pendres_status pendres_langevin_measure(pendres_context *ctx,
                                         double *strobe_v);
 
 /**
- * The cloud of all trajectories of n clouds of one pendulum that started at one point. Errors of
- * parts add up as those of independent means. Parts that are empty, since all have left, count in
- * `left` and `exposure` alone.
+ * Merge n clouds of one pendulum, whose trajectories started at one point, into the cloud of all of
+ * them. Errors of the parts combine as those of independent means. Parts that are empty, since all
+ * trajectories have left, count in `left` and `exposure` only.
  *
- * Errors: PENDRES_INVALID_ARGUMENT, if out or (where n > 0) parts is NULL.
+ * Errors: PENDRES_INVALID_ARGUMENT if out is NULL, or parts is NULL and n > 0.
  */
 pendres_status pendres_langevin_merge(size_t n, const pendres_langevin_cloud *parts,
                                       pendres_langevin_cloud *out);
 
-/** How wrong finite steps make a cloud. */
+/** The systematic error (bias) that steps of finite length give a cloud. */
 typedef struct pendres_langevin_bias {
-  int steps_per_period; /**< the steps a drive period that it is about */
-  /** Bias (too large is positive) and its own standard error, by the statistics' names. */
+  int steps_per_period; /**< the steps a drive period whose bias it is */
+  /** Bias (positive: the statistic is too large) and its own standard error, by the statistics'
+   *  names. */
   pendres_langevin_estimate statistics[PENDRES_LANGEVIN_STATISTICS];
-  /** What each is measured by: the cloud's standard deviations for means, their products for
-   *  covariances; for a harmonic the first harmonic's amplitude, or the standard deviation of x
-   *  where that is larger; the loop area. */
+  /** What each bias is compared with: for means the cloud's standard deviations, for covariances
+   *  products of these; for cosine and sine the first harmonic's amplitude, or the standard
+   *  deviation of x where that is larger; for the loop area the loop area. */
   double scale[PENDRES_LANGEVIN_STATISTICS];
 } pendres_langevin_bias;
 
 /**
- * Bias of n = request->steps_per_period steps for the cloud of a request: pairs of trajectories
- * with n and 2 n steps and the same noise. The noise differs from that of
- * pendres_langevin_measure. Their difference is the bias but for a fifteenth (order four), which
- * is allowed for.
+ * Bias of n = request->steps_per_period steps a period for the cloud of a request, from pairs of
+ * trajectories with n and 2 n steps and the same noise. At order four their difference is 15/16 of
+ * the bias; *bias holds 16/15 of it. The noise differs from that of pendres_langevin_measure.
  *
  * Errors: as pendres_langevin_measure.
  */
@@ -223,10 +225,10 @@ pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
                                              pendres_langevin_bias *bias);
 
 /**
- * Choose the steps a period by step doubling: the fewest found such that the bias of each of
- * the statistics (a set of bits) and twice its error stay below tolerance times its scale.
- * bias->steps_per_period tells them; the request's own are not looked at. The number of
- * trajectories is raised where the bias' own error asks for it, up to 64 times the request's.
+ * Choose the steps a period by step doubling: the fewest found for which the bias of each of
+ * the statistics (a set of bits) plus twice its error stays below tolerance times its scale.
+ * bias->steps_per_period receives them; request->steps_per_period is not read. Where the error of
+ * the bias is too large, more trajectories are followed, up to 64 times the request's.
  *
  * Errors: PENDRES_INVALID_ARGUMENT also at temperature zero, where a cloud has no width;
  * PENDRES_NOT_CONVERGED (bias then holds the last); as pendres_langevin_measure.
@@ -242,7 +244,7 @@ typedef struct pendres_langevin_interval {
   double error; /**< standard error, sqrt(events) / exposure; without events the upper end of the
                      interval of one standard deviation */
   double lower; /**< lower end of the confidence interval */
-  double upper; /**< and upper end */
+  double upper; /**< upper end of the confidence interval */
 } pendres_langevin_interval;
 
 /**
@@ -251,7 +253,7 @@ typedef struct pendres_langevin_interval {
  * approximation, whose error is below 1e-4 of the interval's width at levels from 0.1 to 0.999,
  * below 1e-3 beyond. events may be a fraction: a count divided by its dispersion.
  *
- * Errors: PENDRES_INVALID_ARGUMENT (all of *rate is NaN then, if there is one),
+ * Errors: PENDRES_INVALID_ARGUMENT (then all of *rate is NaN, unless rate is NULL),
  * PENDRES_OUT_OF_MEMORY.
  */
 pendres_status pendres_langevin_rate(double events, double exposure, double level,
@@ -267,8 +269,8 @@ typedef struct pendres_langevin_covariance {
 } pendres_langevin_covariance;
 
 /**
- * Solve sigma = M sigma M^T + Q, the covariance that a linear map with noise settles to.
- * m is row by row (xx, xv, vx, vv).
+ * Solve sigma = M sigma M^T + Q (the discrete Lyapunov equation): sigma is the covariance that a
+ * linear map M with noise of covariance Q settles to. m holds M row by row (xx, xv, vx, vv).
  *
  * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if M does not contract.
  */
@@ -281,8 +283,9 @@ typedef struct pendres_langevin_linear {
                                                order in the temperature */
   pendres_langevin_covariance injected;   /**< Q: what the noise of `cycle` drive periods adds */
   double monodromy[4]; /**< M of `cycle` drive periods, row by row (xx, xv, vx, vv) */
-  double closure;      /**< distance by which the orbit fails to close: should be rounding */
-  double error;        /**< of the covariance, by step doubling: the largest of the three */
+  double closure;      /**< distance by which the orbit fails to close: rounding errors, if (x, v)
+                            is on the orbit */
+  double error;        /**< largest error of the covariance's three numbers, by step doubling */
 } pendres_langevin_linear;
 
 /**

@@ -56,9 +56,9 @@ typedef struct pendres_orbit {
   double multiplier_im[2];   /**< their imaginary parts */
   double multiplier_error;   /**< the larger error of the two */
   double monodromy[2][2];    /**< derivative of (x, v) after q periods by (x, v) */
-  double loop_area;          /**< A = (1/q) closed integral of F dx a drive cycle, in m omega_0^2 */
+  double loop_area;          /**< A = (1/q) closed integral of F dx a drive cycle, in m g l */
   double loop_area_error;    /**< its error */
-  double dissipation;        /**< D = (gamma/q) closed integral of v^2 dt, in m omega_0^2 */
+  double dissipation;        /**< D = (gamma/q) closed integral of v^2 dt, in m g l */
   double dissipation_error;  /**< its error */
   double mean_power;         /**< P = A omega / (2 pi), in m omega_0^3 */
   double mean_power_error;   /**< its error */
@@ -80,7 +80,7 @@ typedef struct pendres_orbit {
   double harmonics_rest;     /**< bounds what the harmonics that are not kept add to the angle,
                                   averaged over the drive cycles */
   double torque_work;        /**< what the torque gives a drive cycle, 2 pi I p / q, exactly */
-  double parametric_work;    /**< what the parametric drive gives a drive cycle, in m omega_0^2 */
+  double parametric_work;    /**< what the parametric drive gives a drive cycle, in m g l */
   double parametric_work_error; /**< its error */
 } pendres_orbit;
 

@@ -54,7 +54,7 @@ typedef struct pendres_parts {
  * the message are those of the first failed part, in the order of things: "part from 8192 on: " and
  * what its context says.
  *
- * @param how     read alone
+ * @param how     read
  * @param work    what to do with a part; a status other than PENDRES_OK ends the run
  * @param arg     handed on to work; kept by the caller
  * @param message [size] receives why it failed, cut to fit, "" after success; may be NULL if size

@@ -17,16 +17,17 @@
  *       = torque + drive_amplitude cos(drive_frequency t)
  *
  * where f is -cos x, a polynomial a1 x + a2 x^2 + ... + a5 x^5, or one of PENDRES_FORCE_LIST.
- * Fields that are zero leave these terms out. What serves which model is said by each function that
- * does not serve all; which equations of the literature these are, in docs/models.md.
+ * Terms whose fields are zero are left out. A function that does not take every model says so;
+ * docs/models.md tells which equations of the literature are among them.
  *
- * All quantities are dimensionless: time in units of 1/omega_0 of small
- * oscillations, energy in units of the depth m omega_0^2 of the potential
- * V(x) = -sin x. Wells lie at x = pi/2 + 2 pi n (n is the well number), the
- * barrier tops at x = -pi/2 + 2 pi n. The pendulum's angle is y = x - pi/2.
+ * All quantities are dimensionless: times are in units of 1/omega_0, where omega_0 is the angular
+ * frequency of small oscillations, energies and torques in units of m g l (mass, gravity, length).
+ * The potential is V(x) = -sin x. Wells lie at x = pi/2 + 2 pi n (n is the well number), the
+ * barrier tops, 2 above them, at x = -pi/2 + 2 pi n. The pendulum's angle is y = x - pi/2.
  * The mirror symmetry is y -> -y together with half a drive period's delay.
  *
- * Thread safety: all functions are pure.
+ * Thread safety: all functions are pure. Only pendres_pendulum_check() tells whether parameters are
+ * valid; the others give NaN or 0 where there is no such force.
  */
 #ifndef PENDRES_PENDULUM_H
 #define PENDRES_PENDULUM_H
@@ -56,98 +57,106 @@ typedef enum pendres_force {
   PENDRES_FORCE_COUNT           /**< how many there are; not a force */
 } pendres_force;
 
-/** Half a turn in radians: a name that C itself does not have for it. */
+/** Half a turn in radians; C has no name of its own for it. */
 #define PENDRES_PI 3.14159265358979323846
 
-enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< that a force may have */ };
+enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< most coefficients that a force may have */ };
 
 /**
- * Where a force drives a pendulum away for ever: a distance from y = 0, to the right (side = 1) or
- * to the left (side = -1), beyond which -side f(side distance) is above `need` and above 0, at that
- * distance and at all larger ones. INFINITY where there is none.
+ * Where a force drives a pendulum away for ever: a distance z0 from y = 0, to the right (side = 1)
+ * or to the left (side = -1), such that the outward force -side f(side z) exceeds both `need` and 0
+ * at all distances z > z0. INFINITY where there is none.
  */
 typedef double pendres_force_outward(const double *coefficients, double side, double need);
 
-/** What is true of all pendulums of a force. Static. */
+/** What all pendulums with the same force have in common. Constant data, owned by the library. */
 typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
-  double period;     /**< of the coordinate: 2 pi; 0 where x and no x + period are the same */
-  double origin;     /**< of the pendulum's angle y = x - origin: pi/2; of a polynomial 0 */
-  int angle;         /**< whether x is an angle, in rad; else a length in units of its own */
-  int coefficients;  /**< of the force, 0 to PENDRES_FORCE_COEFFICIENTS */
+  double period;     /**< period of the coordinate x, 2 pi for the pendulum; 0: x has none */
+  double origin;     /**< where y = x - origin is counted from: pi/2 for the pendulum, 0 for a
+                          polynomial */
+  int angle;         /**< 1: x is an angle, in rad; 0: a length in units of its own */
+  int coefficients;  /**< how many coefficients it has, 0 to PENDRES_FORCE_COEFFICIENTS */
   const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
-  pendres_force_outward *outward; /**< by which it is told that a pendulum escapes to infinity;
-                                       NULL: none does, or it is not known where */
+  pendres_force_outward *outward; /**< tells where pendulums begin to escape to infinity; NULL: none
+                                       escape, or it is not known where */
 } pendres_model;
 
-/** The parameters of one pendulum. Zero in all fields after temperature: the plain pendulum. */
+/** The parameters of one pendulum. Where all fields after temperature are zero it is the plain
+    pendulum. */
 typedef struct pendres_pendulum {
-  double damping;         /**< gamma >= 0, friction coefficient */
-  double drive_amplitude; /**< F0, any finite value */
+  double damping;         /**< gamma >= 0, friction coefficient, in units of omega_0 */
+  double drive_amplitude; /**< F0, any finite value, in m g l */
   double drive_frequency; /**< omega > 0, rad per unit time; also the clock of
                                the stroboscopic map when drive_amplitude is 0 */
-  double temperature;     /**< T >= 0; used by langevin.h alone */
-  double torque;          /**< I, any finite value: constant, on the side of the drive */
+  double temperature;     /**< T >= 0, k T in m g l; read only by functions that add noise */
+  double torque;          /**< I, any finite value, in m g l: constant, added to the drive */
   double parametric_amplitude; /**< b, any finite value: f is multiplied by 1 + b cos(omega t) */
-  pendres_force force;    /**< f */
-  int unused;             /**< 0; fills the place before the next field, so that pendulums that are
-                               alike are the same bytes */
-  double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< as many as the force has; else zero */
+  pendres_force force;    /**< which force f it has */
+  int unused;             /**< 0; without it the compiler would leave a gap of undefined bytes here,
+                               and equal pendulums might differ as bytes */
+  double force_coefficients[PENDRES_FORCE_COEFFICIENTS]; /**< a1, a2, ...: as many as the force has;
+                                                              the others are zero */
 } pendres_pendulum;
 
-/** What is true of a force; NULL if out of range. */
+/** What all pendulums with this force have in common; NULL if force is out of range. */
 const pendres_model *pendres_model_of(pendres_force force);
 
-/** Whether p has the mirror symmetry, y -> -y half a drive period later: no torque, no parametric
-    drive, and no even power in a polynomial. 0 if p is NULL. */
+/** 1 if p has the mirror symmetry, y -> -y half a drive period later: no torque, no parametric
+    drive, and an odd force f(-y) = -f(y); 0 if it has not, or p is NULL. */
 int pendres_pendulum_symmetric(const pendres_pendulum *p);
 
-/** Whether the force of p drives to infinity from somewhere on, whatever the drives do: noise
-    carries such a pendulum there in the end. 0 if p is NULL, if there is no such place, and if none
-    is known: where |parametric_amplitude| >= 1 turns the force over, or a force of one's own has no
-    `outward`. */
+/** 1 if the force of p drives it to infinity from some position on, whatever the drives do: noise
+    carries such a pendulum there in the end. 0 if p is NULL, if there is no such position, and if
+    none is known: where |parametric_amplitude| >= 1 reverses the force, or a force of one's own has
+    no `outward`. */
 int pendres_pendulum_leaves(const pendres_pendulum *p);
 
 /**
- * Check parameters. On failure *why (if not NULL) is a static sentence.
- * Returns PENDRES_OK or PENDRES_INVALID_ARGUMENT.
+ * Check parameters. On failure *why (if not NULL) becomes a static sentence that says what is wrong
+ * with them. Returns PENDRES_OK or PENDRES_INVALID_ARGUMENT.
  */
 pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **why);
 
-/** Acceleration x'' at position x, velocity v, time t, without noise. */
+/** Acceleration x'' at position x, velocity v, time t, without noise. NaN if p is NULL. */
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t);
 
-/** Its derivatives with respect to x and v: *dx = -f'(x), *dv = -damping. A parametric drive
-    multiplies the former by 1 + parametric_amplitude cos(drive_frequency t); this is without it. */
+/** Derivatives of the acceleration by x and v: *dx = -f'(x), *dv = -damping. The parametric drive,
+    which multiplies *dx by 1 + parametric_amplitude cos(drive_frequency t), is left out. dx and dv
+    may be NULL. If p is NULL, *dx is that of the plain pendulum and *dv is NaN. */
 void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v,
                                double *dx, double *dv);
 
 /** Energy v^2/2 - sin x of the plain pendulum; the barrier top has energy 1, a well's bottom -1. */
 double pendres_pendulum_energy(double x, double v);
 
-/** Potential of p without drives, the integral of f - torque: -sin x - torque x, or
+/** Potential of p without its periodic drives, the integral of f - torque: -sin x - torque x, or
     a1 x^2/2 + ... + a5 x^6/6 - torque x, or that of another force. NaN if p is NULL. */
 double pendres_pendulum_potential(const pendres_pendulum *p, double x);
 
-/** Number of the well that x lies in: n for -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and
-    beyond 1e15. */
+/** Number of the well of the plain pendulum that x lies in: n for
+    -pi/2 + 2 pi n < x <= 3 pi/2 + 2 pi n; 0 for NaN and where |x| >= 1e15. */
 long pendres_pendulum_well(double x);
 
 /**
- * Mirror image of a state under y -> -y. A trajectory and its mirror image
- * obey the same equation half a drive period apart.
+ * Replace a state of a pendulum (of angle y = x - pi/2) by its mirror image, y -> -y and v -> -v. A
+ * trajectory and its mirror image obey the same equation half a drive period apart. x and v may be
+ * NULL.
  */
 void pendres_pendulum_mirror(double *x, double *v);
 
 /** Closed form of the driven harmonic oscillator y'' + gamma y' + y = F0 cos(omega t). */
 typedef struct pendres_harmonic {
-  double amplitude; /**< of y */
+  double amplitude; /**< of y, in rad */
   double phase_lag; /**< behind the force, 0 <= phase_lag <= pi: y has the sign of F0 times
                          amplitude cos(omega t - phase_lag) */
-  double loop_area; /**< pi F0 amplitude sin(phase_lag), a drive cycle */
+  double loop_area; /**< pi |F0| amplitude sin(phase_lag), a drive cycle, in m g l */
 } pendres_harmonic;
 
-/** Linear response of p. Landau and Lifshitz, Mechanics, section 26. */
+/** Response of the harmonic oscillator with the damping, drive amplitude and drive frequency of p,
+    whose other fields are only checked. Undamped at resonance the amplitude is infinite, the loop
+    area NaN. Returns PENDRES_OK, or PENDRES_INVALID_ARGUMENT if p is not valid or out is NULL.
+    Source: Landau and Lifshitz, Mechanics, section 26. */
 pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harmonic *out);
 
 /**

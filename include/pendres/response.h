@@ -45,7 +45,7 @@ enum { PENDRES_RESPONSE_STATES = 8 /**< attractors of one parameter set that are
 typedef struct pendres_response {
   pendres_pendulum pendulum;        /**< the parameters, without noise */
   double mean_loop_area;            /**< mean of the members' A = closed integral of F dx a drive
-                                         cycle, in m omega_0^2 */
+                                         cycle, in m g l */
   double mean_loop_area_error;      /**< its error */
   double mean_loop_amplitude;       /**< half peak to peak of the loop averaged over the members,
                                          in rad */
@@ -117,8 +117,8 @@ typedef struct pendres_response_mean {
 
 /** An ensemble's response under thermal noise. Plain data; means of nothing are NaN. */
 typedef struct pendres_response_noise {
-  double temperature;             /**< T, in m omega_0^2 */
-  pendres_response_mean loop_area;  /**< mean loop area, in m omega_0^2 */
+  double temperature;             /**< T, in m g l */
+  pendres_response_mean loop_area;  /**< mean loop area, in m g l */
   pendres_response_mean amplitude;  /**< length of the mean loop's first harmonic, in rad */
   pendres_response_mean phase_lag;  /**< its phase lag, 0 .. 2 pi */
   pendres_response_mean mean_power; /**< mean power taken up from the drive, in m omega_0^3 */

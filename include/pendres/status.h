@@ -6,14 +6,17 @@
  * other code is a failure, and the context (context.h) holds a sentence that
  * says which pendulum failed, where and why. Thread safe: no state.
  *
- * Out of memory is a status where the library itself asks for memory, and where SUNDIALS (6.4) asks
- * for vectors of the default method. SUNDIALS still follows a null pointer where it gets no memory
- * for its logger or for its list of stages, and in methods to compare with (one problem a pendulum,
- * CVODE). GSL (2.7) ends the program by its default error handler,
- * which is not touched here: after gsl_set_error_handler_off() it is a status too. HDF5 (1.10)
- * calls exit(-1) where it gets no memory for one of its handles, and follows null pointers in other
- * places, when attaching a dimension scale or when closing itself at exit after such a failure, and
- * overflows the stack when it starts without memory; see pendres_store_drop_part().
+ * Lack of memory. Where the library itself asks for memory, and where the default method makes
+ * SUNDIALS (6.4) ask for vectors, PENDRES_OUT_OF_MEMORY is returned. The libraries below are not
+ * that careful everywhere:
+ *
+ * - SUNDIALS crashes on a null pointer if it gets no memory for its logger or for its list of
+ *   stages, and in the methods that serve for comparison (one problem a pendulum, CVODE);
+ * - GSL (2.7) ends the program by its default error handler, which the library leaves alone. After
+ *   gsl_set_error_handler_off() there is a status instead;
+ * - HDF5 (1.10) calls exit(-1) if it gets no memory for one of its handles, crashes in attaching a
+ *   dimension scale and in closing itself at exit after such a failure, and overflows the stack if
+ *   it starts without memory; see pendres_store_drop_part().
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H
@@ -23,7 +26,7 @@
 extern "C" {
 #endif
 
-/** One list makes both the codes and their messages: X(name, message). */
+/** The codes with their messages: X(name, message). */
 #define PENDRES_STATUS_LIST(X)                                                 \
   X(OK, "success")                                                             \
   X(INVALID_ARGUMENT, "an argument is out of its range")                       \
@@ -40,7 +43,7 @@ extern "C" {
   X(BUSY, "the handle is in use: by another thread, or by the call that asks this one")
 
 /**
- * What every function that can fail returns; pendres_status_message() has these words, too.
+ * What every function that can fail returns.
  *
  * - PENDRES_OK: success
  * - PENDRES_INVALID_ARGUMENT: an argument is out of its range
@@ -54,8 +57,8 @@ extern "C" {
  * - PENDRES_IO: reading or writing a file failed
  * - PENDRES_UNSUPPORTED: not supported by this build
  * - PENDRES_INTERNAL: an error of the library itself
- * - PENDRES_BUSY: the handle is in use by another thread, or by the call that asks this one; of a
- *   file: it cannot be locked, as where another process has it open for writing
+ * - PENDRES_BUSY: the handle is in use by another thread, or by the call whose callback made this
+ *   call; for a file: it cannot be locked, say because another process has it open for writing
  * - PENDRES_STATUS_COUNT: how many there are; not a status
  */
 typedef enum pendres_status {

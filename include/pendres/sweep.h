@@ -55,7 +55,7 @@ typedef enum pendres_quantity {
   PENDRES_QUANTITY_DRIVE_AMPLITUDE, /**< F0, in m g l */
   PENDRES_QUANTITY_DRIVE_FREQUENCY, /**< omega, in units of omega_0 */
   PENDRES_QUANTITY_DRIVE_PERIOD,    /**< 2 pi over the drive frequency */
-  PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m omega_0^2 */
+  PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m g l */
   PENDRES_QUANTITY_X,               /**< initial position, in rad */
   PENDRES_QUANTITY_V,               /**< initial velocity, in rad a unit time */
   PENDRES_QUANTITY_TORQUE,          /**< I, in m g l */

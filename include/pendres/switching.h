@@ -4,8 +4,8 @@
  *
  * Owns: counting transitions along noisy trajectories, their rates with confidence intervals,
  * and the activation energy from rates at several temperatures. pendres_switching_measure() does
- * all of it for two states; the functions after it do its parts, so that a program may share them
- * among threads, with the same results to the last bit.
+ * all of it for two states; the functions after it do parts of that work, which a program may share
+ * among its threads, with the same results to the last bit.
  *
  * Attractors come with trapping ellipses (attractor.h). A trajectory belongs to the attractor
  * and well whose ellipse it was in last; it has switched at the first strobe that sees it inside
@@ -15,13 +15,14 @@
  * the time that trajectories belonged to where they came from (core sets: Buchete and Hummer,
  * J. Phys. Chem. B 112 (2008) 6057; Schuette et al., J. Chem. Phys. 134 (2011) 204105).
  *
- * Ellipses are shrunken by the factor `core`. On the edge of a whole one, close to the basin's
- * boundary, noise would turn back many that have just come in; and rates would count them.
+ * Ellipses are shrunken by the factor `core`. The edge of a whole ellipse is close to the basin's
+ * boundary: noise would soon drive out again many trajectories that have just come in there, and
+ * the rates would count them.
  *
- * Under a force that drives to infinity from somewhere on (pendres_pendulum_leaves) infinity counts
- * as another well, which nobody comes back from: a trajectory has escaped at the first strobe that
- * sees it where the force leads away for good whatever the drive does, on its way outwards, and
- * with a potential thirty temperatures below its attractor's. It is not followed further.
+ * Under a force that drives to infinity (pendres_pendulum_leaves) infinity counts as another well,
+ * from which nothing returns. A trajectory has escaped at the first strobe that sees it moving
+ * outwards where the force points outwards whatever the drive does, with a potential lower than its
+ * attractor's by thirty temperatures. It is not followed further.
  *
  * For small temperatures rates follow exp(-E/T), E the activation energy (Kramers, Physica 7
  * (1940) 284; for driven systems Dykman and Krivoglaz, Sov. Phys. JETP 50 (1979) 30).
@@ -40,7 +41,7 @@ extern "C" {
 #pragma GCC visibility push(default)
 
 enum {
-  PENDRES_SWITCHING_STATES = 8,                       /**< attractors that are told apart */
+  PENDRES_SWITCHING_STATES = 8,                       /**< most attractors that a tally can count */
   PENDRES_SWITCHING_WELL = PENDRES_SWITCHING_STATES   /**< as a destination: any other well,
                                                            or infinity */
 };
@@ -48,22 +49,22 @@ enum {
 /* ---- Where a trajectory belongs ------------------------------------------------------------ */
 
 /**
- * The attractor whose ellipse, shrunken to `core` of its size (0: the default, a half), holds the
- * state x, v at drive phase 0, and the well it is in (0 for running ones). Both -1 and 0: none.
- * attractor and well may be NULL.
+ * Find the attractor whose ellipse, shrunken to `core` of its size (0: the default, a half), holds
+ * the state x, v at drive phase 0. *attractor receives its number in the set and *well the number
+ * of the well (0 for running orbits); -1 and 0 if no ellipse holds the state. Either may be NULL.
  */
 void pendres_switching_locate(const pendres_attractors *set, double core, double x, double v,
                               int *attractor, long *well);
 
-/** Who is at home where, for pendres_langevin_request. */
+/** The attractor that trajectories start on, as `arg` of pendres_langevin_request. */
 typedef struct pendres_switching_home {
   const pendres_attractors *set; /**< of one parameter set; not owned */
-  size_t attractor;              /**< number in the set of the attractor that is home */
+  size_t attractor;              /**< its number in the set */
   double core;                   /**< size of ellipses, from 0 to 1; 0: a half */
 } pendres_switching_home;
 
-/** For `leave` of pendres_langevin_request, whose `arg` is a pendres_switching_home: marks
- *  trajectories that have switched from the attractor in well 0, or left that well. */
+/** The function `leave` of a pendres_langevin_request whose `arg` is a pendres_switching_home: it
+ *  marks trajectories that have switched to another attractor or have left well 0. */
 void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
                              unsigned char *left);
 
@@ -82,9 +83,10 @@ typedef struct pendres_switching_request {
 } pendres_switching_request;
 
 /**
- * Transitions counted. Plain data: all zero is an empty one. [s] is the attractor that a
- * trajectory belonged to; [t] the one it went to (t = s: the same in another well), or
- * PENDRES_SWITCHING_WELL for all that ended in another well. All numbers but the period are whole.
+ * Transitions counted. Plain data: all zero is an empty tally. [s] is the attractor that a
+ * trajectory belonged to, [t] the one that it went to (t = s: the same one in another well);
+ * [PENDRES_SWITCHING_WELL] counts all transitions that ended in another well. All numbers but the
+ * period are whole.
  */
 typedef struct pendres_switching_tally {
   size_t states;       /**< attractors in the set */
@@ -110,8 +112,8 @@ pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
                                        pendres_switching_tally *tally);
 
-/** Add a tally of other trajectories of the same pendulum. All numbers are whole: the order of
- *  adding does not matter to the last bit. */
+/** Add to *into the tally of other trajectories of the same pendulum. Since the numbers are whole,
+ *  the order in which tallies are added makes no difference. */
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other);
 
 /** A rate of transitions, a unit time. */
@@ -122,16 +124,17 @@ typedef struct pendres_switching_rate {
   double error;      /**< standard error; without events an upper bound at one sigma */
   double lower;      /**< lower end of the confidence interval */
   double upper;      /**< upper end of the confidence interval */
-  double dispersion; /**< variance of the trajectories' counts by that of independent events: 1 for
-                          those. Larger: transitions come in bursts, and error and interval allow
-                          for it. NaN where there are too few to tell */
+  double dispersion; /**< variance of the trajectories' counts, divided by the variance that
+                          independent events would have. Above 1 transitions come in bursts, which
+                          error and interval allow for. NaN where there are too few to tell */
   double mean_time;  /**< mean time until a transition, exposure / events; NaN without events */
   double mean_time_error; /**< its standard error, to first order in that of the rate */
 } pendres_switching_rate;
 
 /**
- * The rate from s to t, and its confidence interval of the given level (0 < level < 1): that of
- * pendres_langevin_rate, with events and exposure divided by the dispersion where it exceeds 1.
+ * The rate of transitions from s to t, with its confidence interval of the given level
+ * (0 < level < 1). The interval is that of pendres_langevin_rate, for events and exposure that are
+ * divided by the dispersion where it exceeds 1.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
@@ -163,16 +166,16 @@ const char *pendres_switching_verdict_name(pendres_switching_verdict verdict);
  */
 typedef struct pendres_switching_activation {
   size_t points;              /**< temperatures with enough events */
-  double energy;              /**< E, in units of m omega_0^2 */
+  double energy;              /**< E, in units of m g l */
   double energy_error;        /**< its error */
-  double log_prefactor;       /**< ln of the prefactor (in units of omega_0) at `temperature` */
+  double log_prefactor;       /**< ln of the prefactor (a rate in units of omega_0) at T0 */
   double log_prefactor_error; /**< its error */
   double chi2;                /**< chi squared of points - 2 degrees of freedom; errors are enlarged
                                    by sqrt(chi2 / (points - 2)) where that exceeds 1 */
   double temperature;         /**< T0: geometric mean of the temperatures with enough events */
   double exponent;            /**< b: power of the temperature in the prefactor */
-  double exponent_error;      /**< its error; with few points, or close ones, both stay the 0 +- 1/2
-                                   that is assumed beforehand */
+  double exponent_error;      /**< its error; with few or close temperatures the exponent stays
+                                   0 +- 1/2, as assumed beforehand */
   double least_barrier;       /**< energy / T at the hottest of these temperatures */
   pendres_switching_verdict verdict; /**< what became of the fit */
 } pendres_switching_activation;
@@ -182,18 +185,19 @@ typedef struct pendres_switching_activation {
  *
  *     ln rate = ln prefactor - energy / T + b ln(T / T0) + c1 (T/E) + c2 (T/E)^2
  *
- * weighted by the rates' relative errors, T0 the temperatures' geometric mean, E the energy of the
- * straight line. What a prefactor does with T is unknown beforehand, but not how much: theories
- * have powers b from -1 to 1 (Kramers for weak friction -1, for strong 0; driven systems +-1/2),
- * and corrections of order T/E. So b counts as known to be 0 +- 1/2, and c1, c2 as 0 +- 1;
- * rates that span a wide range of temperatures know better and correct it, others leave that
- * in the energy's error, of about T/2. A straight line's scatter alone says nothing on it.
+ * weighted by the rates' relative errors, where T0 is the temperatures' geometric mean and E the
+ * energy of the straight-line fit. How the prefactor depends on T is not known beforehand, but
+ * theories bound it: their powers b go from -1 to 1 (Kramers has -1 for weak friction and 0 for
+ * strong, driven systems have +-1/2), and corrections are of order T/E. The fit therefore starts
+ * from b = 0 +- 1/2 and c1 = c2 = 0 +- 1. Rates over a wide range of temperatures improve on that;
+ * over a narrow one it remains as an error of the energy of about T/2, which the scatter about a
+ * straight line would not show.
  *
  * Temperatures with fewer than `fewest` events (0: the default, 10) are left out.
  *
  * Errors: PENDRES_INVALID_ARGUMENT if a temperature that counts is not positive and finite, or its
- * rate or error is not; PENDRES_NOT_FOUND if fewer than two different temperatures are left, since
- * there are too few events (all but points and verdict is NaN then); PENDRES_OUT_OF_MEMORY.
+ * rate or error is not; PENDRES_NOT_FOUND if too few events leave fewer than two different
+ * temperatures (then all but points and verdict is NaN); PENDRES_OUT_OF_MEMORY.
  */
 pendres_status pendres_switching_fit(size_t n, const double *temperature,
                                      const pendres_switching_rate *rates, double fewest,
@@ -206,7 +210,7 @@ typedef enum pendres_switching_way {
   PENDRES_SWITCHING_FORTH = 0,   /**< from the first state to the second */
   PENDRES_SWITCHING_BACK,        /**< from the second state to the first */
   PENDRES_SWITCHING_FIRST_WELL,  /**< from the first state to any state in another well, or to
-                                      infinity where the force leads there */
+                                      infinity under a force that drives there */
   PENDRES_SWITCHING_SECOND_WELL, /**< from the second state, likewise */
   PENDRES_SWITCHING_WAYS         /**< how many there are */
 } pendres_switching_way;
@@ -231,9 +235,9 @@ void pendres_switching_states(const pendres_attractors *set, int state[2]);
 
 /** What a survey finds at one temperature. Plain data; what is not known is NaN. */
 typedef struct pendres_switching_rates {
-  double temperature;    /**< T, in units of m omega_0^2 */
-  pendres_status status; /**< PENDRES_OK, or why nothing is known; PENDRES_NOT_FOUND also where one
-                              of the two states does not exist, of whose other all is known */
+  double temperature;    /**< T, in units of m g l */
+  pendres_status status; /**< PENDRES_OK, or why nothing is known; PENDRES_NOT_FOUND also where only
+                              one of the two states exists, whose rates are known */
   double exposure[2];    /**< time spent on each state, in units of 1/omega_0 */
   pendres_switching_rate way[PENDRES_SWITCHING_WAYS]; /**< rates, by their ways */
 } pendres_switching_rates;
@@ -255,10 +259,10 @@ pendres_status pendres_switching_measure(pendres_context *ctx,
                                          pendres_switching_activation *activation);
 
 /**
- * Steps a drive period that a state (0: the first, 1: the second) asks for: twice those which keep
- * the bias of its small cloud's widths below 1 %. A bias of the cloud acts as a wrong temperature,
- * which rates feel E/T times stronger; of order four, it falls to a sixteenth by doubling. 0 steps
- * where there is no such state; a survey takes the larger of both, since trajectories visit both.
+ * Choose the steps a drive period for a state (0: the first, 1: the second): twice those that keep
+ * the bias of its small cloud's widths below 1 %. That bias acts as a wrong temperature, whose
+ * effect on rates is E/T times larger; doubling the steps divides it by 16. *steps is 0 where there
+ * is no such state. A survey takes the larger number of both states, since trajectories visit both.
  *
  * Errors: as pendres_langevin_choose_steps.
  */
@@ -280,8 +284,9 @@ pendres_status pendres_switching_follow(pendres_context *ctx,
                                         size_t part, pendres_switching_tally *tally);
 
 /**
- * The rates at one temperature from the sum of all its parts' tallies (pendres_switching_add);
- * all: NULL where a part has failed, whose status is then to be put into rates->status.
+ * The rates at one temperature from `all`, the sum of the tallies of all its parts
+ * (pendres_switching_add), or NULL where a part has failed; the caller then puts that part's status
+ * into rates->status.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */

@@ -29,7 +29,7 @@ pendres_status pendres_pendulum_check(const pendres_pendulum *p, const char **wh
 
 double pendres_pendulum_acceleration(const pendres_pendulum *p, double x, double v, double t)
 {
-  if (p == NULL) return NAN;
+  if (p == NULL || pendres_model_of(p->force) == NULL) return NAN;
   const double drive = cos(p->drive_frequency * t);
   if (pendres_model_kind(p) == PENDRES_MODEL_PLAIN)
     return cos(x) - p->damping * v + p->drive_amplitude * drive;
@@ -43,7 +43,9 @@ void pendres_pendulum_jacobian(const pendres_pendulum *p, double x, double v, do
                                double *dv)
 {
   (void)v;
-  if (dx != NULL && p != NULL && p->force != PENDRES_FORCE_PENDULUM) {
+  if (dx != NULL && p != NULL && pendres_model_of(p->force) == NULL) {
+    *dx = NAN;
+  } else if (dx != NULL && p != NULL && p->force != PENDRES_FORCE_PENDULUM) {
     double force;
     pendres_model_force(p, x - pendres_model_of(p->force)->origin, &force, dx);
     *dx = -*dx;
