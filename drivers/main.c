@@ -141,6 +141,17 @@ static int await_decks(job *j)
   return j->decks != NULL ? DONE : FAILED;
 }
 
+/* What rank 0 has found, or that another rank cannot go on: it has told nobody. */
+static int agree(job *j, int code)
+{
+  const int ready = together_ready(code == DONE || !together_helping());
+  code = together_agree(code);
+  if (ready || code != DONE) return code;
+  progress_error(&j->progress, "another rank cannot begin: it has no memory, or no room in the "
+                 "folder that TMPDIR names there (default: /tmp)");
+  return FAILED;
+}
+
 static int find_scene(job *j)
 {
   j->scene = scene_find(j->deck.kind);
@@ -284,7 +295,9 @@ static int compute(job *j)
                 farm_threads(j->farm), farm_threads(j->farm) == 1 ? "" : "s");
   tell_without_effect(j);
   pendres_status status = j->scene->run(&j->run);
-  farm_dismiss(j->farm);
+  farm_dismiss(j->farm, status == PENDRES_OK || status == PENDRES_INTERRUPTED ? NULL
+                        : j->run.message[0] != '\0' ? j->run.message
+                                                    : pendres_status_message(status));
   if (status == PENDRES_OK) status = scene_write_identity(&j->run);
   if (status == PENDRES_OK) status = scene_write_units(&j->run);
   if (status == PENDRES_OK || farm_left(j->farm)) return DONE;
@@ -405,11 +418,11 @@ static int run_deck(job *j)
   code = find_scene(j);                                              /* 3 its scene */
   if (code == DONE) code = start_farm(j);                            /* 4 threads */
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
-  if (code == DONE && j->options.action == OPTIONS_DRY_RUN) return look_ahead(j);
+  if (j->options.action == OPTIONS_DRY_RUN) return code == DONE ? look_ahead(j) : code;
   if (code == DONE && !together_helping()) code = open_log(j);       /* 6 the log */
   if (code == DONE) code = open_output(j);                           /* 7 the file */
   if (code == DONE && !together_helping()) code = open_journal(j);   /* 8 what is done already */
-  code = together_agree(code);
+  code = agree(j, code);
   if (code == DONE) code = compute(j);                               /* 9 all the work */
   if (together_helping()) return DONE;
   if (code == DONE && j->options.shards > 0) return leave_part(j);
@@ -435,11 +448,14 @@ static int run_decks(void *arg)
 {
   job *j = arg;
   int code = together_helping() ? await_decks(j) : read_decks(j);    /* 2 the decks */
-  code = together_agree(code);
+  code = agree(j, code);
   if (code != DONE) return code;
   for (size_t i = 0; i < j->options.deck_count; i++)
-    if (!together_deck(&j->decks[i])) return FAILED;
-  for (size_t i = 0; i < j->options.deck_count && code != STOPPED; i++) {
+    if (!together_deck(&j->decks[i])) {
+      progress_error(&j->progress, "%s: out of memory", j->options.deck[i]);
+      return FAILED;
+    }
+  for (size_t i = 0; i < j->options.deck_count && !together_agree(code == STOPPED); i++) {
     if (i > 0) let_go(j);
     j->deck = j->decks[i];
     j->decks[i] = (deck){ 0 };

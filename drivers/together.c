@@ -16,14 +16,23 @@ int together_agree(int code)
   return code;
 }
 
-/* The text of rank 0, to be freed; NULL: none, or no memory. */
+int together_ready(int ready)
+{
+  return ranks_all(ready);
+}
+
+/* The text of rank 0, to be freed; NULL on all ranks: none, or one of them has no memory. */
 static char *share_text(const char *text)
 {
   uint64_t size = text != NULL ? strlen(text) + 1 : 0;
   ranks_broadcast(&size, sizeof size);
   char *copy = size > 0 ? calloc(1, (size_t)size) : NULL;
-  if (copy != NULL && text != NULL) memcpy(copy, text, (size_t)size);
-  if (copy != NULL) ranks_broadcast(copy, (size_t)size);
+  if (!ranks_all(copy != NULL)) {
+    free(copy);
+    return NULL;
+  }
+  if (text != NULL) memcpy(copy, text, (size_t)size);
+  ranks_broadcast(copy, (size_t)size);
   return copy;
 }
 
@@ -46,7 +55,7 @@ int together_deck(deck *d)
   free(text);
   free(name);
   free(shared);
-  return good;
+  return ranks_all(good);
 }
 
 int together_helping(void)

@@ -10,7 +10,11 @@
 /* What rank 0 has in code. All ranks call it. */
 int together_agree(int code);
 
-/* The deck of rank 0, which the others get as resolved; 0 on failure. All ranks call it. */
+/* Are all of them ready to go on? All ranks call it. */
+int together_ready(int ready);
+
+/* The deck of rank 0, which the others get as resolved; 0 in all ranks if one of them fails. All
+   call it. */
 int together_deck(deck *d);
 
 /* Is this another rank than 0? It writes nothing: neither results nor words. */

@@ -1,9 +1,9 @@
 #!/bin/sh
 # ranks_check.sh -- the program over MPI: the same bytes of all kinds of scenes (tests/kinds) from 1,
 # 2 and 4 ranks of one thread and of two, a point that a budget ends in any of them is told and
-# computed later, a rank that is killed, or all of them, cost what was under way and no more, and a
-# program without MPI refuses to be started several times. Skipped where there is no MPI, or no h5py
-# to compare with.
+# computed later, a rank that is killed, or all of them, cost what was under way and no more, a rank
+# without memory holds nobody up, and a program without MPI refuses to be started several times.
+# Skipped where there is no MPI, or no h5py to compare with.
 set -u
 mpirun=$(command -v mpirun) && command -v mpicc >/dev/null || { echo "no MPI here"; exit 77; }
 python=${PYTHON:-/usr/bin/python3}
@@ -11,6 +11,7 @@ python=${PYTHON:-/usr/bin/python3}
 ${MAKE:-make} -s "$BUILD/resonance-mpi" || exit 1
 program=$PWD/$BUILD/resonance-mpi
 case $BUILD in /*) program=$BUILD/resonance-mpi ;; esac
+top=$PWD
 same=$PWD/tests/same_bytes.py
 kinds=$PWD/tests/kinds
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
@@ -98,6 +99,39 @@ timeout 100 "$mpirun" -n 4 "$program" -t1 -f --resume -o all.h5 killed.nml >rank
   { complain "no resuming after all ranks were killed"; cat err.txt; }
 "$python" "$same" whole.h5 all.h5 >same.txt || { complain "after killed ranks"; cat same.txt; }
 [ "$(echo all.h5*)" = all.h5 ] || complain "killed ranks leave $(echo all.h5*)"
+
+# Two decks, stopped at the first: no rank waits for the others at the second.
+timeout -s KILL 60 "$mpirun" -n 2 "$program" -q -t1 -f killed.nml "$kinds/curve.nml" >out.txt 2>err.txt &
+launcher=$!
+until [ -s killed.h5.journal ]; do
+  kill -0 $launcher 2>/dev/null || break
+  sleep 0.02
+done
+kill -TERM $(pgrep -P "$(pgrep -P $launcher)") 2>/dev/null
+wait $launcher
+code=$?
+[ $code -eq 75 ] || [ $code -eq 0 ] || { complain "two decks, stopped: $code"; cat err.txt; }
+
+# Rank 1 without memory, at allocations before the decks, when the run is set up and when its stages
+# are: all end, and results are whole where that is said.
+cat >poor.nml <<'DECK'
+&scene kind = 'branches' /
+&pendulum drive_amplitude = 0.2 /
+&sweep damping = 0.13, 0.15, drive_frequency_range = 0.7, 0.9, 80 /
+&ensemble members = 40 /
+DECK
+"${CC:-gcc}" -shared -fPIC -o faults.so "$top/tests/faults_preload.c" -ldl 2>/dev/null && at=2 || at=
+"$RESONANCE" -q -o whole.h5 poor.nml >table.txt || complain "poor fails without MPI"
+for at in ${at:+2 20 46 54 60 66 72}; do
+  timeout 60 "$mpirun" -n 1 "$program" -q -t1 -f -o poor.h5 poor.nml : -n 1 env FAULT_CALL=malloc \
+    FAULT_AT=$at FAULT_BY= LD_PRELOAD="$work/faults.so" "$program" -q -t1 -f poor.nml >out.txt 2>err.txt
+  code=$?
+  case $code in
+  0) "$python" "$same" whole.h5 poor.h5 >same.txt || { complain "rank 1, $at"; cat same.txt; } ;;
+  1) grep -q "resonance: error: " err.txt || complain "rank 1 without memory at $at: no message" ;;
+  *) complain "rank 1 without memory at $at: $code"; cat err.txt ;;
+  esac
+done
 
 # What rank 0 refuses ends all; a program without MPI does not start the same run twice.
 echo "&scene kind = 'nothing' /" >bad.nml

@@ -16,6 +16,9 @@ enum { QUESTION, TO_ROOT, TO_ALL, TO_THREAD };
    meanwhile, and where they wait for it. */
 enum { SELDOM = 10000, OFTEN = 1000 };
 
+/* Naps that end after some seconds, in which somebody may give back memory for a note. */
+enum { PATIENCE = 1000 };
+
 typedef enum kind {
   ASK,    /* for a task */
   TELL,   /* the user: the words are the message */
@@ -46,15 +49,19 @@ static int is_of(const crew *c, const note *n)
   return n->run == c->farm->run && n->stage == c->number;
 }
 
-/* A note and what follows it, in one parcel. */
+/* A note and what follows it, in one parcel. Others wait for a note: it is tried again where there
+   is no memory for it. */
 static int send_note(int to, int tag, const note *n, const void *data)
 {
   const size_t size = data != NULL ? (size_t)n->size : 0;
-  char *bytes = malloc(sizeof *n + size);
-  if (bytes == NULL) return 0;
-  memcpy(bytes, n, sizeof *n);
-  if (size > 0) memcpy(bytes + sizeof *n, data, size);
-  return ranks_send(to, tag, bytes, sizeof *n + size);
+  for (int idle = 0; idle < (size > 0 ? 1 : PATIENCE); ranks_nap(&idle, SELDOM)) {
+    char *bytes = malloc(sizeof *n + size);
+    if (bytes == NULL) continue;
+    memcpy(bytes, n, sizeof *n);
+    if (size > 0) memcpy(bytes + sizeof *n, data, size);
+    if (ranks_send(to, tag, bytes, sizeof *n + size)) return 1;
+  }
+  return 0;
 }
 
 static void send_to_others(const note *n, const void *data)
@@ -99,8 +106,9 @@ static int answer(crew *c, const ranks_parcel *p)
     reply.kind = TASK;
     reply.task = task;
   }
-  (void)send_note(p->from, TO_THREAD + n->thread, &reply, NULL);
-  return reply.kind == TASK;
+  if (send_note(p->from, TO_THREAD + n->thread, &reply, NULL)) return reply.kind == TASK;
+  if (reply.kind == TASK) crew_finish(c, task, PENDRES_OUT_OF_MEMORY, &(farm_record){ 0 });
+  return 0;
 }
 
 /* Until all that was dealt has come back, and nobody here is at work. */
@@ -136,12 +144,6 @@ void deal_share(crew *c, size_t task, const farm_record *record)
   send_to_others(&n, record->data);
 }
 
-void farm_dismiss(farm *f)
-{
-  const note n = { .kind = QUIT, .run = f->run };
-  if (ranks_own() == 0 && ranks_count() > 1) send_to_others(&n, NULL);
-}
-
 /* ---- the others ---------------------------------------------------------------------------- */
 
 /* Collect what rank 0 has collected. */
@@ -168,6 +170,7 @@ static void *listen(void *arg)
     const note *n = p.data;
     if (n->run == c->farm->run && n->kind == QUIT) {
       c->status = PENDRES_INTERRUPTED;
+      c->farm->dismissed = 1;
       ended = 1;
     } else if (is_of(c, n) && n->kind == SHARE) {
       collect_shared(c, n, (char *)p.data + sizeof *n);
@@ -274,4 +277,36 @@ void deal_end(crew *c)
                          : c->status);
   send_to_others(&n, NULL);
   ranks_flush();
+}
+
+/* Rank 0 hears that another does no more, if it is at a stage. */
+static void tell_of_failure(const farm *f, const char *words)
+{
+  note n = { .kind = TELL, .run = f->run };
+  snprintf(n.message, sizeof n.message, "going on without rank %d: %.480s", ranks_own(), words);
+  (void)send_note(0, TO_ROOT, &n, NULL);
+}
+
+void farm_dismiss(farm *f, const char *words)
+{
+  const note quit = { .kind = QUIT, .run = f->run };
+  int idle = 0;
+  if (ranks_count() == 1) return;
+  if (ranks_own() == 0) {
+    send_to_others(&quit, NULL);
+    ranks_flush();
+    return;
+  }
+  if (words != NULL && !f->dismissed) tell_of_failure(f, words);
+  while (!f->dismissed) {
+    ranks_parcel p;
+    if (!ranks_receive(TO_ALL, &p)) {
+      ranks_nap(&idle, SELDOM);
+      continue;
+    }
+    const note *n = p.data;
+    f->dismissed = n->run == f->run && n->kind == QUIT;
+    free(p.data);
+    idle = 0;
+  }
 }

@@ -112,8 +112,12 @@ typedef struct farm_share {
 void farm_set_share(farm *f, farm_share share);
 int farm_left(const farm *f);
 
-/* Rank 0 goes on alone, or not at all: the others leave the stage that they are in. */
-void farm_dismiss(farm *f);
+/*
+ * All ranks call this when the scene has ended: rank 0 goes on alone, or not at all, and the others
+ * leave the stage that they are in. One that has failed, as these words say (else NULL), waits for
+ * that, and takes what is still sent to it meanwhile: rank 0 has the others, and does without.
+ */
+void farm_dismiss(farm *f, const char *words);
 
 /* Call run(arg) on a thread with a stack of FARM_STACK bytes and wait for it; its result. The
    caller's own stack may be too small (ulimit -s) for what scenes do outside of tasks. Where there

@@ -20,6 +20,7 @@ struct farm {
   struct farm_trial *trial;  /* NULL: a run proper */
   size_t lost;               /* points that were given up */
   int left;                  /* a stage was left to other shards */
+  int dismissed;             /* another rank: rank 0 has said that the scene has ended */
   size_t run, stages;        /* which farm of its rank this is; stages that were run */
   char message[512];
 };

@@ -24,6 +24,9 @@ int ranks_count(void); /* 1: no others */
 /* Copy what rank 0 has in data[size] to all ranks, which all call this. */
 void ranks_broadcast(void *data, size_t size);
 
+/* Do all ranks say yes? All of them call this. */
+int ranks_all(int yes);
+
 /* Bytes with a tag from 0 to 32000, in order between two ranks for each tag. `data` is taken over,
    whatever happens, and freed when it has been sent; this returns at once, unless much is under way
    already. 0 on failure. */

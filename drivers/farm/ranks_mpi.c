@@ -122,6 +122,18 @@ void ranks_broadcast(void *data, size_t size)
   if (code == MPI_SUCCESS) (void)wait_for(&request);
 }
 
+int ranks_all(int yes)
+{
+  MPI_Request request;
+  int mine = yes != 0, least = 0;
+  if (all == 1) return mine;
+  pthread_mutex_lock(&lock);
+  const int code =
+    MPI_Iallreduce(&mine, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD, &request);
+  pthread_mutex_unlock(&lock);
+  return code == MPI_SUCCESS && wait_for(&request) && least;
+}
+
 /* The letter is on its way, or is freed: 0. Under the lock. */
 static int post(letter *l, int to, int tag)
 {

@@ -35,6 +35,11 @@ void ranks_broadcast(void *data, size_t size)
   (void)data, (void)size;
 }
 
+int ranks_all(int yes)
+{
+  return yes;
+}
+
 int ranks_send(int to, int tag, void *data, size_t size)
 {
   (void)to, (void)tag, (void)size;
