@@ -1,43 +1,28 @@
 /* provenance.c -- see provenance.h. */
-#define _XOPEN_SOURCE 700 /* open_memstream, getrusage */
+#define _POSIX_C_SOURCE 200809L /* gmtime_r */
 #include "provenance.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/utsname.h>
 #include <time.h>
 
-static double wall_clock(void)
-{
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-/* Of all threads, in the program and in the system on its behalf. */
-static double processor_clock(void)
-{
-  struct rusage r = { 0 };
-  if (getrusage(RUSAGE_SELF, &r) != 0) return NAN;
-  return (double)(r.ru_utime.tv_sec + r.ru_stime.tv_sec) +
-         1e-6 * (double)(r.ru_utime.tv_usec + r.ru_stime.tv_usec);
-}
+#include "system/clock.h"
 
 void provenance_start(provenance *p)
 {
   const time_t t = time(NULL);
   struct tm utc;
-  *p = (provenance){ .wall = wall_clock(), .processor = processor_clock() };
+  *p = (provenance){ .wall = clock_wall(), .processor = clock_process() };
   if (gmtime_r(&t, &utc) != NULL)
     (void)strftime(p->date, sizeof p->date, "%Y-%m-%dT%H:%M:%SZ", &utc);
 }
 
 double provenance_wall(const provenance *p)
 {
-  return wall_clock() - p->wall;
+  return clock_wall() - p->wall;
 }
 
 static pendres_status write_deck(const deck *d, pendres_store *store)
@@ -101,9 +86,9 @@ static pendres_status write_cost(const provenance *p, const farm *f, size_t fail
   pendres_cost cost;
   farm_cost(f, &cost);
   const pendres_store_entry entries[] = {
-    { .key = "wall_time", .number = wall_clock() - p->wall, .units = "s",
+    { .key = "wall_time", .number = clock_wall() - p->wall, .units = "s",
       .long_name = "duration of the run" },
-    { .key = "processor_time", .number = processor_clock() - p->processor, .units = "s",
+    { .key = "processor_time", .number = clock_process() - p->processor, .units = "s",
       .long_name = "processor time of all threads" },
     { .key = "pendulum_periods", .number = cost.pendulum_periods,
       .long_name = "drive periods, summed over pendulums" },

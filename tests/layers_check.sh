@@ -11,7 +11,7 @@ complain()
 
 # Layers from the bottom up. A file includes what is in its own folder or in one before it.
 src_layers='base model engine orbits noise continuation questions reference store'
-drivers_layers='terminal farm validation deck scenes .'
+drivers_layers='system terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
@@ -24,7 +24,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   orbits/settle.h
   noise/langevin_moving.h noise/noise_common.h continuation/continuation_equations.h continuation/continuation_parameter.h
   continuation/continuation_arc.h continuation/continuation_families.h'
-drivers_doors='terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
+drivers_doors='system/bytes.h system/clock.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h
   validation/hard_cases.h'
 

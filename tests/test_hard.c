@@ -80,7 +80,7 @@ static void rows(void **state)
   hard_sheet sheet = { .scale = 1.0 };
   (void)state;
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-    check_ok(hard_sheet_add_at(&sheet, "a", names[i].number, "b", 1.0, 1.0, NAN));
+    check_ok(hard_sheet_add(&sheet, hard_at("a", names[i].number).text, "b", 1.0, 1.0, NAN));
     assert_string_equal(sheet.row[i].name, names[i].name);
     assert_true(hard_row_holds(&sheet.row[i]));
   }

@@ -6,7 +6,7 @@
 
 #include <pendres/pendres.h>
 
-#include "scenes/scene_basins_noise.h"
+#include "scenes/scene_basins.h"
 #include "scenes/scene_failed.h"
 
 /* Clouds alone, as scene_basins.c asks for them. */
@@ -19,7 +19,7 @@ static pendres_status run_clouds(scene_run *run)
   check_ok(pendres_attractors_find(farm_context(run->farm), &p, 0, NULL, NULL, &set));
   check_ok(pendres_store_dimension(run->store, "", "attractor", pendres_attractors_count(set), NULL,
                                    "number of the attractor", "1"));
-  const pendres_status status = scene_basins_write_clouds(run, set);
+  const pendres_status status = basins_write_clouds(run, set);
   pendres_attractors_free(set);
   return status;
 }

@@ -10,20 +10,25 @@
 
 #include <pendres/sweep.h>
 
+static namelist_place place_of(const deck_given *at, const char *name)
+{
+  return (namelist_place){ at->line, at->column, (int)strlen(name) };
+}
+
 static void complain(deck_builder *b, const deck_given *at, const char *name, const char *message)
 {
-  namelist_error_at(at->nl != NULL ? at->nl : b->nl, at->line, at->column, (int)strlen(name),
-                    b->errors, "%s", message);
+  namelist_error_at(at->nl != NULL ? at->nl : b->nl, place_of(at, name), b->errors, "%s", message);
 }
 
 /* Complain of a group as a whole or, where the deck has none, of the kind that needs it. */
 static void complain_of_group(deck_builder *b, const namelist_group *g, const char *message)
 {
   if (g != NULL)
-    namelist_error_at(b->nl, g->line, g->column, (int)strlen(g->name) + 1, b->errors, "%s",
-                      message);
+    namelist_error_at(b->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
+                      b->errors, "%s", message);
   else
-    namelist_error_at(b->kind_nl, b->kind_line, b->kind_column, 1, b->errors, "%s", message);
+    namelist_error_at(b->kind_nl, (namelist_place){ b->kind_line, b->kind_column, 1 }, b->errors,
+                      "%s", message);
 }
 
 /* The state of a key in this scene; never NULL, so that callers need not ask. */
@@ -150,7 +155,7 @@ static void check_axis_sources(deck_builder *b)
     if (strcmp(key->group, "pendulum") != 0 || (key->scenes & b->scene) == 0) continue;
     const deck_given *sweep = given(b, "sweep", key->name);
     if (!is_there(&b->given[i]) || !is_there(sweep)) continue;
-    namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+    namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
                       b->errors, "'%s' is given in &sweep too (line %d): leave out one of the two",
                       key->name, sweep->line);
   }
@@ -182,7 +187,7 @@ static void check_idle_keys(deck_builder *b)
     if (key->when == DECK_WITH_NOISE && given(b, "sweep", "temperature")->broken) continue;
     if (key->when == DECK_WITHOUT_START && start->broken) continue;
     if (deck_key_applies(key, b->d)) continue;
-    namelist_error_at(b->given[i].nl, b->given[i].line, b->given[i].column, (int)strlen(key->name),
+    namelist_error_at(b->given[i].nl, place_of(&b->given[i], key->name),
                       b->errors, "'%s' is not used: %s", key->name, why[key->when]);
   }
   if (in_scene(b, group, "start") && b->d->orbit.start[0] == '\0' && !start->broken &&
@@ -287,8 +292,8 @@ static void check_ramp(deck_builder *b)
   if (rate->given && protocol->given)
     complain(b, protocol, "protocol", "give either 'rate' or 'protocol', not both");
   else if (why != NULL)
-    namelist_error_at(protocol->nl, protocol->line, protocol->column, 8, b->errors,
-                      "'protocol' %s", why);
+    namelist_error_at(protocol->nl, place_of(protocol, "protocol"), b->errors, "'protocol' %s",
+                      why);
   if (rate->given && (a->value[a->count - 1] - a->value[0]) / d->ramp.rate > 1e9)
     complain(b, rate, "rate",
              "at so small a 'rate' the sweep takes more than 1e9 drive periods: give a larger one");
@@ -308,7 +313,7 @@ static void check_size(deck_builder *b)
   for (int i = 0; i < DECK_AXIS_COUNT; i++)
     if (d->axis[i].count > 0) points *= (double)d->axis[i].count;
   if (points > 0x1p32 && !d->basins.refine)
-    namelist_error_at(b->kind_nl, b->kind_line, b->kind_column, 1, b->errors,
+    namelist_error_at(b->kind_nl, (namelist_place){ b->kind_line, b->kind_column, 1 }, b->errors,
                       "the axes%s multiply to %.4g pendulums; at most 2^32 are possible%s",
                       with_members ? " and members" : "", points,
                       b->scene == 1u << DECK_BASINS ? " without refine = .true." : "");

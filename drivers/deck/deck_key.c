@@ -16,7 +16,8 @@ static void *field(deck *d, const deck_key *key)
 static void complain(deck_builder *b, const namelist_value *v, const char *key, const char *message)
 {
   const int width = v->length > 40 ? 40 : (int)v->length;
-  namelist_error_at(b->nl, v->line, v->column, width, b->errors, "'%s' %s", key, message);
+  namelist_error_at(b->nl, (namelist_place){ v->line, v->column, width }, b->errors, "'%s' %s", key,
+                    message);
 }
 
 /* The sentence that fits: most ranges start at zero. */
@@ -83,8 +84,9 @@ static int read_choice(deck_builder *b, const deck_key *key, const namelist_valu
       snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'",
                list[0] == '\0' ? "" : ", ", key->choices[i]);
   }
-  namelist_error_at(b->nl, v->line, v->column, v->length > 40 ? 40 : (int)v->length, b->errors,
-                    "'%s' knows no '%.40s'%s; it takes %s", key->name, text,
+  namelist_error_at(b->nl,
+                    (namelist_place){ v->line, v->column, v->length > 40 ? 40 : (int)v->length },
+                    b->errors, "'%s' knows no '%.40s'%s; it takes %s", key->name, text,
                     deck_suggestion_text(&s, hint, sizeof hint), list);
   for (int i = 0; s.best != NULL && key->choices[i] != NULL; i++)
     if (key->choices[i] == s.best) return i;
@@ -299,14 +301,16 @@ static int check_shape(deck_builder *b, const deck_key *key, const namelist_arra
     const namelist_value *v = array->item[i];
     size_t row = 0;
     if (v == NULL && (is_list(key) || range)) {
-      namelist_error_at(b->nl, array->line, array->column, (int)strlen(key->name), b->errors,
+      namelist_error_at(b->nl,
+                        (namelist_place){ array->line, array->column, (int)strlen(key->name) },
+                        b->errors,
                         "'%s': value %zu is missing (a blank after 'r*', or two commas?)",
                         key->name, i + 1);
       return 0;
     }
     if (v == NULL) continue;
     if (is_key_name(b, key, v, &row)) {
-      namelist_error_at(b->nl, v->line, v->column, (int)v->length, b->errors,
+      namelist_error_at(b->nl, (namelist_place){ v->line, v->column, (int)v->length }, b->errors,
                         "expected '=' after '%s'", deck_table[row].name);
       b->given[row].broken = 1;
       return 0;

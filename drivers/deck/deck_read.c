@@ -83,9 +83,11 @@ static void check_kind(deck_builder *b, int found)
   const deck_given *kind = &b->given[deck_table_find("scene", "kind", 0, &range)];
   if (kind->given || kind->broken) return;
   if (!found && (nl->groups > 0 || b->errors->count == 0))
-    namelist_error_at(nl, 1, 1, 1, b->errors, "the deck has no group &scene with a 'kind'");
+    namelist_error_at(nl, (namelist_place){ 1, 1, 1 }, b->errors,
+                      "the deck has no group &scene with a 'kind'");
   else if (found && !kind->group->broken)
-    namelist_error_at(nl, b->kind_line, b->kind_column, 6, b->errors, "&scene needs a 'kind'");
+    namelist_error_at(nl, (namelist_place){ b->kind_line, b->kind_column, 6 }, b->errors,
+                      "&scene needs a 'kind'");
 }
 
 /* &scene first, wherever it stands: all else depends on the kind. */

@@ -155,14 +155,19 @@ int namelist_value_logical(const namelist *nl, const namelist_value *value, cons
 int namelist_value_string(const namelist *nl, const namelist_value *value, const char *key,
                           char *text, size_t size, namelist_errors *errors);
 
-/**
- * Report an error at a position of nl (line 0: of the file as a whole); width characters are
- * underlined. The format is that of printf.
- */
-void namelist_error_at(const namelist *nl, int line, int column, int width, namelist_errors *errors,
+/** Where something stands in the text, from 1 on, of which `width` characters are underlined. */
+typedef struct namelist_place {
+  int line, column, width;
+} namelist_place;
+
+/** The place of what concerns a text as a whole. */
+extern const namelist_place namelist_whole;
+
+/** Report an error at a place of nl. The format is that of printf. */
+void namelist_error_at(const namelist *nl, namelist_place at, namelist_errors *errors,
                        const char *format, ...)
 #if defined(__GNUC__)
-    __attribute__((format(printf, 6, 7)))
+    __attribute__((format(printf, 4, 5)))
 #endif
     ;
 

@@ -20,11 +20,11 @@
 enum { WINDOW = 100, BEFORE = 60, MESSAGE = 600 };
 
 /* The source line and the caret below it. Tabs stay tabs in both, so that they line up. */
-static void write_source(FILE *out, const namelist *nl, int line, int column, int width)
+static void write_source(FILE *out, const namelist *nl, namelist_place where)
 {
-  const char *text = nl->text + nl->line[line - 1];
+  const char *text = nl->text + nl->line[where.line - 1];
   size_t left = 0;
-  const int first = column > WINDOW ? column - BEFORE : 1;
+  const int column = where.column, first = column > WINDOW ? column - BEFORE : 1;
   int at = 1, shown = 0;
   char pad[WINDOW + 1];
   int pads = 0;
@@ -53,10 +53,10 @@ static void write_source(FILE *out, const namelist *nl, int line, int column, in
   }
   pad[pads] = '\0';
   fprintf(out, "\n  %s%s^", first > 1 ? "   " : "", pad);
-  for (int i = 1; i < width && i + pads < WINDOW; i++) fputc('~', out);
+  for (int i = 1; i < where.width && i + pads < WINDOW; i++) fputc('~', out);
 }
 
-static char *format_error(const namelist *nl, int line, int column, int width, const char *message)
+static char *format_error(const namelist *nl, namelist_place at, const char *message)
 {
   char *text = NULL;
   size_t size = 0;
@@ -65,10 +65,10 @@ static char *format_error(const namelist *nl, int line, int column, int width, c
   if (out == NULL) return NULL;
   /* The deck's own words are in the message, and the name may be anything. */
   safe_text_write(out, name);
-  if (line < 1) fputs(": error: ", out);
-  else fprintf(out, ":%d:%d: error: ", line, column);
+  if (at.line < 1) fputs(": error: ", out);
+  else fprintf(out, ":%d:%d: error: ", at.line, at.column);
   safe_text_write(out, message);
-  if (line >= 1 && line <= nl->lines) write_source(out, nl, line, column, width);
+  if (at.line >= 1 && at.line <= nl->lines) write_source(out, nl, at);
   if (fclose(out) != 0) {
     free(text);
     text = NULL;
@@ -88,7 +88,9 @@ static int make_room(namelist_errors *errors)
   return 1;
 }
 
-void namelist_error_at(const namelist *nl, int line, int column, int width, namelist_errors *errors,
+const namelist_place namelist_whole = { 0, 0, 0 };
+
+void namelist_error_at(const namelist *nl, namelist_place at, namelist_errors *errors,
                        const char *format, ...)
 {
   char message[MESSAGE];
@@ -103,13 +105,13 @@ void namelist_error_at(const namelist *nl, int line, int column, int width, name
   const int written = vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
   if (written < 0) snprintf(message, sizeof message, "(a message that cannot be shown)");
-  text = format_error(nl, line, column, width, message);
+  text = format_error(nl, at, message);
   if (text == NULL || !make_room(errors)) {
     free(text);
     errors->out_of_memory = 1;
     return;
   }
-  errors->item[errors->count++] = (namelist_error){ nl->order, line, column, text };
+  errors->item[errors->count++] = (namelist_error){ nl->order, at.line, at.column, text };
 }
 
 /* Does a stand behind b? */

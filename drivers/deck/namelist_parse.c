@@ -14,7 +14,7 @@
 
 static void complain(reader *r, int line, int column, int width, const char *message)
 {
-  namelist_error_at(r->nl, line, column, width, r->errors, "%s", message);
+  namelist_error_at(r->nl, (namelist_place){ line, column, width }, r->errors, "%s", message);
   if (r->group != NULL) r->group->broken = 1;
 }
 
@@ -299,8 +299,8 @@ static void check_repeated(reader *r, namelist_assignment *a)
   for (size_t i = 0; !a->subscripted && i < r->group->count; i++) {
     const namelist_assignment *other = &r->nl->assignment[r->group->begin + i];
     if (other->subscripted || strcmp(other->name, a->name) != 0) continue;
-    namelist_error_at(r->nl, a->line, a->column, (int)strlen(a->name), r->errors,
-                      "'%s' is given twice (first on line %d)", a->name, other->line);
+    namelist_error_at(r->nl, (namelist_place){ a->line, a->column, (int)strlen(a->name) },
+                      r->errors, "'%s' is given twice (first on line %d)", a->name, other->line);
     a->broken = 1;
     return;
   }
@@ -340,7 +340,7 @@ static void skip_non_assignment(reader *r)
 {
   const size_t end = lex_name_end(r, r->at);
   if (end > r->at) {
-    namelist_error_at(r->nl, r->line, r->column, (int)(end - r->at), r->errors,
+    namelist_error_at(r->nl, (namelist_place){ r->line, r->column, (int)(end - r->at) }, r->errors,
                       "expected '=' after '%.*s'", end - r->at > 40 ? 40 : (int)(end - r->at),
                       r->nl->text + r->at);
     r->group->broken = 1;
@@ -368,8 +368,8 @@ static void skip_non_assignment(reader *r)
 static void report_open_group(reader *r)
 {
   const namelist_group *g = r->group;
-  namelist_error_at(r->nl, g->line, g->column, (int)strlen(g->name) + 1, r->errors,
-                    "&%s is not closed: its '/' is missing", g->name);
+  namelist_error_at(r->nl, (namelist_place){ g->line, g->column, (int)strlen(g->name) + 1 },
+                    r->errors, "&%s is not closed: its '/' is missing", g->name);
   r->group->broken = 1;
 }
 
@@ -413,8 +413,9 @@ static void read_group(reader *r)
   read_name(r, g.name);
   for (size_t i = 0; i < r->nl->groups; i++) {
     if (strcmp(r->nl->group[i].name, g.name) != 0) continue;
-    namelist_error_at(r->nl, g.line, g.column, (int)strlen(g.name) + 1, r->errors,
-                      "&%s is given twice (first on line %d)", g.name, r->nl->group[i].line);
+    namelist_error_at(r->nl, (namelist_place){ g.line, g.column, (int)strlen(g.name) + 1 },
+                      r->errors, "&%s is given twice (first on line %d)", g.name,
+                      r->nl->group[i].line);
     g.repeated = 1;
     break;
   }

@@ -41,12 +41,12 @@ pendres_status namelist_parse(const char *name, const char *text, size_t length,
   if (take_text(out, name, text, length <= NAMELIST_MAX_BYTES ? length : 0) != PENDRES_OK)
     goto no_memory;
   if (length > NAMELIST_MAX_BYTES) {
-    namelist_error_at(out, 0, 0, 0, errors, "the deck is larger than 1 MiB");
+    namelist_error_at(out, namelist_whole, errors, "the deck is larger than 1 MiB");
     return PENDRES_INVALID_ARGUMENT;
   }
   if (length >= 2 &&
       (memcmp(out->text, "\xFF\xFE", 2) == 0 || memcmp(out->text, "\xFE\xFF", 2) == 0)) {
-    namelist_error_at(out, 0, 0, 0, errors, "the deck is UTF-16; save it as UTF-8");
+    namelist_error_at(out, namelist_whole, errors, "the deck is UTF-16; save it as UTF-8");
     return PENDRES_INVALID_ARGUMENT;
   }
   if (length >= 3 && memcmp(out->text, "\xEF\xBB\xBF", 3) == 0) out->line[0] = r.at = 3; /* BOM */
@@ -124,7 +124,7 @@ pendres_status namelist_read(const char *path, namelist *out, namelist_errors *e
     const char *why = strerror(errno);
     const pendres_status parsed = namelist_parse(path, "", 0, &named, errors);
     if (parsed == PENDRES_OK)
-      namelist_error_at(&named, 0, 0, 0, errors, "cannot read the deck: %s", why);
+      namelist_error_at(&named, namelist_whole, errors, "cannot read the deck: %s", why);
     *out = named;
     status = parsed == PENDRES_OK ? PENDRES_IO : parsed;
     goto done;

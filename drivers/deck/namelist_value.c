@@ -29,9 +29,9 @@ static const char *clip(const namelist *nl, const namelist_value *v, char *buffe
   return buffer;
 }
 
-static int width_of(const namelist_value *v)
+static namelist_place place_of(const namelist_value *v)
 {
-  return v->length > CLIP ? CLIP : (int)v->length;
+  return (namelist_place){ v->line, v->column, v->length > CLIP ? CLIP : (int)v->length };
 }
 
 /* Report `'key' wants WHAT, not RAW`; the value of this function is that of a failed conversion. */
@@ -39,8 +39,7 @@ static int refuse(const namelist *nl, const namelist_value *v, const char *key, 
                   namelist_errors *errors)
 {
   char raw[CLIP + 4];
-  namelist_error_at(nl, v->line, v->column, width_of(v), errors, "'%s' wants %s, not %s", key,
-                    wants,
+  namelist_error_at(nl, place_of(v), errors, "'%s' wants %s, not %s", key, wants,
                     v->form == NAMELIST_NULL ? "nothing" : clip(nl, v, raw));
   return 0;
 }
@@ -163,8 +162,8 @@ int namelist_value_real(const namelist *nl, const namelist_value *value, const c
   if (isinf(x)) problem = "is too large for a double";
   else if (x == 0.0 && !mantissa_is_zero(number)) problem = "is too small for a double";
   if (problem != NULL) {
-    namelist_error_at(nl, value->line, value->column, width_of(value), errors, "'%s': %s %s", key,
-                      clip(nl, value, raw), problem);
+    namelist_error_at(nl, place_of(value), errors, "'%s': %s %s", key, clip(nl, value, raw),
+                      problem);
     return 0;
   }
   *out = sign * x;
@@ -189,8 +188,8 @@ int namelist_value_integer(const namelist *nl, const namelist_value *value, cons
   errno = 0;
   x = strtoll(number, NULL, 10);
   if (errno == ERANGE || x > INT64_MAX || x < INT64_MIN) {
-    namelist_error_at(nl, value->line, value->column, width_of(value), errors,
-                      "'%s': %s does not fit into 64 bits", key, clip(nl, value, raw));
+    namelist_error_at(nl, place_of(value), errors, "'%s': %s does not fit into 64 bits", key,
+                      clip(nl, value, raw));
     return 0;
   }
   *out = x;
@@ -229,7 +228,7 @@ int namelist_value_string(const namelist *nl, const namelist_value *value, const
   for (size_t i = first; i < end; i++) {
     if (t[i] == '\n' || (t[i] == '\r' && t[i + 1] == '\n')) continue; /* record ends vanish */
     if (used + 1 >= size) {
-      namelist_error_at(nl, value->line, value->column, width_of(value), errors,
+      namelist_error_at(nl, place_of(value), errors,
                         "'%s': this string is too long (at most %zu bytes)", key, size - 1);
       return 0;
     }
@@ -242,43 +241,51 @@ int namelist_value_string(const namelist *nl, const namelist_value *value, const
 
 /* ---- arrays -------------------------------------------------------------------------------- */
 
-/* Make room for element n (from 1). */
-static int reach(namelist_array *array, size_t *capacity, size_t n)
+/* An array that is being filled. */
+typedef struct filling {
+  namelist_array *array;
+  size_t capacity;
+  long next; /* element, from 1 on */
+} filling;
+
+/* Make room for element n. */
+static int reach(filling *f, size_t n)
 {
-  const namelist_value **item = NULL;
-  size_t wanted = *capacity < 8 ? 8 : *capacity;
+  namelist_array *array = f->array;
+  size_t wanted = f->capacity < 8 ? 8 : f->capacity;
   while (wanted < n) wanted *= 2;
-  if (wanted > *capacity) {
-    item = realloc(array->item, wanted * sizeof *item);
+  if (wanted > f->capacity) {
+    const namelist_value **item = realloc(array->item, wanted * sizeof *item);
     if (item == NULL) return 0;
     array->item = item;
-    *capacity = wanted;
+    f->capacity = wanted;
   }
   while (array->count < n) array->item[array->count++] = NULL;
   return 1;
 }
 
-/* Put one value, as often as it is repeated, from element *next on. 0: out of memory. */
+/* Put one value, as often as it is repeated, from the next element on. 0: out of memory. */
 static int place(const namelist *nl, const namelist_assignment *a, const namelist_value *v,
-                 long *next, size_t *capacity, namelist_array *out, namelist_errors *errors)
+                 filling *f, namelist_errors *errors)
 {
-  for (int i = 0; i < v->repeat; i++, *next += a->step) {
+  namelist_array *out = f->array;
+  for (int i = 0; i < v->repeat; i++, f->next += a->step) {
     const char *problem = NULL;
-    if (a->subscripted && a->last != 0 && *next > a->last)
+    if (a->subscripted && a->last != 0 && f->next > a->last)
       problem = "more values than the subscript selects";
-    else if (*next > NAMELIST_MAX_VALUES)
+    else if (f->next > NAMELIST_MAX_VALUES)
       problem = "more than a million elements";
-    else if (v->form != NAMELIST_NULL && (size_t)*next <= out->count &&
-             out->item[*next - 1] != NULL)
+    else if (v->form != NAMELIST_NULL && (size_t)f->next <= out->count &&
+             out->item[f->next - 1] != NULL)
       problem = "an element is given twice";
     if (problem != NULL) {
-      namelist_error_at(nl, v->line, v->column, width_of(v), errors, "'%s': %s", a->name, problem);
+      namelist_error_at(nl, place_of(v), errors, "'%s': %s", a->name, problem);
       out->broken = 1;
       return 1;
     }
     if (v->form == NAMELIST_NULL) continue;
-    if (!reach(out, capacity, (size_t)*next)) return 0;
-    out->item[*next - 1] = v;
+    if (!reach(f, (size_t)f->next)) return 0;
+    out->item[f->next - 1] = v;
   }
   return 1;
 }
@@ -286,12 +293,12 @@ static int place(const namelist *nl, const namelist_assignment *a, const namelis
 pendres_status namelist_array_get(const namelist *nl, const namelist_group *group, const char *name,
                                   namelist_array *out, namelist_errors *errors)
 {
-  size_t capacity = 0;
+  filling f = { .array = out };
   *out = (namelist_array){ 0 };
   for (size_t i = 0; i < group->count; i++) {
     const namelist_assignment *a = &nl->assignment[group->begin + i];
-    long next = a->subscripted ? a->first : 1;
     if (strcmp(a->name, name) != 0) continue;
+    f.next = a->subscripted ? a->first : 1;
     if (!out->given) {
       out->line = a->line;
       out->column = a->column;
@@ -299,7 +306,7 @@ pendres_status namelist_array_get(const namelist *nl, const namelist_group *grou
     out->given = 1;
     if (a->broken) out->broken = 1;
     for (size_t k = 0; k < a->count && !out->broken; k++) {
-      if (place(nl, a, &nl->value[a->begin + k], &next, &capacity, out, errors)) continue;
+      if (place(nl, a, &nl->value[a->begin + k], &f, errors)) continue;
       errors->out_of_memory = 1;
       return PENDRES_OUT_OF_MEMORY;
     }

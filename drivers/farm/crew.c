@@ -1,14 +1,13 @@
 /* crew.c -- the tasks of a stage on threads; see farm.h. */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "farm/crew_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "farm/deal.h"
 #include "farm/point.h"
+#include "system/clock.h"
 
 /* Whether a task's record is there: in memory; in the journal alone, from this run or from an
    earlier one; or another shard's to compute. */
@@ -26,9 +25,7 @@ typedef struct worker {
 
 long long crew_milliseconds(void)
 {
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_MONOTONIC, &t);
-  return 1000LL * t.tv_sec + t.tv_nsec / 1000000;
+  return (long long)(1e3 * clock_wall());
 }
 
 /* Where nothing has been told for long, say what is being worked on. */

@@ -1,5 +1,5 @@
 /* journal.c -- records of finished tasks on disk; see journal.h. */
-#define _POSIX_C_SOURCE 200809L /* pread, fdatasync, clock_gettime */
+#define _POSIX_C_SOURCE 200809L /* fdatasync */
 #define _DEFAULT_SOURCE         /* flock */
 #include "farm/journal.h"
 
@@ -12,8 +12,9 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "system/clock.h"
 
 /* At most the records of so many seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
@@ -45,13 +46,6 @@ struct journal {
   double synced;
   pthread_mutex_t lock; /* guards the file and, once threads append to it, the index */
 };
-
-static double now(void)
-{
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- the index ----------------------------------------------------------------------------- */
 
@@ -281,7 +275,7 @@ pendres_status journal_open(const char *path, const char *head, int resume, jour
     free(j);
     return PENDRES_OUT_OF_MEMORY;
   }
-  j->synced = now();
+  j->synced = clock_wall();
   const pendres_status status = build(j, path, head, resume, words);
   if (status == PENDRES_OK) {
     *out = j;
@@ -350,9 +344,9 @@ static pendres_status append(journal *j, size_t number, size_t task, const farm_
   j->end += (off_t)(sizeof e + e.stored);
   j->own++;
   j->dirty = 1;
-  if (now() - j->synced > sync_after) {
+  if (clock_wall() - j->synced > sync_after) {
     (void)fdatasync(j->file[0]);
-    j->synced = now();
+    j->synced = clock_wall();
   }
   return note(j, 0, &e, at);
 }

@@ -1,16 +1,15 @@
 /* journal_file.c -- the bytes of a journal; see journal_file.h. */
-#define _POSIX_C_SOURCE 200809L /* pread, pwrite */
 #include "farm/journal_file.h"
 
-#include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <zlib.h>
+
+#include "system/bytes.h"
 
 static const char magic[8] = { 'P', 'E', 'N', 'D', 'R', 'E', 'S', 'J' };
 static const uint64_t mark = 0x5245434f52443031u; /* of a record, version 1 */
@@ -29,33 +28,6 @@ static uint32_t sum_of(const void *data, size_t size)
   uLong sum = crc32(0L, Z_NULL, 0);
   for (; size > PIECE; size -= PIECE, p += PIECE) sum = crc32(sum, p, PIECE);
   return (uint32_t)(size > 0 ? crc32(sum, p, (uInt)size) : sum);
-}
-
-static int read_all(int fd, off_t at, void *to, size_t size)
-{
-  for (char *p = to; size > 0;) {
-    const ssize_t n = pread(fd, p, size, at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return 0;
-    p += n;
-    at += n;
-    size -= (size_t)n;
-  }
-  return 1;
-}
-
-static int write_all(int fd, off_t at, const void *from, size_t size)
-{
-  for (const char *p = from; size > 0;) {
-    const ssize_t n = pwrite(fd, p, size, at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n == 0) errno = ENOSPC;
-    if (n <= 0) return 0;
-    p += n;
-    at += n;
-    size -= (size_t)n;
-  }
-  return 1;
 }
 
 /* ---- the head ------------------------------------------------------------------------------ */
@@ -81,19 +53,19 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
   journal_head found = JOURNAL_TORN;
   struct stat s;
   char begin[sizeof magic] = "";
-  if (fstat(fd, &s) != 0 || !read_all(fd, 0, begin, sizeof begin)) return JOURNAL_TORN;
+  if (fstat(fd, &s) != 0 || !bytes_read(fd, 0, begin, sizeof begin)) return JOURNAL_TORN;
   if (memcmp(begin, magic, sizeof magic) != 0) {
     snprintf(words, JOURNAL_WORDS, "what stands in the place of the journal is none: it is left "
              "alone");
     return JOURNAL_OTHER;
   }
-  if (!read_all(fd, 0, &h, sizeof h) || h.sum != sum_of(&h, offsetof(file_head, sum)) ||
+  if (!bytes_read(fd, 0, &h, sizeof h) || h.sum != sum_of(&h, offsetof(file_head, sum)) ||
       h.length > (uint64_t)s.st_size)
     return JOURNAL_TORN;
   char *theirs = malloc((size_t)h.length + 1);
   if (theirs == NULL) return JOURNAL_NO_MEMORY;
   theirs[h.length] = '\0';
-  if (read_all(fd, sizeof h, theirs, (size_t)h.length) &&
+  if (bytes_read(fd, sizeof h, theirs, (size_t)h.length) &&
       h.text_sum == sum_of(theirs, (size_t)h.length)) {
     found = strcmp(theirs, text) == 0 ? JOURNAL_SAME : JOURNAL_OTHER;
     if (found == JOURNAL_OTHER) name_difference(theirs, text, words);
@@ -109,7 +81,7 @@ int journal_file_begin(int fd, const char *text, off_t *end)
   memcpy(h.magic, magic, sizeof magic);
   h.sum = sum_of(&h, offsetof(file_head, sum));
   *end = (off_t)(sizeof h + h.length);
-  return write_all(fd, 0, &h, sizeof h) && write_all(fd, sizeof h, text, (size_t)h.length);
+  return bytes_write(fd, 0, &h, sizeof h) && bytes_write(fd, sizeof h, text, (size_t)h.length);
 }
 
 /* ---- records ------------------------------------------------------------------------------- */
@@ -117,7 +89,7 @@ int journal_file_begin(int fd, const char *text, off_t *end)
 int journal_file_entry(int fd, off_t at, journal_entry *e)
 {
   struct stat s;
-  return fstat(fd, &s) == 0 && read_all(fd, at, e, sizeof *e) && e->mark == mark &&
+  return fstat(fd, &s) == 0 && bytes_read(fd, at, e, sizeof *e) && e->mark == mark &&
          e->sum == sum_of(e, offsetof(journal_entry, sum)) && e->stored <= e->size &&
          e->stored <= (uint64_t)s.st_size;
 }
@@ -125,7 +97,7 @@ int journal_file_entry(int fd, off_t at, journal_entry *e)
 int journal_file_data(int fd, off_t at, const journal_entry *e, void *data)
 {
   const size_t stored = (size_t)e->stored;
-  if (!read_all(fd, at + (off_t)sizeof *e, data, stored)) return 0;
+  if (!bytes_read(fd, at + (off_t)sizeof *e, data, stored)) return 0;
   memset((char *)data + stored, 0, (size_t)e->size - stored);
   return e->data_sum == sum_of(data, stored);
 }
@@ -141,7 +113,7 @@ int journal_file_next(int fd, off_t at, journal_entry *e)
   at += (off_t)sizeof *e;
   while (whole && left > 0) {
     const size_t n = left < PIECE ? (size_t)left : PIECE;
-    whole = read_all(fd, at, piece, n);
+    whole = bytes_read(fd, at, piece, n);
     if (whole) sum = crc32(sum, piece, (uInt)n);
     at += (off_t)n;
     left -= n;
@@ -158,6 +130,6 @@ int journal_file_append(int fd, off_t at, journal_entry *e, const void *data)
   e->mark = mark;
   e->data_sum = sum_of(data, (size_t)e->stored);
   e->sum = sum_of(e, offsetof(journal_entry, sum));
-  return write_all(fd, at, e, sizeof *e) &&
-         write_all(fd, at + (off_t)sizeof *e, data, (size_t)e->stored);
+  return bytes_write(fd, at, e, sizeof *e) &&
+         bytes_write(fd, at + (off_t)sizeof *e, data, (size_t)e->stored);
 }

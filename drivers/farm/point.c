@@ -1,26 +1,17 @@
 /* point.c -- the point that a task works on; see point.h and farm_point(). */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "farm/point.h"
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <time.h>
 
 #include "farm/deal.h"
+#include "system/clock.h"
 
 /* A point is costly, and told of, when it has taken so many times the mean of those before, of
    which there have to be some, and longer than one waits for gladly: a part of the time between two
    lines on the run, five seconds as a rule. */
 static const double many_times = 20.0, long_wait = 1.0 / 60.0;
 enum { POINTS_BEFORE = 8, LOOK_EVERY = 20 /* milliseconds */, WORDS = 400 };
-
-/* Processor seconds of this thread. */
-static double point_clock(void)
-{
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Seconds a point of the stage, on average; 0 while there are too few. */
 static double mean_of(crew *c)
@@ -59,7 +50,7 @@ int point_over(farm_watch *w, long long now)
 {
   if (w->points == 0 || w->over || now < w->look) return w->over;
   const double budget = w->crew->farm->options.budget, points = (double)w->points;
-  const double spent = point_clock() - w->start;
+  const double spent = clock_thread() - w->start;
   double mean;
   w->look = now + LOOK_EVERY;
   if (!w->told && is_costly(w, spent, &mean)) tell_costly(w, spent, mean);
@@ -73,7 +64,7 @@ void point_end(farm_watch *w)
   crew *c = w->crew;
   if (w->points == 0) return;
   if (!w->over) {
-    const double spent = point_clock() - w->start;
+    const double spent = clock_thread() - w->start;
     pthread_mutex_lock(&c->lock);
     c->points += w->points;
     c->point_seconds += spent;
@@ -100,7 +91,7 @@ void farm_point(farm_record *record, size_t points, const char *format, ...)
   w->points = points;
   w->told = 0;
   w->look = 0;
-  w->start = point_clock();
+  w->start = clock_thread();
 }
 
 int farm_gave_up(const farm_record *record, pendres_status status)

@@ -1,14 +1,13 @@
 /* trial.c -- a few tasks of each stage; see trial.h. */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "farm/trial.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "farm/farm_internal.h"
+#include "system/clock.h"
 
 /* Of a task's record in the journal, beside its data. */
 enum { ENTRY = sizeof(journal_entry) };
@@ -19,7 +18,7 @@ typedef struct trial_record {
   size_t size;
 } trial_record;
 
-/* The tasks of a stage that are tried. */
+/* The tasks of a stage that are tried. Time is that of all threads: there are no others then. */
 typedef struct stage_trial {
   farm *farm;
   const farm_stage *stage;
@@ -31,28 +30,20 @@ typedef struct stage_trial {
   pendres_cost cost;
 } stage_trial;
 
-/* Of all threads: a trial has no other threads than its own. */
-static double processor_time(void)
-{
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void farm_set_trial(farm *f, farm_trial *t)
 {
   f->trial = t;
-  t->start = processor_time();
+  t->start = clock_process();
 }
 
 double farm_trial_outside(const farm_trial *t)
 {
-  return processor_time() - t->start - t->spent;
+  return clock_process() - t->start - t->spent;
 }
 
 int trial_over(const farm_trial *t)
 {
-  return processor_time() - t->start > t->most;
+  return clock_process() - t->start > t->most;
 }
 
 /* Number k of the tasks in an order of which every beginning is spread evenly: k's bits mirrored at
@@ -91,9 +82,9 @@ static pendres_status try_task(stage_trial *s, size_t task)
     return PENDRES_OUT_OF_MEMORY;
   pendres_cost before, after;
   pendres_context_cost(ctx, &before);
-  const double start = processor_time();
+  const double start = clock_process();
   const pendres_status status = s->stage->task(s->stage->arg, task, ctx, &record);
-  const double seconds = processor_time() - start;
+  const double seconds = clock_process() - start;
   pendres_context_cost(ctx, &after);
   s->farm->trial->spent += seconds;
   s->record[task] = (trial_record){ record.data, record.size };

@@ -166,21 +166,21 @@ static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
 
 /* The attractor that a path starts on, at its first value that can be computed: the path leaves out
    those before. */
-static pendres_status find_start(const deck *d, deck_axis_id axis, size_t n, const double *value,
-                                 pendres_context *ctx, pendres_attractor *start, farm_record *out)
+static pendres_status find_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                 pendres_attractor *start, farm_record *out)
 {
   pendres_pendulum p = scene_along_pendulum(d);
   pendres_status status = PENDRES_OK;
-  for (size_t i = 0; i < n; i++) {
-    scene_along_set(&p, axis, value[i]);
+  for (size_t i = 0; i < way->n; i++) {
+    scene_along_set(&p, way->axis, way->value[i]);
     status = scene_along_named(ctx, &p, d->orbit.start, start, out->message, sizeof out->message);
     if (status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED) break;
   }
   return status;
 }
 
-pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, const double *value,
-                                  pendres_context *ctx, farm_record *out)
+pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                  farm_record *out)
 {
   const pendres_pendulum p = scene_along_pendulum(d);
   double x = d->orbit.x, v = d->orbit.v;
@@ -188,14 +188,15 @@ pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, co
   pendres_status status = PENDRES_OK;
   if (d->orbit.start[0] != '\0') {
     pendres_attractor start;
-    status = find_start(d, axis, n, value, ctx, &start, out);
+    status = find_start(d, way, ctx, &start, out);
     if (status != PENDRES_OK) return status;
     x = start.orbit.x;
     v = start.orbit.v;
   }
-  farm_point(out, n, "the path of %zu values of %s from %.10g on", n, deck_axis_name(axis),
-             value[0]);
-  status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(axis), x, v, n, value, &h);
+  farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
+             deck_axis_name(way->axis), way->value[0]);
+  status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(way->axis), x, v, way->n,
+                                     way->value, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);

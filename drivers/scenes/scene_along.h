@@ -39,10 +39,17 @@ typedef struct scene_along_path {
 
 void scene_along_path_free(scene_along_path *path);
 
-/* Follow the deck's pendulum from its start along n values of an axis, and fill a record. The
-   budget is of all values together: where it ends the path, the rest of it stays unresolved. */
-pendres_status scene_along_follow(const deck *d, deck_axis_id axis, size_t n, const double *value,
-                                  pendres_context *ctx, farm_record *out);
+/* Values of an axis in the order in which they are followed. */
+typedef struct scene_along_way {
+  deck_axis_id axis;
+  size_t n;
+  const double *value;
+} scene_along_way;
+
+/* Follow the deck's pendulum from its start along a way, and fill a record. The budget is of all
+   values together: where it ends the path, the rest of it stays unresolved. */
+pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                  farm_record *out);
 
 /* Take over such a record. */
 pendres_status scene_along_take(const farm_record *in, scene_along_path *path);

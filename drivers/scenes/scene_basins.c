@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "scenes/scene_basins.h"
-#include "scenes/scene_basins_noise.h"
 
 enum {
   STATES_A_TASK = 65536, /* whole rows of about so many states */
@@ -409,8 +408,7 @@ static void tell_unresolved(const basins *b)
   }
   const size_t rest = b->unresolved - b->given_up;
   if (rest == 0) return;
-  scene_failure_unsettled(b->d, rest, b->grid.nx * b->grid.nv, "states", weakest, words,
-                          sizeof words);
+  scene_failure_unsettled(b->d, rest, b->grid.nx * b->grid.nv, "states", weakest, words);
   scene_failure_tell(b->run, SCENE_FAILURE_UNRESOLVED, words, "basins");
 }
 
@@ -432,7 +430,7 @@ static pendres_status run_scene(scene_run *run)
   }
   if (status == PENDRES_OK) status = compute_cut(&b);
   if (status == PENDRES_OK) status = basins_write_results(&b);
-  if (status == PENDRES_OK) status = scene_basins_write_clouds(run, b.set);
+  if (status == PENDRES_OK) status = basins_write_clouds(run, b.set);
   run->failed_points += b.unresolved;
   if (b.unresolved > 0) tell_unresolved(&b);
   pendres_attractors_free(b.set);

@@ -1,13 +1,14 @@
 /*
  * scene_basins.h -- what the parts of scene `basins` share: computing in scene_basins.c, writing in
  * scene_basins_write.c, wells in scene_basins_wells.c, the boundary as a curve in
- * scene_basins_boundary.c.
+ * scene_basins_boundary.c, clouds under noise in scene_basins_noise.c.
  */
 #ifndef SCENE_BASINS_H
 #define SCENE_BASINS_H
 
 #include <pendres/basin.h>
 
+#include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
 enum {
@@ -23,7 +24,8 @@ typedef struct basins {
   pendres_basin_grid grid;
   pendres_attractors *set;
   pendres_basin_sums *sums;
-  int variable[BASINS_VARIABLES];
+  scene_column column[BASINS_VARIABLES]; /* of all states, */
+  int variable[BASINS_VARIABLES];        /* and their variables in the store */
   size_t unresolved, uncertain;
   size_t given_up, given_up_index[BASINS_NAMED]; /* of the unresolved: by their budget */
   size_t random_states; /* that the uncertainty exponent comes from; 0: it comes from the grid */
@@ -54,5 +56,13 @@ void basins_print_wells(const basins *b, FILE *out);
 /* Find and write the stable manifold of the orbit between the first attractor and its neighbour,
    if any; b->curve says what was found. */
 pendres_status basins_write_boundary(basins *b);
+
+/*
+ * Compute and write the clouds around all attractors of the set at the deck's temperatures, and
+ * print a table of them. Nothing is done if the deck has no temperature axis. The root group has
+ * the dimension `attractor` already, in the order of the set; the dimensions `temperature` and
+ * `strobe` are made here. The run holds the message of a failure.
+ */
+pendres_status basins_write_clouds(scene_run *run, const pendres_attractors *set);
 
 #endif

@@ -39,15 +39,6 @@ static const scene_column of_states[BASINS_VARIABLES] = {
    .comment = "no: they may not, or the state was not integrated"},
 };
 
-/* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
-static void state_columns(const deck *d, scene_column columns[BASINS_VARIABLES])
-{
-  memcpy(columns, of_states, sizeof of_states);
-  if (strcmp(d->pendulum.force, "polynomial") != 0) return;
-  columns[0].names = scene_fate_names;
-  columns[1].comment = "-1: unresolved; -2: escapes to infinity";
-}
-
 static void state_rows(size_t n, const pendres_basin_state *state, state_row *rows)
 {
   for (size_t i = 0; i < n; i++) {
@@ -71,16 +62,24 @@ static scene_table state_table(const char *group, const char *second, size_t n,
                        .stride = sizeof *rows, .rows = rows, .deflate = QUICK};
 }
 
+static scene_variables variables_of(basins *b)
+{
+  return (scene_variables){BASINS_VARIABLES, b->column, b->variable};
+}
+
 pendres_status basins_define(basins *b)
 {
   const scene_table table = state_table("", "v", 0, NULL);
-  scene_column columns[BASINS_VARIABLES];
+  const scene_variables of = variables_of(b);
   pendres_status status = scene_dimension(b->run, "", DECK_AXIS_X);
   if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
-  state_columns(b->d, columns);
-  return status == PENDRES_OK
-           ? scene_columns_define(b->run, &table, BASINS_VARIABLES, columns, b->variable)
-           : status;
+  memcpy(b->column, of_states, sizeof of_states);
+  /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
+  if (strcmp(b->d->pendulum.force, "polynomial") == 0) {
+    b->column[0].names = scene_fate_names;
+    b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
+  }
+  return status == PENDRES_OK ? scene_columns_define(b->run, &table, &of) : status;
 }
 
 pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
@@ -89,16 +88,14 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
   enum { ROWS = 256 };
   const size_t nv = b->grid.nv;
   pendres_status status = PENDRES_OK;
-  scene_column columns[BASINS_VARIABLES];
-  state_row *some = malloc((rows < ROWS ? rows : ROWS) * nv * sizeof *some);
-  if (some == NULL) return scene_fail(b->run, PENDRES_OUT_OF_MEMORY, "out of memory for rows");
-  state_columns(b->d, columns);
+  const scene_variables of = variables_of(b);
+  state_row *some = scene_rows(b->run, (rows < ROWS ? rows : ROWS) * nv, sizeof *some);
+  if (some == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
     const size_t n = rows - i < ROWS ? rows - i : ROWS;
     const scene_table table = state_table("", "v", n * nv, some);
     state_rows(n * nv, state + i * nv, some);
-    status = scene_columns_write_rows(b->run, &table, first + i, n, BASINS_VARIABLES, columns,
-                                      b->variable);
+    status = scene_columns_write_rows(b->run, &table, first + i, n, &of);
   }
   free(some);
   return status;
@@ -107,15 +104,13 @@ pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
 static pendres_status write_cut(basins *b)
 {
   const size_t n = b->grid.nx;
-  scene_column columns[BASINS_VARIABLES];
   pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
   if (status != PENDRES_OK) return status;
   state_row *rows = scene_rows(b->run, n, sizeof *rows);
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   const scene_table table = state_table("cut", NULL, n, rows);
-  state_columns(b->d, columns);
   state_rows(n, b->cut, rows);
-  status = scene_columns_write(b->run, &table, BASINS_VARIABLES, columns);
+  status = SCENE_WRITE(b->run, &table, b->column);
   free(rows);
   if (status != PENDRES_OK) return status;
   status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",

@@ -54,7 +54,8 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
 {
   const work *w = arg;
   (void)task;
-  return scene_along_follow(w->d, w->axis, w->values, w->d->axis[w->axis].value, ctx, out);
+  const scene_along_way way = {w->axis, w->values, w->d->axis[w->axis].value};
+  return scene_along_follow(w->d, &way, ctx, out);
 }
 
 static pendres_status collect_path(void *arg, size_t task, const farm_record *in)

@@ -146,27 +146,34 @@ static void describe(const scene_run *run, const scene_table *t, const scene_col
     v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
 }
 
-/* Values of the first dimension from number `first` on, `values` of them, or all there is. */
-static pendres_status write_values(scene_run *run, const scene_table *t, size_t first,
-                                   size_t values, const scene_column *c, int id, const void *data)
+/* The rows of some values of the first dimension, or all there is. */
+typedef struct piece {
+  size_t first, values;
+  scene_table table;
+} piece;
+
+/* `rows` has room for them. */
+static pendres_status take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
 {
-  const size_t n = c->pairs ? 2 * t->n : t->n;
-  return t->first > 0 ? pendres_store_write_rows(run->store, id, first, values, data, n)
-                      : pendres_store_write(run->store, id, data, n);
+  const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
+  char why[200];
+  p->table = *t;
+  p->table.n = p->values * each;
+  if (t->missing != NULL) p->table.missing = t->missing + first;
+  p->table.rows = t->spill != NULL ? rows : field(t, first, 0);
+  if (t->spill == NULL) return PENDRES_OK;
+  const pendres_status status =
+    scene_spill_get(t->spill, first, p->table.n, rows, why, sizeof why);
+  return status == PENDRES_OK ? status : scene_fail(run, status, "%s", why);
 }
 
-/* The rows of some values of the first dimension; `rows` has room for them. */
-static pendres_status piece_of(const scene_table *t, size_t first, size_t values, void *rows,
-                               scene_table *piece, char *why, size_t size)
+static pendres_status write_piece(scene_run *run, const piece *p, int pairs, int id,
+                                  const void *data)
 {
-  const size_t each = t->n / (t->first > 0 ? t->first : 1);
-  *piece = *t;
-  piece->n = values * each;
-  if (t->missing != NULL) piece->missing = t->missing + first * each;
-  piece->rows = t->spill != NULL ? rows : field(t, first * each, 0);
-  return t->spill == NULL
-           ? PENDRES_OK
-           : scene_spill_get(t->spill, first * each, piece->n, rows, why, size);
+  const size_t n = pairs ? 2 * p->table.n : p->table.n;
+  return p->table.first > 0
+           ? pendres_store_write_rows(run->store, id, p->first, p->values, data, n)
+           : pendres_store_write(run->store, id, data, n);
 }
 
 /* A column, `most` values of the first dimension at a time. */
@@ -176,19 +183,17 @@ static pendres_status write_column(scene_run *run, const scene_table *t, size_t 
   const size_t all = t->first > 0 ? t->first : 1;
   variable v;
   int id = -1, error_id = -1;
-  char why[200];
   describe(run, t, c, &v);
   pendres_status status = c->type == SCENE_REAL
                             ? pendres_store_result(run->store, &v.spec, &id, &error_id)
                             : pendres_store_variable(run->store, &v.spec, &id);
   for (size_t at = 0; at < all && status == PENDRES_OK; at += most) {
-    const size_t values = all - at < most ? all - at : most;
-    scene_table piece;
-    status = piece_of(t, at, values, rows, &piece, why, sizeof why);
-    if (status != PENDRES_OK) return scene_fail(run, status, "%s", why);
-    status = write_values(run, &piece, at, values, c, id, gather(&piece, c, b));
+    piece p = {.first = at, .values = all - at < most ? all - at : most};
+    status = take_piece(run, t, rows, &p);
+    if (status == PENDRES_OK)
+      status = write_piece(run, &p, c->pairs, id, gather(&p.table, c, b));
     if (status == PENDRES_OK && c->type == SCENE_REAL)
-      status = write_values(run, &piece, at, values, c, error_id, b->error);
+      status = write_piece(run, &p, c->pairs, error_id, b->error);
   }
   return scene_stored(run, status);
 }
@@ -235,29 +240,26 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
   return status;
 }
 
-pendres_status scene_columns_define(scene_run *run, const scene_table *t, size_t count,
-                                    const scene_column *columns, int *variable_of)
+pendres_status scene_columns_define(scene_run *run, const scene_table *t,
+                                    const scene_variables *of)
 {
   pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
+  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++) {
     variable v;
-    describe(run, t, &columns[k], &v);
-    status = pendres_store_variable(run->store, &v.spec, &variable_of[k]);
+    describe(run, t, &of->column[k], &v);
+    status = pendres_store_variable(run->store, &v.spec, &of->number[k]);
   }
   return scene_stored(run, status);
 }
 
 pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
-                                        size_t rows, size_t count, const scene_column *columns,
-                                        const int *variable_of)
+                                        size_t rows, const scene_variables *of)
 {
   buffers b;
   pendres_status status = reserve(run, t->n, &b);
-  for (size_t k = 0; k < count && status == PENDRES_OK; k++) {
-    status = pendres_store_write_rows(run->store, variable_of[k], first, rows,
-                                      gather(t, &columns[k], &b), t->n);
-    (void)scene_stored(run, status);
-  }
+  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++)
+    status = scene_stored(run, pendres_store_write_rows(run->store, of->number[k], first, rows,
+                                                        gather(t, &of->column[k], &b), t->n));
   release(&b);
   return status;
 }

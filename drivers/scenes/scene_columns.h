@@ -70,16 +70,20 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *table, siz
 #define SCENE_WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
-/*
- * A table that comes in pieces: define the variables of its columns, of which none has an error,
- * and remember their numbers; then write pieces of it. table->rows are the n elements of `rows`
- * values of the first dimension, from number `first` on.
- */
-pendres_status scene_columns_define(scene_run *run, const scene_table *table, size_t count,
-                                    const scene_column *columns, int *variable_of);
+/* Columns of a table that comes in pieces, none of which has an error, and the store's numbers of
+   their variables. */
+typedef struct scene_variables {
+  size_t count;
+  const scene_column *column;
+  int *number;
+} scene_variables;
+
+/* Define the variables; then write pieces: table->rows are the n elements of `rows` values of the
+   first dimension, from number `first` on. */
+pendres_status scene_columns_define(scene_run *run, const scene_table *table,
+                                    const scene_variables *of);
 pendres_status scene_columns_write_rows(scene_run *run, const scene_table *table, size_t first,
-                                        size_t rows, size_t count, const scene_column *columns,
-                                        const int *variable_of);
+                                        size_t rows, const scene_variables *of);
 
 /* Names of values of the library's enums, as columns take them. */
 const char *scene_label_names(int value); /* of attractors */

@@ -144,15 +144,15 @@ static const char *advice(const deck *d)
 }
 
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
-                             double multiplier, char *words, size_t size)
+                             double multiplier, char words[SCENE_TOLD])
 {
   char periods[80] = "the budget of periods that damping and tolerance make", weakest[60] = "";
   if (d->precision.period_budget > 0)
     snprintf(periods, sizeof periods, "%lld periods", (long long)d->precision.period_budget);
   if (!isnan(multiplier))
     snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
-  snprintf(words, size, "%zu of %zu %s did not settle within %s%s: %s", some, all, what, periods,
-           weakest, advice(d));
+  snprintf(words, SCENE_TOLD, "%zu of %zu %s did not settle within %s%s: %s", some, all, what,
+           periods, weakest, advice(d));
 }
 
 /* ---- the terminal -------------------------------------------------------------------------- */

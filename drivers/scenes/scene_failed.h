@@ -83,7 +83,7 @@ pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, cons
  * slowly the weakest of them attracts; NaN if none is known.
  */
 void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
-                             double multiplier, char *words, size_t size);
+                             double multiplier, char words[SCENE_TOLD]);
 
 /* The reasons of n points; all SCENE_FAILURE_NONE at first. */
 typedef struct scene_failures {

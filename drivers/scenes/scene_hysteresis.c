@@ -28,7 +28,8 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   (void)task;
   if (path == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < w->values; i++) path[i] = path[n - 1 - i] = a->value[i];
-  const pendres_status status = scene_along_follow(w->d, w->axis, n, path, ctx, out);
+  const scene_along_way way = {w->axis, n, path};
+  const pendres_status status = scene_along_follow(w->d, &way, ctx, out);
   free(path);
   return status;
 }

@@ -244,7 +244,7 @@ static void judge(scene_lines *l)
     } else if (outcome == PENDRES_OK && unresolved > 0) {
       const size_t members = l->grid.options.ensemble.members;
       scene_failure_unsettled(l->run->deck, unresolved, members, "members",
-                              l->points[i].weakest_multiplier, words, sizeof words);
+                              l->points[i].weakest_multiplier, words);
       /* Which is refused where there is a drive. */
       const pendres_pendulum p = scene_lines_pendulum(l, i);
       pendres_rotation r;

@@ -118,15 +118,12 @@ static const scene_column of_frequencies[] = {
 };
 
 /* A result over a dimension of its own. */
-static pendres_status put_over(scene_run *run, const char *dimension, const char *words, size_t n,
-                               const double *at, const row *rows, const scene_column *column)
+static pendres_status put_over(scene_run *run, const scene_table *table, const char *words,
+                               const double *at, const scene_column *column)
 {
-  const scene_table table = {.dimensions = {dimension}, .n = n, .stride = sizeof *rows,
-                             .rows = rows};
-  const pendres_status status =
-    pendres_store_dimension(run->store, NULL, dimension, n, at, words, "1");
-  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, column)
-                              : scene_stored(run, status);
+  const pendres_status status = scene_stored(
+    run, pendres_store_dimension(run->store, NULL, table->dimensions[0], table->n, at, words, "1"));
+  return status == PENDRES_OK ? scene_columns_write(run, table, 1, column) : status;
 }
 
 static pendres_status put_dimensions(orbit_work *w)
@@ -143,8 +140,9 @@ static pendres_status put_dimensions(orbit_work *w)
   if (status == PENDRES_OK) status = SCENE_WRITE(w->run, &table, of_dimensions);
   if (status != PENDRES_OK || c->scales == 0) return status;
   for (int k = 0; k < c->scales; k++) rows[k] = (row){c->sum[k], c->sum_error[k]};
-  return put_over(w->run, "distance", "distance of strobe points", (size_t)c->scales, c->distance,
-                  rows, of_distances);
+  const scene_table scales = {.dimensions = {"distance"}, .n = (size_t)c->scales,
+                              .stride = sizeof *rows, .rows = rows};
+  return put_over(w->run, &scales, "distance of strobe points", c->distance, of_distances);
 }
 
 static pendres_status put_spectrum(orbit_work *w)
@@ -153,6 +151,8 @@ static pendres_status put_spectrum(orbit_work *w)
   const size_t n = pendres_spectrum_count(s);
   double *frequency = malloc(3 * n * sizeof *frequency);
   row *rows = malloc(n * sizeof *rows);
+  const scene_table table = {.dimensions = {"frequency"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (frequency != NULL && rows != NULL) {
     status = pendres_spectrum_get(s, frequency, frequency + n, frequency + 2 * n);
@@ -161,7 +161,7 @@ static pendres_status put_spectrum(orbit_work *w)
     (void)scene_fail(w->run, status, "out of memory for %zu frequencies", n);
   }
   if (status == PENDRES_OK)
-    status = put_over(w->run, "frequency", "angular frequency", n, frequency, rows, of_frequencies);
+    status = put_over(w->run, &table, "angular frequency", frequency, of_frequencies);
   free(frequency);
   free(rows);
   return status;

@@ -154,8 +154,7 @@ static void judge_point(const grid *g, const pendres_response *p, scene_verdict 
       const pendres_orbit *o = &p->state[i].orbit;
       weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
     }
-    scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members", weakest, words,
-                            sizeof words);
+    scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members", weakest, words);
     scene_verdict_mark(verdict, SCENE_FAILURE_UNRESOLVED, words);
   } else if (isnan(p->mean_loop_area)) {
     scene_verdict_mark(verdict, SCENE_FAILURE_NO_MEAN, NULL);

@@ -1,11 +1,13 @@
 /* scene_spill.c -- see scene_spill.h. */
-#define _POSIX_C_SOURCE 200809L /* mkstemp, pread */
+#define _POSIX_C_SOURCE 200809L /* mkstemp */
 #include "scenes/scene_spill.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "system/bytes.h"
 
 /* A file without a name, beside the output or in TMPDIR. */
 static pendres_status open_file(scene_run *run, scene_spill *s)
@@ -42,42 +44,28 @@ void scene_spill_free(scene_spill *s)
   *s = (scene_spill){.element = 0};
 }
 
-static pendres_status fail(int error, char *why, size_t size)
+static pendres_status conclude(int done, char *why, size_t size)
 {
-  snprintf(why, size, "the temporary file of results: %s", strerror(error));
-  return PENDRES_IO;
+  if (!done) snprintf(why, size, "the temporary file of results: %s", strerror(errno));
+  return done ? PENDRES_OK : PENDRES_IO;
 }
 
 pendres_status scene_spill_put(const scene_spill *s, size_t first, size_t n, const void *data,
                                char *why, size_t size)
 {
-  const char *from = data;
-  size_t at = first * s->element, left = n * s->element;
-  if (s->memory != NULL) memcpy(s->memory + at, from, left);
-  while (s->memory == NULL && left > 0) {
-    const ssize_t done = pwrite(s->file, from, left, (off_t)at);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return fail(done < 0 ? errno : ENOSPC, why, size);
-    from += done;
-    at += (size_t)done;
-    left -= (size_t)done;
-  }
+  const size_t at = first * s->element, bytes = n * s->element;
+  if (s->memory == NULL)
+    return conclude(bytes_write(s->file, (off_t)at, data, bytes), why, size);
+  memcpy(s->memory + at, data, bytes);
   return PENDRES_OK;
 }
 
 pendres_status scene_spill_get(const scene_spill *s, size_t first, size_t n, void *data, char *why,
                                size_t size)
 {
-  char *to = data;
-  size_t at = first * s->element, left = n * s->element;
-  if (s->memory != NULL) memcpy(to, s->memory + at, left);
-  while (s->memory == NULL && left > 0) {
-    const ssize_t done = pread(s->file, to, left, (off_t)at);
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) return fail(done < 0 ? errno : EIO, why, size);
-    to += done;
-    at += (size_t)done;
-    left -= (size_t)done;
-  }
+  const size_t at = first * s->element, bytes = n * s->element;
+  if (s->memory == NULL)
+    return conclude(bytes_read(s->file, (off_t)at, data, bytes), why, size);
+  memcpy(data, s->memory + at, bytes);
   return PENDRES_OK;
 }

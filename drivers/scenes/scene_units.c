@@ -43,35 +43,33 @@ static int convert(const deck *d, const char *name, conversion *out)
          (along && moving == DECK_AXIS_DRIVE_PERIOD);
 }
 
-/* One line a point, for results that a reader takes in at a glance. */
-static void print(FILE *table, const char *name, const char *dimension, size_t n,
-                  const double *axis, const double *value, const double *error)
-{
-  if (n == 0 || n > MOST_PRINTED || (n > 1 && axis == NULL)) return;
-  fprintf(table, "%s\n", name);
-  for (size_t i = 0; i < n; i++) {
-    if (isnan(value[i])) continue;
-    if (axis != NULL) fprintf(table, "  %s %-9.4g", dimension, axis[i]);
-    fprintf(table, "  %.10g", value[i]);
-    if (error != NULL) fprintf(table, " +- %.1g", error[i]);
-    fputs("\n", table);
-  }
-}
+/* A result of at most one dimension. */
+typedef struct result {
+  const char *name, *dimension; /* dimension NULL: none */
+  size_t n;
+  const double *value, *error;  /* error NULL: none */
+} result;
 
-/* A result of at most one dimension, with that dimension's values in front. */
-static pendres_status tell(scene_run *run, const char *name, const char *dimension, size_t n,
-                           const double *value, const double *error)
+/* One line a point, with its dimension's value in front, for results that a reader takes in at a
+   glance. */
+static pendres_status tell(scene_run *run, const result *r)
 {
-  double *axis = NULL;
-  pendres_status status = PENDRES_OK;
-  if (dimension != NULL && n <= MOST_PRINTED) {
-    axis = malloc((n + 1) * sizeof *axis);
-    status = axis == NULL ? PENDRES_OUT_OF_MEMORY
-             : pendres_store_read(run->store, "", dimension, PENDRES_STORE_DOUBLE, axis, n);
+  double axis[MOST_PRINTED];
+  if (r->n == 0 || r->n > MOST_PRINTED || (r->n > 1 && r->dimension == NULL)) return PENDRES_OK;
+  const pendres_status status =
+    r->dimension == NULL
+      ? PENDRES_OK
+      : pendres_store_read(run->store, "", r->dimension, PENDRES_STORE_DOUBLE, axis, r->n);
+  if (status != PENDRES_OK) return status;
+  fprintf(run->table, "%s\n", r->name);
+  for (size_t i = 0; i < r->n; i++) {
+    if (isnan(r->value[i])) continue;
+    if (r->dimension != NULL) fprintf(run->table, "  %s %-9.4g", r->dimension, axis[i]);
+    fprintf(run->table, "  %.10g", r->value[i]);
+    if (r->error != NULL) fprintf(run->table, " +- %.1g", r->error[i]);
+    fputs("\n", run->table);
   }
-  if (status == PENDRES_OK) print(run->table, name, dimension, n, axis, value, error);
-  free(axis);
-  return status;
+  return PENDRES_OK;
 }
 
 /* Read, convert and write one result; its dimensions are those of the original. */
@@ -99,7 +97,7 @@ static pendres_status copy(scene_run *run, const char *name, const conversion *c
                            : pendres_store_put(run->store, &spec, value, n);
   /* Axes stand in front of every other result already. */
   if (status == PENDRES_OK && rank <= 1 && (rank == 0 || strcmp(dimension[0], name) != 0))
-    status = tell(run, converted, rank == 1 ? dimension[0] : NULL, n, value, error);
+    status = tell(run, &(result){converted, rank == 1 ? dimension[0] : NULL, n, value, error});
   free(value);
   return status;
 }

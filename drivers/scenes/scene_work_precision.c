@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "scenes/scene_columns.h"
+#include "system/clock.h"
 #include "validation/contest.h"
 
 enum { OTHERS = 5, ERRORS = 4 };
@@ -55,9 +56,9 @@ static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (outcome == NULL || v == NULL) goto done;
   pendres_context_cost_reset(ctx);
-  const double start = contest_clock();
+  const double start = clock_thread();
   status = pendres_settle(ctx, n, w->unit.pendulum, w->unit.x, v, outcome, NULL);
-  const double took = contest_clock() - start;
+  const double took = clock_thread() - start;
   if (status != PENDRES_OK) goto done;
   pendres_context_cost(ctx, &cost);
   for (size_t i = 0; i < n; i++) resolved += outcome[i].attractor >= 0;
@@ -81,9 +82,10 @@ static pendres_status measure(const void *arg, size_t task, pendres_context *ctx
   }
   contest *c = farm_record_resize(out, sizeof *c);
   if (c == NULL) return PENDRES_OUT_OF_MEMORY;
-  return contest_run(&w->unit, w->d->methods.name[task / w->tolerances],
-                     w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
-                     (int)w->d->precision.block_lanes, farm_stopped, w->farm, c);
+  const contest_rules rules = {
+    .tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
+    .block_lanes = (int)w->d->precision.block_lanes, .stop = farm_stopped, .stop_arg = w->farm};
+  return contest_run(&w->unit, w->d->methods.name[task / w->tolerances], &rules, c);
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)

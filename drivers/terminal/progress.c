@@ -1,6 +1,6 @@
 /* progress.c -- bar, lines and log; see progress.h. */
 #define _DEFAULT_SOURCE /* TIOCGWINSZ */
-#define _POSIX_C_SOURCE 200809L /* clock_gettime, isatty */
+#define _POSIX_C_SOURCE 200809L /* gmtime_r, isatty */
 #include "terminal/progress.h"
 
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "system/clock.h"
 #include "terminal/safe_text.h"
 
 enum { BAR = 30, LINE_STEP = 10, MOST_COLUMNS = 240 };
@@ -20,13 +21,6 @@ static const double redraw_after = 0.1;
 static const double first_line_after = 1.0;
 /* A bar names what has been at work for longer. */
 static const double named_after = 3.0;
-
-static double now(void)
-{
-  struct timespec t = { 0 };
-  (void)clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void log_line(progress *p, const char *text)
 {
@@ -91,7 +85,7 @@ void progress_start(progress *p, const char *what, size_t total, size_t done)
   p->total = total;
   p->before = done;
   p->percent = (int)(100.0 * (double)done / (double)total);
-  p->start = p->spoken = now();
+  p->start = p->spoken = clock_wall();
   p->drawn = -1.0;
   p->name[0] = '\0';
 }
@@ -99,7 +93,7 @@ void progress_start(progress *p, const char *what, size_t total, size_t done)
 /* A line on what is under way; a terminal has its bar. */
 static void tell(progress *p, const char *text)
 {
-  p->spoken = now();
+  p->spoken = clock_wall();
   log_line(p, text);
   if (p->terminal || p->quiet) return;
   fprintf(p->stream, "resonance: %s\n", text);
@@ -110,7 +104,7 @@ void progress_tick(progress *p, size_t done, const char *name, double seconds)
 {
   char text[400];
   if (p == NULL || p->total == 0) return;
-  const double t = now();
+  const double t = clock_wall();
   snprintf(p->name, sizeof p->name, "%s", name);
   p->since = t - seconds;
   if (p->terminal && !p->quiet) draw(p, done, t - p->start);
@@ -125,7 +119,7 @@ void progress_step(progress *p, size_t done)
   char text[160];
   if (p == NULL || p->total == 0) return;
   const int percent = (int)(100.0 * (double)done / (double)p->total);
-  const double elapsed = now() - p->start;
+  const double elapsed = clock_wall() - p->start;
   if (p->terminal && !p->quiet && elapsed - p->drawn >= redraw_after) draw(p, done, elapsed);
   if (percent / LINE_STEP == p->percent / LINE_STEP) return;
   p->percent = percent;

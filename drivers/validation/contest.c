@@ -1,28 +1,18 @@
 /* contest.c -- one method at one tolerance on a work unit; see contest.h. */
-#ifndef _POSIX_C_SOURCE
-#define _POSIX_C_SOURCE 200809L /* clock_gettime */
-#endif
 #include "validation/contest.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "system/clock.h"
 #include "validation/peer_gsl.h"
 
 enum { MOST_REPEATS = 50 };
 
 static const double long_enough = 0.15;   /* seconds of timing */
 static const double end_rounding = 1e-15; /* of x and v as doubles: errors below it are luck */
-
-double contest_clock(void)
-{
-  struct timespec t;
-  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t) != 0) return NAN;
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- Methods by name ------------------------------------------------------------------------- */
 
@@ -59,27 +49,34 @@ static size_t pendulums_of(const work_unit *unit, const char *name)
 
 typedef struct runner {
   const work_unit *unit;
-  double tolerance;
+  const contest_rules *rules;
   pendres_context *ctx; /* NULL: GSL */
-  int (*stop)(void *arg);
-  void *stop_arg;
   size_t n;
   pendres_pendulum *p;
   double *x, *v, *estimate, *ratio;
   pendres_cost cost;
 } runner;
 
+static pendres_status run_gsl(runner *r, long periods)
+{
+  pendres_status status = PENDRES_OK;
+  r->cost = (pendres_cost){ 0 };
+  for (size_t k = 0; k < r->n && status == PENDRES_OK; k++)
+    status =
+      peer_gsl_advance(&r->p[k], &r->x[k], &r->v[k], periods, r->rules->tolerance, &r->cost);
+  return status;
+}
+
 /* All pendulums from their starts. estimates[n], if not NULL, are NaN where a method gives none. */
 static pendres_status run_once(runner *r, long periods, double *estimates)
 {
-  if (r->stop != NULL && r->stop(r->stop_arg)) return PENDRES_INTERRUPTED;
+  if (r->rules->stop != NULL && r->rules->stop(r->rules->stop_arg)) return PENDRES_INTERRUPTED;
   for (size_t k = 0; k < r->n; k++) {
     r->x[k] = r->unit->x[work_unit_pick(r->unit, r->n, k)];
     r->v[k] = 0.0;
     if (estimates != NULL) estimates[k] = NAN;
   }
-  if (r->ctx == NULL)
-    return peer_gsl_advance(r->n, r->p, r->x, r->v, periods, r->tolerance, &r->cost);
+  if (r->ctx == NULL) return run_gsl(r, periods);
   pendres_context_cost_reset(r->ctx);
   const pendres_status status =
     pendres_strobe_advance(r->ctx, r->n, r->p, r->x, r->v, periods, estimates);
@@ -92,10 +89,10 @@ static pendres_status time_runs(runner *r, long periods, contest *c)
 {
   double best = INFINITY, second = INFINITY, total = 0.0;
   for (int k = 0; k < 2 || (k < MOST_REPEATS && total < long_enough); k++) {
-    const double start = contest_clock();
+    const double start = clock_thread();
     const pendres_status status = run_once(r, periods, NULL);
     if (status != PENDRES_OK) return status;
-    const double took = contest_clock() - start;
+    const double took = clock_thread() - start;
     second = fmin(second, fmax(best, took));
     best = fmin(best, took);
     total += took;
@@ -176,21 +173,21 @@ static void fail(contest *c, const char *why)
 static pendres_status open_context(runner *r, const pendres_options *o)
 {
   const pendres_status status = pendres_context_create(o, &r->ctx);
-  if (status == PENDRES_OK) pendres_context_set_interrupt(r->ctx, r->stop, r->stop_arg);
+  if (status == PENDRES_OK)
+    pendres_context_set_interrupt(r->ctx, r->rules->stop, r->rules->stop_arg);
   return status;
 }
 
-pendres_status contest_run(const work_unit *unit, const char *name, double tolerance,
-                           int block_lanes, int (*stop)(void *arg), void *stop_arg, contest *c)
+pendres_status contest_run(const work_unit *unit, const char *name, const contest_rules *rules,
+                           contest *c)
 {
-  runner r = { .unit = unit, .tolerance = tolerance, .stop = stop, .stop_arg = stop_arg,
-               .n = pendulums_of(unit, name) };
+  runner r = { .unit = unit, .rules = rules, .n = pendulums_of(unit, name) };
   pendres_options o = options_named(name);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
 
   *c = (contest){ .pendulums = r.n };
-  o.tolerance = tolerance;
-  o.block_lanes = block_lanes;
+  o.tolerance = rules->tolerance;
+  o.block_lanes = rules->block_lanes;
   r.p = malloc(r.n * sizeof *r.p);
   r.x = malloc(4 * r.n * sizeof *r.x);
   if (r.p == NULL || r.x == NULL) goto done;

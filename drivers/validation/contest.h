@@ -23,20 +23,26 @@ typedef struct contest {
   double estimate;               /* largest, at the last mark; NaN where a method gives none */
   double honesty, padding;       /* least and median of estimate / error over all members */
   double steps, rhs;             /* a pendulum and period */
-  double seconds, spread;        /* processor time of the best run; of the next best over it */
+  double seconds, spread;        /* processor time of the thread, in which others on the machine do
+                                    not count: of the best run; of the next best over it */
   double throughput;             /* pendulum-periods a second */
   size_t pendulums;              /* that were run */
   char failure[256];             /* why there are no figures (all of them NaN); "" */
 } contest;
 
-/* Processor time of this thread, s: others on the machine take turns with it, but do not count. */
-double contest_clock(void);
+/* How methods are run. */
+typedef struct contest_rules {
+  double tolerance;
+  int block_lanes;         /* as in pendres_options */
+  int (*stop)(void *arg);  /* asked now and then; may be NULL */
+  void *stop_arg;
+} contest_rules;
 
 /*
  * Run it on the calling thread. A method that refuses or gives up is a finding, not a failure:
  * PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED (asked by stop(stop_arg)) and nothing else.
  */
-pendres_status contest_run(const work_unit *unit, const char *name, double tolerance,
-                           int block_lanes, int (*stop)(void *arg), void *stop_arg, contest *c);
+pendres_status contest_run(const work_unit *unit, const char *name, const contest_rules *rules,
+                           contest *c);
 
 #endif

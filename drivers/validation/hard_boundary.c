@@ -98,22 +98,6 @@ static pendres_status bisect(const pendres_attractors *set, const pendres_pendul
  */
 static const double allowed[] = { 3.0, 10.0 };
 
-static pendres_status look_around(const pendres_attractors *set, const pendres_pendulum *p,
-                                  long double y, long double v, long double within, int goes,
-                                  int *clear)
-{
-  pendres_status status = PENDRES_OK;
-  *clear = goes >= 0;
-  for (int i = 0; i < 8 && *clear && status == PENDRES_OK; i++) {
-    const long double size = (i < 4 ? 1.0L : 0.3L) * within;
-    int other;
-    status = go(set, p, y + (i % 4 < 2 ? size : 0.0L) * (i % 2 == 0 ? 1.0L : -1.0L),
-                v + (i % 4 < 2 ? 0.0L : size) * (i % 2 == 0 ? 1.0L : -1.0L), &other);
-    *clear = other == goes;
-  }
-  return status;
-}
-
 /* The starts of one system, where they go, how far from a boundary point they are. */
 typedef struct starts {
   int n;
@@ -121,6 +105,24 @@ typedef struct starts {
   int goes[MOST], distance[MOST];
   int clear[2][MOST]; /* of the boundary, by the tightest tolerance and the standard one */
 } starts;
+
+/* Whether start number n goes the same way as all of its neighbourhood, by tolerance number t. */
+static pendres_status look_around(const pendres_attractors *set, const pendres_pendulum *p,
+                                  starts *s, int n, int t)
+{
+  const long double y = s->x[n] - half_pi_exact, v = s->v[n];
+  pendres_status status = PENDRES_OK;
+  int *clear = &s->clear[t][n];
+  *clear = s->goes[n] >= 0;
+  for (int i = 0; i < 8 && *clear && status == PENDRES_OK; i++) {
+    const long double size = (i < 4 ? 1.0L : 0.3L) * (long double)(allowed[t] * tolerances[t]);
+    int other;
+    status = go(set, p, y + (i % 4 < 2 ? size : 0.0L) * (i % 2 == 0 ? 1.0L : -1.0L),
+                v + (i % 4 < 2 ? 0.0L : size) * (i % 2 == 0 ? 1.0L : -1.0L), &other);
+    *clear = other == s->goes[n];
+  }
+  return status;
+}
 
 static pendres_status place_starts(const hard_sheet *sheet, const pendres_attractors *set,
                                    const pendres_pendulum *p, starts *s)
@@ -140,8 +142,7 @@ static pendres_status place_starts(const hard_sheet *sheet, const pendres_attrac
       s->distance[n] = k / SIDES;
       status = go(set, p, s->x[n] - half_pi_exact, s->v[n], &s->goes[n]);
       for (int t = 0; t < 2 && status == PENDRES_OK; t++)
-        status = look_around(set, p, s->x[n] - half_pi_exact, s->v[n], allowed[t] * tolerances[t],
-                             s->goes[n], &s->clear[t][n]);
+        status = look_around(set, p, s, n, t);
       s->n += s->goes[n] >= 0;
     }
   }
@@ -244,8 +245,8 @@ pendres_status hard_boundary(hard_sheet *sheet)
   for (int k = 0; k < DISTANCES && status == PENDRES_OK; k++) {
     (void)snprintf(quantity, sizeof quantity, "wrong labels of %d starts (%d too close left out)",
                    c.starts[k] - c.close[k], c.close[k]);
-    status = hard_sheet_add_at(sheet, "boundary", pow(10.0, -3 - k), quantity, c.wrong[k], 0.0,
-                               c.naive[k]);
+    status = hard_sheet_add(sheet, hard_at("boundary", pow(10.0, -3 - k)).text, quantity,
+                            c.wrong[k], 0.0, c.naive[k]);
   }
   (void)snprintf(quantity, sizeof quantity, "wrong labels of %d starts by tolerance 1e-8",
                  c.standard_starts);

@@ -41,18 +41,17 @@ pendres_status hard_sheet_add(hard_sheet *sheet, const char *name, const char *q
   return PENDRES_OK;
 }
 
-pendres_status hard_sheet_add_at(hard_sheet *sheet, const char *name, double number,
-                                 const char *quantity, double figure, double bound, double naive)
+hard_name hard_at(const char *name, double number)
 {
-  char full[sizeof sheet->row->name];
+  hard_name full;
   char digits[24];
   const int tiny = number != 0.0 && fabs(number) < 0.01;
   (void)snprintf(digits, sizeof digits, tiny ? "%.0e" : "%g", number);
   /* 1e-9, not 1e-09. */
   char *e = strchr(digits, 'e');
   if (e != NULL && e[2] == '0') memmove(e + 2, e + 3, strlen(e + 3) + 1);
-  (void)snprintf(full, sizeof full, "%.16s_%.14s", name, digits);
-  return hard_sheet_add(sheet, full, quantity, figure, bound, naive);
+  (void)snprintf(full.text, sizeof full.text, "%.16s_%.14s", name, digits);
+  return full;
 }
 
 int hard_row_holds(const hard_row *row)

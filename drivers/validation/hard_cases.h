@@ -65,10 +65,11 @@ const hard_case *hard_case_at(size_t index);
 /* Put a row on the sheet. Figures that are NaN do not hold. Fails without memory alone. */
 pendres_status hard_sheet_add(hard_sheet *sheet, const char *name, const char *quantity,
                               double figure, double bound, double naive);
-/* The same with a name made of the case's and a number: hard_sheet_add_at(s, "fold", 1e-9, ...)
-   adds the row fold_1e-9. */
-pendres_status hard_sheet_add_at(hard_sheet *sheet, const char *name, double number,
-                                 const char *quantity, double figure, double bound, double naive);
+/* A name made of the case's and a number: hard_at("fold", 1e-9).text is "fold_1e-9". */
+typedef struct hard_name {
+  char text[32];
+} hard_name;
+hard_name hard_at(const char *name, double number);
 int hard_row_holds(const hard_row *row);
 /* The larger of two figures, NaN if either is: fmax would lose a NaN, and the row would hold. */
 double hard_larger(double a, double b);

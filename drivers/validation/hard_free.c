@@ -124,9 +124,9 @@ static pendres_status put_fall(hard_sheet *sheet, double d, const hard_ways *way
     if (status != PENDRES_OK) (void)hard_failed(sheet, status, each[i]);
   }
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "equilibrium", d,
-                               "a start so far beside the top: error within 4 drive periods, as "
-                               "if made at the start", f[0].off, bound, f[1].off);
+    status = hard_sheet_add(sheet, hard_at("equilibrium", d).text,
+                            "a start so far beside the top: error within 4 drive periods, as "
+                            "if made at the start", f[0].off, bound, f[1].off);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "equilibrium_fall", "the same start: error where it has fallen "
                             "to the bottom", error[0], 2.0 * bound / d, error[1]);
@@ -210,11 +210,11 @@ pendres_status hard_separatrix(hard_sheet *sheet)
     if (status != PENDRES_OK) break;
     pendres_context_cost(way.ours, &cost);
     const double moved = moved_by_rounding(1.0, quarter / cost.steps);
-    status = hard_sheet_add_at(sheet, "separatrix", pow(10.0, -k),
-                               "relative error of the frequency at amplitude pi less this",
-                               fabs(ours / exact - 1.0),
-                               tolerance + moved / (d * quarter) + 4.0 * last_place,
-                               fabs(theirs / exact - 1.0));
+    status = hard_sheet_add(sheet, hard_at("separatrix", pow(10.0, -k)).text,
+                            "relative error of the frequency at amplitude pi less this",
+                            fabs(ours / exact - 1.0),
+                            tolerance + moved / (d * quarter) + 4.0 * last_place,
+                            fabs(theirs / exact - 1.0));
     worst = hard_larger(worst, hard_over_claim(fabs(ours - exact), error, 1e-3 * exact));
     worst_naive =
       hard_larger(worst_naive, hard_over_claim(fabs(theirs - exact), their_error, INFINITY));

@@ -226,13 +226,11 @@ static pendres_status put_small_drive(hard_sheet *sheet, const hard_ways *way,
   const pendres_orbit o = r.orbit;
   const double resolvent = 1.0 / -expm1(-pi * drive_damping / drive_frequency);
   const double wanted_v = drive_frequency * h.amplitude * sin(h.phase_lag);
-  return hard_sheet_add_at(sheet, "drive", drive_amplitude,
-                           "a drive so small: error of amplitude (relative) and phase lag",
-                           hard_larger(fabs(o.amplitude / h.amplitude - 1.0),
-                                       fabs(o.phase_lag - h.phase_lag)),
-                           resolvent * (10.0 * drive_tolerance +
-                                        o.steps * DBL_TRUE_MIN / h.amplitude),
-                           fabs(r.v - wanted_v) / h.amplitude);
+  return hard_sheet_add(sheet, hard_at("drive", drive_amplitude).text,
+                        "a drive so small: error of amplitude (relative) and phase lag",
+                        hard_larger(fabs(o.amplitude / h.amplitude - 1.0),
+                        fabs(o.phase_lag - h.phase_lag)), resolvent * (10.0 * drive_tolerance +
+                        o.steps * DBL_TRUE_MIN / h.amplitude), fabs(r.v - wanted_v) / h.amplitude);
 }
 
 /*
@@ -324,9 +322,10 @@ static pendres_status put_denormal_start(hard_sheet *sheet, const hard_ways *way
     error[i] = fabs(v / v0 - cos(t));
   }
   pendres_context_cost(way->ours, &cost);
-  return hard_sheet_add_at(sheet, "drive_start", v0, "a start with so small a speed, no drive, no "
-                           "damping: its error over the start", error[0],
-                           drive_tolerance + cost.steps * DBL_TRUE_MIN / v0, error[1]);
+  return hard_sheet_add(sheet, hard_at("drive_start", v0).text,
+                        "a start with so small a speed, no drive, no "
+                        "damping: its error over the start", error[0],
+                        drive_tolerance + cost.steps * DBL_TRUE_MIN / v0, error[1]);
 }
 
 /* drive: none, too small to see, denormal, a thousand; and a denormal start. */

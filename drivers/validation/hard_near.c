@@ -50,6 +50,7 @@ typedef struct truth {
   pendres_pendulum p;
   pendres_reference_cycle node, saddle;
   int nodes, saddles;
+  double off; /* of the place, in drive frequency */
 } truth;
 
 static pendres_status find_folds(place folds[2])
@@ -78,7 +79,7 @@ static void look_around(const place *l, int side, double off, truth *t)
   const long double along[2] = { l->at.monodromy[0][1], 1.0L - l->at.monodromy[0][0] };
   const long double length = hypotl(along[0], along[1]);
   pendres_reference_cycle one;
-  *t = (truth){ .p = { .damping = (double)l->at.damping,
+  *t = (truth){ .off = off, .p = { .damping = (double)l->at.damping,
                        .drive_amplitude = (double)l->at.drive_amplitude,
                        .drive_frequency =
                          (double)(l->at.drive_frequency + side * (long double)off) } };
@@ -109,10 +110,11 @@ static int labelled_here(const place *l, const pendres_attractors *set, const pe
 
 /* ---- beyond: ghosts ------------------------------------------------------------------------ */
 
-/* What these starts settle on; *found is freed by the caller, also after a failure. */
+/* What starts at positions at[0] and velocities at[1] settle on; *found is freed by the caller,
+   also after a failure. */
 static pendres_status settle_starts(hard_sheet *sheet, const truth *t, double tolerance,
-                                    const double x[STARTS], const double v[STARTS],
-                                    pendres_outcome outcome[STARTS], pendres_attractors **found)
+                                    const double at[2][STARTS], pendres_outcome outcome[STARTS],
+                                    pendres_attractors **found)
 {
   const pendres_pendulum p[STARTS] = { t->p, t->p, t->p, t->p };
   pendres_context *ctx = NULL;
@@ -120,7 +122,7 @@ static pendres_status settle_starts(hard_sheet *sheet, const truth *t, double to
   pendres_status status = hard_context(
     sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = BUDGET }, &ctx);
   if (status != PENDRES_OK) return status;
-  status = pendres_settle(ctx, STARTS, p, x, v, outcome, found);
+  status = pendres_settle(ctx, STARTS, p, at[0], at[1], outcome, found);
   if (status != PENDRES_OK) (void)hard_failed(sheet, status, ctx);
   pendres_context_free(ctx);
   return status;
@@ -131,10 +133,10 @@ static pendres_status count_ghosts(hard_sheet *sheet, const place *l, const trut
                                    double tolerance, int *wrong)
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
-  const double x[STARTS] = { x0, x0 + 0.02, x0 - 0.02, x0 + 1e-6 }, v[STARTS] = { v0, v0, v0, v0 };
+  const double at[2][STARTS] = { { x0, x0 + 0.02, x0 - 0.02, x0 + 1e-6 }, { v0, v0, v0, v0 } };
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
-  const pendres_status status = settle_starts(sheet, t, tolerance, x, v, outcome, &found);
+  const pendres_status status = settle_starts(sheet, t, tolerance, at, outcome, &found);
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
     const pendres_orbit *o = &pendres_attractors_get(found, i)->orbit;
     *wrong += in_vicinity(l, o->x, o->v);
@@ -181,8 +183,8 @@ static pendres_status add_beyond(hard_sheet *sheet, const place folds[2], double
     naive += moved < at_rest && in_vicinity(l, x, v);
   }
   if (status != PENDRES_OK) return status;
-  return hard_sheet_add_at(sheet, "fold_ghost", off,
-                           "beyond folds: labels of orbits that are gone", wrong, 0.0, naive);
+  return hard_sheet_add(sheet, hard_at("fold_ghost", off).text,
+                        "beyond folds: labels of orbits that are gone", wrong, 0.0, naive);
 }
 
 /* ---- before: orbits ------------------------------------------------------------------------ */
@@ -276,7 +278,7 @@ static long budget_at(double off)
   return off > least_settling ? (long)fmax(BUDGET, 10.0 / sqrt(off)) : BUDGET;
 }
 
-static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t, double off,
+static pendres_status label_starts(hard_sheet *sheet, const place *l, const truth *t,
                                    double tolerance, int *wrong, double *reach)
 {
   const double scout_x[SCOUTS] = { (double)t->node.y + half_pi, half_pi, 0.0 };
@@ -287,7 +289,7 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
   pendres_context *ctx = NULL;
   place_starts(t, x, v);
   pendres_status status = hard_context(
-    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = budget_at(off) }, &ctx);
+    sheet, &(pendres_options){ .tolerance = tolerance, .period_budget = budget_at(t->off) }, &ctx);
   if (status != PENDRES_OK) return status;
   status = pendres_attractors_find(ctx, &t->p, SCOUTS, scout_x, scout_v, &found);
   if (status == PENDRES_OK)
@@ -298,7 +300,7 @@ static pendres_status label_starts(hard_sheet *sheet, const place *l, const trut
               labelled_here(l, found, &outcome[i]) != (beyond[i] < 0.0);
   /* Starts far from the saddle have time enough: a label that is none is no right one. */
   for (int i = 0; i < STARTS && status == PENDRES_OK; i++)
-    *wrong += off > least_settling && fabs(beyond[i]) > 0.01 && outcome[i].attractor < 0;
+    *wrong += t->off > least_settling && fabs(beyond[i]) > 0.01 && outcome[i].attractor < 0;
   for (size_t i = 0; status == PENDRES_OK && i < pendres_attractors_count(found); i++) {
     const pendres_attractor *a = pendres_attractors_get(found, i);
     if (in_vicinity(l, a->orbit.x, a->orbit.v)) here = reach_of(a, t);
@@ -339,22 +341,22 @@ static pendres_status add_before(hard_sheet *sheet, const place folds[2], double
     if (!t.nodes || !t.saddles) return hard_failed(sheet, PENDRES_NOT_FOUND, NULL);
     status = worst_orbit(sheet, &t, off, &worst, &naive_worst);
     if (status == PENDRES_OK)
-      status = label_starts(sheet, &folds[f], &t, off, tightest, &wrong, &reach);
+      status = label_starts(sheet, &folds[f], &t, tightest, &wrong, &reach);
     if (status == PENDRES_OK && off > 9.0 * standard)
-      status = label_starts(sheet, &folds[f], &t, off, standard, &wrong, &reach);
+      status = label_starts(sheet, &folds[f], &t, standard, &wrong, &reach);
     if (status == PENDRES_OK) status = label_naively(sheet, &folds[f], &t, &naive);
   }
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "fold_orbit", off,
-                               "before folds: the orbit's errors over the claimed", worst, 10.0,
-                               naive_worst);
+    status = hard_sheet_add(sheet, hard_at("fold_orbit", off).text,
+                            "before folds: the orbit's errors over the claimed", worst, 10.0,
+                            naive_worst);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "fold_trap", off, "its trap over the way to the saddle",
-                               reach, 1.0, NAN);
+    status = hard_sheet_add(sheet, hard_at("fold_trap", off).text,
+                            "its trap over the way to the saddle", reach, 1.0, NAN);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "fold_label", off,
-                               "wrong labels of starts on both sides of the saddle", wrong, 0.0,
-                               naive);
+    status = hard_sheet_add(sheet, hard_at("fold_label", off).text,
+                            "wrong labels of starts on both sides of the saddle", wrong, 0.0,
+                            naive);
   return status;
 }
 
@@ -379,10 +381,10 @@ pendres_status hard_fold(hard_sheet *sheet)
 static pendres_status count_others(hard_sheet *sheet, const place *l, const truth *t, int *wrong)
 {
   const double x0 = (double)l->at.y + half_pi, v0 = (double)l->at.v;
-  const double x[STARTS] = { x0, x0 + 0.05, x0 - 0.05, half_pi }, v[STARTS] = { v0, v0, v0, 0.0 };
+  const double at[2][STARTS] = { { x0, x0 + 0.05, x0 - 0.05, half_pi }, { v0, v0, v0, 0.0 } };
   pendres_outcome outcome[STARTS];
   pendres_attractors *found = NULL;
-  const pendres_status status = settle_starts(sheet, t, tightest, x, v, outcome, &found);
+  const pendres_status status = settle_starts(sheet, t, tightest, at, outcome, &found);
   /* It must be found, too. */
   if (status == PENDRES_OK) *wrong += abs((int)pendres_attractors_count(found) - 1);
   pendres_attractors_free(found);
@@ -406,13 +408,12 @@ pendres_status hard_cusp(hard_sheet *sheet)
       if (status == PENDRES_OK) status = count_others(sheet, &cusp, &t, &wrong);
     }
     if (status == PENDRES_OK)
-      status = hard_sheet_add_at(sheet, "cusp_orbit", off,
-                                 "both sides of the cusp: errors over the claimed", worst, 10.0,
-                                 naive);
+      status = hard_sheet_add(sheet, hard_at("cusp_orbit", off).text,
+                              "both sides of the cusp: errors over the claimed", worst, 10.0,
+                              naive);
     if (status == PENDRES_OK)
-      status = hard_sheet_add_at(sheet, "cusp_label", off,
-                                 "attractors beside the only one, or none", wrong,
-                                 0.0, NAN);
+      status = hard_sheet_add(sheet, hard_at("cusp_label", off).text,
+                              "attractors beside the only one, or none", wrong, 0.0, NAN);
   }
   return status;
 }

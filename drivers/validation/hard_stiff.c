@@ -100,24 +100,26 @@ static pendres_status add_damping(hard_sheet *sheet, double damping)
   if (status == PENDRES_OK) status = measure(sheet, damping, PENDRES_CVODE_BDF, &bdf);
   if (status == PENDRES_OK) status = measure(sheet, damping, PENDRES_NAIVE, &naive);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_error", damping, "error after three drive periods",
-                               ours.error, tolerance, naive.error);
+    status = hard_sheet_add(sheet, hard_at("stiff_error", damping).text,
+                            "error after three drive periods", ours.error, tolerance, naive.error);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_claim", damping, "that error over the claimed one",
-                               ours.over_claimed, 10.0, naive.over_claimed);
+    status = hard_sheet_add(sheet, hard_at("stiff_claim", damping).text,
+                            "that error over the claimed one", ours.over_claimed, 10.0,
+                            naive.over_claimed);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_rhs", damping, "right-hand sides a drive period",
-                               ours.rhs, rhs, naive.rhs);
+    status = hard_sheet_add(sheet, hard_at("stiff_rhs", damping).text,
+                            "right-hand sides a drive period", ours.rhs, rhs, naive.rhs);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_bdf_error", damping, "error of cvode_bdf", bdf.error,
-                               0.5 * PERIODS * bdf_rhs(tolerance) * tolerance, naive.error);
+    status = hard_sheet_add(sheet, hard_at("stiff_bdf_error", damping).text, "error of cvode_bdf",
+                            bdf.error, 0.5 * PERIODS * bdf_rhs(tolerance) * tolerance, naive.error);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_bdf_claim", damping, "that error over the claimed one",
-                               bdf.over_claimed, 10.0, naive.over_claimed);
+    status = hard_sheet_add(sheet, hard_at("stiff_bdf_claim", damping).text,
+                            "that error over the claimed one", bdf.over_claimed, 10.0,
+                            naive.over_claimed);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_bdf_rhs", damping,
-                               "right-hand sides a drive period of cvode_bdf", bdf.rhs,
-                               bdf_rhs(tolerance), naive.rhs);
+    status = hard_sheet_add(sheet, hard_at("stiff_bdf_rhs", damping).text,
+                            "right-hand sides a drive period of cvode_bdf", bdf.rhs,
+                            bdf_rhs(tolerance), naive.rhs);
   return status;
 }
 
@@ -154,11 +156,11 @@ static pendres_status add_orbit(hard_sheet *sheet, double damping)
     off = hard_larger(off, hard_over_claim((double)fabsl(o->x - half_pi_exact - exact.y),
                                            o->x_error, most));
   }
-  status = hard_sheet_add_at(sheet, "stiff_settled", damping,
-                             "pendulums that did not settle on the only orbit", wrong, 0.0, NAN);
+  status = hard_sheet_add(sheet, hard_at("stiff_settled", damping).text,
+                          "pendulums that did not settle on the only orbit", wrong, 0.0, NAN);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "stiff_orbit", damping, "the orbit's errors over the claimed",
-                               off, 10.0, NAN);
+    status = hard_sheet_add(sheet, hard_at("stiff_orbit", damping).text,
+                            "the orbit's errors over the claimed", off, 10.0, NAN);
 done:
   pendres_attractors_free(found);
   pendres_context_free(ctx);

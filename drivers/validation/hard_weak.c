@@ -52,6 +52,7 @@ typedef struct weak {
   pendres_orbit orbit[WEAK];
   double x[WEAK], v[WEAK]; /* starts */
   double estimate;         /* the worst of the orbits' errors over their estimates */
+  long periods;            /* that they are followed for */
 } weak;
 
 /* Orbits of small amplitude about the resonance, by linear response; and of large amplitude, where
@@ -82,7 +83,7 @@ static pendres_status weak_orbits(hard_sheet *sheet, pendres_context *ctx, doubl
 /* Wait for n of them, from number `first` on in steps of `stride`; how far they are from the
    orbits then. */
 static pendres_status weak_wait(hard_sheet *sheet, pendres_context *ctx, const weak *w, int first,
-                                int stride, long periods, double *off)
+                                int stride, double *off)
 {
   pendres_pendulum p[WEAK];
   double x[WEAK], v[WEAK];
@@ -92,7 +93,7 @@ static pendres_status weak_wait(hard_sheet *sheet, pendres_context *ctx, const w
     x[n] = w->x[i];
     v[n] = w->v[i];
   }
-  const pendres_status status = pendres_strobe_advance(ctx, n, p, x, v, periods, NULL);
+  const pendres_status status = pendres_strobe_advance(ctx, n, p, x, v, w->periods, NULL);
   if (status != PENDRES_OK) return hard_failed(sheet, status, ctx);
   *off = 0.0;
   for (size_t k = 0; k < n; k++) {
@@ -142,9 +143,9 @@ pendres_status hard_weak_damping(hard_sheet *sheet)
   hard_ways way;
   pendres_status status = hard_ways_open(sheet, &options, weak_tolerance, &way);
   if (status == PENDRES_OK) status = weak_orbits(sheet, way.ours, damping, &w);
-  if (status == PENDRES_OK) status = weak_wait(sheet, way.ours, &w, 0, 1, periods, &ours);
-  if (status == PENDRES_OK)
-    status = weak_wait(sheet, way.naive, &w, 1, SMALL - 1, periods, &theirs);
+  w.periods = periods;
+  if (status == PENDRES_OK) status = weak_wait(sheet, way.ours, &w, 0, 1, &ours);
+  if (status == PENDRES_OK) status = weak_wait(sheet, way.naive, &w, 1, SMALL - 1, &theirs);
   if (status == PENDRES_OK) status = weak_settle(sheet, way.ours, &w, &wrong);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "weak_wait", "damping 1e-4: orbits by Newton's method less "

@@ -117,17 +117,17 @@ static pendres_status add_chaos(hard_sheet *sheet, double drive)
   }
   /* An error of a quarter of the exponent would be of no use: it is to be known to be positive. */
   const double error = hypot(exact.error, ours.error), least = 0.25 * fabs(exact.value);
-  status = hard_sheet_add_at(sheet, "chaos_label", drive, "starts not labelled chaotic", wrong, 0.0,
-                             NAN);
+  status = hard_sheet_add(sheet, hard_at("chaos_label", drive).text, "starts not labelled chaotic",
+                          wrong, 0.0, NAN);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "chaos_exponent", drive,
-                               "its largest exponent: difference in standard errors",
-                               hard_over_claim(fabs(ours.value - exact.value), error, least), 4.0,
-                               fabs(naive - exact.value) / error);
+    status = hard_sheet_add(sheet, hard_at("chaos_exponent", drive).text,
+                            "its largest exponent: difference in standard errors",
+                            hard_over_claim(fabs(ours.value - exact.value), error, least), 4.0,
+                            fabs(naive - exact.value) / error);
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "chaos_positive", drive,
-                               "four standard errors over the exponent",
-                                 hard_above_zero(ours.value, error), 1.0, NAN);
+    status = hard_sheet_add(sheet, hard_at("chaos_positive", drive).text,
+                            "four standard errors over the exponent",
+                            hard_above_zero(ours.value, error), 1.0, NAN);
 done:
   pendres_attractors_free(found);
   pendres_context_free(ctx);
@@ -211,9 +211,9 @@ static pendres_status add_cascade(hard_sheet *sheet, const struct cascade *known
     wrong += bad;
   }
   if (status == PENDRES_OK)
-    status = hard_sheet_add_at(sheet, "cascade", known->drive,
-                               "attractors of another period than the known one", wrong, 0.0,
-                               naive != known->period);
+    status = hard_sheet_add(sheet, hard_at("cascade", known->drive).text,
+                            "attractors of another period than the known one", wrong, 0.0,
+                            naive != known->period);
   pendres_attractors_free(found);
   pendres_context_free(ctx);
   return status;
@@ -224,9 +224,10 @@ static pendres_status add_cascade(hard_sheet *sheet, const struct cascade *known
 /* Advance by a method from the orbit's point some turns away; x and v become their distances from
    where the orbit is then. */
 static pendres_status run_on(hard_sheet *sheet, const pendres_options *o,
-                             const pendres_reference_cycle *orbit, double turns, long periods,
-                             double *x, double *v)
+                             const pendres_reference_cycle *orbit, long periods, double *x,
+                             double *v)
 {
+  const double turns = 1e6 - (double)periods;
   const pendres_pendulum p = driven((double)orbit->drive_amplitude);
   const long double two_pi = 4.0L * half_pi_exact, at = orbit->y + half_pi_exact;
   pendres_context *ctx = NULL;
@@ -260,11 +261,11 @@ static pendres_status add_turns(hard_sheet *sheet)
   pendres_status status =
     pendres_reference_orbit(&p, 2.450188L - half_pi_exact, 1.910757L, 1, 1, &orbit);
   if (status != PENDRES_OK) return hard_failed(sheet, status, NULL);
-  status = run_on(sheet, &(pendres_options){ .tolerance = tolerance }, &orbit, 1e6 - periods,
-                  periods, &x, &v);
+  status = run_on(sheet, &(pendres_options){ .tolerance = tolerance }, &orbit, periods,
+                  &x, &v);
   if (status == PENDRES_OK)
     status = run_on(sheet, &(pendres_options){ .tolerance = tolerance, .method = PENDRES_NAIVE },
-                    &orbit, 1e6 - few, few, &naive_x, &naive_v);
+                    &orbit, few, &naive_x, &naive_v);
   if (status == PENDRES_OK)
     status = hard_sheet_add(sheet, "turns_velocity", "error of the velocity after a million turns",
                             v, tolerance, naive_v);

@@ -28,8 +28,8 @@ static int slope(double theta, const double s[], double out[], void *arg)
   return GSL_SUCCESS;
 }
 
-static pendres_status advance_one(const pendres_pendulum *p, double *x, double *v, long periods,
-                                  double tolerance, pendres_cost *cost)
+pendres_status peer_gsl_advance(const pendres_pendulum *p, double *x, double *v, long periods,
+                                double tolerance, pendres_cost *cost)
 {
   const double omega = p->drive_frequency, end = two_pi * (double)periods;
   problem b = { .stiffness = 1.0 / (omega * omega), .drive = p->drive_amplitude / (omega * omega),
@@ -40,7 +40,10 @@ static pendres_status advance_one(const pendres_pendulum *p, double *x, double *
   double theta = 0.0, s[2] = { *x - half_pi, *v / omega };
 
   if (driver == NULL) return PENDRES_OUT_OF_MEMORY;
+  /* GSL's handler would end the program. Nobody else uses GSL's errors at this time. */
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
   const int code = gsl_odeiv2_driver_apply(driver, &theta, end, s);
+  (void)gsl_set_error_handler(handler);
   cost->pendulum_periods += (double)periods;
   cost->rhs_evaluations += b.evaluations;
   cost->steps += (double)driver->n;
@@ -49,17 +52,4 @@ static pendres_status advance_one(const pendres_pendulum *p, double *x, double *
   *x = s[0] + half_pi;
   *v = s[1] * omega;
   return PENDRES_OK;
-}
-
-pendres_status peer_gsl_advance(size_t n, const pendres_pendulum *p, double *x, double *v,
-                                long periods, double tolerance, pendres_cost *cost)
-{
-  /* GSL's handler would end the program. Nobody else uses GSL's errors at this time. */
-  gsl_error_handler_t *handler = gsl_set_error_handler_off();
-  pendres_status status = PENDRES_OK;
-  *cost = (pendres_cost){ 0 };
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    status = advance_one(&p[i], &x[i], &v[i], periods, tolerance, cost);
-  (void)gsl_set_error_handler(handler);
-  return status;
 }

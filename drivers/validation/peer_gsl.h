@@ -11,11 +11,11 @@
 #include <pendres/pendulum.h>
 
 /*
- * Advance n pendulums by `periods` drive periods, x and v in place, with the relative and absolute
- * tolerance of each step. *cost (not NULL) receives what that took.
+ * Advance a pendulum by `periods` drive periods, x and v in place, with the relative and absolute
+ * tolerance of each step. What that took is added to *cost.
  * PENDRES_OUT_OF_MEMORY, PENDRES_INTEGRATION_FAILED.
  */
-pendres_status peer_gsl_advance(size_t n, const pendres_pendulum *p, double *x, double *v,
-                                long periods, double tolerance, pendres_cost *cost);
+pendres_status peer_gsl_advance(const pendres_pendulum *p, double *x, double *v, long periods,
+                                double tolerance, pendres_cost *cost);
 
 #endif

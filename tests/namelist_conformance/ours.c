@@ -34,7 +34,8 @@ static void print_name(const namelist *nl, const namelist_group *g, const char *
   namelist_array array = { 0 };
   char label[200];
   if (namelist_array_get(nl, g, name, &array, errors) == PENDRES_OK && array.count > limit)
-    namelist_error_at(nl, array.line, array.column, 1, errors, "more than %zu values", limit);
+    namelist_error_at(nl, (namelist_place){ array.line, array.column, 1 }, errors,
+                      "more than %zu values", limit);
   for (size_t i = 0; i < array.count && i < limit; i++) {
     snprintf(label, sizeof label, "%s%s(%zu)", prefix, name, i + 1);
     if (array.item[i] != NULL) print_value(nl, array.item[i], k, label, errors);
@@ -51,14 +52,14 @@ static void print_syntax_group(const namelist *nl, namelist_errors *errors)
   const size_t count = sizeof known / sizeof *known;
   const namelist_group *g = namelist_group_find(nl, "g");
   if (g == NULL) {
-    namelist_error_at(nl, 0, 0, 0, errors, "no group &g");
+    namelist_error_at(nl, namelist_whole, errors, "no group &g");
     return;
   }
   for (size_t i = 0; i < count; i++) print_name(nl, g, "", known[i].name, known[i].k, known[i].limit, errors);
   for (size_t a = 0; a < g->count; a++) {
     size_t i = 0;
     while (i < count && strcmp(known[i].name, nl->assignment[g->begin + a].name) != 0) i++;
-    if (i == count) namelist_error_at(nl, 0, 0, 0, errors, "unknown name");
+    if (i == count) namelist_error_at(nl, namelist_whole, errors, "unknown name");
   }
 }
 
