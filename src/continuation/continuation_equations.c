@@ -205,8 +205,9 @@ pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
     for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
     const pendres_pendulum p = pendres_continuation_map_pendulum(s->map->force, u);
     if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
-    /* The next step would be as small as the square of this one, or as rounding. */
-    if (length < 1e-8 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
+    /* Determinants' derivatives are differences, so the next step is a hundredth of this one or
+       less; or it is rounding. */
+    if (length < 1e-13 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
     last = length;
   }
   return PENDRES_NOT_CONVERGED;

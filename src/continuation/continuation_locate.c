@@ -14,47 +14,72 @@
    bounds. */
 static const double epsilon = 4e-16;
 
-/* By how much the unknowns move when each equation is off by so much, with either sign. 0 if
+/* By how much the unknowns move when the equations are off by so much, all at once. 0 if
    singular. */
-static int moved_by(const pendres_continuation_equations *e, const int *unknown,
-                    const double off[PENDRES_EQUATIONS_MOST],
-                    double moved[PENDRES_EQUATIONS_MOST])
+static int moved_at_once(const pendres_continuation_equations *e, const int *unknown,
+                         const double off[PENDRES_EQUATIONS_MOST],
+                         double moved[PENDRES_EQUATIONS_MOST])
+{
+  const int n = e->equations;
+  double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
+  for (int r = 0; r < n; r++) {
+    for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
+    b[r] = off[r];
+  }
+  if (!pendres_continuation_equations_linear(n, a, b)) return 0;
+  for (int i = 0; i < n; i++) moved[i] = fabs(b[i]);
+  return 1;
+}
+
+/* The same where each equation is off by so much with either sign. */
+static int moved_by_each(const pendres_continuation_equations *e, const int *unknown,
+                         const double off[PENDRES_EQUATIONS_MOST],
+                         double moved[PENDRES_EQUATIONS_MOST])
 {
   const int n = e->equations;
   for (int i = 0; i < n; i++) moved[i] = 0.0;
   for (int column = 0; column < n; column++) {
-    double a[PENDRES_U_COUNT][PENDRES_U_COUNT], b[PENDRES_U_COUNT] = {0.0};
-    for (int r = 0; r < n; r++)
-      for (int k = 0; k < n; k++) a[r][k] = e->j[r][unknown[k]];
-    b[column] = off[column];
-    if (!pendres_continuation_equations_linear(n, a, b)) return 0;
-    for (int i = 0; i < n; i++) moved[i] = hypot(moved[i], b[i]);
+    double one[PENDRES_EQUATIONS_MOST] = {0.0}, by[PENDRES_EQUATIONS_MOST];
+    one[column] = off[column];
+    if (!moved_at_once(e, unknown, one, by)) return 0;
+    for (int i = 0; i < n; i++) moved[i] = hypot(moved[i], by[i]);
   }
   return 1;
 }
 
 /* What rounding of the map adds to each equation. The derivatives of the map are a few times less
-   exact than the map itself; the third equation of a cusp comes from differences over a
-   hundredth. */
+   exact than the map itself, and change with what rounding makes of the orbit; the third equation
+   of a cusp comes from differences over a hundredth. */
 static void rounding_of(const pendres_continuation_equations *e, int steps, int period,
                         double off[PENDRES_EQUATIONS_MOST])
 {
-  const double unit = epsilon * fmax(1.0, hypot(e->j[0][0], e->j[1][1])) * sqrt(steps * period);
+  const double along = epsilon * sqrt(steps * period);
+  const double unit = along * fmax(1.0, pendres_continuation_map_growth(&e->image));
   off[0] = off[1] = unit;
-  off[2] = 4.0 * unit;
+  off[2] = hypot(4.0 * unit, along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
   off[3] = 400.0 * unit;
 }
 
-/* What the equations of the place differ by from those that it solves; the trace as one. */
-static void residuals_of(const pendres_continuation_image *at,
+/* What the equations of the place differ by from those that it solves; the last one of a cusp
+   follows the others. */
+static void residuals_of(pendres_continuation_condition condition,
+                         const pendres_continuation_image *at,
                          const pendres_continuation_image *solved,
                          double off[PENDRES_EQUATIONS_MOST])
 {
   off[0] = at->f[0] - solved->f[0];
   off[1] = at->f[1] - solved->f[1];
-  off[2] = at->n[0][0] - solved->n[0][0] + (at->n[1][1] - solved->n[1][1]);
+  off[2] = condition == PENDRES_CONDITION_FLIP
+             ? pendres_continuation_map_flip(at) - pendres_continuation_map_flip(solved)
+             : pendres_continuation_map_fold(at) - pendres_continuation_map_fold(solved);
   off[3] = 0.0;
 }
+
+/* How far the solutions by few and by more steps are apart. */
+typedef struct distance {
+  double late[PENDRES_EQUATIONS_MOST];  /* as a third number of steps has it */
+  double parts[PENDRES_EQUATIONS_MOST]; /* if nothing cancelled */
+} distance;
 
 /*
  * What the map with more steps leaves of the equations where that with fewer has solved them: by
@@ -63,14 +88,17 @@ static void residuals_of(const pendres_continuation_image *at,
  * yet the last two may differ as much as the first two, or the first and the last agree by chance.
  * So what the last two differ by counts as well, times what it would be less in order 8.
  *
- * Errors of the steps act like a change of coordinates for the most part, which a trace does not
- * feel: its parts cancel by right. As of an orbit, an eighth of what they differ by is left.
+ * Errors of the steps act like a change of coordinates for the most part. That moves the orbit, but
+ * not the parameter at which it bifurcates, and a trace does not feel it: what the equations differ
+ * by cancels by right.
  */
-static pendres_status apart_of(pendres_context *ctx, const pendres_continuation_pair *pair,
-                               double off[PENDRES_EQUATIONS_MOST])
+static pendres_status distance_of(pendres_context *ctx, const pendres_continuation_system *system,
+                                  const pendres_continuation_pair *pair,
+                                  const pendres_continuation_equations *at, distance *out)
 {
   const int between = (pair->coarse_steps + pair->fine_steps) / 4 * 2;
   const int steps[] = {pair->coarse_steps, between, pair->fine_steps};
+  double early[PENDRES_EQUATIONS_MOST], late[PENDRES_EQUATIONS_MOST];
   pendres_continuation_image image[3];
   for (int i = 0; i < 3; i++) {
     const pendres_status status = pendres_continuation_map_states(
@@ -80,15 +108,18 @@ static pendres_status apart_of(pendres_context *ctx, const pendres_continuation_
   const double middle = pow((double)steps[0] / steps[1], 8);
   const double fine = pow((double)steps[0] / steps[2], 8);
   const double times = (1.0 - fine) / (middle - fine);
-  double late[PENDRES_EQUATIONS_MOST];
-  residuals_of(&image[2], &image[0], off);
-  residuals_of(&image[2], &image[1], late);
-  for (int k = 0; k < PENDRES_EQUATIONS_MOST; k++)
-    off[k] = fmax(fabs(off[k]), times * fabs(late[k]));
-  const double parts = fabs(image[2].n[0][0] - image[0].n[0][0]) +
-                       fabs(image[2].n[1][1] - image[0].n[1][1]);
-  off[2] = fmax(off[2], 0.125 * parts);
-  return PENDRES_OK;
+  residuals_of(system->condition, &image[2], &image[0], early);
+  residuals_of(system->condition, &image[2], &image[1], late);
+  for (int k = 0; k < PENDRES_EQUATIONS_MOST; k++) {
+    late[k] *= times;
+    early[k] = fmax(fabs(early[k]), fabs(late[k]));
+  }
+  if (!moved_at_once(at, system->unknown, late, out->late)) return PENDRES_NOT_CONVERGED;
+  const double entries = fabs(image[2].n[0][0] - image[0].n[0][0]) +
+                         fabs(image[2].n[1][1] - image[0].n[1][1]);
+  early[2] = fmax(early[2], 0.125 * entries);
+  return moved_by_each(at, system->unknown, early, out->parts) ? PENDRES_OK
+                                                                : PENDRES_NOT_CONVERGED;
 }
 
 /*
@@ -138,8 +169,8 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
   pendres_continuation_equations at;
   pendres_continuation_pair *pair = &out->pair;
   const int n = system.unknowns, steps = system.steps, *unknown = system.unknown;
-  double off[PENDRES_EQUATIONS_MOST];
-  double apart[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
+  double off[PENDRES_EQUATIONS_MOST], rounding[PENDRES_EQUATIONS_MOST];
+  distance away;
 
   pair->map = *system.map;
   pair->critical = 1;
@@ -157,17 +188,19 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
   status = pendres_continuation_equations_solve(ctx, &system, 0.01, pair->fine, &at);
   if (status != PENDRES_OK) return status;
   rounding_of(&at, pair->fine_steps, pair->map.period, off);
-  if (!moved_by(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
-  status = apart_of(ctx, pair, off);
+  if (!moved_by_each(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
+  status = distance_of(ctx, &system, pair, &at, &away);
   if (status != PENDRES_OK) return status;
-  if (!moved_by(&at, unknown, off, apart)) return PENDRES_NOT_CONVERGED;
-  for (int i = 0; i < n; i++) {
-    const double a = pair->coarse[unknown[i]], b = pair->fine[unknown[i]];
-    out->error[i] = pendres_continuation_orbit_error(
-      a, b, rounding[i] + 0.12 * apart[i] + 0.5 * DBL_EPSILON * fabs(b));
-  }
   pair->rounding = hypot(rounding[0], rounding[1]);
-  pair->apart = hypot(apart[0], apart[1]);
+  pair->apart = 0.0;
+  for (int i = 0; i < n; i++) {
+    /* That the parts cancel to less than a thirty-second may be chance. */
+    const double fine = pair->fine[unknown[i]], coarse = pair->coarse[unknown[i]];
+    const double apart = fmax(fabs(fine - coarse), away.late[i]) + away.parts[i] / 32.0;
+    out->error[i] = pendres_continuation_orbit_error(
+      0.0, apart, rounding[i] + 0.5 * DBL_EPSILON * fabs(fine));
+    if (i < 2) pair->apart = hypot(pair->apart, apart);
+  }
   return PENDRES_OK;
 }
 

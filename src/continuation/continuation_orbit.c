@@ -130,11 +130,10 @@ static void fill(const pendres_continuation_pair *pair, const reading *a, const 
   const double along =
     pendres_orbit_measures_apart(&a->measures, &b->measures, pair->map.period);
   /* The equations of a bifurcation do not multiply errors by the inverse of I - M, which is
-     singular there, but by their own: a difference that is less than a fifth of what its parts make
-     together is taken for chance. */
+     singular there, but by their own. */
   const double beside =
     pair->critical
-      ? pair->apart / 5.0
+      ? pair->apart
       : pendres_orbit_apart_beside(a->m, b->m, a->m_by, from, b->measures.amplitude);
   const double apart = fmax(fmax(hypot(from[0], from[1]), along), beside);
 

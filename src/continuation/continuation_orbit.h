@@ -16,7 +16,7 @@ typedef struct pendres_continuation_pair {
   double coarse[PENDRES_U_COUNT], fine[PENDRES_U_COUNT];
   int coarse_steps, fine_steps;
   int critical;    /* at a bifurcation, not at given parameters */
-  double apart;    /* of the two at a bifurcation, in y and w, had no parts of it cancelled */
+  double apart;    /* of the two at a bifurcation, in y and w, chance left out */
   double rounding; /* of y and w */
 } pendres_continuation_pair;
 
