@@ -12,11 +12,12 @@
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = 192 /* trajectories, at most */ };
 
-/* What linear theory leaves out is smaller than a covariance by about its variance: below this
- * one it is lost in rounding, and trajectories would only be a poorer way to the same. */
+/* What linear theory neglects is smaller than a covariance by a factor of about the variance
+ * itself. Below this variance it is lost in rounding, and trajectories would only be less
+ * accurate. */
 static const double least_variance = 2e-16;
 
-/* Of a cloud's widths and their products. */
+/* Bound on the bias, relative to a cloud's widths and their products. */
 static const double bias_wanted = 0.01;
 
 static const double level = 0.95;
@@ -41,8 +42,8 @@ static const pendres_orbit *orbit_of(const pendres_cloud_request *q)
   return &pendres_attractors_get(q->set, q->attractor)->orbit;
 }
 
-/* Clouds are made around closed orbits that stay in their well; others run away, or have no point
- * to begin with. */
+/* Clouds are made around closed orbits that stay in their well; others run away, or have no strobe
+ * point to start from. */
 static int has_cloud(const pendres_orbit *o)
 {
   return isfinite(o->x) && isfinite(o->v) && o->winding == 0;
@@ -62,7 +63,7 @@ static const char *refuse(const pendres_cloud_request *q)
   return pendres_noise_refuses(&pendres_attractors_get(q->set, q->attractor)->orbit.pendulum);
 }
 
-/* The same for trajectories; `home` is used as long as the request. */
+/* The same for trajectories; `home` must live as long as the request. */
 static pendres_langevin_request trajectories_of(const pendres_cloud_request *q,
                                                 pendres_switching_home *home)
 {
@@ -78,7 +79,7 @@ static pendres_langevin_request trajectories_of(const pendres_cloud_request *q,
   return r;
 }
 
-/* A cloud of which nothing is known. */
+/* A cloud whose numbers are all NaN. */
 static pendres_cloud unknown(void)
 {
   pendres_cloud c = {.verdict = PENDRES_CLOUD_NOT_COMPARED, .linear = {NAN, NAN, NAN},
@@ -116,7 +117,8 @@ static void still_moments(const pendres_orbit *o, const double *x, const double 
   out[PENDRES_LANGEVIN_COV_VV] = (pendres_langevin_estimate){vv, 2.0 * sqrt(vv) * o->v_error};
 }
 
-/* First harmonic and loop area of an orbit, which finds its length and direction with errors. */
+/* First harmonic and loop area from an orbit, which has the harmonic's length and direction with
+ * their errors. */
 static void still_response(const pendres_orbit *o, pendres_langevin_cloud *out)
 {
   const double lag = atan2(o->sine[0], o->cosine[0]);
@@ -130,7 +132,7 @@ static void still_response(const pendres_orbit *o, pendres_langevin_cloud *out)
     (pendres_langevin_estimate){lag < 0.0 ? lag + two_pi : lag, o->phase_lag_error};
 }
 
-/* Without noise, or with less than rounding: the orbit's own points. */
+/* Without noise, or with noise below rounding, the cloud is the orbit's own points. */
 static pendres_status make_still(pendres_context *ctx, const pendres_cloud_request *q,
                                  pendres_cloud *c, double *x, double *v)
 {
@@ -140,7 +142,7 @@ static pendres_status make_still(pendres_context *ctx, const pendres_cloud_reque
   if (points == NULL) return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory");
   const pendres_status status = pendres_orbit_sample(ctx, o, 1, points, points + period);
   if (status == PENDRES_OK) {
-    /* The Poincare point itself: to the last digit. */
+    /* The Poincare point itself, to the last digit. */
     points[0] = o->x;
     points[period] = o->v;
     for (size_t k = 0; x != NULL && k < n; k++) {
@@ -158,7 +160,7 @@ static pendres_status make_still(pendres_context *ctx, const pendres_cloud_reque
   return status;
 }
 
-/* The covariance of a narrow cloud is that of theory. */
+/* A narrow cloud takes its covariance from theory. */
 static void take_theory(pendres_cloud *c)
 {
   pendres_langevin_estimate *s = c->measured.statistics;
@@ -178,15 +180,15 @@ static void ask_theory(const pendres_langevin_request *r, const pendres_orbit *o
   c->way = PENDRES_CLOUD_FOLLOWED;
   if (status != PENDRES_OK) return;
   if (!(linear.covariance.xx > least_variance)) c->way = PENDRES_CLOUD_NARROW;
-  /* The cloud of an orbit of several periods lies around several points: theory knows one. */
+  /* The cloud of an orbit of several periods lies around several points; theory is for one. */
   if (o->period != 1) return;
   c->linear = linear.covariance;
   c->linear_error = linear.error;
 }
 
 /*
- * Does the cloud agree with linear theory within three of all errors, bias among them? An error
- * as large as half the width in question agrees with anything: that is no verdict.
+ * Whether the cloud agrees with linear theory within three times the sum of all errors, the bias
+ * included. With an error as large as half the width anything would agree: no verdict then.
  */
 static pendres_cloud_verdict verdict_on(const pendres_cloud *c)
 {
@@ -201,7 +203,7 @@ static pendres_cloud_verdict verdict_on(const pendres_cloud *c)
   for (int k = 0; k < ELEMENTS; k++) {
     const pendres_langevin_estimate s = c->measured.statistics[FIRST + k];
     const pendres_langevin_estimate b = c->bias.statistics[FIRST + k];
-    /* A bias that could not be measured leaves its bound. */
+    /* Where the bias could not be measured its bound is taken. */
     const double off =
       isfinite(b.value) ? hypot(b.value, b.error) : bias_wanted * fabs(linear[k]);
     const double error =
@@ -214,7 +216,7 @@ static pendres_cloud_verdict verdict_on(const pendres_cloud *c)
 
 /* ---- The parts ----------------------------------------------------------------------------- */
 
-/* A still or narrow cloud, complete. */
+/* A cloud without noise, or a narrow one, complete. */
 static pendres_status complete(pendres_context *ctx, const pendres_cloud_request *q,
                                pendres_cloud *c, double *x, double *v)
 {

@@ -14,7 +14,7 @@ const char *pendres_langevin_answer_name(pendres_langevin_answer answer)
   return (unsigned)answer < PENDRES_LANGEVIN_ANSWER_COUNT ? names[answer] : NULL;
 }
 
-/* A position beyond is not known to a tenth of a radian; see passage.h. */
+/* A double beyond this does not hold a position to a tenth of a radian; see passage.h. */
 static const double farthest = 1e15;
 
 /* More lanes than MOST_LANES do not fit into the fastest memory and are slower. */
@@ -89,7 +89,7 @@ pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
   return answer;
 }
 
-/* All periods of the block's trajectories, the first of which is number `first`. */
+/* All periods of the block's trajectories; the number of the first trajectory is `first`. */
 static pendres_status follow(pendres_context *ctx, pendres_langevin_block *b, size_t first,
                              const pendres_langevin_run *run)
 {

@@ -18,17 +18,17 @@ static void scales_of(const pendres_sums *total, double scale[STATISTICS])
   scale[PENDRES_LANGEVIN_COV_XX] = xx;
   scale[PENDRES_LANGEVIN_COV_XV] = sqrt(xx * vv);
   scale[PENDRES_LANGEVIN_COV_VV] = vv;
-  /* A harmonic that vanishes, as under a torque alone, is told by the width of the cloud. */
+  /* A harmonic that vanishes, as under a torque alone, is compared with the width of the cloud. */
   scale[PENDRES_LANGEVIN_COSINE] = scale[PENDRES_LANGEVIN_SINE] =
     fmax(hypot(d[PENDRES_LANGEVIN_COSINE], d[PENDRES_LANGEVIN_SINE]), sqrt(xx));
   scale[PENDRES_LANGEVIN_LOOP_AREA] = fabs(d[PENDRES_LANGEVIN_LOOP_AREA]);
 }
 
-/* The bias of so many steps from `trajectories` pairs of the request. */
+/* The bias of `steps` steps a period, from so many pairs of trajectories of the request. */
 static pendres_status measure_bias(pendres_context *ctx, const pendres_langevin_request *request,
                                    int steps, size_t trajectories, pendres_langevin_bias *bias)
 {
-  /* The top bit of the id makes these other trajectories than those that are measured. */
+  /* With another top bit of their ids these are not the trajectories of the cloud itself. */
   pendres_sums_run r = {.ctx = ctx, .request = request, .trajectories = trajectories,
                          .first_id = request->first_id ^ (uint64_t)1 << 63};
   pendres_langevin_block fine = {0}, coarse = {0};
@@ -70,10 +70,10 @@ pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
   return PENDRES_CONTEXT_CALL(ctx, bias_of(ctx, request, bias));
 }
 
-/* Raise *most to what a number is in units of its scale. NaN is kept, since it is no small bias. */
+/* Raise *most to a number in units of its scale. NaN is kept: an unknown bias may be large. */
 static void raise_to(double number, double scale, double *most)
 {
-  /* What is exactly zero, as the work of no drive, is zero in any unit. */
+  /* A number that is exactly zero, such as the work of no drive, needs no scale. */
   const double size = number == 0.0 ? 0.0 : fabs(number) / scale;
   if (!(size <= *most) && !isnan(*most)) *most = size;
 }
@@ -90,7 +90,7 @@ static void worst_of(const pendres_langevin_bias *bias, unsigned statistics, dou
   }
 }
 
-/* Where the search begins: with the fewest steps that may resolve the well and the friction. */
+/* The search begins with the fewest steps that may resolve the well and the friction. */
 static int first_steps(const pendres_pendulum *p)
 {
   const double period = two_pi / p->drive_frequency;
@@ -116,7 +116,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_langevin_
     if (status != PENDRES_OK) return status;
     worst_of(bias, statistics, &value, &error);
     if (value + 2.0 * error <= tolerance) return PENDRES_OK;
-    /* Neither more steps nor more trajectories make a number of NaN. */
+    /* More steps or more trajectories do not help where the bias is NaN. */
     if (isnan(value + error)) break;
     /* The bias goes down with more steps, and its error with these and with more trajectories. */
     if (error > 0.25 * tolerance && trajectories < GROWTH * request->trajectories)

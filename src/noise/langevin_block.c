@@ -9,24 +9,24 @@
  *     exp(a h A) exp(h/2 B') exp(h/sqrt 3 A) exp(h/2 B') exp(a h A),  a = (1 - 1/sqrt 3)/2,
  *     B' = B + h^2 (2 - sqrt 3)/24 [B, [A, B]].
  *
- * [B, [A, B]] = 2 f f' d/dv + 4 gamma T f' d^2/dv^2 with f' = df/dy: neither friction, drive,
- * the time in f, nor the order of derivatives add to it. So B' is a kick again, with f (1 + c f')
- * for force and (1 + 2 c f') for variance, c = h^2 (2 - sqrt 3)/12; and 1 + 2 c f' = (1 + c f')^2
- * to the order that counts, so that both parts of a kick take the one factor 1 + c f', which is
- * 1 - c cos y for a plain pendulum.
+ * [B, [A, B]] = 2 f f' d/dv + 4 gamma T f' d^2/dv^2 with f' = df/dy; friction, drive and the time
+ * in f do not contribute to it. B' is therefore a kick again, whose force is f (1 + c f') and whose
+ * variance has the factor 1 + 2 c f', where c = h^2 (2 - sqrt 3)/12. Since 1 + 2 c f' = (1 + c
+ * f')^2 to the order of the method, force and noise both take the factor 1 + c f', which is 1 - c
+ * cos y for a plain pendulum.
  *
  * A is solved exactly. With y = u + pivot, pivot'' + gamma pivot' = F0 cos theta, u is free:
  * u += (1 - exp(-gamma t))/gamma w, w *= exp(-gamma t).
  *
- * Where parameters move, they stand still during each step, at their values in its middle, and the
- * frame is changed between two steps: an error of order two in the step, but times what they move
- * by within one. Steps are parts of a turn of the drive, so that its phase goes on through all
- * this.
+ * Parameters that move are held constant during each step, at their values in its middle, and the
+ * frame is changed between two steps. The error of this is of order two in the step, times the
+ * change of the parameters within one. Steps are fractions of a turn of the drive, whose phase is
+ * not affected.
  *
- * First harmonics are sums over the ends of steps: between its kicks a step is accurate to
- * order two only. A period's equally spaced samples are accurate to any order, but for the
- * ramp that a trajectory which does not close adds; what the sum makes of a ramp is known.
- */
+ * First harmonics are sums over the ends of steps, since between its kicks a step is accurate only
+ * to order two. For a closed trajectory equally spaced samples over a period are accurate to any
+ * order. One that does not close has a linear ramp besides, whose sum is known exactly and
+ * corrected for. / */
 #include "noise/langevin_block.h"
 
 #include <math.h>
@@ -44,8 +44,8 @@ enum { ALIGN = 64, ROWS = 32, COEFFICIENTS = PENDRES_FORCE_COEFFICIENTS };
 /* Beyond this an angle in the shaken frame loses more than 1e-9 to rounding. */
 static const double largest_pivot = 1e7;
 
-/* How many steps all lanes take together between two questions whether to go on: those of some
- * hundredths of a second, as in flow.c. */
+/* How many steps all lanes take together between two calls of stop(): those of some hundredths of a
+ * second, as in flow.c. */
 static const double steps_between = 300000.0;
 
 const pendres_kernels_langevin *pendres_kernels_langevin_select(void)
@@ -153,7 +153,7 @@ const char *pendres_langevin_block_refuses(const pendres_pendulum *p, int steps)
   return NULL;
 }
 
-/* All that a lane's parameters and the steps make: constants of a period. */
+/* The constants of a period that follow from a lane's parameters and the steps. */
 static void set_constants(pendres_langevin_block *b, size_t lane, const pendres_pendulum *p)
 {
   const double h = two_pi / p->drive_frequency / b->steps, g = p->damping;
@@ -219,7 +219,7 @@ static void harmonics(pendres_langevin_block *b, size_t i, double y)
 {
   const double n = b->steps;
   const double moved = y - (b->x[i] - b->base[i]);
-  /* The sum makes of a ramp in theta only pi/n cot(pi/n) of what it is. */
+  /* For a ramp in theta the sum is pi/n cot(pi/n) times the integral. */
   const double missing = 1.0 - pi / n / tan(pi / n);
   b->cosine[i] = 2.0 / n * (b->cosine[i] + 0.5 * y);
   b->sine[i] = 2.0 / n * b->sine[i] - moved / pi * missing;
@@ -268,7 +268,7 @@ static const double *noise(pendres_langevin_block *b, uint32_t period, int k)
   return b->gauss + (size_t)row * b->stride;
 }
 
-/* Whether the period is to end before this step. Nobody is asked within short ones. */
+/* Whether the period is to end before this step. In short periods stop() is not called. */
 static int stops(const pendres_langevin_block *b, int step)
 {
   const int every = (int)ceil(steps_between / (double)b->stride);
@@ -286,7 +286,7 @@ pendres_status pendres_langevin_block_period(pendres_langevin_block *b, uint32_t
   return PENDRES_OK;
 }
 
-/* All lanes are this pendulum from now on. */
+/* Give all lanes the parameters of this pendulum. */
 static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
 {
   enum { FIXED = 7 /* rows from pivot_cos on that hold no coefficient of a force */ };
@@ -306,7 +306,7 @@ static void tune(pendres_langevin_block *b, const pendres_pendulum *p)
     for (size_t i = 1; i < b->stride; i++) row[k][i] = row[k][0];
 }
 
-/* The same, at a phase between two steps: the states stay as they are, seen from another frame. */
+/* The same between two steps: the states are the same, expressed in another frame. */
 static void retune(pendres_langevin_block *b, const pendres_pendulum *p, const double phase[2],
                    double *frequency)
 {

@@ -62,8 +62,8 @@ void pendres_sums_statistics(const pendres_sums *t,
 }
 
 /*
- * What trajectory s adds to the sums of deviations: d holds the statistics. To
- * first order a statistic is off by the total of its row divided by the strobes.
+ * What trajectory s contributes to the deviations of the statistics d. To first order the deviation
+ * of a statistic is the sum of its row over trajectories, divided by the number of strobes.
  */
 static void influence(const pendres_sums *s, const double d[STATISTICS],
                       double out[STATISTICS])
@@ -193,7 +193,7 @@ pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *
   return status;
 }
 
-/* The error of a mean over trajectories from the sum of squares of what each adds to it. */
+/* The error of a mean over trajectories, from the sum of squares of their contributions. */
 static double standard_error(double square, size_t trajectories, double strobes)
 {
   const double n = (double)trajectories;

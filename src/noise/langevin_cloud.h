@@ -1,10 +1,10 @@
 /*
- * langevin_cloud.h -- what trajectories of a cloud sum up, shared by langevin_cloud.c and
+ * langevin_cloud.h -- sums over the trajectories of a cloud, shared by langevin_cloud.c and
  * langevin_bias.c.
  *
- * Each trajectory sums up what counts of it; then means over all strobe points are ratios of
- * totals, and their errors come from what each trajectory adds to the difference (the
- * trajectories are independent; strobes of one trajectory are not). Sums are taken in the
+ * Each trajectory has sums over its strobes that count. Means over all strobe points are ratios of
+ * totals, and their errors come from what each trajectory contributes to the deviation (the
+ * trajectories are independent; strobes of one trajectory are not). Totals are taken in the
  * order of trajectories, whatever blocks they ran in.
  */
 #ifndef PENDRES_LANGEVIN_CLOUD_H
@@ -12,12 +12,12 @@
 
 #include "noise/langevin_internal.h"
 
-/* What one trajectory sums up over strobes that count; x and v from the starting point. */
+/* Sums over the strobes of one trajectory that count; x and v relative to the starting point. */
 typedef struct pendres_sums {
   double strobes, x, v, xx, xv, vv, cosine, sine, work;
 } pendres_sums;
 
-/* A run of one request: trajectories and what they have summed up. */
+/* A run of one request: its trajectories and their sums. */
 typedef struct pendres_sums_run {
   pendres_context *ctx;
   const pendres_langevin_request *request;
@@ -30,7 +30,7 @@ typedef struct pendres_sums_run {
   double exposure;
 } pendres_sums_run;
 
-/* Check a request that is to run with so many steps a period. */
+/* Check a request that is to run with `steps` steps a period. */
 pendres_status pendres_sums_accept(pendres_context *ctx, const pendres_langevin_request *q,
                                     int steps);
 
@@ -43,10 +43,10 @@ void pendres_sums_run_clear(pendres_sums_run *r);
 pendres_status pendres_sums_follow(pendres_sums_run *r, pendres_langevin_block *b,
                                     pendres_langevin_block *coarse);
 
-/* What all n trajectories sum up. */
+/* The sums over all n trajectories. */
 pendres_sums pendres_sums_total(const pendres_sums *all, size_t n);
 
-/* The statistics that totals stand for; means from the starting point. */
+/* The statistics that follow from totals; means are relative to the starting point. */
 void pendres_sums_statistics(const pendres_sums *t,
                               double out[PENDRES_LANGEVIN_STATISTICS]);
 

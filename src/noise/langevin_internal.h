@@ -12,15 +12,15 @@
 /* The steps a drive period that a caller asks for, or the context's, or the default. */
 int pendres_langevin_resolve_steps(const pendres_context *ctx, int steps);
 
-/* A block for so many trajectories or, if they are many, for a part of them, with the context's
- * seed. Clear it in any case. */
+/* A block, with the context's seed, for that many trajectories or, if these are too many for one
+ * block, for a part of them. Clear it in any case. */
 pendres_status pendres_langevin_open(pendres_context *ctx, size_t trajectories, int steps,
                                      pendres_langevin_block *b);
 
 /* Count a period of a block's trajectories. */
 void pendres_langevin_count(pendres_context *ctx, const pendres_langevin_block *b);
 
-/* Check one pendulum and its state, for so many steps a period; index is for the message. */
+/* Check one pendulum and its state, for `steps` steps a period; the message names `index`. */
 pendres_status pendres_langevin_accept(pendres_context *ctx, const pendres_pendulum *p, double x,
                                        double v, int steps, size_t index);
 
@@ -33,7 +33,7 @@ pendres_langevin_answer pendres_langevin_show(pendres_context *ctx,
                                               long period,
                                               const pendres_langevin_observer *observer);
 
-/* Do all of the block's trajectories still have an angle? */
+/* Fail if an angle in the block is too large to be known, or not a number. */
 pendres_status pendres_langevin_check_ends(pendres_context *ctx, const pendres_langevin_block *b,
                                            size_t first);
 

@@ -1,8 +1,8 @@
 /*
  * langevin_moving.h -- trajectories of a pendulum whose parameters move, with noise or without.
  *
- * Owns: nothing; the integrator is that of langevin.h, whose fourth order holds without noise as
- * well, and the drive's phase goes on steadily whatever moves.
+ * Owns: the loop over periods and parts. The integrator is that of langevin.h, whose order is four
+ * without noise as well; the drive's phase goes on steadily whichever parameter moves.
  */
 #ifndef PENDRES_LANGEVIN_MOVING_H
 #define PENDRES_LANGEVIN_MOVING_H
@@ -20,11 +20,12 @@ typedef struct pendres_langevin_moving {
   long periods;
   int steps;         /* a period */
   double x, v;       /* where they start */
-  int may_leave;     /* for infinity: that some end there is no failure; the observer sees it */
+  int may_leave;     /* nonzero: it is no failure if some go to infinity; the observer sees it */
   const pendres_langevin_observer *observer; /* never answers ENOUGH */
 } pendres_langevin_moving;
 
-/* All trajectories, seen by the observer. The pendulums were accepted (langevin_internal.h). */
+/* Advance all trajectories, and show them to the observer. The pendulums must have been accepted
+   (pendres_langevin_moving_accept). */
 pendres_status pendres_langevin_move(pendres_context *ctx, const pendres_langevin_moving *run);
 
 /* Check the pendulum at one time. */

@@ -11,8 +11,8 @@ enum {
   IDS = 1 << 20 /* ids between those of one pendulum and attractor and others */
 };
 
-/* Relative to a cloud's width the bias is the same at all small temperatures; where it is hot, a
- * coarse and a fine trajectory part soon, and their difference tells little about steps. */
+/* Relative to a cloud's width the bias is the same at all small temperatures. At high ones a coarse
+ * and a fine trajectory soon separate, and their difference says little about the steps. */
 static const double coldest = 1e-4;
 
 static uint64_t mix_in(uint64_t hash, double number)
@@ -32,7 +32,7 @@ uint64_t pendres_noise_first_id(const pendres_pendulum *p, size_t attractor)
     for (int i = 0; i < PENDRES_FORCE_COEFFICIENTS; i++)
       hash = mix_in(hash, p->force_coefficients[i]);
   }
-  /* Room for trajectories; and the top bit is where bias is measured. */
+  /* The low bits number trajectories, and the top bit marks those that measure the bias. */
   return (hash >> 1) & ~(uint64_t)(IDS - 1);
 }
 

@@ -14,17 +14,17 @@
 
 enum { STATES = PENDRES_SWITCHING_STATES, WELL = PENDRES_SWITCHING_WELL };
 
-/* A trajectory that runs has no well. */
+/* A running trajectory has no well. */
 static const long NO_WELL = LONG_MIN;
 
 /* The state of a trajectory that has gone to infinity. */
 enum { GONE = -1 };
 
-/* So many temperatures below its attractor, and outwards of where the force leads away, none comes
-   back: one of exp(30) would. */
+/* So many temperatures below its attractor's potential, and where the force leads away, a
+   trajectory counts as escaped: one of exp(30) would return. */
 static const double no_return = 30.0;
 
-/* Fewer events, or fewer trajectories, say nothing on their scatter. */
+/* With fewer events or fewer trajectories nothing is known of their scatter. */
 static const double FEWEST = 10.0;
 
 static const double DEFAULT_CORE = 0.5;
@@ -34,7 +34,7 @@ typedef struct core_set {
   int attractor;
   int running;
   double x, v;
-  double turn;       /* what a turn is: one of the coordinate leads to the same in another well */
+  double turn;       /* the period of the coordinate, which leads to the next well */
   double xx, xv, vv; /* P: inside, (z - z0)' P (z - z0) <= 1 with z = (x, v) */
 } core_set;
 
@@ -102,13 +102,13 @@ typedef struct track {
 typedef struct counting {
   cores cores;
   size_t states;
-  size_t row;        /* of numbers a trajectory has for each state: destinations, well, exposure */
+  size_t row;        /* numbers of a trajectory for each state: destinations, well, exposure */
   track *tracks;     /* [trajectory] */
   uint32_t *numbers; /* [trajectory][state][row] */
   double *x;         /* [2 trajectories] positions, velocities */
   uint64_t *ids;
   pendres_pendulum *pendulums;
-  double bottom;     /* the potential below which none comes back from outside; NaN: none leaves */
+  double bottom;     /* outside, none returns from below this potential; NaN: none escapes */
 } counting;
 
 static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t column)
@@ -116,7 +116,7 @@ static uint32_t *number(const counting *c, size_t trajectory, size_t s, size_t c
   return &c->numbers[(trajectory * c->states + s) * c->row + column];
 }
 
-/* Whether a trajectory of a force that leads away has gone for good; infinity is no number. */
+/* Whether a trajectory has escaped for good; x and v may be infinite or NaN. */
 static int gone(const counting *c, double x, double v)
 {
   const pendres_pendulum *p = &c->pendulums[0];
@@ -173,8 +173,8 @@ static void sum_up(const counting *c, size_t trajectories, pendres_switching_tal
 }
 
 /*
- * Whether pendulums may rotate, as they would without the drive, on nothing that is in the set: a
- * rotation that does not lock to the drive has no strobe point.
+ * Whether pendulums may rotate, as they would without the drive, although the set has no rotation:
+ * one that does not lock to the drive has no strobe point.
  */
 static int rotates_elsewhere(const pendres_switching_request *q)
 {
@@ -228,7 +228,7 @@ static void clear_counting(counting *c)
   free(c->pendulums);
 }
 
-/* Every trajectory of a request at its attractor's strobe point. */
+/* Put every trajectory of a request at its attractor's strobe point. */
 static void start(const pendres_switching_request *q, counting *c)
 {
   const pendres_orbit *home = &pendres_attractors_get(q->set, q->from)->orbit;

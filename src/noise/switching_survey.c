@@ -161,7 +161,7 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
   return status;
 }
 
-/* Temperatures and rates of one way, as the fit wants them. */
+/* Temperatures and rates of one way, in the arrays that the fit takes. */
 static pendres_status activate(const pendres_switching_survey *q, int way, size_t n,
                                const pendres_switching_rates *rates,
                                pendres_switching_activation *out)
@@ -199,7 +199,7 @@ pendres_status pendres_switching_activate(const pendres_switching_survey *survey
 
 /* ---- All of it ----------------------------------------------------------------------------- */
 
-/* Failures that no other temperature can be spared. */
+/* Failures that end the whole survey, not only one temperature. */
 static int ends_all(pendres_status status)
 {
   return status == PENDRES_OUT_OF_MEMORY || status == PENDRES_INTERRUPTED ||
