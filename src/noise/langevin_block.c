@@ -26,7 +26,8 @@
  * First harmonics are sums over the ends of steps, since between its kicks a step is accurate only
  * to order two. For a closed trajectory equally spaced samples over a period are accurate to any
  * order. One that does not close has a linear ramp besides, whose sum is known exactly and
- * corrected for. / */
+ * corrected for.
+ */
 #include "noise/langevin_block.h"
 
 #include <math.h>

@@ -28,7 +28,8 @@ long pendres_noise_settle(const pendres_orbit *orbit);
  * are chosen at the request's temperature or, where that is too high, at a lower one. *bias is the
  * bias at the request's own temperature; its numbers are NaN if no trajectory stays on the
  * attractor there. If no number of steps reaches the tolerance the last one is taken; the bias
- * shows it. / */
+ * shows it.
+ */
 pendres_status pendres_noise_choose_steps(pendres_context *ctx,
                                           const pendres_langevin_request *request,
                                           unsigned statistics, double tolerance,

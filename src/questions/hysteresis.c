@@ -17,11 +17,11 @@ enum {
   MOST_TRIES = 4    /* to come from chaos to an orbit on the way from one value to the next */
 };
 
-/* Rotations without a lock are looked for side by side at values this close, in the parameter's
+/* Rotations without a lock are computed side by side at values this close, in the parameter's
    scale. */
 static const double close_by = 0.1;
-/* A state is followed on to the next value while that is so close, in the same scale: the way to
-   one further off is paid for by that one. */
+/* A state is followed to values this close at once, in the same scale; the work for one further
+   away is counted as its own. */
 static const double in_sight = 100.0;
 
 const char *pendres_jump_kind_name(pendres_jump_kind kind)
@@ -73,8 +73,8 @@ static int cascades(const pendres_stretch *s)
          2 * s->period > PENDRES_HYSTERESIS_PERIOD;
 }
 
-/* The stretch that a pendulum goes over to without a jump: of what is born at the end of the one
-   that it is on, or of what that one was born from. PENDRES_NOT_FOUND: it jumps. */
+/* The stretch that a pendulum goes over to without a jump: that of an orbit born at the end of its
+   own stretch, or of the orbit from which its own was born. PENDRES_NOT_FOUND: it jumps. */
 static pendres_status go_over(path *w, const pendres_bifurcation *end, double limit,
                               pendres_stretch *next)
 {
@@ -92,7 +92,7 @@ static pendres_status go_over(path *w, const pendres_bifurcation *end, double li
   return PENDRES_NOT_FOUND;
 }
 
-/* The end of the stretch: what it is, and what the pendulum goes to. */
+/* At the end of the stretch: which bifurcation it is, and what the pendulum goes to. */
 static pendres_status end_stretch(path *w, size_t step, double limit)
 {
   static const pendres_jump_kind kinds[] = {
@@ -119,7 +119,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
     j.to = w->state.attractor.label;
     j.to_period = next.period;
   } else if (status == PENDRES_NOT_FOUND && cascades(&w->stretch)) {
-    /* What it comes to is seen at the next value. */
+    /* What it goes to is found at the next value. */
     w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
     w->state.x = end.orbit.x;
     w->state.v = end.orbit.v;
@@ -135,7 +135,7 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
     if (status == PENDRES_OK && !done)
       status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
     w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
-    /* What could not be followed further, and goes on, has not ended. */
+    /* A state that exists but could not be followed further has not ended. */
     goes_on = s->end == PENDRES_STRETCH_LOST && old.orbit.period > 1 &&
               pendres_settled_alike(&old, &w->state.attractor);
   }
@@ -154,7 +154,8 @@ static int at_fold(const pendres_stretch *s, double value)
          fabs(value - s->end_value) <= s->end_error;
 }
 
-/* The values from number i on that the stretch holds: the number after the last of them. */
+/* Put the values from number i on that the stretch holds into the results; returns the number after
+   the last of them. */
 static size_t held(const path *w, size_t i)
 {
   const int direction = w->stretch.direction;
@@ -195,8 +196,7 @@ done:
   return status;
 }
 
-/* The last value that the path reaches from number i on before it turns round, or takes a step that
-   is further than anybody sees. */
+/* The last value from number i on before the path turns round or takes a long step. */
 static double turning_point(const path *w, size_t i)
 {
   const int up = w->value[i] > w->at;
@@ -207,7 +207,7 @@ static double turning_point(const path *w, size_t i)
   return w->value[i];
 }
 
-/* Whether an attractor is an orbit that is followed. */
+/* Whether an attractor is an orbit that can be followed. */
 static int is_short(const pendres_attractor *a)
 {
   return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
@@ -227,9 +227,9 @@ static int direction_to(const path *w, size_t i)
 }
 
 /*
- * A closed orbit is followed to value number *i and as far beyond as it goes, over its ends. Trials
- * of a jump may have gone beyond that value: the orbit is followed back to it, but what it ends at
- * on that way is none of the path's jumps.
+ * Follow a closed orbit to value number *i and as far beyond as possible, through jumps at its
+ * ends. If the trials of a jump have gone beyond that value, the orbit is followed back to it; an
+ * end that it meets on the way back is no jump of the path.
  */
 static pendres_status follow_closed(path *w, size_t *i)
 {
@@ -259,8 +259,8 @@ static pendres_status follow_closed(path *w, size_t *i)
   return PENDRES_OK;
 }
 
-/* Chaos has ended between the last value and this one, at which the pendulum is on an orbit:
-   w->state becomes the first orbit that it goes to, at this value or one before. */
+/* Chaos has ended between the last value and this one, at which the pendulum is on an orbit.
+   w->state becomes the first orbit that it goes to, at this value or an earlier one. */
 static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
 {
   const double to = w->value[step];
@@ -281,9 +281,9 @@ static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old
 }
 
 /*
- * A pendulum on a rotation that is not locked to the drive: the values from number *i on, as many
- * as are close by, side by side, as long as it stays on such a rotation. There is one of them at
- * most at each value, so that a start on one leads to the next.
+ * A pendulum on a rotation that is not locked to the drive: the close values from number *i on are
+ * computed side by side, as long as it stays on such a rotation. There is at most one at each
+ * value, so that a start on one leads to the next.
  */
 static pendres_status follow_rotation(path *w, size_t *i)
 {
@@ -305,7 +305,7 @@ static pendres_status follow_rotation(path *w, size_t *i)
   return status;
 }
 
-/* A pendulum that has escaped is gone, whatever the parameter does. */
+/* A pendulum that has escaped does not return, whatever the parameter does. */
 static void stay_away(path *w, size_t *i)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
@@ -315,8 +315,8 @@ static void stay_away(path *w, size_t *i)
   pendres_path_put(w, (*i)++, &w->state.attractor);
 }
 
-/* What the pendulum settles on at value number *i, from where it is; or the orbit that it goes to
-   on the way there, which is to be followed first. */
+/* Find what the pendulum settles on at value number *i, from its present state, or the orbit that
+   it goes to on the way there, which is to be followed first. */
 static pendres_status settle_at(path *w, size_t *i)
 {
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
@@ -337,7 +337,7 @@ static pendres_status settle_at(path *w, size_t *i)
   return status;
 }
 
-/* A step of the path from where it is: to value number *i, beyond, or nearer to it. */
+/* One step of the path: to value number *i, beyond it, or nearer to it. */
 static pendres_status go_on(path *w, size_t *i)
 {
   const size_t before = *i;

@@ -8,10 +8,10 @@
 
 enum { HALVINGS = 8 /* of the distance of two values between which chaos ends */ };
 
-/* Tried out so far from where an orbit is born, by the parameter's scale. */
+/* The distance of trials from the birth of an orbit, in the parameter's scale. */
 static const double beside = 1e-4;
 
-/* Whether the orbit is born between the values, and the pendulum leaves for it there. */
+/* Whether the orbit is born between the values, and the pendulum goes to it there. */
 static pendres_status try_birth(pendres_context *ctx, pendres_parameter parameter,
                                 const pendres_settled *old, double from,
                                 const pendres_settled *state, pendres_jump *jump)
@@ -46,7 +46,8 @@ static pendres_status try_birth(pendres_context *ctx, pendres_parameter paramete
   return status;
 }
 
-/* What is between the last value known to be before and the first known to be behind. */
+/* Halve the interval from the last value known to be before the end to the first known to be after
+   it. */
 static pendres_status halve(pendres_context *ctx, pendres_parameter parameter,
                             const pendres_settled *old, double from, pendres_settled *state,
                             pendres_jump *jump)

@@ -1,6 +1,6 @@
 /*
- * hysteresis_chaos.h -- where a pendulum comes from chaos, or from what cannot be followed, to an
- * orbit.
+ * hysteresis_chaos.h -- where a pendulum goes from chaos, or from another state that cannot be
+ * followed, to a closed orbit.
  */
 #ifndef PENDRES_HYSTERESIS_CHAOS_H
 #define PENDRES_HYSTERESIS_CHAOS_H
@@ -8,13 +8,14 @@
 #include "questions/hysteresis_jump.h"
 
 /*
- * A pendulum that was in a state without an orbit at a value of a parameter is on an orbit at
- * another, state->pendulum's. If that orbit is born between them, and the pendulum goes to it just
- * beyond and does not just before, that is where the state ends. Else this is halved down to, for
- * the pendulum may have gone to another orbit first, as to one of a higher period where a cascade
- * of doublings is met from its end: *state becomes the orbit that it goes to first, at a value just
- * behind, and windows of orbits that the halving does not meet are not told.
- * Sets value, value_error, from, to, to_period, share and certain of the jump.
+ * A pendulum was in a state without a closed orbit at one value of a parameter, and is on an orbit
+ * at another value, that of state->pendulum. If this orbit is born between the two, and the
+ * pendulum goes to it just after its birth but not just before, its birth is where the old state
+ * ends. Otherwise the interval is halved, since the pendulum may have gone to another orbit first,
+ * say to one of a higher period if the parameter enters a cascade of doublings from its chaotic
+ * end. *state becomes the first orbit that it goes to, at a value just after the end. Windows of
+ * orbits that the halving does not meet are not found. Sets value, value_error, from, to,
+ * to_period, share and certain of the jump.
  */
 pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter parameter,
                                  const pendres_settled *old, double from, pendres_settled *state,

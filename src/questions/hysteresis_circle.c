@@ -12,13 +12,13 @@
 
 enum {
   MOST = 64,  /* values at a time */
-  FURTHER = 3 /* times ten times as far beyond a fold */
+  FURTHER = 3 /* how often to try ten times as far beyond a fold */
 };
 
-/* Beyond a fold, in the parameter's scale: where a pendulum is taken to have left, and where it
-   moves on so fast that its points show the circle. */
+/* Distances beyond a fold, in the parameter's scale: where a pendulum counts as having left, and
+   where it moves so fast that its points show the circle. */
 static const double beyond = 1e-4, well_beyond = 0.03;
-/* An orbit on a circle is as close to it as this. */
+/* An orbit this close to a circle is taken to lie on it. */
 static const double on_it = 1e-6;
 
 static pendres_status open_circles(pendres_path *w)
@@ -34,7 +34,7 @@ static pendres_status open_circles(pendres_path *w)
   return pendres_circles_create(w->ctx, &family, low, high, &w->circles);
 }
 
-/* What is known of a pendulum on a circle that is not locked. */
+/* The attractor of a pendulum on a circle without a lock. */
 static void take_unlocked(const pendres_path *w, const pendres_circles_verdict *v,
                           pendres_settled *out)
 {
@@ -48,7 +48,7 @@ static void take_unlocked(const pendres_path *w, const pendres_circles_verdict *
   out->attractor.drift_error = v->turn.turns_error;
 }
 
-/* The orbits of those of n verdicts that are locked: 0 in found where there is none. */
+/* The orbits of those of n verdicts that are locked; found is 0 where there is none. */
 static pendres_status find_locks(const pendres_path *w, size_t n,
                                  const pendres_circles_verdict *v, pendres_orbit *orbit, int *found)
 {
@@ -74,7 +74,7 @@ static pendres_status find_locks(const pendres_path *w, size_t n,
   return status;
 }
 
-/* The motion on the circle is another one than before: where that changes. */
+/* The motion on the circle differs from that at the last value: find where it changes. */
 static pendres_status note_change(pendres_path *w, size_t step, const pendres_circles_verdict *v,
                                   const pendres_attractor *a)
 {

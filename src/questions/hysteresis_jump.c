@@ -16,18 +16,18 @@
 
 enum {
   TRIALS = PENDRES_HYSTERESIS_TRIALS,
-  ROUNDS = 3,      /* in which trials that cannot be told go further */
-  ON_THE_WAY = 500 /* periods after which what does not close is taken to be on its attractor */
+  ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
+  ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
 };
 
-/* How far beyond a bifurcation trials are, by the parameter's scale: half of them, and the others.
-   Within each half the last one is half as far again as the first: so the times that they take to
-   pass the fold, as the root of one over the distance, differ by a fifth, which is many periods. */
+/* The distances of trials beyond a bifurcation, in the parameter's scale: one for half of them, one
+   for the others. Within each half they vary by a factor of 1.5. The time to pass a fold goes as
+   one over the root of the distance, and so differs by a fifth, which is many periods. */
 static const double beyond[2] = {1e-4, 1e-5};
 static const double further = 10.0;
-/* An orbit that has become unstable is left this far away, where its own growth is not slow. */
+/* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
 static const double away = 0.03;
-/* Amplitudes of one state at parameters so close differ by less. */
+/* Amplitudes of the same state at adjacent parameters differ by less than this. */
 static const double same_amplitude = 0.02;
 /* Student's t for sixteen batches, at 99.9 %. */
 static const double batches_sure = 4.073;
@@ -85,7 +85,7 @@ void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r
   out->attractor.drift_error = r->mean_velocity_error / p->drive_frequency;
 }
 
-/* What a pendulum is on, now that its averages are known. */
+/* The attractor of a pendulum whose averages are known. */
 static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, pendres_settled *s)
 {
   if (orbit->period > 0) {
@@ -147,7 +147,7 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
   return status;
 }
 
-/* Settle n pendulums, TRIALS at most, from where they are. */
+/* Settle n pendulums, at most TRIALS, from their states. */
 static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapunov_care care,
                                  pendres_settled *s)
 {
@@ -176,7 +176,7 @@ pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres
   return settle_by_averages(ctx, n, all, PENDRES_CARE_CLOSE, s);
 }
 
-/* Onto the attractor. */
+/* Advance a pendulum until it is on its attractor. */
 static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
 {
   if (pendres_settled_closed(&s->attractor)) {
@@ -189,7 +189,7 @@ static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
   if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
   const pendres_status status =
     pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
-  /* Whole turns are of no consequence, and chaos that drifts would go far. */
+  /* Whole turns are taken off, since chaos that drifts would go far. */
   s->x = fmod(s->x, pendres_model_turn(&s->pendulum));
   return status;
 }
@@ -202,14 +202,14 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
   return status == PENDRES_OK ? arrive(ctx, out) : status;
 }
 
-/* The pendulum beyond the end of its state by a distance. */
+/* The pendulum at a distance beyond the end of its state. */
 static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance)
 {
   return pendres_parameter_with(&at->orbit.pendulum, at->parameter,
                                 pendres_parameter_beyond(at->parameter, at->value, distance));
 }
 
-/* The trials of a jump, each so far beyond the end of the state. */
+/* The trials of a jump, each at its distance beyond the end of the state. */
 static void begin(const pendres_bifurcation *at, int direction, double distance[TRIALS],
                   pendres_settled went[TRIALS])
 {
@@ -224,8 +224,8 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
 }
 
 /*
- * Next to the end of a lock a rotation slips once in many periods, and averages cannot tell it: the
- * parameter goes on, ten times as far each time, until they do.
+ * Near the end of a lock a rotation slips only once in many periods, too rarely for averages.
+ * They are repeated further beyond the end, ten times as far in each round.
  */
 static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                             double distance[TRIALS], pendres_settled went[TRIALS])

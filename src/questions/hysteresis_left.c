@@ -7,8 +7,8 @@
 
 #include "engine/context_internal.h"
 
-/* Evaluations of the slope that coming to a value may take. The most that was seen in sweeps of
-   hundreds of values, where a state ends in a cascade of doublings, is a fifth of it. */
+/* Evaluations of the slope that one value may take. The most that was seen in sweeps of hundreds of
+   values, at a state that ends in a cascade of doublings, is a fifth of it. */
 static const double usual_slopes = 2e9;
 
 int pendres_path_own(pendres_status status)
@@ -56,7 +56,7 @@ pendres_path_mark pendres_path_mark_here(const pendres_path *w)
   return (pendres_path_mark){.path = *w, .jumps = w->h->jumps, .stretches = w->h->stretches};
 }
 
-/* Back to the mark; of what was followed nothing is left there. */
+/* Go back to the mark, where nothing is followed. */
 static void go_back(pendres_path *w, const pendres_path_mark *mark)
 {
   pendres_circles *circles = w->circles;
@@ -85,7 +85,7 @@ static void leave_out(pendres_path *w, pendres_path_left *left, size_t i, pendre
 int pendres_path_came(pendres_path *w, pendres_path_left *left, const pendres_path_mark *mark,
                       size_t i, pendres_status *status)
 {
-  /* What was spent, and not where that was noticed: it does not depend on the size of blocks. */
+  /* The work decides, not when it was noticed, which would depend on the size of blocks. */
   const int spent = pendres_context_slopes(w->ctx) > w->ctx->most_slopes &&
                     (*status == PENDRES_OK || *status == PENDRES_INTERRUPTED);
   if (!spent && !pendres_path_own(*status)) return 1;
@@ -103,7 +103,7 @@ void pendres_path_number(pendres_path *w, const pendres_path_left *left)
     h->stretch[left->index[k]] = h->stretch[k];
   }
   for (size_t k = 0; k < h->jumps; k++) h->jump[k].step = left->index[h->jump[k].step];
-  /* All of them again, since what has been moved has left its traces. */
+  /* Entries that were moved have left copies behind, which are overwritten here. */
   size_t k = 0;
   for (size_t i = 0; i < left->all; i++) {
     const int there = k < w->n && left->index[k] == i;

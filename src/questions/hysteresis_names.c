@@ -21,7 +21,8 @@ static int by_value(const void *a, const void *b)
   return (p->value > q->value) - (p->value < q->value);
 }
 
-/* What two stretches meet at points of the same value, orbits of one drive period on both. */
+/* Note which of two stretches with points at the same value has the smaller orbit, if both orbits
+   are of one drive period. */
 static void compare(const pendres_hysteresis *h, size_t i, size_t k, unsigned char *met)
 {
   const pendres_attractor *a = &h->point[i].attractor, *b = &h->point[k].attractor;
@@ -37,7 +38,7 @@ static void compare(const pendres_hysteresis *h, size_t i, size_t k, unsigned ch
   met[h->stretch[k]] |= less ? LARGER : SMALLER;
 }
 
-/* All pairs of points of the same value, with room for as many places as there are points. */
+/* Compare all pairs of points with the same value; `places` has room for all points. */
 static void compare_all(const pendres_hysteresis *h, place *places, unsigned char *met)
 {
   for (size_t i = 0; i < h->count; i++) places[i] = (place){h->point[i].value, i};
@@ -47,7 +48,7 @@ static void compare_all(const pendres_hysteresis *h, place *places, unsigned cha
       compare(h, places[i].point, places[k].point, met);
 }
 
-/* A jump comes from and leads to what its stretches are called. */
+/* Give a jump the names of the stretches that it comes from and leads to. */
 static void name_jump(const pendres_hysteresis *h, size_t from, size_t to, pendres_jump *jump)
 {
   const size_t step = jump->step;

@@ -1,5 +1,5 @@
 /*
- * hysteresis_names.h -- what was met on a path, and what its states are called.
+ * hysteresis_names.h -- the results of a path, and the names of its states.
  */
 #ifndef PENDRES_HYSTERESIS_NAMES_H
 #define PENDRES_HYSTERESIS_NAMES_H
@@ -10,13 +10,13 @@ struct pendres_hysteresis {
   size_t count, jumps, jump_room;
   pendres_hysteresis_point *point;
   pendres_jump *jump;
-  /* For names: which of the stretches followed a point belongs to, and a jump comes from and leads
-     to. */
+  /* For names: the number of the stretch (stretch.h) that a point belongs to, and of those that a
+     jump comes from and leads to. */
   size_t stretches;
   size_t *stretch, *jump_from, *jump_to;
 };
 
-/* Name the states of all points and jumps, by which of them meet at the same value. */
+/* Name the states of all points and jumps, by comparing those at the same value. */
 pendres_status pendres_hysteresis_name(pendres_context *ctx, pendres_hysteresis *h);
 
 #endif

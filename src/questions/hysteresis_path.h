@@ -1,7 +1,7 @@
 /*
  * hysteresis_path.h -- a pendulum on its way along a path of a parameter.
  *
- * Owns: where it is, and what is noted of that: points and jumps.
+ * Owns: where the pendulum is, and its results so far: points and jumps.
  */
 #ifndef PENDRES_HYSTERESIS_PATH_H
 #define PENDRES_HYSTERESIS_PATH_H
@@ -14,39 +14,41 @@
 
 typedef struct pendres_path {
   pendres_context *ctx;
-  pendres_pendulum pendulum; /* but for the parameter */
+  pendres_pendulum pendulum; /* all parameters but the one that changes */
   pendres_parameter parameter;
   const double *all;   /* the values that were asked for, ... */
   size_t n;
   const double *value; /* ... and those that are not left out */
-  int settled;         /* it has come to the first of these */
-  double most_slopes;  /* that coming to a value may take; 0: the usual */
+  int settled;         /* whether the first of these values has been computed */
+  double most_slopes;  /* evaluations of the slope that one value may take; 0: the default */
   pendres_hysteresis *h;
-  double at;               /* where the parameter is now */
+  double at;               /* the present value of the parameter */
   pendres_settled state;   /* what the pendulum is on there */
-  pendres_stretch stretch; /* that it is followed along; none: not yet, or not closed */
-  size_t tried;            /* the value to which it was last tried to come from chaos, ... */
-  int tries;               /* ... so often */
+  pendres_stretch stretch; /* that it is followed along; none: not yet, or no closed orbit */
+  size_t tried;            /* number of the value to which a way out of chaos was last tried, ... */
+  int tries;               /* ... and how often */
   pendres_rotation_table *rotations; /* without a drive; NULL: not met yet */
   pendres_circles *circles; /* NULL: not met yet */
-  int on_circle;            /* it is on one of them, locked or not, ... */
-  pendres_circles_verdict last; /* ... as was told here for the last time */
+  int on_circle;            /* whether it is on one of them, locked or not, ... */
+  pendres_circles_verdict last; /* ... and the last verdict on it */
 } pendres_path;
 
 pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value);
 
-/* The attractor at value number i; of what is not closed, the state that the pendulum is in. */
+/* Put the attractor at value number i into the results; without a closed orbit, the pendulum's
+   state. */
 void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a);
 
-/* A point of which nothing is known but the parameter. */
+/* A point without results but for the parameter's value. */
 pendres_hysteresis_point pendres_path_nothing(const pendres_path *w, double value);
 
-/* The stretch, or whatever the pendulum was on, is over. */
+/* End the stretch, or whatever the pendulum was on. */
 void pendres_path_leave(pendres_path *w);
 
+/* Add a jump to the results. */
 pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j);
 
-/* pendres_hysteresis_follow of a path from position x and velocity v. */
+/* pendres_hysteresis_follow() for a path, from position x and velocity v. */
 pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hysteresis **out);
 
 #endif

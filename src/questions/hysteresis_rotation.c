@@ -8,8 +8,8 @@
 #include "engine/context_internal.h"
 #include "questions/hysteresis_left.h"
 
-/* Where rotations end in a saddle-node the equilibrium that is left is taken up so far beyond, in
-   the parameter's scale. */
+/* Where rotations end in a saddle-node, the equilibrium that is left is followed from this distance
+   beyond on, in the parameter's scale. */
 static const double beyond = 1e-4;
 
 /* The lower equilibrium; at a torque of 1 exactly it is the upper one, too. */
@@ -29,7 +29,7 @@ static pendres_status stand_still(const pendres_path *w, double at, pendres_sett
   return PENDRES_OK;
 }
 
-/* There is no rotation at value number i any more: everything comes to rest. */
+/* At value number i there is no rotation any more: the pendulum comes to rest. */
 static pendres_status end_rotation(pendres_path *w, size_t i)
 {
   pendres_rotation_limit limit;
@@ -38,7 +38,7 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
   pendres_status status = pendres_rotation_limit_between(&w->pendulum, w->parameter, w->at,
                                                          w->value[i], &limit);
   double at = w->value[i];
-  if (status == PENDRES_NOT_FOUND) { /* somewhere on the way */
+  if (status == PENDRES_NOT_FOUND) { /* it ends somewhere in between */
     limit.value = 0.5 * (w->at + w->value[i]);
     limit.error = 0.5 * fabs(w->value[i] - w->at);
     limit.end = PENDRES_ROTATION_HOMOCLINIC;
@@ -59,8 +59,8 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
   return status;
 }
 
-/* Value number i is the torque of 1 at which rotations end in a saddle-node: the pendulum stands
-   still there, and goes on either way. */
+/* Value number i is the torque of 1, at which rotations end in a saddle-node: the pendulum is at
+   rest there, and the path goes on in either direction. */
 static pendres_status put_end(pendres_path *w, size_t i)
 {
   const pendres_settled rotating = w->state;

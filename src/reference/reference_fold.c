@@ -3,11 +3,11 @@
  *
  * A fold is a zero of (P(z) - z, g) over (z, omega) with g = det(M - I), which is
  * 1 - trace M + exp(-damping 2 pi/omega). A cusp is a zero of (P(z) - z, g, k) over
- * (z, omega, damping), where k is the derivative of g along the null vector of M - I: there
- * the fold's quadratic term vanishes. An orbit that is its own mirror image is a fixed point
- * of -Q, where Q is half a period; there M = (DQ)^2 and the symmetry breaks where
- * det(DQ - I) = 0. Newton's method; the rows of P are exact, those of g
- * and k come from central differences, whose small error only slows the last steps.
+ * (z, omega, damping), where k is the derivative of g along the null vector of M - I: there the
+ * fold's quadratic term vanishes. An orbit that is its own mirror image is a fixed point of -Q,
+ * where Q is half a period; there M = (DQ)^2 and the symmetry breaks where det(DQ - I) = 0. All are
+ * solved by Newton's method; the rows of P are exact, those of g and k come from central
+ * differences, whose small error only slows down the last steps.
  *
  * Source: Kuznetsov, Elements of Applied Bifurcation Theory, sections 4.1, 9.2 and 10.
  */
@@ -150,7 +150,7 @@ static pendres_status solve(pendres_reference_target *target, int n, pendres_ref
   return PENDRES_NOT_CONVERGED;
 }
 
-/* The orbit of period one near a guess; 0 if a parameter is no good. */
+/* The target of an orbit of period one near a guess; 0 if a parameter is not valid. */
 static int target_of(const pendres_pendulum *p, long double frequency, long double damping,
                      long double y, long double v, pendres_reference_target *out)
 {

@@ -115,7 +115,7 @@ static pendres_status newton_step(pendres_reference_target *target, long double 
   return PENDRES_NOT_CONVERGED;
 }
 
-/* Newton on the defect: moves target->y, v. */
+/* Newton's method on the defect, which changes target->y and v. */
 static pendres_status close_orbit(pendres_reference_target *target)
 {
   enum { MOST = 100 };
@@ -185,7 +185,7 @@ static void fill_measures(const pendres_reference_run *run, pendres_reference_cy
   out->energy_residual = fabsl(out->loop_area + others - out->dissipation);
   out->amplitude = 0.5L * (run->highest - run->lowest);
   out->first_harmonic_amplitude = hypotl(a, b);
-  /* Behind the force: with a drive of negative sign, of minus the angle. */
+  /* The lag is behind the force; if F0 is negative it is that of minus the angle. */
   const long double sign = out->drive_amplitude < 0.0L ? -1.0L : 1.0L;
   out->phase_lag =
     out->first_harmonic_amplitude > 0.0L ? atan2l(sign * b, sign * a) : (long double)NAN;
@@ -240,7 +240,8 @@ pendres_status pendres_reference_orbit(const pendres_pendulum *p, long double y,
   return close_and_measure(&target, out);
 }
 
-/* From `here` to another drive frequency, along the branch's tangent, then closed. */
+/* The orbit at another drive frequency, from `here` along the branch's tangent and then by
+   Newton. */
 static pendres_status move_to(const pendres_reference_model *model,
                               const pendres_reference_cycle *here, long double frequency,
                               pendres_reference_cycle *out)

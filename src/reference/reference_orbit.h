@@ -8,16 +8,17 @@
 
 #include "reference/reference_taylor.h"
 
-/* An orbit looked for. */
+/* An orbit to be found. */
 typedef struct pendres_reference_target {
   pendres_reference_model model;
   long double y, v;     /* guess, then solution */
   long period, winding;
-  int mirror;           /* nonzero: an orbit that is its own mirror image, by half a period */
+  int mirror;           /* nonzero: one that is its own mirror image half a period later */
 } pendres_reference_target;
 
-/* End minus start over the period, or the sum of both over half a period for a mirror orbit
-   (whose own centre may be any well), and the run with `columns` columns that gave it. */
+/* The defect of an orbit: its end minus its start over the period or, for a mirror orbit (whose
+   centre may be any well), end plus start over half a period. *run is the run with `columns`
+   columns that gave it. */
 pendres_status pendres_reference_orbit_defect(const pendres_reference_target *target,
                                               int columns, pendres_reference_run *run,
                                               long double defect[2]);

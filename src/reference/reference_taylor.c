@@ -8,10 +8,10 @@
  *     (k+1) s_k+1 = (v * c)_k           (k+1) c_k+1 = -(v * s)_k
  *     (k+1) d_k+1 = -omega e_k          (k+1) e_k+1 = omega d_k
  *
- * where * is the Cauchy product, (k+1) y_k+1 = v_k having been used in the usual recurrences
- * for sine and cosine. Of other forces s becomes f (1 + b d) - I, with powers of y as products, and
- * c in what follows becomes f' (1 + b d). A column (u, w) of the variational equation, at fixed
- * drive phase:
+ * where * is the Cauchy product, and the first equation has been used in the usual recurrences for
+ * sine and cosine. For other models s becomes f (1 + b d) - I, with powers of y as products, and c
+ * in what follows becomes f' (1 + b d). A column (u, w) of the variational equation, at fixed drive
+ * phase, obeys
  *
  *     (k+1) u_k+1 = w_k + a_k           (k+1) w_k+1 = -(c * u)_k - damping w_k + b_k
  *
@@ -339,7 +339,7 @@ static void step(pendres_reference_run *run, long double h, long double tail)
   wrap(run);
 }
 
-/* From drive phase 0 to `end`, at which the phase is left. */
+/* Advance from drive phase 0 to phase `end`. */
 static pendres_status advance_to(pendres_reference_run *run, pendres_reference_pair end)
 {
   run->theta = 0.0L;

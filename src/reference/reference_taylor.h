@@ -21,16 +21,17 @@ typedef struct pendres_reference_pair {
   long double hi, lo;
 } pendres_reference_pair;
 
-/* Parameters as the solvers move them: in long double. */
+/* Parameters in long double, since solvers vary them. */
 typedef struct pendres_reference_model {
   long double damping, drive_amplitude, drive_frequency, torque, parametric_amplitude;
-  int sine;       /* the force has a sine of y, */
-  int powers;     /* and as many powers of y, 0 to 5, */
-  long double power[PENDRES_FORCE_COEFFICIENTS]; /* of which these are the coefficients */
-  int turns;      /* y and y + 2 pi are the same */
+  int sine;       /* 1: the force has the term sin y */
+  int powers;     /* how many powers of y it has, 0 to 5, ... */
+  long double power[PENDRES_FORCE_COEFFICIENTS]; /* ... and their coefficients a1, a2, ... */
+  int turns;      /* 1: y and y + 2 pi are the same */
 } pendres_reference_model;
 
-/* Of a pendulum. PENDRES_INVALID_ARGUMENT if it is none, or no series of its force is known. */
+/* Convert a pendulum. PENDRES_INVALID_ARGUMENT if it is not valid, or the series of its force is
+   not known here. */
 pendres_status pendres_reference_model_of(const pendres_pendulum *p, pendres_reference_model *out);
 
 /* Columns of the variational equation: derivatives with respect to ... */
@@ -47,10 +48,10 @@ enum {
 typedef long double pendres_reference_series[PENDRES_REFERENCE_ORDER + 1];
 
 typedef struct pendres_reference_run {
-  /* What to do; set by init, then free to change before the run. */
+  /* What to do: set by init, may be changed before the run. */
   pendres_reference_model model;
   int order;         /* at most PENDRES_REFERENCE_ORDER */
-  int steps;         /* a drive period; 0: from the series */
+  int steps;         /* a drive period; 0: chosen from the series */
   int columns;       /* how many, in the order above */
   int measures;      /* nonzero: integrals and extremes as well */
   long double drift; /* turns a drive cycle, taken off y in the measures */
@@ -87,10 +88,10 @@ long pendres_reference_taylor_init(pendres_reference_run *run,
                                    const pendres_reference_model *model, long double y,
                                    long double v);
 
-/* Walk on. PENDRES_INTEGRATION_FAILED if steps become too small. */
+/* Advance by `periods` drive periods. PENDRES_INTEGRATION_FAILED if steps become too small. */
 pendres_status pendres_reference_taylor_advance(pendres_reference_run *run, long periods);
 
-/* From drive phase 0 half a period on, once; the run ends there. */
+/* Advance by half a period from drive phase 0. The run cannot go on from there. */
 pendres_status pendres_reference_taylor_advance_half(pendres_reference_run *run);
 
 #endif
