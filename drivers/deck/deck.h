@@ -211,9 +211,9 @@ typedef struct deck {
 } deck;
 
 /**
- * Read and check a deck, a file or, as "-", standard input. On success *out is complete and the
- * caller frees it with deck_free; after
- * any error *out is all zero and errors holds every mistake in the order of the text.
+ * Read and check a deck from a file or, for "-", from standard input. On success *out is complete
+ * and the caller frees it with deck_free; after any error *out is all zero and errors holds every
+ * mistake in the order of the text.
  *
  * Keys may be set outside of the deck, by `count` texts such as "pendulum.damping=0.13": each
  * takes the place of all that the deck says of the same quantity (of an axis, its list, its range
@@ -228,7 +228,7 @@ pendres_status deck_read_set(const char *path, const char *const *settings, size
 pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
                                 namelist_errors *errors);
 
-/** Has it the form of a key set outside of a deck, GROUP.KEY=VALUES? */
+/** Whether it has the form of a key set outside of a deck, GROUP.KEY=VALUES. */
 int deck_is_setting(const char *argument);
 
 /** Free what a deck holds and make it all zero; an all-zero deck is allowed. */
@@ -243,7 +243,8 @@ pendres_status deck_dump(const deck *d, FILE *stream);
 /** The same as a text, to be freed by free(); NULL on failure. */
 pendres_status deck_resolved(const deck *d, char **text);
 
-/** The pendulum of a deck, all that it holds fixed; what is an axis is NaN. */
+/** The pendulum of a deck, with the parameters that the deck holds fixed; those that are axes are
+ *  NaN. */
 pendres_pendulum deck_pendulum(const deck *d);
 
 /** Does the deck ask for noise: a temperature above 0? */
@@ -252,22 +253,21 @@ int deck_has_noise(const deck *d);
 /** Does a parameter move in real time? */
 int deck_has_ramp(const deck *d);
 
-/** The seed of its random numbers. */
+/** The seed of the deck's random numbers. */
 uint64_t deck_seed(const deck *d);
 
-/** The axes along which parameters of the pendulum move: those with more than one value, among
- *  damping, drive amplitude, frequency, period, torque and parametric amplitude. Up to `room` are
- *  written; how many there are. */
+/** The axes with more than one value among damping, drive amplitude, frequency, period, torque and
+ *  parametric amplitude. Up to `room` of them are written to axis; returns how many there are. */
 int deck_moving(const deck *d, int room, deck_axis_id *axis);
 
-/** The parameter given in &sweep that takes the place of the damping or the drive as one of two
-    axes of results, or of a response is a third one: drive amplitude, torque or parametric
-    amplitude. 0 if there is none. */
+/** Whether drive amplitude, torque or parametric amplitude is given in &sweep, which replaces the
+    damping or the drive as one of the two axes of results, or is a third axis of a response; *axis
+    is that parameter then. */
 int deck_extra_axis(const deck *d, deck_axis_id *axis);
 
 /** Does a scene of that deck search for resonances: a resonance curve, or a response over the
-    drive's frequency or period? Beside a response of others than the plain pendulum, whose
-    resonances may be anywhere, one is looked for only where the deck says in which range. */
+    drive's frequency or period? Models other than the plain pendulum may have resonances anywhere;
+    a response of theirs searches only if the deck gives the range. */
 int deck_searches(const deck *d);
 
 /** The shortest segment of a spectrum in drive periods: an even number of samples, 4 or more. */

@@ -54,8 +54,8 @@ static int in_scene(const deck_builder *b, const char *group, const char *name)
 
 /* ---- missing keys -------------------------------------------------------------------------- */
 
-/* Whether a key was given, with a good value or a bad one, or that which may take its place: an
-   axis in &sweep and its value in &pendulum take each other's. */
+/* Whether a key was given, with a good value or a bad one, or the key that may replace it: an axis
+   in &sweep and its value in &pendulum replace each other. */
 static int was_tried(const deck_builder *b, size_t row)
 {
   const deck_key *key = &deck_table[row];
@@ -66,7 +66,8 @@ static int was_tried(const deck_builder *b, size_t row)
   return other->given || other->broken;
 }
 
-/* Report a group that is absent altogether by one message, which names all keys that are missed. */
+/* Report a group that is absent altogether by one message, which names all keys that are
+   missing. */
 static void report_missing_group(deck_builder *b, size_t row)
 {
   const char *group = deck_table[row].group;
@@ -75,7 +76,7 @@ static void report_missing_group(deck_builder *b, size_t row)
     const deck_key *key = &deck_table[i];
     if (strcmp(key->group, group) != 0 || (key->needed & b->scene) == 0 || was_tried(b, i))
       continue;
-    if (i < row) return; /* said before */
+    if (i < row) return; /* reported before */
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s'%s'", list[0] == '\0' ? "" : ", ",
              key->name);
   }
@@ -147,7 +148,7 @@ static void resolve_drive(deck_builder *b)
   else d->pendulum.drive_period = turn / d->pendulum.drive_frequency;
 }
 
-/* An axis comes from &sweep, or has the one value in &pendulum. */
+/* An axis has its values in &sweep, or its only value in &pendulum. */
 static void check_axis_sources(deck_builder *b)
 {
   for (size_t i = 0; i < deck_table_size; i++) {
@@ -214,7 +215,7 @@ static int expand_axis(const deck *d, deck_axis *axis)
   const pendres_range range = { axis->range_first, axis->range_last, count_of(d, axis) };
   axis->value = malloc((axis->listed_count + range.count) * sizeof *axis->value);
   if (axis->value == NULL) return 0;
-  /* Keys were checked one by one: nothing is left that could be refused here. */
+  /* The keys were checked one by one, so that this cannot fail. */
   return pendres_sweep_values(axis->listed_count, axis->listed, NULL, axis->listed,
                               &axis->listed_count) == PENDRES_OK &&
          pendres_sweep_values(axis->listed_count, axis->listed, &range, axis->value,
@@ -235,7 +236,7 @@ static void expand_axes(deck_builder *b)
   }
 }
 
-/* Check that as many parameters move as the scene is about. */
+/* Check that the scene has as many axes with several values as it needs. */
 static void check_moving(deck_builder *b)
 {
   static const struct {
@@ -262,7 +263,7 @@ static void check_moving(deck_builder *b)
              "what is swept is the drive's frequency: give 'drive_frequency'");
 }
 
-/* A table of times and values goes along the axis. */
+/* Check that a protocol's values go along the axis. */
 static const char *refuse_protocol(const deck_numbers *p, const deck_axis *axis)
 {
   if (p->count < 4 || p->count % 2 != 0) return "takes pairs of a time and a value, two or more";
@@ -423,7 +424,7 @@ static void check_plane(deck_builder *b)
   complain(b, given(b, "sweep", name), name, message);
 }
 
-/* Coefficients belong to a polynomial, which is none without. */
+/* Coefficients need a force that takes them, and a polynomial needs coefficients. */
 static void check_force(deck_builder *b)
 {
   const deck *d = b->d;
@@ -439,7 +440,7 @@ static void check_force(deck_builder *b)
 }
 
 /* Where noise carries a pendulum to infinity there are rates of escape, but no steady clouds and
-   responses; what has neither wells nor that way out leaves a state for another one alone. */
+   responses. Where there are neither wells nor escape, a state is left only for another state. */
 static void check_noise(deck_builder *b)
 {
   const deck *d = b->d;

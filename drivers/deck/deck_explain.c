@@ -1,4 +1,4 @@
-/* deck_explain.c -- the table of keys told to readers; see deck_explain.h. */
+/* deck_explain.c -- the table of keys in words, for readers; see deck_explain.h. */
 #include "deck/deck_explain.h"
 #include "deck/deck_table.h"
 
@@ -9,7 +9,7 @@ enum { COLUMNS = 96, SENTENCE = 1200 };
 
 /* ---- one key in words ---------------------------------------------------------------------- */
 
-/* Add to a text of SENTENCE bytes. */
+/* Append to a text of SENTENCE bytes. */
 static void add(char *text, const char *more)
 {
   const size_t n = strlen(text);
@@ -32,7 +32,7 @@ static int is_number(const deck_key *key)
          key->type == DECK_SWEEP_VALUE;
 }
 
-/* "'sa', 'la'": the empty choice, which means that none was made, is not told. */
+/* "'sa', 'la'", without the empty choice, which stands for none. */
 static void add_choices(char *text, const deck_key *key)
 {
   const char *comma = "";
@@ -77,7 +77,7 @@ static int is_by_drive(const deck_key *key)
   return key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD;
 }
 
-/* Its default as decks write it; 0, and nothing, if there is none. */
+/* Add its default as decks write it; returns 0 if there is none. */
 static int add_default(char *text, const deck_key *key)
 {
   if (key->type == DECK_LOGICAL) {
@@ -98,8 +98,8 @@ static int add_default(char *text, const deck_key *key)
   return 1;
 }
 
-/* A parameter of the pendulum that may be an axis, or the reverse: the group in which these scenes
-   take it instead; NULL if there is none. */
+/* For a parameter of &pendulum that may be an axis of &sweep, or the reverse: the other group, if
+   all these scenes take it there; else NULL. */
 static const char *other_group(const deck_key *key, unsigned scenes)
 {
   const char *other = strcmp(key->group, "pendulum") == 0 ? "sweep"
@@ -112,7 +112,7 @@ static const char *other_group(const deck_key *key, unsigned scenes)
   return (taken & scenes) == scenes ? other : NULL;
 }
 
-/* Whether it must be given in that scene (or, for 0, in all of its own), else its default. */
+/* Say that it must be given in that scene (0: in all scenes that take it), or else its default. */
 static void add_need(char *text, const deck_key *key, unsigned scene)
 {
   const unsigned scenes = scene != 0 ? scene : key->scenes;
@@ -127,7 +127,7 @@ static void add_need(char *text, const deck_key *key, unsigned scene)
   else if (!add_default(text, key)) add(text, "none");
 }
 
-/* When it counts only together with others. */
+/* The condition under which a key has an effect, in words; NULL: always. */
 static const char *condition(const deck_key *key)
 {
   switch (key->when) {
@@ -169,7 +169,7 @@ static void add_scenes(char *text, unsigned scenes)
 
 /* ---- paragraphs ---------------------------------------------------------------------------- */
 
-/* Words broken into lines, each after `margin`; two blanks in a row are not kept. */
+/* Write words in lines that begin with `margin`; repeated blanks are written as one. */
 static void write_wrapped(FILE *out, const char *margin, const char *words)
 {
   size_t column = 0;
@@ -187,7 +187,8 @@ static void write_wrapped(FILE *out, const char *margin, const char *words)
   fprintf(out, "\n");
 }
 
-/* "  damping: needed; a number ... in omega0" and, further in, what it means. scene 0: all. */
+/* " damping = a number ..., in omega0; needed" and, indented, what it means. scene 0: all
+   scenes. */
 static void explain_key(FILE *out, const char *margin, const deck_key *key, unsigned scene)
 {
   const deck_key *words = deck_table_words(key);
@@ -239,7 +240,7 @@ static void explain_kind(FILE *out, int kind)
   }
 }
 
-/* Rows of that group and of that name, either NULL for any; how many there are. */
+/* Explain the rows of a group and a name, either of which may be NULL for any; returns how many. */
 static size_t explain_rows(FILE *out, const char *group, const char *name)
 {
   const char *shown = NULL;
@@ -258,7 +259,7 @@ static size_t explain_rows(FILE *out, const char *group, const char *name)
   return found;
 }
 
-/* A word that means nothing: which ones do. */
+/* Report an unknown word, with the nearest known one. */
 static pendres_status unknown_word(const char *word, int only_kinds, char *why, size_t size)
 {
   deck_suggestion s = { .word = word };
@@ -332,7 +333,7 @@ pendres_status deck_init(const char *word, FILE *out, char *why, size_t size)
   for (size_t i = 0; i < deck_table_size; i++) {
     const deck_key *key = &deck_table[i];
     if ((key->scenes & 1u << kind) == 0) continue;
-    /* One value of an axis is an example for &sweep, unless the others are to stand still. */
+    /* A key of &pendulum that holds one value of an axis is left out, unless it has an example. */
     if (key->type == DECK_SWEEP_VALUE && key->example == NULL) continue;
     if (group == NULL || strcmp(group, key->group) != 0)
       fprintf(out, "%s\n&%s", group != NULL ? "/\n" : "", key->group);

@@ -1,5 +1,5 @@
 /*
- * deck_explain.h -- what kinds of scenes there are and what their keys mean, for readers.
+ * deck_explain.h -- what kinds of scenes and which keys there are, in words for readers.
  *
  * Owns: --list, --explain, --init and docs/decks.md, all from the table that the reader checks
  * decks by. Thread safe: no state outside the arguments.

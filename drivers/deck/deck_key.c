@@ -20,7 +20,7 @@ static void complain(deck_builder *b, const namelist_value *v, const char *key, 
                     message);
 }
 
-/* The sentence that fits: most ranges start at zero. */
+/* What a number must be, in the simplest words for its range. */
 static void describe_range(const deck_key *key, double x, char *text, size_t size)
 {
   if (!isfinite(x)) snprintf(text, size, "must be a finite number");
@@ -65,7 +65,7 @@ static void trim(char *text)
   while (n > 0 && text[n - 1] == ' ') text[--n] = '\0';
 }
 
-/* The index of the choice, the nearest one after a typing error (then *wrong), or -1. */
+/* The index of the choice; after a typing error that of the nearest one, with *wrong set; or -1. */
 static int read_choice(deck_builder *b, const deck_key *key, const namelist_value *v, int *wrong)
 {
   char text[DECK_PATH], list[300] = "", hint[100];
@@ -100,7 +100,7 @@ static int apply_choice(deck_builder *b, const deck_key *key, const namelist_val
   int wrong = 0;
   const int i = read_choice(b, key, v, &wrong);
   if (key->offset == offsetof(deck, kind)) {
-    /* The nearest kind, so that the rest of the deck can be checked too. */
+    /* Take the nearest kind, so that the rest of the deck can be checked too. */
     b->scene = i < 0 ? 0 : 1u << i;
     if (i >= 0) b->d->kind = (deck_kind)i;
     b->kind_nl = b->nl;
@@ -202,7 +202,7 @@ static int apply_numbers(deck_builder *b, const deck_key *key, const namelist_ar
   return good;
 }
 
-/* All numbers of an array, in place of those that are there. */
+/* Take all numbers of an array, in place of those that the field has. */
 static int read_numbers(deck_builder *b, const deck_key *key, const namelist_array *array,
                          double **numbers, size_t *count)
 {
@@ -294,7 +294,7 @@ static int is_decimal_comma(const deck_builder *b, const namelist_value *v)
   return v->begin >= 2 && t[-1] == ',' && t[-2] >= '0' && t[-2] <= '9' && *t >= '0' && *t <= '9';
 }
 
-/* What can be said before looking at types: gaps, too many values, a forgotten equals sign. */
+/* Errors that do not depend on the type: gaps, too many values, a forgotten equals sign. */
 static int check_shape(deck_builder *b, const deck_key *key, const namelist_array *array, int range)
 {
   for (size_t i = 0; i < array->count; i++) {

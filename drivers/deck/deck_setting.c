@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a name ends that starts here; `text` itself if none does. */
+/* The end of the name that starts at `text`; `text` itself if none does. */
 static const char *name_end(const char *text)
 {
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -82,7 +82,7 @@ static int is_drive(const deck_key *key)
   return key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD;
 }
 
-/* Has the key an axis: one of its own, or one that it stands for where the deck has none? */
+/* Does the key belong to an axis: as the axis itself, or as its only value? */
 static int has_axis(const deck_key *key)
 {
   return is_axis(key) || key->when == DECK_UNLESS_AXIS;

@@ -39,8 +39,8 @@
 #define MODELS (POINT | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
 #define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
 #define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
-#define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters moves */
-#define ALONG (PATH | MAP)                         /* some of the parameters move */
+#define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters is an axis */
+#define ALONG (PATH | MAP)                         /* one or two of the parameters are axes */
 #define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
 #define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
 #define RESULTS (FREE | DRIVEN | ALONG)            /* scenes with one tolerance */
@@ -376,7 +376,7 @@ _Static_assert(sizeof deck_table / sizeof *deck_table <= DECK_MAX_KEYS, "raise D
 
 int deck_table_has_range(const deck_key *key)
 {
-  /* Tolerances are not spaced evenly by anyone. */
+  /* Tolerances are given as a list, since nobody spaces them evenly. */
   return key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
 }
 

@@ -21,13 +21,13 @@ typedef enum deck_type {
   DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
 } deck_type;
 
-/* On what it depends, beside the kind of scene, whether a key has any effect. */
+/* The condition, beside the kind of scene, under which a key has an effect. */
 typedef enum deck_when {
   DECK_ALWAYS = 0,
   DECK_WITH_NOISE,     /* only with a temperature above 0 */
   DECK_WITH_RAMP,      /* only where a parameter moves in real time */
   DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
-  DECK_OFF_LINE,       /* only where ensemble.shape is no line */
+  DECK_OFF_LINE,       /* only where ensemble.shape is not a line */
   DECK_IN_RECTANGLE,   /* only where it is a rectangle */
   DECK_AT_RANDOM,      /* only where it is random */
   DECK_WITH_SEARCH,    /* only where resonances are searched for */
@@ -42,8 +42,8 @@ typedef struct deck_key {
   deck_type type;
   size_t offset, size;         /* of the field in struct deck; size of a string's buffer */
   deck_axis_id axis;           /* of DECK_SWEEP and DECK_SWEEP_VALUE */
-  unsigned scenes;             /* that use it: bits 1u << deck_kind */
-  unsigned needed;             /* that cannot do without */
+  unsigned scenes;             /* scenes that use it: bits 1u << deck_kind */
+  unsigned needed;             /* scenes that need it */
   double low, high;            /* numbers must lie between these */
   int open;                    /* nonzero: low and high themselves are excluded */
   const char *why;             /* for messages: where the range comes from; may be NULL */
@@ -79,14 +79,14 @@ const deck_key *deck_table_words(const deck_key *key);
 
 /* Where and how a key was given. */
 typedef struct deck_given {
-  int given;  /* with a value */
-  int broken; /* in vain: errors were reported */
+  int given;  /* nonzero: with a value */
+  int broken; /* nonzero: with errors, which were reported */
   const namelist *nl; /* the text that gives it: the deck or a setting */
   int line, column;
   const namelist_group *group; /* the group of the key, if the deck has it */
 } deck_given;
 
-/* A deck in the making. */
+/* A deck while it is read. */
 typedef struct deck_builder {
   const namelist *nl;        /* the text being read: the deck, or for a while a setting */
   const namelist *settings;  /* keys set outside of the deck, one each */
@@ -111,7 +111,7 @@ int deck_is_set(const deck_builder *b, size_t row);
 /* Is the setting the second one of its key? Reports it. */
 int deck_is_set_before(deck_builder *b, size_t index);
 
-/* deck_unknown.c: what to say of names that mean nothing, or nothing here. */
+/* deck_unknown.c: messages about names that do not exist, or have no effect in the scene. */
 const char *deck_resolve_group(deck_builder *b, const namelist_group *g);
 int deck_group_has_scene(const char *group, unsigned scene);
 void deck_report_idle_group(deck_builder *b, const namelist_group *g, const char *group);
@@ -122,7 +122,7 @@ void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, cons
 void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, int range);
 /* Set the defaults of all keys. */
 void deck_key_defaults(deck *d);
-/* Does the key count in this deck? */
+/* Does the key have an effect in this deck? */
 int deck_key_applies(const deck_key *key, const deck *d);
 
 /* deck_decimal.c: the shortest decimal that reads back as x, in the C locale, with a point or an

@@ -1,6 +1,6 @@
 /*
- * deck_unknown.c -- what is said of groups and keys that nobody knows, or that the deck's scene
- * does not use: what was probably meant, and else what there is.
+ * deck_unknown.c -- messages about groups and keys that do not exist, or that the deck's scene does
+ * not use: what was probably meant or, failing that, all that there are.
  */
 #include "deck/deck_table.h"
 
@@ -38,7 +38,7 @@ const char *deck_resolve_group(deck_builder *b, const namelist_group *g)
   return s.best;
 }
 
-/* "free_oscillation, response": where a key or group is at home. */
+/* "free_oscillation, response": the scenes that use a key or group. */
 static void list_scenes(unsigned scenes, char *text, size_t size)
 {
   text[0] = '\0';

@@ -9,7 +9,7 @@
 
 #include "system/bytes.h"
 
-/* A file without a name, beside the output or in TMPDIR. */
+/* A file without a name, in TMPDIR or, without that, beside the output. */
 static pendres_status open_file(scene_run *run, scene_spill *s)
 {
   char path[DECK_PATH + 32];

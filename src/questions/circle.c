@@ -16,19 +16,20 @@ enum {
   MOST = PENDRES_CIRCLE_MOST,
   ROUNDS = 8,     /* of Newton's method */
   SWEEPS = 400,   /* of the contraction that solves for a correction, at most */
-  LOOKS = 12,     /* of Newton's method for one angle that a period brings to a given one */
+  LOOKS = 12,     /* iterations for the angle that a period brings to a given one */
   POINTS = 192,   /* of a pendulum's motion, for a guess */
   ON_THE_WAY = 32 /* periods before them */
 };
 
-/* A guess further from invariant than this is no guess. */
+/* A guess with a larger E than this is not used. */
 static const double hopeless = 0.5;
-/* A circle is left alone where a period turns its points back, or nearly so. */
+/* Least dY/dy: below it the map of a period is not, or hardly, one to one, and the circle is given
+   up. */
 static const double least_slope = 0.02;
-/* Corrections are solved for to this, relative to the residual: what is left of it is as small as
-   what Newton's method leaves. */
+/* The accuracy of corrections relative to the residual: what they leave of it is as small as what
+   Newton's method itself leaves. */
 static const double solved = 1e-4;
-/* A pendulum's own points leave no wider gaps. */
+/* The points of a pendulum's motion must not leave wider gaps. */
 static const double widest_gap = 0.4;
 
 /* ---- trigonometric polynomials ------------------------------------------------------------- */
@@ -104,7 +105,7 @@ void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance)
 
 /* ---- Newton's method ----------------------------------------------------------------------- */
 
-/* The points of a circle and what becomes of them. */
+/* The points of a circle and their images. */
 typedef struct shape {
   pendres_context *ctx;
   const pendres_circle_way *way;
@@ -112,7 +113,7 @@ typedef struct shape {
   double w[MOST];      /* C at the grid */
   double move[MOST];   /* D there */
   double off[MOST];    /* E there */
-  double source[MOST]; /* angles that a period brings to those of the grid */
+  double source[MOST]; /* angles that a period maps to those of the grid */
   pendres_trigonometric curve, moved;
   double worst; /* largest E */
 } shape;
@@ -122,7 +123,7 @@ static double grid(size_t n, size_t i)
   return two_pi * (double)i / (double)n;
 }
 
-/* All points for a period. */
+/* Advance all points by a period. */
 static pendres_status run(shape *r)
 {
   pendres_block block;
@@ -144,7 +145,7 @@ static pendres_status run(shape *r)
   return status;
 }
 
-/* What is known after a period: curves through the points, and how far they are from invariant. */
+/* After a period: the curves through the points, and how far they are from invariant. */
 static void look(shape *r)
 {
   pendres_trigonometric_fit(r->n, r->w, &r->curve);
@@ -156,7 +157,7 @@ static void look(shape *r)
   }
 }
 
-/* The angles that a period brings to those of the grid; 0 where a period is not one to one. */
+/* The angles that a period maps to those of the grid; returns 0 if the map is not one to one. */
 static int invert(shape *r)
 {
   double y = -r->moved.c[0], slope = 0.0;
@@ -176,7 +177,7 @@ static int invert(shape *r)
   return 1;
 }
 
-/* basis[i][k]: what coefficient k counts at the angle that comes to i. */
+/* basis[i][k]: the function of coefficient k at the angle that is mapped to grid point i. */
 static void tabulate(const shape *r, double *basis)
 {
   for (size_t i = 0; i < r->n; i++) {
@@ -199,7 +200,7 @@ static double product(size_t n, const double *a, const double *b)
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* The correction: c(grid i) = l c(source i) + E(source i), over and over. */
+/* The correction: c(grid i) = l c(source i) + E(source i), by iteration. */
 static int correct(shape *r, double *basis)
 {
   const pendres_pendulum *p = &r->way->pendulum;
@@ -229,7 +230,7 @@ static int correct(shape *r, double *basis)
   return change <= solved * r->worst;
 }
 
-/* With as many points as r has. */
+/* Newton's method with as many points as r has. */
 static pendres_status converge(shape *r, double *basis, int *found)
 {
   *found = 0;
@@ -266,7 +267,7 @@ pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_
       r->w[i] = pendres_trigonometric_at(&r->curve, grid(r->n, i), NULL);
     status = converge(r, basis, found);
     if (status != PENDRES_OK || (*found && tail(r) < way->tolerance)) break;
-    /* Too few points: they have to be next to a circle for more to find it. */
+    /* Too few points to resolve the circle, but close enough to it to start with more of them. */
     if (!*found && !(r->worst < hopeless)) break;
     *found = 0;
   }
@@ -286,7 +287,7 @@ static int by_angle(const void *a, const void *b)
   return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Straight lines from point to point, around the cylinder. */
+/* Interpolate linearly between the points, around the cylinder. */
 static int connect(pendres_place at[POINTS], pendres_trigonometric *out)
 {
   enum { N = PENDRES_CIRCLE_LEAST };

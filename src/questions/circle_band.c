@@ -15,17 +15,17 @@ enum {
   GUESSED_FROM = 4 /* circles that the next one is extrapolated from */
 };
 
-/* Circles are guessed from the band before up to this part of its width beyond its end. */
+/* Up to this part of its width beyond its end a band gives guesses for the next one. */
 static const double near_by = 0.2;
-/* More steps, by which the error of the integration is told. */
+/* The factor of the steps by which the error of the integration is found. */
 static const double more_steps = 1.4;
 
-/* The probes that choose steps are harder than circles are, and what these are wrong by is told. */
+/* Circles need fewer steps than the probes that choose them, and their error is measured anyway. */
 static const double probed = 10.0;
-/* How much smaller than the tolerance residuals are: it takes few more rounds, and leaves the error
-   to what is not known so well; and those of two circles that are compared. */
+/* Residuals relative to the tolerance: so small that they do not count in the error, at the price
+   of few more rounds; and those of two circles that are compared. */
 static const double residual = 0.1, least_residual = 1e-13;
-/* Coefficients that fall more slowly from one degree to the next tell little. */
+/* Coefficients that fall more slowly from one degree to the next give no estimate. */
 static const double slow = 0.5;
 
 pendres_status pendres_circle_way_at(pendres_context *ctx, const pendres_circle_family *family,
@@ -44,7 +44,7 @@ static void widen(pendres_trigonometric *t, size_t n)
   t->n = n;
 }
 
-/* Lagrange's polynomial through n points counts the one numbered k so much at a value. */
+/* The weight of point k in Lagrange's polynomial through n points, at a value. */
 static double share(size_t n, const double *at, size_t k, double value)
 {
   double product = 1.0;
@@ -82,7 +82,7 @@ static pendres_trigonometric extrapolate(const pendres_circle_band *b, size_t k)
   return guess;
 }
 
-/* The same from a band that ends where this one begins, as long as it is near. */
+/* The same from a band that ends where this one begins, close to its end. */
 static pendres_trigonometric guess_of(const pendres_circle_start *start,
                                       const pendres_circle_band *b, size_t k, double tolerance)
 {
@@ -100,7 +100,7 @@ static pendres_trigonometric guess_of(const pendres_circle_start *start,
   return at.w;
 }
 
-/* The largest of Chebyshev's coefficients of some degree, of all of the map's. */
+/* The largest Chebyshev coefficient of a degree, of all coefficients of the map. */
 static double largest_of(const pendres_circle_band *b, int degree)
 {
   const double once = degree == 0 || degree == NODES - 1 ? 1.0 : 2.0;
@@ -117,9 +117,9 @@ static double largest_of(const pendres_circle_band *b, int degree)
 }
 
 /*
- * What is missing of the polynomials in the parameter: the coefficients of higher degrees, if they
- * go on to fall as the last ones do, and as much again for what these do at the nodes. Coefficients
- * of even degrees may be smaller than those of odd ones: pairs are compared.
+ * The truncation error of the polynomials in the parameter: the sum of the coefficients of higher
+ * degrees, if they fall as the last ones do, and as much again for their aliases at the nodes.
+ * Coefficients of even degrees may be smaller than those of odd ones, so pairs are compared.
  */
 static double missing(const pendres_circle_band *b)
 {
@@ -130,7 +130,7 @@ static double missing(const pendres_circle_band *b)
   return 2.0 * falls * falls / (1.0 - falls) * last;
 }
 
-/* What the circles are off by for their steps: at the last value. */
+/* The error of the circles from the integration, measured at the last value. */
 static pendres_status compare(pendres_context *ctx, pendres_circle_way *way,
                               pendres_circle_band *b, int *found)
 {

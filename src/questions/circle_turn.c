@@ -16,19 +16,19 @@ enum {
   FIRST_LENGTH = 1024, /* steps of the first averages, ... */
   LENGTHS = 4,         /* ... each four times as long as the one before */
   TOGETHER = 4,        /* steps whose growth is averaged as that of one */
-  SLIPS = 3,           /* past a lock that is near, for a mean to be known */
-  SAMPLES = 24,        /* of shifts between neighbouring places of an orbit */
-  CLOSER = 6,          /* parabolas through the three least ones */
+  SLIPS = 3,           /* past the place of a near lock, that a mean needs */
+  SAMPLES = 24,        /* of shifts between neighbouring points of an orbit */
+  CLOSER = 6,          /* rounds of a parabola through the three least ones */
   HALVINGS = 60
 };
 
-/* Averages are not taken any further than this: they are a fraction of a turn. */
+/* Averages, in turns, need not be better than this. */
 static const double close_enough = 1e-11;
-/* Averages that differ by more tell nothing. */
+/* Averages that differ by more are not used. */
 static const double same_mean = 1e-5;
-/* Where the motion is nowhere slower than elsewhere by more it does not linger. */
+/* If the motion is nowhere slower than elsewhere by more than this factor, it does not linger. */
 static const double uneven = 4.0;
-/* Orbits start apart by this fraction of the circle, which is the most irrational one. */
+/* Orbits start this fraction of the circle apart, the golden mean. */
 static const double golden = 0.38196601125010515;
 
 /* A quintic in each cell, lengths in cells. */
@@ -38,7 +38,7 @@ typedef struct cell {
 
 struct pendres_circle_table {
   size_t cells;
-  double base;  /* whole turns that are left out: what is left moves forwards */
+  double base;  /* whole turns that are subtracted, such that the rest moves forwards */
   double error; /* in radians */
   cell map[MOST_CELLS];
   double wrong[MOST_CELLS];
@@ -67,7 +67,7 @@ void pendres_circle_table_free(pendres_circle_table *t)
   free(t);
 }
 
-/* Values of the derivative of some order at all cells' beginnings. */
+/* The derivative of some order at the beginnings of all cells. */
 static void spread(const pendres_trigonometric *t, int order, size_t cells, double *out)
 {
   memset(out, 0, cells * sizeof *out);
@@ -110,20 +110,21 @@ void pendres_circle_table_set(pendres_circle_table *t, const pendres_trigonometr
 
 /* ---- orbits of the map --------------------------------------------------------------------- */
 
-/* How far a place u, in cells and not negative, is moved; it is left there, less whole turns. */
+/* How far the map moves a point u, in cells and not negative; *u becomes its image, less whole
+   turns. */
 static inline double advance(const pendres_circle_table *t, double *u)
 {
   const long whole = (long)*u;
   const size_t i = (size_t)whole & (t->cells - 1);
   const double *c = t->map[i].c, s = *u - (double)whole, s2 = s * s;
-  /* In pairs, which wait for one another less than one term after the other would. */
+  /* In pairs, so that additions wait less for one another. */
   const double moved =
     (c[0] + s * c[1]) + s2 * ((c[2] + s * c[3]) + s2 * (c[4] + s * c[5]));
   *u = (double)i + s + moved;
   return moved;
 }
 
-/* What a step multiplies a tangent vector at a place by. */
+/* The factor by which a step stretches a tangent vector at a point. */
 static inline double stretches(const pendres_circle_table *t, double u)
 {
   const long whole = (long)u;
@@ -143,7 +144,7 @@ static const double *weights(pendres_circle_table *t, int length, size_t n)
   return w;
 }
 
-/* Mean turns a period, and how far those of the orbits are apart. */
+/* The mean turns a period, and the scatter of those of the orbits. */
 static double mean_turns(pendres_circle_table *t, int length, size_t n, double *apart)
 {
   const double *w = weights(t, length, n), cells = (double)t->cells;
@@ -165,9 +166,9 @@ static double mean_turns(pendres_circle_table *t, int length, size_t n, double *
 }
 
 /*
- * What errors of the map do to the mean. In the coordinate in which the motion is even a shift
- * counts as the reciprocal of the tangent vector's length, whose mean over the circle is one; the
- * vector's growth, which is nothing in the mean, is taken along.
+ * The effect of errors of the map on the mean. In the coordinate in which the motion is uniform, a
+ * shift counts in proportion to the reciprocal of the tangent vector's length, whose mean over the
+ * circle is one. The vector's growth, which is zero on average, is followed for that.
  */
 static void doubt(pendres_circle_table *t, int length, size_t n, pendres_circle_turn *out)
 {
@@ -194,7 +195,7 @@ static void doubt(pendres_circle_table *t, int length, size_t n, pendres_circle_
 
 /* ---- locks --------------------------------------------------------------------------------- */
 
-/* How far q steps move a place, less p turns, in cells. */
+/* How far q steps move a point, less p turns, in cells. */
 static double shift(const pendres_circle_table *t, int q, int p, double u)
 {
   double moved = -((double)p - t->base * q) * (double)t->cells;
@@ -203,7 +204,8 @@ static double shift(const pendres_circle_table *t, int q, int p, double u)
   return moved;
 }
 
-/* From place 0 to the next of its first q places: what happens there happens everywhere. */
+/* The interval from point 0 to the nearest of its first q images: its own images cover the
+   circle. */
 static double arc(const pendres_circle_table *t, int q)
 {
   double u = 0.0, next = (double)t->cells;
@@ -215,7 +217,7 @@ static double arc(const pendres_circle_table *t, int q)
   return next;
 }
 
-/* The place of the least of sign * shift, from the least of samples; *most: the largest of them. */
+/* The point of the least sign * shift, from the least of samples; *most: the largest of them. */
 static double least_place(const pendres_circle_table *t, int q, int p, int sign, double *most)
 {
   const double h = arc(t, q) / SAMPLES;
@@ -242,8 +244,8 @@ static double least_place(const pendres_circle_table *t, int q, int p, int sign,
   return best;
 }
 
-/* An extreme shift: its place, in cells, what an error of the map counts therein, itself in
-   radians, and the other extreme of the samples, likewise. */
+/* An extreme shift: its point, in cells; the factor by which an error of the map enters into it;
+   the shift itself, in rad; and the other extreme of the samples, likewise. */
 typedef struct extreme {
   double at, worth, shift, other;
 } extreme;
@@ -271,7 +273,7 @@ double pendres_circle_table_edge(const pendres_circle_table *t, int q, int p, in
   return e.shift;
 }
 
-/* The stable place between one that is moved forwards and the next behind it that is moved back. */
+/* The stable point between a point that is moved forwards and the next one that is moved back. */
 static double stable_place(const pendres_circle_table *t, int q, int p, double forwards,
                            double back)
 {
@@ -285,8 +287,8 @@ static double stable_place(const pendres_circle_table *t, int q, int p, double f
   return 0.5 * (forwards + back);
 }
 
-/* Whether the motion is locked with q periods and p turns. Where it is not, *even tells that it
-   nowhere lingers, so that averages need not see it pass the place of the lock. */
+/* Whether the motion is locked with q periods and p turns. If it is not, *even says whether it
+   lingers nowhere, so that averages need not include passages of the lock's place. */
 static pendres_circle_motion try_lock(const pendres_circle_table *t, int q, int p,
                                       pendres_circle_turn *out, int *even)
 {
@@ -308,7 +310,8 @@ static pendres_circle_motion try_lock(const pendres_circle_table *t, int q, int 
   return PENDRES_CIRCLE_LOCKED;
 }
 
-/* The lock that a mean is nearest to for its period: of the continued fraction's convergents. */
+/* The lock nearest to a mean, relative to its period: one of the continued fraction's
+   convergents. */
 static void nearest_lock(double turns, double n, int *q, int *p, double *slips)
 {
   double x = turns, q0 = 0.0, q1 = 1.0, p0 = 1.0, p1 = floor(x);

@@ -15,18 +15,18 @@
 enum {
   CLOSED_BELOW = 1, CLOSED_ABOVE = 2,
   MOST_BANDS = 4096,
-  LOOKS = 60 /* for the end of a lock */
+  LOOKS = 60 /* iterations for the end of a lock */
 };
 
-/* Bands, in the parameter's scale: the first, the widest, and one so narrow that it is not worth
-   making: there the circle is about to break up. */
+/* Widths of bands, in the parameter's scale: of the first, of the widest, and of one so narrow that
+   it is not made, since the circle is about to break up. */
 static const double first_width = 0.1, widest = 4.0, narrowest = 0.005;
-/* Coefficients of a map that are not worth a step's time, in the tolerance. */
+/* Coefficients of a map that are left out, relative to the tolerance. */
 static const double negligible = 0.01;
 /* The next band is a little narrower than what the last one's coefficients allow. */
 static const double careful = 0.8;
-/* Bands follow one another over gaps up to this, in the parameter's scale; and motions from which
-   no circle was found are not tried again so close by. */
+/* Gaps between bands that are bridged, in the parameter's scale. Within this distance of a motion
+   from which no circle was found none is tried again. */
 static const double near_by = 2.0, again = 0.05;
 
 pendres_status pendres_circles_create(pendres_context *ctx, const pendres_circle_family *family,
@@ -70,14 +70,14 @@ static pendres_status make_room(pendres_circles *c)
   return PENDRES_OK;
 }
 
-/* By how much wider a band might have been: what is missing goes with its width's power. */
+/* How much wider a band might have been: the truncation error goes as a power of its width. */
 static double fit(const pendres_circles *c, const pendres_circle_band *b)
 {
   return careful * pow(c->family.tolerance / fmax(b->missing, 1e-300),
                        1.0 / (PENDRES_CIRCLE_NODES + 1.0));
 }
 
-/* The width of the next band to try, after one that there is not. */
+/* The width of the next band to try, after one that failed. */
 static double narrower(const pendres_circles *c, const pendres_circle_band *b, double from)
 {
   const double width = b->high - b->low, fits = fit(c, b);
@@ -85,7 +85,7 @@ static double narrower(const pendres_circles *c, const pendres_circle_band *b, d
   return fmin(0.7 * width, 0.9 * fabs(b->reached - from));
 }
 
-/* A band from a start on, as wide as can be: *found is 0 if there is none worth having. */
+/* A band from a start on, as wide as possible; *found is 0 if there is none wide enough. */
 static pendres_status grow(pendres_circles *c, const pendres_circle_start *start, int direction,
                            int *found)
 {
@@ -138,7 +138,7 @@ static const pendres_circle_band *band_of(const pendres_circles *c, double value
   return NULL;
 }
 
-/* The open end of a band that is nearest to a value: its number; -1 if there is none near by. */
+/* The number of the band whose open end is nearest to a value; -1 if none is near. */
 static long nearest_end(const pendres_circles *c, double value, int *direction)
 {
   double least = near_by * pendres_parameter_scale(c->family.parameter);
@@ -242,7 +242,7 @@ pendres_status pendres_circles_tell(pendres_circles *c, double value,
   return status;
 }
 
-/* The least shift of a lock at a value, seen from where it is not. */
+/* The least shift of a lock at a value, with the sign that it has outside of the lock. */
 static pendres_status edge_at(pendres_circles *c, const pendres_circle_turn *lock, double value,
                               int sign, double *g, double *error)
 {
@@ -281,7 +281,7 @@ pendres_status pendres_circles_edge(pendres_circles *c, const pendres_circle_tur
     if (status != PENDRES_OK || isnan(g)) return status;
     if (fabs(g) < 0.01 * off || fabs(width) < 1e-14 * fabs(out->value)) break;
     slope = g > 0.0 ? (g - g_in) / (out->value - inside) : (g_out - g) / (outside - out->value);
-    /* The Illinois rule: an end that stays for long counts half. */
+    /* The Illinois rule: the value at an end that stays is halved. */
     if (g > 0.0) {
       outside = out->value;
       g_out = g;
