@@ -1,6 +1,6 @@
 /*
- * test_arguments_diagram.c -- phase diagrams, parameters, dimensions and spectra with arguments
- * that are none, as in test_arguments.c.
+ * test_arguments_diagram.c -- invalid arguments of phase diagrams, parameters, dimensions and
+ * spectra, as in test_arguments.c.
  */
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /*
- * test_arguments_names.c -- every value of an enum has a name, and what is no value has none.
+ * test_arguments_names.c -- every value of an enum has a name, and other numbers have none.
  *
  * Names are a contract: they stand in decks and files. They are words without blanks, since
  * flag_meanings of a file separates them by blanks, and no two of an enum are the same.

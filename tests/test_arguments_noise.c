@@ -1,5 +1,5 @@
 /*
- * test_arguments_noise.c -- bad arguments of what has to do with noise.
+ * test_arguments_noise.c -- invalid arguments of functions that deal with noise.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 

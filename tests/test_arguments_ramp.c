@@ -1,5 +1,5 @@
 /*
- * test_arguments_ramp.c -- ramps with arguments that are none, as in test_arguments.c.
+ * test_arguments_ramp.c -- invalid arguments of ramps, as in test_arguments.c.
  */
 #include <string.h>
 

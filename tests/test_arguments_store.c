@@ -1,6 +1,6 @@
 /*
  * test_arguments_store.c -- every function of the store with arguments that are NULL, out of range
- * or out of an enum: refused, and the file is none the worse. See test_arguments.c.
+ * or out of an enum: they are refused, and the file is not damaged. See test_arguments.c.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "check.h"

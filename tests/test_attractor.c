@@ -1,6 +1,6 @@
 /*
  * test_attractor.c -- what pendulums settle on: the paper's two states, published facts about the
- * forced pendulum, symmetry, and independence of company.
+ * forced pendulum, mirror symmetry, and independence of the other pendulums of a call.
  */
 #include "attractor_fixture.h"
 

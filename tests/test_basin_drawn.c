@@ -1,6 +1,6 @@
 /*
- * test_basin_drawn.c -- refinement and statistics of basins that are drawn instead of integrated:
- * what comes out is known.
+ * test_basin_drawn.c -- refinement and statistics of basins that are drawn instead of integrated,
+ * so that the results are known.
  */
 #include "basin_fixture.h"
 

@@ -1,8 +1,9 @@
 /*
- * test_budget.c -- points that take long: told by name, ended by their budget and marked, and
- * computed again when a run is resumed. No tolerances: bytes and counts. A budget is a matter of
- * time, and these tests are not: a point is either endless, or so short that nobody asks whether it
- * is to go on, or the budget is so small that the first question ends whatever asks it.
+ * test_budget.c -- points that take long: they are named in messages, ended by their budget and
+ * marked, and computed again when a run is resumed. There are no tolerances, only bytes and counts.
+ * A budget is a time, but the tests do not depend on how fast the machine is: a point never ends,
+ * or is so short that its budget is never looked at, or the budget is so small that the first look
+ * ends it.
  */
 #include "driver_run.h"
 #include "same_results.h"

@@ -1,5 +1,5 @@
 /*
- * test_catalogue.c -- the order of attractors does not know that of their discovery.
+ * test_catalogue.c -- the order of attractors does not depend on the order of their discovery.
  */
 #include "check.h"
 

@@ -1,8 +1,8 @@
 /*
- * test_certain.c -- labels that say whether they are certain, and what a mean makes of it.
+ * test_certain.c -- labels that say whether they are certain, and how means take this into account.
  *
- * What is true comes from the long double reference, which shares no code with the library: a
- * pendulum is followed until it is next to an attractor's Poincaré point.
+ * True labels come from the long double reference, which shares no code with the library: a
+ * pendulum is followed until it is close to an attractor's Poincaré point.
  */
 #include "check.h"
 

@@ -1,6 +1,6 @@
 /*
- * test_context.c -- options and their defaults, what is refused and why, costs, and being told to
- * stop.
+ * test_context.c -- options and their defaults, which options are refused and why, counts of work,
+ * and interruption on request.
  */
 #include "check.h"
 

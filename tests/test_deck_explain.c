@@ -1,6 +1,6 @@
 /*
- * test_deck_explain.c -- what the program tells of decks: every key has words, every deck to start
- * from is a deck, numbers are printed short, and docs/decks.md is what the program would write.
+ * test_deck_explain.c -- what the program says about decks: every key is explained, every deck of
+ * --init is valid, numbers are printed short, and docs/decks.md is what the program would write.
  */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "check.h"

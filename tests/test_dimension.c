@@ -1,6 +1,6 @@
 /*
- * test_dimension.c -- dimensions and spectra of records that are made here, of which they are known
- * exactly; exponents by an integration of the variational equation of its own.
+ * test_dimension.c -- dimensions and spectra of artificial records, for which they are known
+ * exactly; exponents against an integration of the variational equation that is written here.
  */
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /*
- * test_ending.c -- what is left of a run that a library ends: an exit code, a sentence, no part.
+ * test_ending.c -- what is left of a run that a library ends by exit(): an exit code and a message,
+ * but no FILE.part.
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include "check.h"

@@ -1,8 +1,9 @@
 /*
- * test_farm.c -- tasks on threads: each once, collected in order, stopped at the first failure,
- * by a signal, costs added up, and nothing handed over but the records. No tolerances: all counts
- * and sums of integers. What comes first is settled by what tasks wait for, never by how long they
- * take: a loaded machine may hold up any thread for any time.
+ * test_farm.c -- tasks on threads: each runs once, records are collected in order, a failure or a
+ * signal stops the run, costs are added up, and only records are handed over. There are no
+ * tolerances: all numbers are counts and sums of integers. The order of events follows from what
+ * tasks wait for, never from how long they take, since a loaded machine may delay any thread for
+ * any time.
  */
 #define _POSIX_C_SOURCE 200809L /* fileno, nanosleep */
 #include "check.h"

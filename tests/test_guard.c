@@ -1,6 +1,6 @@
 /*
- * test_guard.c -- a handle in use is refused, whoever asks, and what a handle says is about its
- * last use alone.
+ * test_guard.c -- a handle in use is refused to every caller, and the message of a handle is about
+ * its last use only.
  */
 #define _XOPEN_SOURCE 700 /* pthread_create */
 #include "check.h"

@@ -1,6 +1,6 @@
 /*
- * test_hard.c -- hard cases: what the scene hard_cases runs, a test a case. Where the bounds come
- * from is said in drivers/hard_*.c. Sanitizers get shorter runs.
+ * test_hard.c -- the cases of the scene hard_cases, one test each. Their bounds are derived in
+ * drivers/validation/hard_*.c. With sanitizers the runs are shorter.
  */
 #include "check.h"
 

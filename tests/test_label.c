@@ -1,5 +1,5 @@
 /*
- * test_label.c -- what orbits are called: the definition itself, and that all questions ask it.
+ * test_label.c -- what orbits are called: the definition itself, and that all analyses use it.
  */
 #include <stdlib.h>
 

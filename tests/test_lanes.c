@@ -1,5 +1,5 @@
 /*
- * test_lanes.c -- the vector of a block: its operations, and that putting them off changes nothing.
+ * test_lanes.c -- the vector of a block: its operations, and that deferring them changes nothing.
  */
 #include "check.h"
 

@@ -1,6 +1,6 @@
 /*
- * test_parts.c -- work in parts on threads: the same bytes as in one call, whatever the threads and
- * the parts; every thing once; the first failure in the order of things is the one that is told.
+ * test_parts.c -- work in parts on threads: the same bytes as in one call, whatever the number of
+ * threads and parts; every item is done once; of several failures the first in order is reported.
  */
 #include "check.h"
 

@@ -1,5 +1,5 @@
 /*
- * test_reference_models.c -- the Taylor series of others than the plain pendulum: against the
+ * test_reference_models.c -- the Taylor series of models other than the plain pendulum: against the
  * extrapolated midpoint rule of oracle.h, which shares neither code nor method and is good to some
  * 1e-16, and the balance of energy.
  */

@@ -1,8 +1,8 @@
 /*
- * test_replay.c -- periods that are done again from a record: the same bytes as ARKODE's own.
+ * test_replay.c -- periods that are repeated from a recording give the same bytes as ARKODE's own.
  *
- * A context that is made anew for every period has nothing recorded, so that ARKODE is asked for
- * each of them; one that is kept asks for two of a kind. All bytes must be the same.
+ * A context that is made anew for every period has no recording, so that ARKODE computes each of
+ * them; in a context that is kept ARKODE computes two of each kind. All bytes must be the same.
  */
 #include "check.h"
 

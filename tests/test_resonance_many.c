@@ -1,6 +1,6 @@
 /*
- * test_resonance_many.c -- resonances looked for side by side: bit by bit what each is alone,
- * whoever is beside it and however far they get together.
+ * test_resonance_many.c -- resonances searched for side by side: each is bit by bit what it is
+ * alone, whatever the others are and wherever the common budget ends.
  */
 #include "context_fixture.h"
 

@@ -1,6 +1,6 @@
 /*
- * test_resonance_models.c -- resonances of others than the plain pendulum: with torque, parametric
- * drive, and other forces.
+ * test_resonance_models.c -- resonances of models other than the plain pendulum: with torque,
+ * parametric drive, and other forces.
  *
  * References: the closed form of a linear oscillator; oracle.h (extrapolated midpoint rule in long
  * double, no shared code), good to 1e-12 in the frequency of a peak and 1e-14 in its area. What is

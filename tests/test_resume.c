@@ -1,6 +1,6 @@
 /*
- * test_resume.c -- runs that are killed at any moment and gone on with end in the same bytes as one
- * that was left in peace; another deck is refused.
+ * test_resume.c -- runs that are killed at any moment and resumed end in the same bytes as a run
+ * that was not interrupted; another deck is refused.
  */
 #include "driver_run.h"
 #include "kinds_fixture.h"

@@ -1,6 +1,6 @@
 /*
- * test_scene_failed.c -- points that cannot be computed: marked with their reason, told with their
- * coordinates, and without influence on the others.
+ * test_scene_failed.c -- points that cannot be computed are marked with their reason and named with
+ * their coordinates, and do not affect the others.
  */
 #include "scene_fixture.h"
 

@@ -1,6 +1,6 @@
 /*
- * test_scene_resonance.c -- the scene resonance_curve: a signal is a signal wherever it comes, and
- * points without a resonance say why.
+ * test_scene_resonance.c -- the scene resonance_curve: a signal stops it at any point of the
+ * computation, and points without a resonance say why.
  */
 #include "scene_fixture.h"
 

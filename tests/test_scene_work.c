@@ -1,6 +1,6 @@
 /*
- * test_scene_work.c -- speed against error: what is compared, errors that are errors, estimates
- * that are honest, methods that fail, and the same figures whatever the threads.
+ * test_scene_work.c -- the scene work_precision: which methods it compares, true errors, estimates
+ * that cover them, methods that fail, and the same results whatever the number of threads.
  */
 #include "scene_fixture.h"
 

@@ -1,6 +1,6 @@
 /*
- * test_shard.c -- runs in parts: what --shard means, and parts put together end in the same bytes
- * as a run as a whole.
+ * test_shard.c -- runs in parts: the meaning of --shard, and that merged parts give the same bytes
+ * as a whole run.
  */
 #include "driver_run.h"
 #include "kinds_fixture.h"

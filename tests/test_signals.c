@@ -1,6 +1,6 @@
 /*
- * test_signals.c -- what signals do to a program that has installed them: the first asks, a second
- * ends, and computations hear of the first within a period.
+ * test_signals.c -- the signal handlers: the first signal requests a stop, a second one ends the
+ * program, and computations notice the first within a drive period.
  */
 #define _XOPEN_SOURCE 700 /* fork, kill */
 #include "check.h"

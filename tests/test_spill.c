@@ -1,6 +1,7 @@
 /*
- * test_spill.c -- arrays that go to a file where they are large: what was put is what is got, the
- * file has no name, and a disk that is full is an error with words. No tolerances: bytes.
+ * test_spill.c -- arrays that are kept in a file if they are large: reading returns what was
+ * written, the file has no name, and a full disk is an error with a message. Bytes are compared,
+ * without tolerances.
  */
 #include "driver_run.h"
 

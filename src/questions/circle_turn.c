@@ -28,7 +28,7 @@ static const double close_enough = 1e-11;
 static const double same_mean = 1e-5;
 /* If the motion is nowhere slower than elsewhere by more than this factor, it does not linger. */
 static const double uneven = 4.0;
-/* Orbits start this fraction of the circle apart, the golden mean. */
+/* Orbits start this fraction of the circle apart, the golden angle. */
 static const double golden = 0.38196601125010515;
 
 /* A quintic in each cell, lengths in cells. */
@@ -204,8 +204,7 @@ static double shift(const pendres_circle_table *t, int q, int p, double u)
   return moved;
 }
 
-/* The interval from point 0 to the nearest of its first q images: its own images cover the
-   circle. */
+/* The interval from point 0 to the next one of its first q images: its images cover the circle. */
 static double arc(const pendres_circle_table *t, int q)
 {
   double u = 0.0, next = (double)t->cells;
