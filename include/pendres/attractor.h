@@ -8,18 +8,17 @@
  * A pendulum has settled when it is inside an attractor's trapping ellipse: every state in
  * there goes to that attractor. The stroboscopic map is a homeomorphism of the plane, so
  * when the ellipse's edge lies in the basin, all of its inside does (Jordan curve theorem);
- * rings of pendulums on the edge are integrated to show that. That is a check and no proof. 16 to
- * 48 points of a ring come home to a smaller ellipse that is known already, side by side all the
- * way, less than a radius apart. Between two of them the image of the edge may depart from the
- * chord by a quarter of the sum of what its tangents at both ends (difference quotients) differ by
- * from the chord; that must fit into the known ellipse, too, or points are put in the middle until
- * it does, or the ring is given up. Were the image the cubic through both ends with these tangents,
- * this would be a bound, about twice what such a cubic departs by. Of the smallest ring, where the
- * linear map rules, 12 points show the departure from the linear map, and what it does between them
- * is bounded likewise, with tangents from neighbours. Not proved: a tongue of another basin that
- * enters and leaves the ring between two points, so narrow that the tangents there do not show it,
- * goes unseen, and so do errors of the integration beyond the twentieth of the radius that is left
- * for margin.
+ * rings of pendulums on the edge are integrated to check that. This is a check, not a proof. The 16
+ * to 48 points of a ring must all come into a smaller ellipse that is known already, and stay less
+ * than a radius apart on the way. Between two of them the image of the edge may depart from its
+ * chord by a quarter of the sum of the departures of its tangents at both ends (difference
+ * quotients). The known ellipse must hold that, too; otherwise points are added in between, or the
+ * ring is given up. If the image were the cubic through both ends with these tangents this would be
+ * a bound, about twice the departure of the cubic. On the smallest ring, where the map is nearly
+ * linear, 12 points show the departure from the linear map, which is bounded between them in the
+ * same way. What the check cannot see is a tongue of another basin that enters and leaves the ring
+ * between two points and is too narrow to show in the tangents there, and errors of the integration
+ * above the margin of a twentieth of the radius.
  * What has not settled within its budget of periods is unresolved, never guessed.
  *
  * The error of the integration is carried along with each pendulum. Only if it is small against the

@@ -118,18 +118,19 @@ pendres_status pendres_basin_compute(pendres_context *ctx, pendres_attractors *s
 /* ---- Refinement ------------------------------------------------------------------------------ */
 
 /**
- * Opaque: a plan to know rows of a grid without integrating all their states. A coarse lattice is
- * integrated first; cells with unlike corners are halved down to single states; last, every
- * state that was filled in and has an unlike neighbour is integrated, until there is none. So
- * a boundary that has been met anywhere is followed all along. What can be missed are pieces of
- * a basin that fit between the points of the coarse lattice: pendres_basin_plan_sample is
- * there to look for them. It is to be asked again after what it showed has been followed, until
- * a fresh sample is clean; pendres_basin_plan_suspected then says how many may be left.
+ * Opaque: a plan by which the labels of rows of a grid are found without integrating all states. A
+ * coarse lattice is integrated first. Cells whose corners differ are halved down to single states;
+ * the other states are filled in. Finally every state that was filled in and has a neighbour of
+ * another label is integrated, until there is none, so that a boundary that has been met anywhere
+ * is followed to its end. Pieces of a basin that fit between the points of the coarse lattice can
+ * be missed. pendres_basin_plan_sample() searches for them; it is to be called again after the
+ * boundary of what it has found was followed, until a sample has no wrong state.
+ * pendres_basin_plan_suspected() then says how many wrong states may be left.
  */
 typedef struct pendres_basin_plan pendres_basin_plan;
 
-/** A plan for rows first .. first + rows - 1; stride (a power of 2, 0: 16) of the coarse lattice.
- *  grid's arrays must outlive the plan. */
+/** A plan for rows first .. first + rows - 1. stride is the spacing of the coarse lattice, a power
+ * of 2 (0: 16). The arrays of grid must outlive the plan. */
 pendres_status pendres_basin_plan_create(const pendres_basin_grid *grid, size_t first,
                                          size_t rows, int stride, pendres_basin_plan **out);
 /** NULL is allowed. */
@@ -137,24 +138,25 @@ void pendres_basin_plan_free(pendres_basin_plan *plan);
 
 /**
  * The states to be integrated next (by pendres_basin_states, in any number of pieces): their
- * numbers in the grid, *n of them, owned by the plan. *n = 0: all is known.
+ * numbers in the grid, *n of them, owned by the plan. *n = 0: all states are known.
  */
 pendres_status pendres_basin_plan_next(pendres_basin_plan *plan, size_t *n, const size_t **index);
-/** Take over what these states are. */
+/** Take over the results for these states, in their order. */
 pendres_status pendres_basin_plan_accept(pendres_basin_plan *plan,
                                          const pendres_basin_state *state);
 
 /**
- * Draw up to n different states that were filled in, evenly over the rows: *drawn of them. They
- * are integrated and handed to pendres_basin_plan_verify, which counts those that had been filled
- * in wrongly; the others stay filled in. If any were wrong, pendres_basin_plan_next asks for all
- * that was filled in around them, as far as the lattice is wide, and for a lattice of half the
- * width everywhere: so five samples in all find a default plan clean, or integrated as a whole.
+ * Draw up to n different states that were filled in, evenly over the rows; *drawn receives how
+ * many. The caller integrates them and hands the results to pendres_basin_plan_verify(), which
+ * counts those that had been filled in wrongly; the others stay filled in. If any were wrong,
+ * pendres_basin_plan_next() asks for all filled-in states within one lattice spacing around them,
+ * and for a lattice of half the spacing everywhere. With the default stride, therefore, after at
+ * most five samples the last one has no wrong state, or all states have been integrated.
  */
 pendres_status pendres_basin_plan_sample(pendres_basin_plan *plan, size_t n, uint64_t seed,
                                          size_t *drawn, const size_t **index);
-/** Take over what the states drawn by pendres_basin_plan_sample() are; *missed: how many of them
-    had been filled in wrongly. */
+/** Take over the results for the states drawn by pendres_basin_plan_sample(); *missed receives how
+    many of them had been filled in wrongly. */
 pendres_status pendres_basin_plan_verify(pendres_basin_plan *plan,
                                          const pendres_basin_state *state, size_t *missed);
 
@@ -166,9 +168,9 @@ size_t pendres_basin_plan_integrated(const pendres_basin_plan *plan);
 /** How many are filled in. */
 size_t pendres_basin_plan_filled(const pendres_basin_plan *plan);
 /**
- * How many of so many filled states may be wrong at most, with a confidence of 95 %, when a sample
- * of so many was clean: filled * 3 / drawn (Hanley and Lippman-Hand, JAMA 249 (1983) 1743), and not
- * more than all.
+ * How many of `filled` states that were filled in may be wrong at most, with a confidence of 95 %,
+ * if none of a sample of `drawn` was: filled * 3 / drawn (Hanley and Lippman-Hand, JAMA 249 (1983)
+ * 1743), and not more than filled.
  */
 double pendres_basin_plan_suspected(size_t filled, size_t drawn);
 
@@ -231,7 +233,7 @@ typedef struct pendres_basin_well {
  */
 typedef struct pendres_basin_sums pendres_basin_sums;
 
-/** Sums of which no row is added yet, for so many attractors. *out is to be freed by
+/** Sums without any rows yet, for a set of `attractors` attractors. *out is to be freed by
     pendres_basin_sums_free(). PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: *out is NULL. */
 pendres_status pendres_basin_sums_create(const pendres_basin_grid *grid, size_t attractors,
                                          pendres_basin_sums **out);
@@ -241,33 +243,33 @@ void pendres_basin_sums_free(pendres_basin_sums *sums);
 pendres_status pendres_basin_sums_add(pendres_basin_sums *sums, size_t rows,
                                       const pendres_basin_state *state);
 /**
- * Allow for so many states of the rows added that may be labelled wrongly without being known as
- * uncertain, as a sample of filled ones lets expect; all errors contain them.
+ * Allow for `states` states of the rows added that may be labelled wrongly without being known as
+ * uncertain (pendres_basin_plan_suspected()); all errors include them.
  */
 pendres_status pendres_basin_sums_suspect(pendres_basin_sums *sums, double states);
 /**
  * fraction[attractors] and error[attractors] (either may be NULL): shares of the area from the
- * first to the last x and v, each state standing for what is nearest to it. So states at the ends
- * of a range have half the weight of others: pendres_basin_sums_counts has plain numbers. After all
- * rows.
+ * first to the last x and v, where each state stands for the points that are nearest to it. States
+ * at the ends of a range therefore have half the weight of others; pendres_basin_sums_counts() has
+ * plain numbers. To be called after all rows were added, like the functions below.
  */
 pendres_status pendres_basin_sums_result(const pendres_basin_sums *sums,
                                          pendres_basin_statistics *out, double *fraction,
                                          double *error);
 
-/** states[attractors]: how many states of the grid go to each attractor. After all rows. */
+/** states[attractors] receives how many states of the grid go to each attractor. */
 pendres_status pendres_basin_sums_counts(const pendres_basin_sums *sums, size_t *states);
 /**
  * The wells that states go to, by attractor, then by well: *n of them, owned by the sums, valid
- * until this is asked again. Fractions and counts of attractors are modulo one turn, as are all
- * statistics unless they are by well. After all rows.
+ * until the next call. Fractions and counts of attractors are modulo one turn, as are all
+ * statistics unless they are by well.
  */
 pendres_status pendres_basin_sums_wells(pendres_basin_sums *sums, size_t *n,
                                         const pendres_basin_well **wells);
 /**
  * fraction[n] and error[n] (either may be NULL): shares of the area by well, in the order and
  * number of pendres_basin_sums_wells(), with errors like those of attractors' shares; only
- * uncertain states of a well itself count in its error. After all rows.
+ * uncertain states of a well itself count in its error.
  * PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY: nothing is written.
  */
 pendres_status pendres_basin_sums_well_shares(const pendres_basin_sums *sums, double *fraction,
@@ -285,12 +287,12 @@ typedef struct pendres_basin_window {
 /**
  * The uncertainty exponent from n random states of a window, each compared with its neighbours at
  * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
- * below the tolerance mean nothing. The states depend on seed alone. Where they take too long to
- * settle, as in chaos that ends late, or are found to be uncertain by more than half at nearly all
- * distances, only the first of them are looked at: statistics' field states says how many. Set
- * are states, unresolved, uncertainty_exponent, distance and uncertain; others are NaN or 0.
- * PENDRES_NOT_FOUND: at too few distances the boundary is met often enough for a count, and by
- * fewer than half of the states: shares near one are no power of the distance.
+ * below the tolerance are meaningless. The states depend only on seed. If they take too long to
+ * settle, as in chaos that ends late, or if more than half of them are uncertain at nearly all
+ * distances, only the first of them are used; the field `states` says how many. The fields states,
+ * unresolved, uncertainty_exponent, distance and uncertain are set; others are NaN or 0.
+ * PENDRES_NOT_FOUND: there are too few distances at which the boundary is met often enough for a
+ * count, but by fewer than half of the states (shares near one are no power of the distance).
  */
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
                                          const pendres_basin_window *window, size_t n,

@@ -61,9 +61,9 @@ typedef enum pendres_table {
 const char *pendres_method_name(pendres_method method);
 /** Name of a table, "tp8", ...; NULL if out of range. Static. */
 const char *pendres_table_name(pendres_table table);
-/** The method of a name; PENDRES_METHOD_COUNT if there is none of it, or name is NULL. */
+/** The method with a name; PENDRES_METHOD_COUNT if there is none, or name is NULL. */
 pendres_method pendres_method_named(const char *name);
-/** The table of a name; PENDRES_TABLE_COUNT if there is none of it, or name is NULL. */
+/** The table with a name; PENDRES_TABLE_COUNT if there is none, or name is NULL. */
 pendres_table pendres_table_named(const char *name);
 /** Order of the method of a table, 0 if out of range. */
 int pendres_table_order(pendres_table table);

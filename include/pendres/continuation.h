@@ -160,14 +160,14 @@ typedef enum pendres_branch_end {
 const char *pendres_branch_end_name(pendres_branch_end end);
 
 /**
- * What a branch's bifurcations do not explain of its points: bits, 0 where all agree. Every branch
+ * How the points of a branch disagree with its bifurcations: bits, 0 where all agree. Every branch
  * is checked when it has been followed; a doubt says that a bifurcation was missed or misnamed, or
- * that the branch is not one but parts of two.
+ * that the branch consists of parts of two.
  */
 typedef enum pendres_doubt {
-  PENDRES_DOUBT_SIGN = 1, /**< from this point to the next that tells, a multiplier passes +1 or -1
-                               and no bifurcation does, or the other way round: as where stability
-                               changes */
+  PENDRES_DOUBT_SIGN = 1, /**< between this point and the next at which it can be decided, a
+                               multiplier passes +1 or -1 without a bifurcation, or there is a
+                               bifurcation and none passes */
   PENDRES_DOUBT_TURN = 2, /**< the parameter turns here, and there is no fold */
   PENDRES_DOUBT_BIFURCATION = 4 /**< a fold at which the parameter does not turn, or turns against
                                      its curvature; or another bifurcation at which it does */
@@ -259,23 +259,21 @@ pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurca
 typedef struct pendres_branches pendres_branches;
 
 /**
- * The branches that n orbits lie on, each once: an orbit that lies on a branch found already, or
- * whose mirror image does, is passed over. So what an ensemble settles on leads to all branches
- * that it can reach, those included that are born away from the others (isolas); what it misses,
- * pendres_branches_extend may find.
- * The orbits may differ in the parameter alone. *out is to be freed by pendres_branches_free.
- * An orbit that no branch can be followed from (hardly an orbit any more) is passed over and
- * counted as skipped. Errors as for pendres_branch_follow.
+ * The branches that n orbits lie on, each once: an orbit is passed over if it, or its mirror image,
+ * lies on a branch that was found already. The orbits that an ensemble settles on thus lead to all
+ * branches that it reaches, isolas included; pendres_branches_extend() may find others.
+ * The orbits may differ only in the parameter. *out is to be freed by pendres_branches_free().
+ * An orbit from which no branch can be followed (since it is about to vanish) is passed over and
+ * counted as skipped. Errors are those of pendres_branch_follow().
  */
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out);
 /**
  * Add the branches that n bifurcations lie on, each once: one that a branch of the set has met
- * already is passed over. So where curves in two parameters cross a value of the second, they
- * lead to branches that none of the orbits at hand lies on.
- * options: those that the set was found with. A bifurcation that no branch can be followed from
- * counts as skipped. On failure the set holds what was added so far. Errors as for
- * pendres_branch_follow.
+ * already is passed over. Bifurcations at which curves in two parameters cross a value of the
+ * second one thus lead to branches on which none of the known orbits lies. options: those that the
+ * set was found with. A bifurcation from which no branch can be followed counts as skipped. On
+ * failure the set holds what was added so far. Errors are those of pendres_branch_follow().
  */
 pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_bifurcation *bifurcations,
@@ -294,8 +292,7 @@ size_t pendres_branches_skipped(const pendres_branches *branches);
  * Branches as plain bytes, to be handed to another process or kept in a file: pack writes as many
  * bytes as pendres_branches_packed_size() says, and unpack makes the same branches of them, to be
  * freed by pendres_branches_free. The bytes have the layout of this build of the library on this
- * kind of machine, and nothing in them tells whether they were damaged: who keeps them adds a
- * checksum.
+ * kind of machine, and no checksum: a program that keeps them adds one.
  * branches NULL: no branches. Errors: PENDRES_INVALID_ARGUMENT (size and contents disagree; *out is
  * NULL), PENDRES_OUT_OF_MEMORY. Threads may pack the same branches at a time.
  */

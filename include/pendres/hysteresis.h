@@ -2,54 +2,55 @@
  * @file hysteresis.h
  * @brief A pendulum whose parameter is moved so slowly that it always settles.
  *
- * Owns: following the state that a pendulum is in along any path of a parameter, as an experimenter
- * does who sweeps a frequency up and down; where the state ends, and what the pendulum goes to
+ * Owns: following the state of a pendulum along any path of a parameter, as an experimenter does
+ * who sweeps a frequency up and down; where the state ends, and which state the pendulum goes to
  * then.
  *
- * While the state is a stable periodic orbit it is followed by continuation, so that the value at
- * which it ends is a bifurcation's, located to the tolerance, and not that of the next step. At a
- * period doubling or a loss of mirror symmetry beyond which a stable orbit is born, the pendulum
- * goes over to that orbit without a jump. Everywhere else it leaves: TRIALS pendulums start from
- * the orbit that ends, with the parameter beyond the bifurcation by a ten-thousandth or a
- * hundred-thousandth of its scale (0.3 for the drive frequency, 0.1 for others), and it goes to
- * where most of them go. How long a pendulum stays near a fold depends on how far beyond it the
- * parameter is; these distances differ by enough for the trials to leave at every phase of a
- * period. Where they do not all go to the same state, what happens depends on distances that no
- * experiment and no rounding controls, and the jump is marked as uncertain.
+ * A stable periodic orbit is followed by continuation, so that the value at which it ends is that
+ * of a bifurcation, located to the tolerance, and not that of the next step. At a period doubling
+ * or a symmetry breaking at which a stable orbit is born, the pendulum goes over to that orbit
+ * without a jump. Everywhere else it jumps. PENDRES_HYSTERESIS_TRIALS pendulums then start from the
+ * orbit that ends, with the parameter beyond the bifurcation by a ten-thousandth or a
+ * hundred-thousandth of its scale (0.3 for the drive frequency, 0.1 for others), and the pendulum
+ * goes to the state that most of them reach. How long a pendulum stays near a fold depends on the
+ * distance beyond it; the distances of the trials vary by enough for them to leave at every phase
+ * of a period. Where they do not all reach the same state, the outcome depends on distances that no
+ * experiment controls, and the jump is marked as uncertain.
  *
- * While the state is chaotic, the pendulum is settled anew at each value, from where it was. Where
- * it is on an orbit then, the way there is halved down to where it comes to an orbit first, and
- * that is followed from there; after four such in turn with chaos, the end of chaos is somewhere in
- * what is left of the way.
- * A pendulum that has escaped to infinity is gone for the rest of the path.
+ * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
+ * If it has come to a periodic orbit, the interval is halved until the value at which it first
+ * comes to an orbit is found, and that orbit is followed. If orbits and chaos have alternated four
+ * times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum that
+ * has escaped to infinity does not return on the rest of the path.
  *
- * A value that cannot be computed is left out, and the path goes on as if it had never been there:
- * where steps are too many, or an iteration fails, or where coming to the value would take more
+ * A value that cannot be computed is left out, and the path goes on as if it had never been there.
+ * This happens where too many steps are needed, an iteration fails, or the value would take more
  * than 2e9 evaluations of the slope, some ten seconds to a minute. Values that are far apart cost
- * more than those on a way in smaller steps.
+ * more than a path in smaller steps.
  *
- * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive:
- * its states off the stretches are told by averages, as in lyapunov.h, with its words on what is
- * quasi-periodic and what is chaos. A trial that averages cannot tell, as where a rotation slips
- * once in thousands of periods, goes on with the parameter ten times as far beyond the
- * bifurcation, up to three times.
+ * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive.
+ * States that are no periodic orbits are then identified by averages, as quasi-periodic or chaotic,
+ * by the criteria of lyapunov.h. A trial in which averages cannot decide, since a rotation slips
+ * only once in thousands of periods, say, is repeated with the parameter ten times as far beyond
+ * the bifurcation, up to three times.
  *
  * Such a rotation lies on an invariant circle, a closed curve around the cylinder of states, which
  * persists where the rotation locks to the drive in narrow steps and unlocks again. Where the
- * circle can be followed nothing else is integrated: the map on it tells mean velocities, locks,
- * and where locks begin and end. An orbit whose fold lies on the circle gives way to the rotation
- * there without any trials. A mean velocity's error is what four orbits of the map differ by, and
- * what the map is off by, times what the motion makes of it. Points so close to the end of a lock
- * that the map's error hides it are unresolved. Where there is no circle of sufficient smoothness,
- * as before it breaks up, averages over the pendulum's own periods tell, as above.
+ * circle can be followed nothing else is integrated: mean velocities, locks, and the ends of locks
+ * follow from the map of a period on the circle. If the orbit of a fold lies on the circle, the
+ * pendulum goes over to the rotation there without any trials. The error of a mean velocity
+ * consists of the scatter among four orbits of the map, and of the error of the map with the factor
+ * by which the motion amplifies it. Points so close to the end of a lock that the error of the map
+ * hides it are unresolved. Where the circle is not smooth enough, as before it breaks up, averages
+ * over the pendulum's own periods are used, as above.
  *
- * Without a drive, under a torque alone, a pendulum stands still or rotates with a period of its
- * own (rotation.h). Such a rotation is RUNNING, with a mean velocity and no period in drive
- * periods; at most values it is interpolated, by polynomials whose last coefficients are part of
- * the error.
- * It comes from the fold at a torque of 1, where nothing can stand still any longer, or from a
- * start that passes an upper equilibrium; and it ends at the least torque, or at the damping to
- * which the pendulum's torque is the least one, by a homoclinic connection (OTHER) or a fold.
+ * Without a drive, under a torque alone, a pendulum is at rest or rotates with a period of its own
+ * (rotation.h). Such a rotation is PENDRES_LABEL_RUNNING, with a mean velocity and no period in
+ * drive periods; at most values it is interpolated, by polynomials whose last coefficients are part
+ * of the error. A pendulum comes to it from the fold at a torque of 1, beyond which there is no
+ * equilibrium, or from a start that passes the upper equilibrium. It ends at the least torque, or
+ * at the damping for which the pendulum's torque is the least one, by a homoclinic connection
+ * (PENDRES_JUMP_OTHER) or a fold.
  *
  * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
  * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of

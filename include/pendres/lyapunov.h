@@ -2,46 +2,48 @@
  * @file lyapunov.h
  * @brief Largest Lyapunov exponents of many pendulums, each with its own parameters.
  *
- * Owns: what the exponent of each pendulum's own motion is, and how well it is known. For maps of
- * a million points: of all attractors of a parameter set only the one that the start leads to is
- * looked for, and nothing is shown to be trapped; see attractor.h for that.
+ * Owns: the exponent of each pendulum's own motion, with its error. It is made for maps of a
+ * million points: only the attractor that the start leads to is found, and that it traps the
+ * pendulum is not checked; see attractor.h for that.
  *
- * Method. A pendulum runs until its strobe points come back (Brent's cycle detection); the orbit
- * nearby is found by Newton's method. If it is stable and the pendulum is next to it, exponent,
- * period and winding are the orbit's, exact but for its error. What does not come back carries
- * two tangent vectors along (Benettin, Galgani and Strelcyn, Physical Review A 14 (1976) 2338),
- * by the integrator's steps and by steps twice as long, one cosine a step (Takahashi and Imada,
- * Journal of the Physical Society of Japan 53 (1984) 3765): fourth order in the mean over time.
- * Richardson's extrapolation takes off what follows from both, which enters the error. Growth is
- * averaged over batches of periods, whose scatter gives the error. It is chaotic if the exponent
- * is above zero by five standard errors and does not change on the way, as far as the batches
- * tell. What is neither, as next to a bifurcation, is followed for longer, now beside a neighbour
- * that is put back to a distance of 1e-8 once a period, which costs twice as much and has no
- * steps of its own; and it is at last unresolved. Where rotations may be, such a neighbour is
- * there from the first.
+ * Method. A pendulum runs until its strobe points repeat (Brent's cycle detection), and Newton's
+ * method finds the orbit nearby. If the orbit is stable and the pendulum close to it, exponent,
+ * period and winding are those of the orbit. Otherwise the pendulum carries two tangent vectors
+ * (Benettin, Galgani and Strelcyn, Physical Review A 14 (1976) 2338), one with the integrator's
+ * steps and one with steps twice as long, and one cosine a step (Takahashi and Imada, Journal of
+ * the Physical Society of Japan 53 (1984) 3765): the mean over time is of fourth order.
+ * Richardson's extrapolation removes the leading error, and its correction enters the error
+ * estimate. Growth is averaged over batches of periods, whose scatter gives the statistical error.
+ * The motion is chaotic if the exponent is above zero by five standard errors, and the batches show
+ * no change in the course of time. If it is neither periodic nor chaotic, as close to a
+ * bifurcation, it is followed for longer, now with a neighbour that is put back to a distance of
+ * 1e-8 once a period. A neighbour costs twice as much, and needs no steps of its own. If this does
+ * not decide either, the point is unresolved. Where rotations are possible the neighbour is used
+ * from the start.
  *
- * A rotation that is not locked to the drive has the exponents 0 and -gamma, and closes an
- * invariant curve around the cylinder of states. The pendulum is called quasi-periodic on three
- * pieces of evidence: its strobe points do not come back to an orbit of up to 128 periods;
- * weighted Birkhoff averages of its turns, and of the growth of a neighbour's distance, over all
- * of its periods and over the first, the middle and the last half of them agree to 1e-5 a
- * period; and that growth is 0 to 1e-5 a period. With weights exp(-1/(t(1 - t))) such averages
- * converge faster than any power of the number of periods (Das, Saiki, Sander and Yorke,
- * Nonlinearity 30 (2017) 4111), those of chaos no faster than its root. What this does not tell
- * apart is a lock to more than 128 periods that draws neighbours together by less than 1e-5 a
- * period. The mean velocity's error is what these averages differ by, and the errors of single
- * periods, times what the invariant curve makes of them: the mean length of the tangent vector
- * along it, times that of the vector's reciprocal. Close to where a lock has ended a rotation is
- * p/q for long, and slips once in many periods: unless it has slipped three times it is
- * unresolved. Meanwhile a neighbour's distance grows: where rotations may be, chaos is called so
- * once it has grown by e^30. There is one such curve at most, since the area between two would
- * be invariant and has to shrink; with a mirror symmetry it is its own image and does not
- * rotate. So rotations are looked for under a torque and a drive, or under both drives.
+ * A rotation that is not locked to the drive has the exponents 0 and -gamma, and its strobe points
+ * lie on an invariant curve around the cylinder of states. The pendulum is called quasi-periodic on
+ * three pieces of evidence: its strobe points do not repeat with any period up to 128; weighted
+ * Birkhoff averages of its turns, and of the growth of a neighbour's distance, over all of its
+ * periods and over the first, the middle and the last half of them agree to 1e-5 a period; and that
+ * growth is 0 to 1e-5 a period. With weights exp(-1/(t(1 - t))) such averages converge faster than
+ * any power of the number of periods (Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111),
+ * those of chaos no faster than its root. A lock to more than 128 periods in which neighbours
+ * approach by less than 1e-5 a period is not distinguished from this. The error of the mean
+ * velocity consists of the scatter of these averages, and of the errors of single periods times the
+ * factor by which the motion amplifies them: the mean length of the tangent vector along the curve,
+ * times the mean of its reciprocal. Close to the end of a lock a rotation stays near p/q for long,
+ * and slips once in many periods; unless it has slipped three times it is unresolved. A neighbour's
+ * distance grows during such a slip, so that where rotations are possible the motion is called
+ * chaotic only after the distance has grown by e^30. There is at most one such curve, since the
+ * area between two would be invariant, while the map shrinks every area; with a mirror symmetry it
+ * is its own image and does not rotate. Rotations are therefore searched for under a torque and a
+ * drive, or under both drives.
  *
- * Unless the caller says how long to look, no transient and no average takes more than 5e7 steps:
- * what would is unresolved.
+ * Unless the caller says how long to follow a pendulum, no transient and no average takes more than
+ * 5e7 steps; a point that needs more is unresolved.
  *
- * Chaos that lasts for longer than it is watched, and then ends, is not told from chaos that lasts.
+ * Chaos that ends later than it is followed is not distinguished from chaos that lasts.
  */
 #ifndef PENDRES_LYAPUNOV_H
 #define PENDRES_LYAPUNOV_H

@@ -115,9 +115,10 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
 
 /**
  * Samples of an orbit over its period: count equally spaced points a drive period, count * q in
- * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL.
- * By the Fourier series of the orbit, integrated anew with orbit->steps steps a period; as exact
- * as orbit->x at drive phase 0, and elsewhere by about the tolerance that the orbit was found at.
+ * all, at theta = 2 pi k / count. x[], v[] of that length are written; either may be NULL. They
+ * come from the Fourier series of the orbit, which is integrated anew with orbit->steps steps a
+ * period. At drive phase 0 they are as exact as orbit->x, elsewhere to about the tolerance at which
+ * the orbit was found.
  */
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                                     double *x, double *v);

@@ -61,7 +61,7 @@ typedef struct pendres_parts {
  *                is 0
  * @param size    bytes of message
  * @return PENDRES_OK; PENDRES_INVALID_ARGUMENT: how or work is NULL, threads negative or above
- *         4096, or options that are none; PENDRES_OUT_OF_MEMORY; else what work returned
+ *         4096, or invalid options; PENDRES_OUT_OF_MEMORY; else what work returned
  *
  * Thread safety: any number of calls at once. Signals are blocked in the threads that it makes, so
  * that those of the caller get them. To end it early: let work return PENDRES_INTERRUPTED, or give

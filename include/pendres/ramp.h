@@ -10,17 +10,17 @@
  * frequency, and goes on steadily when the frequency is what moves. Between two corners of a ramp
  * the parameter is a linear function of this time.
  *
- * When a pendulum leaves a state is measured as with a lock-in amplifier, by the first harmonic
- * a + i b of its angle over each drive period. It has left once that is farther from the first
- * harmonic of the old state, at the same value of the parameter or, beyond its end, at the last
- * value that it has, than half the distance between the old state and the new one, and does not
- * come back within the time 2/damping in which a motion dies away. Where old and new state differ
- * by their mean velocity, by half a radian a period or more, that takes the harmonic's place.
- * Within a period the time is interpolated. Another definition would shift a delay by some drive
- * periods, while the delay of a slow ramp past a fold takes a time that grows as rate^(-1/3).
+ * The time at which a pendulum leaves a state is measured as with a lock-in amplifier, by the first
+ * harmonic a + i b of its angle over each drive period. The pendulum has left when the distance of
+ * its harmonic from that of the old state exceeds half the distance between the old state and the
+ * new one, and does not return below within the time 2/damping in which transients decay. The old
+ * state is taken at the same value of the parameter or, beyond its end, at its last value. If the
+ * mean velocities of the two states differ by half a radian a period or more, the mean velocity is
+ * used instead. Within a period the time is interpolated. Another definition would shift a delay by
+ * some drive periods, while the delay of a slow ramp past a fold grows as rate^(-1/3).
  *
- * Integrator, random numbers and their streams: those of langevin.h, of order four at temperature
- * zero as well. Parameters stand still within a step, at their value in its middle.
+ * Integrator and random numbers are those of langevin.h, of order four at temperature zero as well.
+ * Parameters are held constant within a step, at their value in its middle.
  *
  * Source: Haberman, SIAM Journal on Applied Mathematics 37 (1979) 69, for delays past a fold;
  * Fulton and Dunkleberger, Physical Review B 9 (1974) 4760, for distributions of switching
@@ -92,7 +92,7 @@ double pendres_ramp_value(const pendres_ramp *ramp, double time);
  * Where a force lets pendulums escape to infinity, x, v and their errors are NaN from the first
  * point on at which one is beyond 1e8.
  *
- * The temperature is not looked at. Steps are chosen such that the errors of the strobe points meet
+ * The temperature is not read. Steps are chosen such that the errors of the strobe points meet
  * the context's tolerance while the pendulum is in the states of the path (or are the context's
  * steps_per_period); the run is repeated with half as many.
  *
@@ -104,11 +104,11 @@ pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ram
 
 /**
  * Follow n noisy trajectories through a ramp at the pendulum's temperature. All start from the
- * state of the path's first point: let the ramp begin some 1/damping before what is of interest.
+ * state of the path's first point, and need some times 1/damping to spread to a cloud around it.
  *
  * time[jumps][n] receives when trajectory first_id + i leaves the state that jump k ends, in drive
  * periods; NaN where it does not (see pendres_ramp_jump). value[jumps][n] receives the parameter
- * then; it may be NULL. Trajectories are the same bytes whatever n is and whoever is beside them.
+ * then; it may be NULL. Each trajectory is the same bytes whatever n is.
  *
  * Steps are the context's steps_per_period or, if these are not chosen, such that without noise the
  * strobe points meet the tolerance, or 1e-6 if that is more.

@@ -8,18 +8,19 @@
  * The mean loop area is smooth in omega where the members keep their attractors, and jumps where
  * an attractor ends in a fold or a member changes its basin. The largest value is either a smooth
  * peak (a zero of dA/domega along the branch, from the variational equation) or an edge (the
- * largest value at a jump). Both are looked for in the whole range and compete.
+ * largest value at a jump). Both are searched for in the whole range, and the larger one counts.
  *
- * The range is scanned as finely as resonances may be narrow: damping times omega. Between two
- * frequencies each state's area follows from its slopes at both, and each member is on a state that
- * it, or a member beside it, is on at either; gaps that may then hold more than is known are cut,
- * until single members' changes are located. Where members change so often that this has no end,
- * the peak is ragged. What is narrower than the scan and leaves no trace at its points is not seen.
+ * The range is scanned in steps of damping times omega, the least width of a resonance. In the gap
+ * between two frequencies the area of each state is bounded by its slopes at both ends, and each
+ * member is taken to be on a state that it, or a neighbouring member, is on at one of the ends.
+ * Gaps that may hold more than the largest known value are cut, until the changes of single members
+ * are located. Where members change so often that this does not end, the peak is ragged. A state
+ * that exists only between the points of the scan is not seen.
  *
- * All models are served. With other forces the scan is as fine as the damping and the frequency of
- * free oscillations ask that the drive can keep up. Only the work of drive_amplitude counts, not
+ * All models are served. With other forces the steps follow from the damping and from the frequency
+ * of free oscillations that the drive can sustain. Only the work of drive_amplitude counts, not
  * that of a torque or a parametric drive: without drive_amplitude there is no resonance. Members
- * that no attractor is known for, such as rotations that do not lock to the drive and those that
+ * without a known attractor, such as rotations that do not lock to the drive and members that
  * escape to infinity, have no loop area: errors allow for them as if they could be on any state.
  */
 #ifndef PENDRES_RESONANCE_H
@@ -57,9 +58,9 @@ typedef struct pendres_resonance {
   double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
                                           at an edge made by basins alone */
   double fold_frequency_error;       /**< its error; NaN where there is none */
-  int complete;                      /**< 0: the search ended at its budget of work, or resonances
-                                          may be narrower than it could look at frequencies: what it
-                                          has not looked into may hold more */
+  int complete;                      /**< 1; 0: a larger area may exist, since the search ended at
+                                          its budget of work, or resonances may be narrower than its
+                                          steps */
 } pendres_resonance;
 
 /**
@@ -88,8 +89,8 @@ enum { PENDRES_RESONANCE_MESSAGE = 512 /**< bytes of a search's message */ };
 /** One of several searches. */
 typedef struct pendres_resonance_search {
   pendres_pendulum pendulum;   /**< what is searched for; its drive frequency is not read */
-  double lowest;               /**< the least drive frequency that is looked at */
-  double highest;              /**< the largest one */
+  double lowest;               /**< lower end of the range of drive frequencies */
+  double highest;              /**< upper end of the range */
   pendres_status outcome;      /**< written: what pendres_resonance_find_ensemble() would return */
   pendres_resonance resonance; /**< written: all NaN unless the outcome is PENDRES_OK */
   char message[PENDRES_RESONANCE_MESSAGE]; /**< written: why the outcome is not PENDRES_OK, as
@@ -97,9 +98,9 @@ typedef struct pendres_resonance_search {
 } pendres_resonance_search;
 
 /**
- * Resonances of many pendulums, with one ensemble each. Searches go side by side, which takes less
- * time than one after another, the less the more alike neighbours in the list are. What each finds
- * is bit by bit what pendres_resonance_find_ensemble() finds, whoever is beside it.
+ * Resonances of many pendulums, with one ensemble each. Searches run side by side, which takes less
+ * time than one after another, all the less if neighbours in the list are alike. Each result is bit
+ * by bit that of pendres_resonance_find_ensemble(), whatever the other pendulums are.
  *
  * @param ctx      belongs to one thread at a time
  * @param n        how many

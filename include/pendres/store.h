@@ -34,9 +34,9 @@
  *
  * Two writers: the part file is created exclusively, so that of two runs on one output the later is
  * refused at once, with or without file locks. A part that a killed run has left is taken over: it
- * holds no lock (flock) any more. Where the file system knows no locks, or the environment variable
- * HDF5_USE_FILE_LOCKING is FALSE or 0, nobody can tell: then a part that is there is refused, and
- * its user removes it.
+ * holds no lock (flock) any more. Where the file system has no locks, or the environment variable
+ * HDF5_USE_FILE_LOCKING is FALSE or 0, this is not known: a part that exists is then refused, and
+ * the user has to remove it.
  *
  * Thread safety: HDF5 is not thread safe. At most one thread of a process may be inside any
  * function of this header at a time, whatever the stores.

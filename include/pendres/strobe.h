@@ -79,11 +79,11 @@ typedef struct pendres_recording_place {
 } pendres_recording_place;
 
 /**
- * A record that is made piece by piece, so that it may be longer than memory: where it stands.
- * Plain data; who goes on from a copy gets the same bytes. To be read, not to be changed.
+ * The state of a record that is made piece by piece, since it may be longer than memory. Plain
+ * data, to be read and copied but not changed; a record continued from a copy has the same bytes.
  */
 typedef struct pendres_recording {
-  pendres_pendulum pendulum;     /**< of which it is */
+  pendres_pendulum pendulum;     /**< the pendulum that is recorded */
   long periods;                  /**< drive periods recorded so far */
   int samples;                   /**< points a drive period */
   int stretch;                   /**< steps between two points */
@@ -100,8 +100,9 @@ typedef struct pendres_recording {
 
 /**
  * Begin a record of a pendulum from position x0 and velocity v0 at drive phase 0, which is to have
- * so many periods in all: its steps are fine enough for errors of all of them to add up. *out is
- * written on PENDRES_OK. Statuses as of pendres_strobe_record(). Thread safety: as for the context.
+ * `periods` drive periods in all: the steps are so fine that errors may add up over all of them.
+ * *out is written on PENDRES_OK. The other statuses are those of pendres_strobe_record(). Thread
+ * safety is that of the context.
  */
 pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendulum *pendulum,
                                        double x0, double v0, long periods, int samples,

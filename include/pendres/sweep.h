@@ -106,9 +106,10 @@ typedef enum pendres_ensemble_shape {
 const char *pendres_ensemble_shape_name(pendres_ensemble_shape shape);
 
 /**
- * The starts of an ensemble, members k = 1..members. A line is what it is; a rectangle and random
- * starts stand for all states of the rectangle, and errors of what is found with them contain that
- * they are a sample of these (pendres_response.sampling). All zero behind v: a line.
+ * The starts of an ensemble, members k = 1..members. Those of a line are the ensemble itself. Those
+ * of a rectangle, regular or random, are a sample of all states in it, and the errors of results
+ * include the sampling error (pendres_response.sampling). If all fields after v are zero it is a
+ * line.
  */
 typedef struct pendres_ensemble {
   size_t members;               /**< how many starts there are */
@@ -117,8 +118,8 @@ typedef struct pendres_ensemble {
   double v;                     /**< velocity of a line; else the lowest, in rad a unit time */
   pendres_ensemble_shape shape; /**< how the starts lie */
   double v_last;                /**< the highest velocity; not of a line */
-  size_t rows;                  /**< of a rectangle; a divisor of members */
-  uint64_t seed;                /**< of random starts: another one, other starts */
+  size_t rows;                  /**< rows of a rectangle; a divisor of members */
+  uint64_t seed;                /**< seed of random starts */
 } pendres_ensemble;
 
 /** The paper's: 200 members at rest over -pi/2 < x <= 3 pi/2. */
