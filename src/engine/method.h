@@ -33,12 +33,19 @@ typedef int pendres_strobe_visit(void *arg, size_t index, const pendres_strobe_l
 
 /* A run: lanes, who looks at them, and how exact methods are that choose their own steps. */
 typedef struct pendres_strobe_job {
-  size_t n; /* > 0 */
+  size_t n;            /* > 0 */
+  const size_t *which; /* numbers of the lanes that run, [n]; NULL: lanes 0 to n - 1 */
   pendres_strobe_lane *lanes;
   pendres_strobe_visit *visit;
   void *arg;        /* of visit */
   double tolerance; /* relative and absolute, of a step; unused where steps are fixed */
 } pendres_strobe_job;
+
+/* The number of the lane that runs as number i. */
+static inline size_t pendres_strobe_which(const pendres_strobe_job *job, size_t i)
+{
+  return job->which != NULL ? job->which[i] : i;
+}
 
 typedef struct pendres_method_functions {
   const char *name;    /* in decks and messages */

@@ -16,8 +16,10 @@ typedef struct block {
   int carry; /* errors */
 } block;
 
-static void put(block *b, size_t slot, size_t index)
+/* Put what runs as number i into a slot. */
+static void put(block *b, size_t slot, size_t i)
 {
+  const size_t index = pendres_strobe_which(b->job, i);
   const pendres_strobe_lane *l = &b->job->lanes[index];
   b->slot[slot] = index;
   pendres_flow_set_lane(b->flow, slot, l->pendulum, l->y, l->w);
@@ -91,17 +93,19 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow
   const size_t n = job->n;
   const pendres_strobe_lane *lanes = job->lanes;
   pendres_status status = PENDRES_OK;
-  block b = {.ctx = ctx, .flow = flow, .job = job, .carry = fixed && lanes[0].added > 0.0};
+  block b = {.ctx = ctx, .flow = flow, .job = job, .carry = fixed && lanes[pendres_strobe_which(job, 0)].added > 0.0};
   pendres_rank *queue = malloc(n * sizeof *queue);
   b.slot = malloc(pendres_flow_capacity(flow) * sizeof *b.slot);
   if (queue == NULL || b.slot == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
     goto done;
   }
-  for (size_t i = 0; i < n; i++)
-    queue[i] = (pendres_rank){.steps = fixed ? lanes[i].steps : 0,
-                              .model = pendres_model_kind(lanes[i].pendulum),
+  for (size_t i = 0; i < n; i++) {
+    const size_t index = pendres_strobe_which(job, i);
+    queue[i] = (pendres_rank){.steps = fixed ? lanes[index].steps : 0,
+                              .model = pendres_model_kind(lanes[index].pendulum),
                               .index = i};
+  }
   pendres_rank_order(n, queue);
 
   if (b.carry) status = pendres_flow_carry(b.flow, PENDRES_FLOW_ERRORS);

@@ -10,15 +10,16 @@ static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
   double longest = 0.0;
   pendres_status status = pendres_context_flow_adaptive(ctx, job->tolerance, &flow);
   if (status != PENDRES_OK) return status;
-  for (size_t i = 0; i < job->n; i++)
-    if (longest == 0.0 || (job->lanes[i].longest > 0.0 && job->lanes[i].longest < longest))
-      longest = job->lanes[i].longest;
+  for (size_t i = 0; i < job->n; i++) {
+    const double own = job->lanes[pendres_strobe_which(job, i)].longest;
+    if (longest == 0.0 || (own > 0.0 && own < longest)) longest = own;
+  }
   status = pendres_flow_set_longest_step(flow, longest);
   if (status == PENDRES_OK) status = pendres_method_block_run(ctx, flow, 0, job);
   ctx->cost.rhs_evaluations += pendres_flow_evaluations(flow);
   ctx->cost.steps += pendres_flow_steps(flow);
   for (size_t i = 0; i < job->n; i++)
-    job->lanes[i].taken += pendres_flow_steps(flow) / (double)job->n;
+    job->lanes[pendres_strobe_which(job, i)].taken += pendres_flow_steps(flow) / (double)job->n;
   pendres_flow_free(flow);
   return status;
 }

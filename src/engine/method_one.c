@@ -124,12 +124,14 @@ pendres_status pendres_one_run(pendres_context *ctx, const pendres_strobe_job *j
 {
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < job->n && status == PENDRES_OK; i++) {
-    pendres_one b = {.ctx = ctx, .tolerance = job->tolerance, .longest = job->lanes[i].longest};
+    const size_t index = pendres_strobe_which(job, i);
+    pendres_strobe_lane *lane = &job->lanes[index];
+    pendres_one b = {.ctx = ctx, .tolerance = job->tolerance, .longest = lane->longest};
     long steps = 0;
-    status = run_one(&b, solver, job, i);
+    status = run_one(&b, solver, job, index);
     if (b.memory != NULL && solver->steps(&b, &steps) == 0) {
       ctx->cost.steps += (double)steps;
-      job->lanes[i].taken += (double)steps;
+      lane->taken += (double)steps;
     }
     solver->close(&b);
     if (b.state != NULL) N_VDestroy(b.state);

@@ -34,14 +34,26 @@ pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum 
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg)
 {
-  return pendres_strobe_run_within(ctx, ctx->options.tolerance, n, lanes, visit, arg);
+  return pendres_strobe_run_some(ctx, n, NULL, lanes, visit, arg);
+}
+
+static pendres_status run(pendres_context *ctx, const pendres_strobe_job *job)
+{
+  return job->n > 0 ? pendres_method_of(ctx)->run(ctx, job) : PENDRES_OK;
+}
+
+pendres_status pendres_strobe_run_some(pendres_context *ctx, size_t n, const size_t *which,
+                                       pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                       void *arg)
+{
+  return run(ctx, &(pendres_strobe_job){.n = n, .which = which, .lanes = lanes, .visit = visit,
+                                        .arg = arg, .tolerance = ctx->options.tolerance});
 }
 
 pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg)
 {
-  const pendres_strobe_job job = {
-    .n = n, .lanes = lanes, .visit = visit, .arg = arg, .tolerance = tolerance};
-  return n > 0 ? pendres_method_of(ctx)->run(ctx, &job) : PENDRES_OK;
+  return run(ctx, &(pendres_strobe_job){
+    .n = n, .lanes = lanes, .visit = visit, .arg = arg, .tolerance = tolerance});
 }

@@ -19,7 +19,12 @@
 pendres_status pendres_strobe_run(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                   pendres_strobe_visit *visit, void *arg);
 
-/* The same at another tolerance, which counts for methods that choose their own steps. */
+/* Run of these lanes those n with the numbers `which` alone. */
+pendres_status pendres_strobe_run_some(pendres_context *ctx, size_t n, const size_t *which,
+                                       pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
+                                       void *arg);
+
+/* The same as for all at another tolerance, which counts for methods that choose their own steps. */
 pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);

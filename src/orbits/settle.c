@@ -142,17 +142,39 @@ static pendres_status steps_of(pendres_context *ctx, const pendres_pendulum *p, 
 }
 
 /* Put pendulums into the order of their numbers of steps, and of their own numbers. */
-static void order_by_steps(size_t n, const int *steps, size_t *order)
+static void order_by_steps(size_t n, const pendres_strobe_lane *lanes, size_t *order)
 {
   size_t count = 0;
   for (int least = 0; count < n;) {
     int next = INT_MAX;
     for (size_t i = 0; i < n; i++)
-      if (steps[i] > least && steps[i] < next) next = steps[i];
+      if (lanes[i].steps > least && lanes[i].steps < next) next = lanes[i].steps;
     for (size_t i = 0; i < n; i++)
-      if (steps[i] == next) order[count++] = i;
+      if (lanes[i].steps == next) order[count++] = i;
     least = next;
   }
+}
+
+/* Put the pendulums of one parameter set at their starts, and choose their steps. */
+static pendres_status load_all(pendres_context *ctx, const pendres_pendulum *p,
+                               const pendres_settle_starts *starts, double accuracy,
+                               pendres_strobe_lane *lanes)
+{
+  pendres_status status = PENDRES_OK;
+  speed_table *table = calloc(1, sizeof *table);
+  if (table == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a table of steps");
+  for (size_t i = 0; i < starts->n && status == PENDRES_OK; i++) {
+    const double x = starts->x[i], v = starts->v[i];
+    pendres_strobe_lane *lane = &lanes[i];
+    *lane = pendres_strobe_lane_at(p, x, v);
+    status = steps_of(ctx, p, pendres_steps_speed(p, x, v), accuracy, table, &lane->steps);
+    lane->added = i > 0 && lane[-1].steps == lane->steps
+                    ? lane[-1].added
+                    : pendres_settle_added(ctx, accuracy, lane->steps);
+  }
+  free(table);
+  return status;
 }
 
 pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogue *catalogue,
@@ -160,58 +182,34 @@ pendres_status pendres_settle_known(pendres_context *ctx, const pendres_catalogu
                                     pendres_settle_budget budget, pendres_outcome *outcome)
 {
   const size_t n = starts->n;
-  const double *x = starts->x, *v = starts->v;
-  const pendres_pendulum *p = &catalogue->pendulum;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
-  speed_table *table = calloc(1, sizeof *table);
-  int *steps = malloc((n + 1) * sizeof *steps);
   size_t *order = malloc((n + 1) * sizeof *order);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  pendres_outcome *found = malloc((n + 1) * sizeof *found);
-  double *doubt = malloc((n + 1) * sizeof *doubt), *found_doubt = malloc((n + 1) * sizeof *doubt);
-  if (table == NULL || steps == NULL || order == NULL || lanes == NULL || found == NULL ||
-      doubt == NULL || found_doubt == NULL) {
+  double *doubt = malloc((n + 1) * sizeof *doubt);
+  if (order == NULL || lanes == NULL || doubt == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for %zu pendulums", n);
     goto done;
   }
-  status = PENDRES_OK;
-  for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    status = steps_of(ctx, p, pendres_steps_speed(p, x[i], v[i]), accuracy, table, &steps[i]);
+  status = load_all(ctx, &catalogue->pendulum, starts, accuracy, lanes);
   if (status != PENDRES_OK) goto done;
-  order_by_steps(n, steps, order);
-  for (size_t k = 0; k < n; k++) {
-    const size_t i = order[k];
-    found[k] = pendres_settle_unresolved;
-    lanes[k] = pendres_strobe_lane_at(p, x[i], v[i]);
-    lanes[k].steps = steps[i];
-    lanes[k].added = k > 0 && lanes[k - 1].steps == steps[i]
-                       ? lanes[k - 1].added
-                       : pendres_settle_added(ctx, accuracy, steps[i]);
-    found_doubt[k] = NAN;
+  order_by_steps(n, lanes, order);
+  for (size_t i = 0; i < n; i++) {
+    outcome[i] = pendres_settle_unresolved;
+    doubt[i] = NAN;
   }
   long most = pendres_settle_last_budget(ctx, catalogue);
-  const long soon = pendres_settle_first_budget(p);
+  const long soon = pendres_settle_first_budget(&catalogue->pendulum);
   if (budget == PENDRES_SETTLE_SHORT && soon < most) most = soon;
-  pendres_settle_labelling l = {.catalogues = catalogue, .budget = &most, .outcome = found,
-                                .doubt = found_doubt};
+  pendres_settle_labelling l = {.catalogues = catalogue, .order = order, .budget = &most,
+                                .outcome = outcome, .doubt = doubt};
   status = pendres_settle_lanes(ctx, n, lanes, &l);
-  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
-    outcome[order[k]] = found[k];
-    doubt[order[k]] = found_doubt[k];
-  }
-  l.outcome = outcome;
-  l.doubt = doubt;
-  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
+  const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = starts->x, .v = starts->v,
                                             .accuracy = accuracy};
   if (status == PENDRES_OK) status = pendres_settle_certain(ctx, &labelled);
   ctx->cost.settled_pendulums += (double)n;
 done:
-  free(table);
-  free(steps);
   free(order);
   free(lanes);
-  free(found);
   free(doubt);
-  free(found_doubt);
   return status;
 }

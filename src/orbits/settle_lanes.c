@@ -176,11 +176,10 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
 }
 
 /* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
-static int escapes(const pendres_settle_labelling *l, size_t index, size_t i,
-                   const pendres_strobe_lane *lane)
+static int escapes(const pendres_settle_labelling *l, size_t i, const pendres_strobe_lane *lane)
 {
   if (pendres_escape_lost(lane->y, lane->w)) return 1;
-  l->before[index] = (pendres_settle_place){lane->y, lane->w, lane->worst};
+  l->before[i] = (pendres_settle_place){lane->y, lane->w, lane->worst};
   if (!pendres_model_escapes(lane->pendulum, lane->y, lane->w)) return 0;
   note_escape(l, i, lane, lane->worst);
   return 1;
@@ -188,12 +187,12 @@ static int escapes(const pendres_settle_labelling *l, size_t index, size_t i,
 
 /* Note an escape if a lane was on its way to infinity for certain at a step of its last period. */
 static pendres_status look_back(pendres_context *ctx, const pendres_settle_labelling *l,
-                                size_t index, const pendres_strobe_lane *lane)
+                                size_t i, const pendres_strobe_lane *lane)
 {
-  const pendres_settle_place *from = &l->before[index];
+  const pendres_settle_place *from = &l->before[i];
   int away = 0;
   const pendres_status status = pendres_escape_within(ctx, lane, from->y, from->w, &away);
-  if (away) note_escape(l, l->origin[index], lane, from->worst);
+  if (away) note_escape(l, i, lane, from->worst);
   return status;
 }
 
@@ -204,57 +203,67 @@ static size_t set_of(const pendres_settle_labelling *l, size_t i)
   return l->set != NULL ? l->set[i] : 0;
 }
 
-static int settle_look(void *arg, size_t index, const pendres_strobe_lane *lane)
+static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
 {
   const pendres_settle_labelling *l = arg;
-  const size_t i = l->origin[index], set = set_of(l, i);
+  const size_t set = set_of(l, i);
   const pendres_catalogue *c = &l->catalogues[set];
   if (trapped(l, i, c, lane)) return 1;
-  if (l->before != NULL && escapes(l, index, i, lane)) return 1;
+  if (l->before != NULL && escapes(l, i, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
   return lane->period >= l->budget[set];
 }
 
-pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
-                                pendres_settle_labelling *l)
+/* List the lanes that are to run: those that are unresolved, in no trap, and within their budget.
+   *covers, *open: whether any of them may be on chaos, or escape. */
+static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
+                             const pendres_settle_labelling *l, size_t *which, int *covers,
+                             int *open)
 {
   size_t left = 0;
-  int covers = 0, open = 0;
-  pendres_status status = PENDRES_OUT_OF_MEMORY;
-  pendres_strobe_lane *rest = malloc((n + 1) * sizeof *rest);
-  size_t *origin = malloc((n + 1) * sizeof *origin);
-  if (rest == NULL || origin == NULL) goto no_memory;
-  for (size_t i = 0; i < n; i++) {
-    const size_t set = set_of(l, i);
+  *covers = *open = 0;
+  for (size_t k = 0; k < n; k++) {
+    const size_t i = l->order != NULL ? l->order[k] : k, set = set_of(l, i);
     const pendres_catalogue *c = &l->catalogues[set];
     if (pendres_settle_ended(&l->outcome[i])) continue;
     if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
-    covers |= c->covers > 0;
-    open |= pendres_escape_possible(&c->pendulum);
-    origin[left] = i;
-    rest[left++] = lanes[i];
+    *covers |= c->covers > 0;
+    *open |= pendres_escape_possible(&c->pendulum);
+    which[left++] = i;
   }
+  return left;
+}
+
+pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
+                                    pendres_settle_labelling *l)
+{
+  int covers = 0, open = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  size_t *which = calloc(n + 1, sizeof *which);
+  if (which == NULL) goto no_memory;
+  const size_t left = list_unsettled(n, lanes, l, which, &covers, &open);
   if (covers) {
     l->streak = calloc(n, sizeof *l->streak);
     l->entry = calloc(n, sizeof *l->entry);
     if (l->streak == NULL || l->entry == NULL) goto no_memory;
   }
   if (open) {
-    l->before = malloc((left + 1) * sizeof *l->before);
+    l->before = malloc((n + 1) * sizeof *l->before);
     if (l->before == NULL) goto no_memory;
-    for (size_t k = 0; k < left; k++)
-      l->before[k] = (pendres_settle_place){rest[k].y, rest[k].w, rest[k].worst};
+    for (size_t k = 0; k < left; k++) {
+      const pendres_strobe_lane *from = &lanes[which[k]];
+      l->before[which[k]] = (pendres_settle_place){from->y, from->w, from->worst};
+    }
   }
-  l->origin = origin;
-  status = pendres_strobe_run(ctx, left, rest, settle_look, l);
-  for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-    pendres_outcome *o = &l->outcome[origin[i]];
-    lanes[origin[i]] = rest[i];
+  status = pendres_strobe_run_some(ctx, left, which, lanes, settle_look, l);
+  for (size_t k = 0; k < left && status == PENDRES_OK; k++) {
+    const size_t i = which[k];
+    pendres_outcome *o = &l->outcome[i];
     if (pendres_settle_ended(o)) continue;
     *o = pendres_settle_unresolved;
-    if (open && pendres_escape_lost(rest[i].y, rest[i].w))
-      status = look_back(ctx, l, i, &rest[i]);
+    if (open && pendres_escape_lost(lanes[i].y, lanes[i].w))
+      status = look_back(ctx, l, i, &lanes[i]);
   }
   goto done;
 no_memory:
@@ -266,7 +275,6 @@ done:
   l->streak = NULL;
   l->entry = NULL;
   l->before = NULL;
-  free(rest);
-  free(origin);
+  free(which);
   return status;
 }

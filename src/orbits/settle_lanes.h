@@ -19,9 +19,11 @@ typedef struct pendres_settle_history {
   double y[PENDRES_SETTLE_HISTORY], w[PENDRES_SETTLE_HISTORY]; /* unwrapped angle */
 } pendres_settle_history;
 
-/* Arrays are by the caller's numbers of lanes. */
+/* Arrays are by the numbers of lanes. */
 typedef struct pendres_settle_labelling {
   const pendres_catalogue *catalogues;
+  const size_t *order;      /* numbers of the lanes in the order in which they run; NULL: as they
+                               are numbered */
   const size_t *set;        /* of each lane; NULL: all belong to the first catalogue */
   const long *budget;       /* of each set, periods in all */
   pendres_outcome *outcome;
@@ -30,7 +32,6 @@ typedef struct pendres_settle_labelling {
                                the largest one that cannot change its label, which is certain up to
                                1. NULL: not kept */
   /* Of the run itself: */
-  const size_t *origin;     /* caller's numbers of the lanes under way */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
   double *entry;            /* largest variance of its error before that */
   struct pendres_settle_place *before; /* a period ago, of lanes that may escape; NULL: none may */
