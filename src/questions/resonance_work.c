@@ -22,21 +22,38 @@ pendres_status pendres_resonance_work_create(pendres_search_budget *budget,
                                              pendres_resonance_work *out)
 {
   const pendres_status status = pendres_search_create(budget, p, ensemble, &out->s);
-  out->gap = malloc(PENDRES_SEARCH_POINTS * sizeof *out->gap);
-  if (status != PENDRES_OK || out->gap != NULL) return status;
+  out->gaps = 0;
+  out->known = malloc(PENDRES_SEARCH_POINTS * sizeof *out->known);
+  if (status != PENDRES_OK || out->known != NULL) return status;
   return pendres_context_fail(budget->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
 }
 
 void pendres_resonance_work_free(pendres_resonance_work *w)
 {
   pendres_search_free(&w->s);
-  free(w->gap);
+  free(w->known);
 }
 
+/*
+ * Look at all gaps. Those that were there before are known, and most are: points have only been
+ * added. From the last gap on, so that what is known stays until it has been moved to its place.
+ */
 static void look_at_gaps(pendres_resonance_work *w)
 {
-  for (size_t i = 0; i + 1 < w->s.count; i++)
-    pendres_gap_look(&w->s.points[i], &w->s.points[i + 1], w->s.ensemble->members, &w->gap[i]);
+  size_t before = w->gaps;
+  w->gaps = w->s.count > 0 ? w->s.count - 1 : 0;
+  for (size_t i = w->gaps; i-- > 0;) {
+    const pendres_scan_point *a = &w->s.points[i], *b = a + 1;
+    pendres_known_gap next = {.from = a->where, .to = b->where, .jump = a->jump_to_next};
+    const pendres_known_gap *old = before > 0 ? &w->known[before - 1] : NULL;
+    const int met = old != NULL && old->from == next.from;
+    if (met && old->to == next.to && old->jump == next.jump)
+      next.gap = old->gap;
+    else
+      pendres_gap_look(a, b, w->s.ensemble->members, &next.gap);
+    if (met) before--;
+    w->known[i] = next;
+  }
 }
 
 /* The least that a point's area can be: members that did not settle may be on any state. */
@@ -65,7 +82,7 @@ static double threshold_of(const pendres_search *s)
 /* Whether a gap has to be looked into further. */
 static int open_gap(const pendres_resonance_work *w, size_t i, double threshold)
 {
-  const pendres_gap *g = &w->gap[i];
+  const pendres_gap *g = &w->known[i].gap;
   const double width = g->width / w->s.rate;
   if (!(g->bound > threshold)) return 0;
   if (g->kind == PENDRES_GAP_JUMP) return width > (g->mixed ? narrowest : narrow);
@@ -77,7 +94,7 @@ static double largest_bound(const pendres_resonance_work *w, double threshold)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (open_gap(w, i, threshold)) largest = fmax(largest, w->gap[i].bound);
+    if (open_gap(w, i, threshold)) largest = fmax(largest, w->known[i].gap.bound);
   return largest;
 }
 
@@ -94,9 +111,10 @@ static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *foun
   *found = 0;
   for (size_t i = 0; i + 1 < s->count; i++) {
     const pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-    if (w->gap[i].kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
-    if (w->gap[i].bound > largest) {
-      largest = w->gap[i].bound;
+    const pendres_gap *g = &w->known[i].gap;
+    if (g->kind != PENDRES_GAP_JUMP || a->fold_sought || a->at_fold || b->at_fold) continue;
+    if (g->bound > largest) {
+      largest = g->bound;
       gap = i;
     }
   }
@@ -136,9 +154,9 @@ static pendres_status resolve_gaps(pendres_resonance_work *w)
     if (largest == -INFINITY && sought) continue;
     if (largest == -INFINITY) return PENDRES_OK;
     for (size_t i = 0; i + 1 < s->count; i++) {
-      const double first = pendres_scan_frequency(&s->points[i]), width = w->gap[i].width;
+      const double first = pendres_scan_frequency(&s->points[i]), width = w->known[i].gap.width;
       /* Those that promise little may be ruled out by what the others turn up. */
-      if (!open_gap(w, i, threshold) || w->gap[i].bound < 0.5 * (threshold + largest))
+      if (!open_gap(w, i, threshold) || w->known[i].gap.bound < 0.5 * (threshold + largest))
         continue;
       for (int k = 1; k < SECTIONS && s->wishes < PENDRES_SEARCH_POINTS; k++)
         s->wish[s->wishes++] = first + width * k / SECTIONS;
@@ -156,7 +174,7 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
 {
   pendres_search *s = &w->s;
   pendres_scan_point *a = &s->points[i], *b = &s->points[i + 1];
-  const pendres_gap *g = &w->gap[i];
+  const pendres_gap *g = &w->known[i].gap;
   const double best = certain_area(best_point(s));
   pendres_resonance one;
   pendres_status status = PENDRES_OK;
@@ -188,7 +206,7 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
 /* Whether a gap was not resolved that may hold more than this area. */
 static int unresolved(const pendres_resonance_work *w, size_t i, double area)
 {
-  const pendres_gap *g = &w->gap[i];
+  const pendres_gap *g = &w->known[i].gap;
   if (!(g->bound > area)) return 0;
   if (open_gap(w, i, area) || g->mixed) return 1;
   return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
@@ -199,7 +217,7 @@ static double left_open(const pendres_resonance_work *w, double area)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (unresolved(w, i, area)) largest = fmax(largest, w->gap[i].bound);
+    if (unresolved(w, i, area)) largest = fmax(largest, w->known[i].gap.bound);
   return largest;
 }
 

@@ -11,10 +11,18 @@
 #include "questions/resonance_gap.h"
 #include "questions/resonance_search.h"
 
+/* A gap that was looked at, and what it was looked at with: points are known by their members. */
+typedef struct pendres_known_gap {
+  pendres_gap gap;
+  const signed char *from, *to;
+  int jump; /* the first point's jump_to_next */
+} pendres_known_gap;
+
 /* A search with its gaps. */
 typedef struct pendres_resonance_work {
   pendres_search s;
-  pendres_gap *gap; /* gap[i] lies between points i and i + 1 */
+  size_t gaps;              /* that were looked at last */
+  pendres_known_gap *known; /* known[i] lies between points i and i + 1 */
 } pendres_resonance_work;
 
 /* Free it in any case; the range in `s` is set by the caller. */
