@@ -93,7 +93,8 @@ pendres_status pendres_method_block_run(pendres_context *ctx, pendres_flow *flow
   const size_t n = job->n;
   const pendres_strobe_lane *lanes = job->lanes;
   pendres_status status = PENDRES_OK;
-  block b = {.ctx = ctx, .flow = flow, .job = job, .carry = fixed && lanes[pendres_strobe_which(job, 0)].added > 0.0};
+  block b = {.ctx = ctx, .flow = flow, .job = job,
+             .carry = fixed && lanes[pendres_strobe_which(job, 0)].added > 0.0};
   pendres_rank *queue = malloc(n * sizeof *queue);
   b.slot = malloc(pendres_flow_capacity(flow) * sizeof *b.slot);
   if (queue == NULL || b.slot == NULL) {

@@ -24,7 +24,7 @@ pendres_status pendres_strobe_run_some(pendres_context *ctx, size_t n, const siz
                                        pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                        void *arg);
 
-/* The same as for all at another tolerance, which counts for methods that choose their own steps. */
+/* All of them at another tolerance, which counts for methods that choose their own steps. */
 pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance, size_t n,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);
