@@ -72,10 +72,9 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   const double *x = from->x, *v = from->v;
   const double accuracy = pendres_accuracy_to_settle(ctx);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);
-  pendres_strobe_lane *starts = malloc((n + 1) * sizeof *starts);
   double *doubt = malloc((n + 1) * sizeof *doubt);
   long *budget = malloc((sets + 1) * sizeof *budget);
-  if (lanes == NULL || starts == NULL || doubt == NULL || budget == NULL) {
+  if (lanes == NULL || doubt == NULL || budget == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
@@ -88,7 +87,6 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     else
       status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
   }
-  if (status == PENDRES_OK) memcpy(starts, lanes, n * sizeof *lanes);
   for (size_t s = 0; s < sets; s++) {
     budget[s] = pendres_settle_last_budget(ctx, &catalogues[s]);
     const long first = pendres_settle_first_budget(&catalogues[s].pendulum);
@@ -101,7 +99,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   if (status == PENDRES_OK)
     status = pendres_settle_hunt(
       ctx, &(pendres_settle_quarry){.sets = sets, .catalogues = catalogues, .budget = budget,
-                                    .n = n, .set = set, .starts = starts, .lanes = lanes,
+                                    .n = n, .set = set, .x = x, .v = v, .lanes = lanes,
                                     .outcome = outcome});
   const pendres_settle_labelled labelled = {.job = &l, .n = n, .x = x, .v = v,
                                             .accuracy = accuracy};
@@ -110,7 +108,6 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
   ctx->cost.settled_pendulums += (double)n;
 done:
   free(lanes);
-  free(starts);
   free(doubt);
   free(budget);
   return status;

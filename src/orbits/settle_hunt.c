@@ -159,7 +159,8 @@ static pendres_status repeat(pendres_context *ctx, lost_lanes *l, const pendres_
     l->index[n] = l->index[i];
     l->set[n] = q->set[l->index[i]];
     l->outcome[n] = pendres_settle_unresolved;
-    l->lanes[n++] = q->starts[l->index[i]];
+    l->lanes[n++] = pendres_settle_load_like(&q->lanes[l->index[i]], q->x[l->index[i]],
+                                             q->v[l->index[i]]);
   }
   job->outcome = l->outcome;
   job->set = l->set;

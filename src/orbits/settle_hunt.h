@@ -16,7 +16,8 @@ typedef struct pendres_settle_quarry {
   long *budget;                  /* periods of each set, which have been spent; is raised */
   size_t n;
   const size_t *set;             /* of each pendulum, those of a set side by side */
-  const pendres_strobe_lane *starts, *lanes; /* where they began and where they are */
+  const double *x, *v;              /* where they began, */
+  const pendres_strobe_lane *lanes; /* and where they are */
   pendres_outcome *outcome;
 } pendres_settle_quarry;
 
