@@ -114,8 +114,8 @@ typedef struct pendres_sum {
 /*
  * One operation on vectors; what is NULL says which:
  *   sum, no slope     the sum
- *   sum, slope        the sum, then slope = right-hand side at its z; unless keep is set nobody
- *                     needs z any more, and its contents are undefined
+ *   sum, slope        the sum, then slope = right-hand side at its z; unless keep is set z is not
+ *                     needed any more, and its contents are undefined
  *   from, slope       slope = right-hand side at from, another vector
  *   from, to          to = from
  *   from, carry       errors or tangents of the strip's lanes over a step of this length that ends
@@ -134,11 +134,11 @@ typedef struct pendres_operation {
 } pendres_operation;
 
 /*
- * What each lane is off by, as variances: of y, of y and w, of w; and the variance that a step adds
- * to y, to w by 1/omega^2 as much. Carried along with steps of second order, which cost little
- * beside the state's own: a growth within a few per cent is all that is asked of them. What a step
- * makes of w's error is the same all the way, and not computed again and again: a share that the
- * drag keeps, and what the spring, times cos y, adds of y's.
+ * The covariance of the error of each lane: of y, of y and w, of w; and the variance that a step
+ * adds to that of y, while that of w gets 1/omega^2 times as much. It is advanced by steps of
+ * second order, which cost little compared with those of the state and need be right only to a few
+ * per cent. Two factors of a step are constants: `keep`, by which the drag reduces w's error, and
+ * `kick`, which, times cos y, adds the spring's share of y's.
  */
 typedef struct pendres_carried {
   double *yy, *yw, *ww;
@@ -147,17 +147,17 @@ typedef struct pendres_carried {
 } pendres_carried;
 
 /*
- * A tangent vector of each lane: how far a neighbour would be away, divided by something small. In
- * place of its w stands w + friction y / 2, by which the drag drops out of the equation but for
- * what it keeps of both over a step. Carried along by steps of their own, one cosine each: once
- * with the steps of the state, and once with steps twice as long, which tell how exact that is.
+ * A tangent vector of each lane: the distance of a neighbour, divided by a small number. Its w is
+ * replaced by w + friction y / 2, so that the drag only multiplies both components by `keep` in
+ * each step. Tangents are advanced by steps of their own, with one cosine each: once with the steps
+ * of the state, and once with steps twice as long, from which the error follows.
  */
 typedef struct pendres_tangents {
   double *y[2], *w[2];
   const double *keep; /* exp(-friction step / 2) */
 } pendres_tangents;
 
-/* What a block carries along beside its states. */
+/* What a block advances beside its states. */
 typedef enum pendres_flow_load {
   PENDRES_FLOW_NOTHING,
   PENDRES_FLOW_ERRORS,

@@ -1,17 +1,18 @@
 /*
- * lanes_replay.h -- the operations of a drive period, kept to be done again.
+ * lanes_replay.h -- the operations of a drive period, recorded to be repeated.
  *
- * Owns: what ARKODE has asked of a block from the start of a period to its end. With fixed steps it
- * asks for the same every period, whatever the numbers are, and asking costs more than doing where
- * few pendulums are left in a block. So the first two periods of a kind are recorded; where they
- * are the same, operation by operation, those that follow are done from the record.
+ * Owns: the operations that ARKODE has requested of a block from the start of a period to its end.
+ * With fixed steps they are the same in every period, whatever the numbers are, and where few
+ * pendulums are left in a block ARKODE takes longer than the operations. The first two periods of a
+ * kind are therefore recorded; if they are the same, operation by operation, the following periods
+ * are computed from the recording, without ARKODE.
  */
 #ifndef PENDRES_LANES_REPLAY_H
 #define PENDRES_LANES_REPLAY_H
 
 #include "engine/lanes_shape.h"
 
-/* Operations in their order, in parts: each ends where the numbers are to be seen. */
+/* Operations in their order, in parts: each part ends where numbers are read. */
 typedef struct pendres_lanes_replay {
   size_t operations, sums, parts;
   size_t slopes; /* right-hand sides among the operations */
@@ -20,7 +21,7 @@ typedef struct pendres_lanes_replay {
   size_t *end;      /* how many operations come before the end of each part */
 } pendres_lanes_replay;
 
-/* Periods that ask for the same. */
+/* Periods of one kind have the same operations. */
 typedef struct pendres_lanes_replay_kind {
   int steps;
   int span;    /* the caller's: what is a period, and where it is looked at */

@@ -1,18 +1,17 @@
 /*
- * lanes_tape.h -- operations on vectors of a block that were put off.
+ * lanes_tape.h -- operations on vectors of a block that are deferred, on a tape.
  *
- * Owns: the list of what is yet to be done, and doing it. ARKODE asks for linear
- * combinations, copies and slopes; with fixed steps it never looks at a number,
- * and with adaptive steps once a step, at the norm. Until somebody looks, the
- * operations are only written down; then each strip of lanes runs through all of
- * them while its vectors stay in the nearest cache. Lanes never mix and each
- * strip does the operations in their order, so the bytes are the same as if
- * each had been done at once.
+ * Owns: the list of deferred operations, and carrying them out. ARKODE requests linear
+ * combinations, copies and slopes. With fixed steps it never reads a number, with adaptive steps
+ * only the norm, once a step. Until a number is read, operations are only written on the tape. Then
+ * each strip of lanes goes through all of them while its vectors stay in the nearest cache. Lanes
+ * do not interact, and each strip does the operations in their order, so that the bytes are the
+ * same as if each operation had been carried out at once.
  *
- * A sum that is followed by the slope at it becomes one operation. What is overwritten
- * before anybody read it is not done at all: of the vectors that ARKODE keeps up for its
- * interpolation, nobody needs more than the last. Every period asks for the same sums again: a
- * sum is checked against those already known, and its terms are sorted out once.
+ * A sum that is followed by the slope at it becomes one operation. An operation whose result is
+ * overwritten before it is read is left out: ARKODE updates several vectors for its interpolation,
+ * of which only the last values are needed. Every period requests the same sums again; a sum is
+ * compared with the known ones, and its terms are sorted out once.
  */
 #ifndef PENDRES_LANES_TAPE_H
 #define PENDRES_LANES_TAPE_H
@@ -56,7 +55,7 @@ void pendres_lanes_tape_slope(pendres_lanes_shape *s, N_Vector y, N_Vector slope
 void pendres_lanes_tape_carry(pendres_lanes_shape *s, N_Vector y, double step, double cos_theta,
                               int second);
 
-/* Do all that was put off: before anybody looks at a number or changes one. */
+/* Carry out all deferred operations. To be called before a number is read or changed. */
 void pendres_lanes_tape_run(pendres_lanes_shape *s);
 
 /* Add all that is done from now on to this record, which is not owned; NULL: to none. */

@@ -29,21 +29,21 @@ pendres_status pendres_strobe_run_within(pendres_context *ctx, double tolerance,
                                          pendres_strobe_lane *lanes, pendres_strobe_visit *visit,
                                          void *arg);
 
-/* A lane at a state (x, v), whole turns taken out: steps and errors are the caller's to set. */
+/* A lane at a state (x, v), without its whole turns; the caller sets steps and errors. */
 pendres_strobe_lane pendres_strobe_lane_at(const pendres_pendulum *p, double x, double v);
-/* Where it is now. */
+/* The present state of a lane. */
 void pendres_strobe_lane_out(const pendres_strobe_lane *l, double *x, double *v);
 
 /*
- * How far off a run may be that is so far from a better one. The better one is off as well, by less
- * than half as much: twice the steps leave a hundredth or less at order eight, a thirtieth at
- * five; a tenth of the tolerance leaves somewhat more than a tenth. So the distance is at least
- * half the error. Runs that are a tenth of a radian apart have lost each other, and nothing is
- * known (infinite).
+ * The error estimate of a run at this distance from a better one. The better one has an error of
+ * its own, less than half of the run's: with twice the steps a hundredth or less at order eight, a
+ * thirtieth at order five; with a tenth of the tolerance somewhat more than a tenth. The distance
+ * is therefore at least half the error. Where the runs are a tenth of a radian apart they have
+ * separated, and the estimate is infinite.
  */
 double pendres_strobe_doubt(double distance);
 
-/* Say that the state of a pendulum is no number after some periods. */
+/* Fail with the message that the state of a pendulum is not a number after `period` periods. */
 pendres_status pendres_strobe_lost(pendres_context *ctx, const pendres_pendulum *p, long period);
 
 #endif

@@ -1,9 +1,9 @@
 /*
  * orbit_pair.h -- the coarser of the two computations that an orbit's errors come from.
  *
- * Errors of two numbers of an orbit belong together: where finite steps shift a resonance, they
- * shift both its peak and the phase lag. How well such a pair is known is told by its values in
- * both computations, and not by the errors of the two numbers.
+ * Errors of two numbers of an orbit may be correlated: where finite steps shift a resonance, they
+ * shift both its peak and the phase lag. The error of such a pair follows from its values in both
+ * computations, not from the errors of the two numbers.
  */
 #ifndef PENDRES_ORBIT_PAIR_H
 #define PENDRES_ORBIT_PAIR_H

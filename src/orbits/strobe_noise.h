@@ -1,10 +1,10 @@
 /*
  * strobe_noise.h -- rounding along trajectories.
  *
- * Owns: how large it is in a step. Lanes carry along what becomes of it (flow.h): a trajectory near
- * a separatrix amplifies rounding by orders of magnitude, and two runs may then agree by chance.
- * With strong friction errors grow so and fade again within a period, and the derivative of the map
- * over a whole period tells nothing of that.
+ * Owns: the size of rounding errors in a step. Lanes carry their covariance (flow.h), since a
+ * trajectory near a separatrix amplifies rounding by orders of magnitude, and two runs may then
+ * agree by chance. With strong friction errors may grow as much and decay again within a period,
+ * which the derivative of the map over a whole period does not show.
  */
 #ifndef PENDRES_STROBE_NOISE_H
 #define PENDRES_STROBE_NOISE_H
@@ -17,8 +17,8 @@
    to be random and independent: each step adds the square of this to the variance. */
 double pendres_strobe_noise_of_step(pendres_table table);
 
-/* The standard error of the larger of y and v, from what a lane has carried; infinite where it
-   exceeds all bounds. */
+/* The larger of the standard errors of y and v, from the covariance that a lane has carried;
+   infinite if it has overflowed. */
 double pendres_strobe_noise_of(double drive_frequency, const pendres_flow_error *carried);
 
 #endif

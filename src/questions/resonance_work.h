@@ -1,9 +1,9 @@
 /*
  * resonance_work.h -- one search for a resonance, step by step.
  *
- * Owns: what a search looks at next, given what it has seen, and what it has found in the end.
- * Between two steps somebody evaluates the frequencies that it wishes (pendres_search_add): so
- * several searches go side by side.
+ * Owns: which frequencies a search needs next, given those that it has, and its result. Between two
+ * steps the caller evaluates the frequencies that the search asks for (pendres_search_add), so that
+ * several searches run side by side.
  */
 #ifndef PENDRES_RESONANCE_WORK_H
 #define PENDRES_RESONANCE_WORK_H
@@ -32,10 +32,10 @@ pendres_status pendres_resonance_work_create(pendres_search_budget *budget,
                                              pendres_resonance_work *out);
 void pendres_resonance_work_free(pendres_resonance_work *w);
 
-/* The next wishes; none: the search is over, and *out its resonance. */
+/* The frequencies that it needs next; if none, the search is over, and *out is its resonance. */
 pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_resonance *out);
 
-/* pendres_resonance_find_ensemble with a budget of work of the caller's: about seconds of one
+/* pendres_resonance_find_ensemble() with a budget of work, which is about seconds of one
    processor. */
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
                                              double lowest, double highest,
