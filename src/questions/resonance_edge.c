@@ -59,7 +59,28 @@ static int jump_is_right(const pendres_scan_point *a, const pendres_scan_point *
   return right >= left;
 }
 
-/* Halve the gap between two different points until it is narrower than `width`. */
+/* A point between two others: the middle or, where no member settles there, as next to the end of a
+   state that all are on, one nearer to either. *found: 0 if no member settles at any. */
+static pendres_status point_between(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                    const pendres_scan_point *a, const pendres_scan_point *b,
+                                    pendres_scan_point *m, int *found)
+{
+  static const double shares[] = {0.5, 0.75, 0.25};
+  const double lower = a->response.pendulum.drive_frequency;
+  const double width = b->response.pendulum.drive_frequency - lower;
+  *found = 0;
+  for (size_t k = 0; k < sizeof shares / sizeof *shares && !*found; k++) {
+    pendres_pendulum p = a->response.pendulum;
+    p.drive_frequency = lower + shares[k] * width;
+    const pendres_status status = pendres_scan_evaluate(ctx, 1, &p, ensemble, NULL, m);
+    if (status != PENDRES_OK) return status;
+    *found = !isnan(m->response.mean_loop_area);
+  }
+  return PENDRES_OK;
+}
+
+/* Halve the gap between two different points until it is narrower than `width`, or nothing settles
+   within. */
 static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensemble, double width,
                              pendres_scan_point *a, pendres_scan_point *b)
 {
@@ -67,12 +88,11 @@ static pendres_status bisect(pendres_context *ctx, const pendres_ensemble *ensem
     const double lower = a->response.pendulum.drive_frequency;
     const double upper = b->response.pendulum.drive_frequency;
     const double middle = 0.5 * (lower + upper);
-    if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
     pendres_scan_point m;
-    pendres_pendulum p = a->response.pendulum;
-    p.drive_frequency = middle;
-    const pendres_status status = pendres_scan_evaluate(ctx, 1, &p, ensemble, NULL, &m);
-    if (status != PENDRES_OK) return status;
+    int found = 0;
+    if (upper - lower <= width || middle <= lower || middle >= upper) return PENDRES_OK;
+    const pendres_status status = point_between(ctx, ensemble, a, b, &m, &found);
+    if (status != PENDRES_OK || !found) return status;
     if (jump_is_right(a, &m, b))
       *a = m;
     else
@@ -164,40 +184,55 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
   return status;
 }
 
-pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
-                                           const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_point *at,
-                                           double *beside, int *found)
+/* A fold between two points at which a state ends, and the response of the others there: those of
+   `without`. side: where the state exists. *beside: a frequency next to it on that side. */
+static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ensemble,
+                              const pendres_attractor *state, const pendres_scan_point *without,
+                              double side, const double range[2], pendres_scan_point *at)
 {
   pendres_fold fold;
-  const double lower = a->response.pendulum.drive_frequency;
-  const double upper = b->response.pendulum.drive_frequency;
-  const pendres_attractor *left = ending_state(&a->response, &b->response);
-  const pendres_attractor *right = ending_state(&b->response, &a->response);
-  const pendres_attractor *state = left != NULL ? left : right;
-  const pendres_scan_point *without = left != NULL ? b : a;
-  const double side = left != NULL ? -1.0 : 1.0; /* where the state exists */
-  const double rate = pendres_model_units_of(&a->response.pendulum).rate;
-  *found = 0;
-  if (state == NULL || (left != NULL && right != NULL) || without->response.states == 0)
-    return PENDRES_OK;
+  int decides = 0;
   pendres_status status = pendres_fold_find(ctx, &state->orbit, &fold);
   if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
   if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
-  if (!(fold.value > lower && fold.value < upper)) return PENDRES_OK;
-  int decides = 0;
+  if (!(fold.value > range[0] && fold.value < range[1])) return PENDRES_OK;
   status = fold_decides(ctx, ensemble, &fold, side, &decides);
   if (status != PENDRES_OK || !decides) return status;
-
   status = pendres_scan_follow(ctx, without, fold.value, at);
   if (status != PENDRES_OK) return status;
   at->at_fold = side < 0.0 ? -1 : 1;
   at->fold = fold.value;
   at->fold_error = fold.value_error;
-  const double room = fabs(fold.value - (side < 0 ? lower : upper));
-  *beside = fold.value + side * fmin(1e-3 * rate, 0.5 * room);
-  *found = 1;
-  return PENDRES_OK;
+  return status;
+}
+
+pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                           const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_point *at,
+                                           double *beside, int *found)
+{
+  const double range[2] = {a->response.pendulum.drive_frequency,
+                           b->response.pendulum.drive_frequency};
+  const double rate = pendres_model_units_of(&a->response.pendulum).rate;
+  /* Where all members change at once, either's state may be the one that ends; in a wide gap states
+     that go on may have moved so far that they are not known again. */
+  const double close = 1e-4;
+  const pendres_attractor *ends[2] = {ending_state(&a->response, &b->response),
+                                      ending_state(&b->response, &a->response)};
+  const pendres_scan_point *without[2] = {b, a};
+  pendres_status status = PENDRES_OK;
+  *found = 0;
+  if (ends[0] != NULL && ends[1] != NULL && range[1] - range[0] > close * rate) return status;
+  for (int k = 0; k < 2 && !*found && status == PENDRES_OK; k++) {
+    const double side = k == 0 ? -1.0 : 1.0;
+    at->at_fold = 0;
+    if (ends[k] == NULL || without[k]->response.states == 0) continue;
+    status = fold_of(ctx, ensemble, ends[k], without[k], side, range, at);
+    if (status != PENDRES_OK || !at->at_fold) continue;
+    *beside = at->fold + side * fmin(1e-3 * rate, 0.5 * fabs(at->fold - range[k]));
+    *found = 1;
+  }
+  return status;
 }
 
 /* The resonance at a point, with what follows from the error of its frequency; side: from where on

@@ -203,21 +203,22 @@ static pendres_status choose_from(pendres_resonance_work *w, size_t i, int jumps
 
 /* ---- what is left open ---- */
 
-/* Whether a gap was not resolved that may hold more than this area. */
-static int unresolved(const pendres_resonance_work *w, size_t i, double area)
+/* Whether a gap was not resolved that may hold more than this area. scanned: it is that of a point
+   of the scan, and halving has found one of several jumps in a gap, and less there. */
+static int unresolved(const pendres_resonance_work *w, size_t i, double area, int scanned)
 {
   const pendres_gap *g = &w->known[i].gap;
   if (!(g->bound > area)) return 0;
   if (open_gap(w, i, area) || g->mixed) return 1;
-  return g->kind != PENDRES_GAP_PLAIN && pendres_search_ended(&w->s);
+  return g->kind != PENDRES_GAP_PLAIN && (scanned || pendres_search_ended(&w->s));
 }
 
 /* The largest area that gaps which were not resolved may hold; minus infinity if there are none. */
-static double left_open(const pendres_resonance_work *w, double area)
+static double left_open(const pendres_resonance_work *w, double area, int scanned)
 {
   double largest = -INFINITY;
   for (size_t i = 0; i + 1 < w->s.count; i++)
-    if (unresolved(w, i, area)) largest = fmax(largest, w->known[i].gap.bound);
+    if (unresolved(w, i, area, scanned)) largest = fmax(largest, w->known[i].gap.bound);
   return largest;
 }
 
@@ -235,10 +236,11 @@ static void spread(double *error, double a, double b)
 static void make_ragged(const pendres_resonance_work *w, double largest, pendres_resonance *out)
 {
   pendres_response *r = &out->response;
+  const int scanned = out->peak == PENDRES_PEAK_RAGGED;
   out->peak = PENDRES_PEAK_RAGGED;
   out->loop_area_error += largest - out->loop_area;
   for (size_t i = 0; i + 1 < w->s.count; i++) {
-    if (!unresolved(w, i, out->loop_area)) continue;
+    if (!unresolved(w, i, out->loop_area, scanned)) continue;
     for (size_t k = i; k <= i + 1; k++) {
       const pendres_response *q = &w->s.points[k].response;
       spread(&out->frequency_error, q->pendulum.drive_frequency, out->frequency);
@@ -295,7 +297,8 @@ static pendres_status choose(pendres_resonance_work *w, pendres_resonance *out, 
     if (best == first || best == last) return at_the_end(w, best);
     *out = as_scanned(best);
   }
-  const double largest = left_open(w, out->loop_area + out->loop_area_error);
+  const double largest = left_open(w, out->loop_area + out->loop_area_error,
+                                   out->peak == PENDRES_PEAK_RAGGED);
   if (out->peak == PENDRES_PEAK_RAGGED || largest > -INFINITY)
     make_ragged(w, fmax(largest, out->loop_area), out);
   out->complete = !s->coarse && (out->peak != PENDRES_PEAK_RAGGED || !pendres_search_over(s));
