@@ -111,12 +111,50 @@ static const struct { const char *words, *units; } about[DECK_AXIS_COUNT] = {
   [DECK_AXIS_TOLERANCE] = { "tolerance asked for", "1" },
 };
 
-pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
+#define PARAMETER(axis, singular, plural, above, in_tables, words, kind) \
+  {DECK_AXIS_##axis, singular, plural, "groups of " plural, above, in_tables, words, \
+   PENDRES_QUANTITY_##axis, kind}
+const scene_parameter scene_parameters[SCENE_PARAMETERS] = {
+  PARAMETER(DAMPING, "damping", "dampings", "damping   ", "damping", "friction coefficient",
+            PENDRES_DAMPING),
+  PARAMETER(DRIVE_FREQUENCY, "drive frequency", "drive frequencies", "drive     ", "frequency",
+            "drive frequency", PENDRES_DRIVE_FREQUENCY),
+  PARAMETER(DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes", "drive     ",
+            "drive_amplitude", "drive amplitude", PENDRES_DRIVE_AMPLITUDE),
+  PARAMETER(TORQUE, "torque", "torques", "torque    ", "torque", "torque", PENDRES_TORQUE),
+  PARAMETER(PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes", "parametric",
+            "parametric_amplitude", "amplitude of the parametric drive",
+            PENDRES_PARAMETRIC_AMPLITUDE),
+  PARAMETER(DRIVE_PERIOD, "drive period", "drive periods", "drive     ", "period", "drive period",
+            PENDRES_DRIVE_FREQUENCY),
+};
+
+const scene_parameter *scene_parameter_of(deck_axis_id axis)
+{
+  int i = 0;
+  while (i + 1 < SCENE_PARAMETERS && scene_parameters[i].axis != axis) i++;
+  return &scene_parameters[i];
+}
+
+static pendres_status write_dimension(scene_run *run, const char *group, deck_axis_id axis,
+                                      const char *words)
 {
   const deck_axis *a = &run->deck->axis[axis];
   return scene_stored(run, pendres_store_dimension(run->store, group, deck_axis_name(axis),
-                                                   a->count, a->value, about[axis].words,
-                                                   about[axis].units));
+                                                   a->count, a->value, words, about[axis].units));
+}
+
+pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
+{
+  return write_dimension(run, group, axis, about[axis].words);
+}
+
+pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis)
+{
+  /* Short ones would say too little of these. */
+  const int in_full = axis == DECK_AXIS_TORQUE || axis == DECK_AXIS_PARAMETRIC_AMPLITUDE;
+  return write_dimension(run, "", axis,
+                         in_full ? about[axis].words : scene_parameter_of(axis)->one);
 }
 
 pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
@@ -256,19 +294,12 @@ pendres_ensemble scene_ensemble(const deck *d)
 
 pendres_sweep scene_sweep(const deck *d)
 {
-  static const struct { deck_axis_id id; pendres_quantity quantity; } axes[] = {
-    { DECK_AXIS_DAMPING, PENDRES_QUANTITY_DAMPING },
-    { DECK_AXIS_DRIVE_AMPLITUDE, PENDRES_QUANTITY_DRIVE_AMPLITUDE },
-    { DECK_AXIS_DRIVE_FREQUENCY, PENDRES_QUANTITY_DRIVE_FREQUENCY },
-    { DECK_AXIS_DRIVE_PERIOD, PENDRES_QUANTITY_DRIVE_PERIOD },
-    { DECK_AXIS_TORQUE, PENDRES_QUANTITY_TORQUE },
-    { DECK_AXIS_PARAMETRIC_AMPLITUDE, PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE },
-  };
   pendres_sweep s = { .pendulum = deck_pendulum(d) };
-  for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
-    const deck_axis *a = &d->axis[axes[i].id];
-    if (a->count > 0)
-      s.axis[s.axes++] = (pendres_axis){ axes[i].quantity, a->count, a->value };
+  for (int axis = 0; axis < DECK_AXIS_COUNT; axis++) {
+    const scene_parameter *of = scene_parameter_of((deck_axis_id)axis);
+    const deck_axis *a = &d->axis[axis];
+    if (a->count > 0 && (int)of->axis == axis)
+      s.axis[s.axes++] = (pendres_axis){ of->quantity, a->count, a->value };
   }
   return s;
 }

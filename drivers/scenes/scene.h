@@ -85,6 +85,26 @@ pendres_status scene_write_units(scene_run *run);
 /* Define the measures in the file, in their attributes `comment`; called by the above. */
 pendres_status scene_define(scene_run *run);
 
+/* What is said of an axis that is a parameter of the pendulum, and what it is to the library. */
+typedef struct scene_parameter {
+  deck_axis_id axis;
+  const char *one, *many, *groups; /* "damping", "dampings", "groups of dampings" */
+  const char *heading;             /* above its values in a table */
+  const char *name, *long_name;    /* in tables of orbits */
+  pendres_quantity quantity;
+  pendres_parameter parameter;
+} scene_parameter;
+
+/* All of them; the first SCENE_PLACES are parameters of orbits. */
+enum { SCENE_PARAMETERS = 6, SCENE_PLACES = 5 };
+extern const scene_parameter scene_parameters[SCENE_PARAMETERS];
+
+/* That of an axis, which is one. */
+const scene_parameter *scene_parameter_of(deck_axis_id axis);
+
+/* The dimension of such an axis in scenes that call it by its short name. */
+pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis);
+
 /* The two axes of a scene's points, the slower first: damping and the drive's frequency or period;
    where the drive amplitude is an axis it takes the place of the one that has one value. */
 void scene_plane(const deck *d, deck_axis_id axis[2]);

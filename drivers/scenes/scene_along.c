@@ -5,31 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The axes that stand for parameters. */
-static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
-                                           DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
-                                           DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
-enum { PARAMETERS = sizeof parameters / sizeof *parameters };
-
 void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
 {
-  switch (axis) {
-  case DECK_AXIS_DAMPING: p->damping = value; break;
-  case DECK_AXIS_DRIVE_AMPLITUDE: p->drive_amplitude = value; break;
-  case DECK_AXIS_DRIVE_FREQUENCY: p->drive_frequency = value; break;
-  case DECK_AXIS_DRIVE_PERIOD: p->drive_frequency = 2.0 * PENDRES_PI / value; break;
-  case DECK_AXIS_TORQUE: p->torque = value; break;
-  case DECK_AXIS_PARAMETRIC_AMPLITUDE: p->parametric_amplitude = value; break;
-  default: break;
-  }
+  pendres_parameter_set(scene_parameter_of(axis)->parameter,
+                        axis == DECK_AXIS_DRIVE_PERIOD ? 2.0 * PENDRES_PI / value : value, p);
 }
 
 pendres_pendulum scene_along_pendulum(const deck *d)
 {
   pendres_pendulum p = deck_pendulum(d);
-  for (int i = 0; i < PARAMETERS; i++)
-    if (d->axis[parameters[i]].count > 0)
-      scene_along_set(&p, parameters[i], d->axis[parameters[i]].value[0]);
+  for (int i = 0; i < SCENE_PARAMETERS; i++) {
+    const deck_axis *a = &d->axis[scene_parameters[i].axis];
+    if (a->count > 0) scene_along_set(&p, scene_parameters[i].axis, a->value[0]);
+  }
   return p;
 }
 
@@ -38,17 +26,6 @@ const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis)
   *axis = DECK_AXIS_DAMPING;
   (void)deck_moving(d, 1, axis);
   return &d->axis[*axis];
-}
-
-pendres_parameter scene_along_parameter(deck_axis_id axis)
-{
-  switch (axis) {
-  case DECK_AXIS_DAMPING: return PENDRES_DAMPING;
-  case DECK_AXIS_DRIVE_AMPLITUDE: return PENDRES_DRIVE_AMPLITUDE;
-  case DECK_AXIS_TORQUE: return PENDRES_TORQUE;
-  case DECK_AXIS_PARAMETRIC_AMPLITUDE: return PENDRES_PARAMETRIC_AMPLITUDE;
-  default: return PENDRES_DRIVE_FREQUENCY;
-  }
 }
 
 /* List the attractors that there are instead, as in "sa, la". */
@@ -195,8 +172,8 @@ pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pen
   }
   farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
              deck_axis_name(way->axis), way->value[0]);
-  status = pendres_hysteresis_follow(ctx, &p, scene_along_parameter(way->axis), x, v, way->n,
-                                     way->value, &h);
+  status = pendres_hysteresis_follow(ctx, &p, scene_parameter_of(way->axis)->parameter, x, v,
+                                     way->n, way->value, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);

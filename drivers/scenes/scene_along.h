@@ -19,9 +19,6 @@ void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value);
 /* The axis that a deck moves, and its values. */
 const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis);
 
-/* The library's number of an axis. */
-pendres_parameter scene_along_parameter(deck_axis_id axis);
-
 /*
  * The attractor that a deck's `start` names at some parameters: "sa", "la", or its number from 1
  * on; of a chaotic one orbit.x and orbit.v are a point on it. PENDRES_NOT_FOUND if there is none;

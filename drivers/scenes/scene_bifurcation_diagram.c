@@ -73,7 +73,7 @@ static pendres_status find_cascade(const work *w, pendres_context *ctx, farm_rec
   if (r == NULL) return PENDRES_OUT_OF_MEMORY;
   farm_point(out, 1, "the cascade of doublings");
   if (scene_along_closed(&w->path.point[0]))
-    status = pendres_cascade_find(ctx, first, scene_along_parameter(w->axis),
+    status = pendres_cascade_find(ctx, first, scene_parameter_of(w->axis)->parameter,
                                   w->path.point[w->values - 1].value, &r->cascade);
   const int late = farm_gave_up(out, status);
   if (late) status = scene_verdict_point(&r->verdict, status, NULL, out);

@@ -154,7 +154,7 @@ static pendres_status write_cusp(const scene_lines *l)
   const scene_place place =
     c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
   pendres_status status = PENDRES_OK;
-  for (size_t k = 0; k < SCENE_PARAMETERS && status == PENDRES_OK; k++) {
+  for (size_t k = 0; k < SCENE_PLACES && status == PENDRES_OK; k++) {
     const scene_parameter *of = &scene_parameters[k];
     const double value[2] = {c != NULL ? place.value[k] : NAN, c != NULL ? place.error[k] : NAN};
     char name[64], words[64];

@@ -24,24 +24,14 @@ static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], dou
     scene_along_set(&p, held[i], scene_fixed(d, held[i]));
   return (pendres_phase_grid){.pendulum = p,
                               .options = {.ensemble = scene_ensemble(d),
-                                          .parameter = scene_along_parameter(axis[1]),
+                                          .parameter = scene_parameter_of(axis[1])->parameter,
                                           .spacing = spacing},
                               .values = along->count,
                               .value = along->value,
-                              .across = scene_along_parameter(axis[0]),
+                              .across = scene_parameter_of(axis[0])->parameter,
                               .lines = across->count,
                               .line_value = across->value};
 }
-
-const scene_parameter scene_parameters[SCENE_PARAMETERS] = {
-  {DECK_AXIS_DAMPING, "damping", "dampings", "damping", "friction coefficient"},
-  {DECK_AXIS_DRIVE_FREQUENCY, "drive frequency", "drive frequencies", "frequency",
-   "drive frequency"},
-  {DECK_AXIS_DRIVE_AMPLITUDE, "drive amplitude", "drive amplitudes", "drive_amplitude",
-   "drive amplitude"},
-  {DECK_AXIS_TORQUE, "torque", "torques", "torque", "torque"},
-  {DECK_AXIS_PARAMETRIC_AMPLITUDE, "parametric amplitude", "parametric amplitudes",
-   "parametric_amplitude", "amplitude of the parametric drive"}};
 
 /* So many of them are in all tables. */
 enum { ALWAYS = 2 };
@@ -49,8 +39,8 @@ enum { ALWAYS = 2 };
 const char *scene_lines_words(pendres_parameter parameter)
 {
   const scene_parameter *of = scene_parameters;
-  for (int i = 0; i < SCENE_PARAMETERS; i++)
-    if (scene_along_parameter(of[i].axis) == parameter) return of[i].one;
+  for (int i = 0; i < SCENE_PLACES; i++)
+    if (of[i].parameter == parameter) return of[i].one;
   return pendres_parameter_name(parameter);
 }
 
@@ -62,12 +52,11 @@ void scene_lines_describe(const deck *d, FILE *out)
   fprintf(out, "%lld members at ", (long long)d->ensemble.members);
   for (int i = 0; i < 2; i++) {
     const deck_axis *a = &d->axis[axis[i]];
-    size_t k = 0;
-    while (of[k].axis != axis[i]) k++;
-    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count, of[k].many,
-            a->value[0], a->value[a->count - 1], i == 0 ? "" : "\n");
+    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count,
+            scene_parameter_of(axis[i])->many, a->value[0], a->value[a->count - 1],
+            i == 0 ? "" : "\n");
   }
-  for (int i = 0, held = 0; i < SCENE_PARAMETERS; i++) {
+  for (int i = 0, held = 0; i < SCENE_PLACES; i++) {
     const double value = scene_fixed(d, of[i].axis);
     if (!isnan(value)) fprintf(out, "%s%s %g", held++ > 0 ? ", " : "", of[i].one, value);
   }
@@ -329,8 +318,8 @@ scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
                               const double error[2])
 {
   scene_place place;
-  for (int i = 0; i < SCENE_PARAMETERS; i++) {
-    const pendres_parameter parameter = scene_along_parameter(scene_parameters[i].axis);
+  for (int i = 0; i < SCENE_PLACES; i++) {
+    const pendres_parameter parameter = scene_parameters[i].parameter;
     place.value[i] = pendres_parameter_get(parameter, p);
     place.error[i] = error_of(l, parameter, error);
   }
@@ -352,7 +341,7 @@ pendres_status scene_lines_write_places(const scene_lines *l, const scene_table 
   scene_table places = *table;
   pendres_status status = PENDRES_OK;
   places.words = words;
-  for (int i = 0; i < SCENE_PARAMETERS && status == PENDRES_OK; i++) {
+  for (int i = 0; i < SCENE_PLACES && status == PENDRES_OK; i++) {
     const scene_column column = column_of(i);
     if (i == ALWAYS) status = scene_columns_write(l->run, table, count, columns);
     if (status == PENDRES_OK && (i < ALWAYS || scene_lines_changes(l, scene_parameters[i].axis)))

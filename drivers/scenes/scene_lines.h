@@ -42,19 +42,10 @@ void scene_lines_print(const scene_lines *l, FILE *out);
 /* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
 pendres_status scene_lines_write_doubts(const scene_lines *l);
 
-/* What is said of a parameter that may be an axis of a diagram: the deck's axis, the parameter in
-   words, and its name and words in tables of orbits. Damping and drive frequency come first. */
-typedef struct scene_parameter {
-  deck_axis_id axis;
-  const char *one, *many;
-  const char *name, *long_name;
-} scene_parameter;
-enum { SCENE_PARAMETERS = 5 };
-extern const scene_parameter scene_parameters[SCENE_PARAMETERS];
-
-/* The parameters of an orbit with their errors, in that order: how rows of such tables begin. */
+/* The parameters of an orbit with their errors, in the order of scene_parameters: how rows of such
+   tables begin. */
 typedef struct scene_place {
-  double value[SCENE_PARAMETERS], error[SCENE_PARAMETERS];
+  double value[SCENE_PLACES], error[SCENE_PLACES];
 } scene_place;
 
 /* error: of the parameter along the lines [0], and of the one across them [1]. */

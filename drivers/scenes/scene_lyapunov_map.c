@@ -25,7 +25,7 @@ typedef struct row {
 
 typedef struct work {
   const deck *d;
-  pendres_pendulum pendulum;
+  pendres_sweep sweep;
   deck_axis_id axis[AXES]; /* the second one runs fastest */
   size_t count, chunk; /* points, and those of a task */
   row *rows;
@@ -111,9 +111,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   double *x = malloc(2 * n * sizeof *x);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n && p != NULL && x != NULL; i++) {
-    p[i] = w->pendulum;
-    for (int a = 0; a < AXES; a++)
-      scene_along_set(&p[i], w->axis[a], coordinate(w, first + i, a));
+    p[i] = pendres_sweep_pendulum(&w->sweep, first + i, NULL, NULL);
     x[i] = w->d->orbit.x;
     x[n + i] = w->d->orbit.v;
   }
@@ -140,10 +138,11 @@ static void tell_failed(scene_run *run, const work *w)
     if (w->rows[i].failed == SCENE_FAILURE_NONE) continue;
     const scene_failure reason = (scene_failure)w->rows[i].failed;
     const char *words = "neither an orbit nor chaos within its time";
+    char where[200];
     run->failed_points++;
-    scene_failure_tell(run, reason, reason == SCENE_FAILURE_UNRESOLVED ? words : NULL,
-                       "%s %.10g, %s %.10g", deck_axis_name(w->axis[0]), coordinate(w, i, 0),
-                       deck_axis_name(w->axis[1]), coordinate(w, i, 1));
+    scene_point_name(w->d, i, AXES, w->axis, where, sizeof where);
+    scene_failure_tell(run, reason, reason == SCENE_FAILURE_UNRESOLVED ? words : NULL, "%s",
+                       where);
   }
 }
 
@@ -195,7 +194,7 @@ static void tabulate(FILE *out, const work *w)
 
 static pendres_status run_scene(scene_run *run)
 {
-  work w = {.d = run->deck, .pendulum = scene_along_pendulum(run->deck)};
+  work w = {.d = run->deck, .sweep = scene_sweep(run->deck)};
   (void)deck_moving(run->deck, AXES, w.axis);
   w.count = run->deck->axis[w.axis[0]].count * run->deck->axis[w.axis[1]].count;
   w.chunk = chunk_of(w.count);

@@ -61,14 +61,6 @@ size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
   return count;
 }
 
-const char *scene_peak_heading(deck_axis_id axis)
-{
-  return axis == DECK_AXIS_DAMPING                ? "damping   "
-         : axis == DECK_AXIS_TORQUE               ? "torque    "
-         : axis == DECK_AXIS_PARAMETRIC_AMPLITUDE ? "parametric"
-                                                  : "drive     ";
-}
-
 const char *scene_peak_names(int kind)
 {
   return kind == PENDRES_PEAK_COUNT ? "none" : pendres_peak_name((pendres_peak)kind);

@@ -33,9 +33,6 @@ enum { SCENE_PRINTED_PERIODS = 4 };
 size_t scene_peak_printed(const deck *d, size_t n, const scene_peak *rows,
                           scene_printed values[SCENE_PRINTED_PERIODS]);
 
-/* What stands above the values of an axis in a table. */
-const char *scene_peak_heading(deck_axis_id axis);
-
 /* The names of kinds, and "none". */
 const char *scene_peak_names(int kind);
 

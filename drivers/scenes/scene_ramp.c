@@ -83,7 +83,7 @@ static pendres_status prepare(work *w, deck_axis_id axis, const scene_along_path
   const size_t n = path->points, half = n / DIRECTIONS;
   w->name = deck_axis_name(axis);
   w->ramp = (pendres_ramp){.pendulum = scene_along_pendulum(d),
-                           .parameter = scene_along_parameter(axis), .points = n,
+                           .parameter = scene_parameter_of(axis)->parameter, .points = n,
                            .jumps = path->jumps, .jump = path->jump};
   w->trajectories = deck_has_noise(d) ? (size_t)d->noise.trajectories : 0;
   if (w->trajectories > 0) w->ramp.pendulum.temperature = d->axis[DECK_AXIS_TEMPERATURE].value[0];

@@ -29,23 +29,6 @@ static deck_axis_id axis_of(const deck *d)
   return axis;
 }
 
-static const char *many(deck_axis_id axis)
-{
-  return axis == DECK_AXIS_DAMPING           ? "dampings"
-         : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitudes"
-         : axis == DECK_AXIS_TORQUE          ? "torques"
-                                             : "parametric amplitudes";
-}
-
-/* Some of them next to each other, as the progress line calls tasks. */
-static const char *groups(deck_axis_id axis)
-{
-  return axis == DECK_AXIS_DAMPING           ? "groups of dampings"
-         : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "groups of drive amplitudes"
-         : axis == DECK_AXIS_TORQUE          ? "groups of torques"
-                                             : "groups of parametric amplitudes";
-}
-
 static void describe(const deck *d, FILE *out)
 {
   const deck_axis *a = &d->axis[axis_of(d)];
@@ -53,7 +36,7 @@ static void describe(const deck *d, FILE *out)
   fprintf(out,
           "resonances at %zu %s %g to %g, %s %g: the largest mean loop area of\n"
           "%lld members over drive frequencies %g to %g\n",
-          a->count, many(axis_of(d)), a->value[0], a->value[a->count - 1],
+          a->count, scene_parameter_of(axis_of(d))->many, a->value[0], a->value[a->count - 1],
           dampings ? "drive amplitude" : "damping",
           dampings ? d->pendulum.drive_amplitude : d->axis[DECK_AXIS_DAMPING].value[0],
           (long long)d->ensemble.members, d->search[0], d->search[1]);
@@ -175,7 +158,7 @@ static scene_table table_of(const curve *c)
 static void print_table(FILE *out, const curve *c)
 {
   const scene_cell cells[] = {
-    {.heading = scene_peak_heading(c->axis), .format = "%-9.4g ",
+    {.heading = scene_parameter_of(c->axis)->heading, .format = "%-9.4g ",
      .value = offsetof(scene_peak, at)},
     SCENE_CELL(scene_peak, resonance_frequency, "frequency     ", "%.10f  "),
     SCENE_CELL(scene_peak, resonance_frequency_error, "+-       ", "%.0e  "),
@@ -191,15 +174,9 @@ static void print_table(FILE *out, const curve *c)
 
 static pendres_status write_results(scene_run *run, const curve *c)
 {
-  const deck_axis *axis = &c->d->axis[c->axis];
   const scene_table table = table_of(c);
-  const int own = c->axis == DECK_AXIS_DAMPING || c->axis == DECK_AXIS_DRIVE_AMPLITUDE;
-  pendres_status status =
-    own ? pendres_store_dimension(run->store, "", deck_axis_name(c->axis), axis->count, axis->value,
-                                  c->axis == DECK_AXIS_DAMPING ? "damping" : "drive amplitude", "1")
-        : scene_dimension(run, "", c->axis);
-  if (status != PENDRES_OK) return scene_stored(run, status);
-  status = SCENE_WRITE(run, &table, columns);
+  pendres_status status = scene_dimension_short(run, c->axis);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, columns);
   if (status == PENDRES_OK && deck_is_plain(c->d))
     status = scene_columns_write(run, &table, 1, free_frequency);
   if (status == PENDRES_OK)
@@ -282,6 +259,7 @@ static pendres_status run_scene(scene_run *run)
              .sweep = scene_sweep(run->deck),
              .ensemble = scene_ensemble(run->deck),
              .axis = axis_of(run->deck)};
+  const scene_parameter *of = scene_parameter_of(c.axis);
   const size_t n = run->deck->axis[c.axis].count;
   c.group = group_of(n);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
@@ -291,7 +269,7 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "out of memory for %zu resonances", n);
     goto done;
   }
-  status = scene_compute(run, &(farm_stage){ .what = c.group > 1 ? groups(c.axis) : many(c.axis),
+  status = scene_compute(run, &(farm_stage){ .what = c.group > 1 ? of->groups : of->many,
                                              .last = 1,
                                              .tasks = (n + c.group - 1) / c.group,
                                              .task = compute, .collect = collect,

@@ -329,19 +329,6 @@ static pendres_status write_failures(scene_run *run, const grid *g)
                               g->axis);
 }
 
-static pendres_status write_axis(scene_run *run, deck_axis_id axis)
-{
-  if (axis == DECK_AXIS_TORQUE || axis == DECK_AXIS_PARAMETRIC_AMPLITUDE)
-    return scene_dimension(run, "", axis);
-  const deck_axis *a = &run->deck->axis[axis];
-  const char *words = axis == DECK_AXIS_DAMPING           ? "damping"
-                      : axis == DECK_AXIS_DRIVE_PERIOD    ? "drive period"
-                      : axis == DECK_AXIS_DRIVE_AMPLITUDE ? "drive amplitude"
-                                                          : "drive frequency";
-  return pendres_store_dimension(run->store, "", deck_axis_name(axis), a->count, a->value, words,
-                                 "1");
-}
-
 static pendres_status write_results(scene_run *run, const grid *g)
 {
   const scene_response_grid noisy = {
@@ -349,7 +336,8 @@ static pendres_status write_results(scene_run *run, const grid *g)
     .drive = deck_axis_name(g->axis[1]), .points = &g->points,
     .rows = &g->rows};
   pendres_status status = PENDRES_OK;
-  for (int i = 0; i < g->axes && status == PENDRES_OK; i++) status = write_axis(run, g->axis[i]);
+  for (int i = 0; i < g->axes && status == PENDRES_OK; i++)
+    status = scene_dimension_short(run, g->axis[i]);
   if (status == PENDRES_OK)
     status = g->d->axis[DECK_AXIS_TEMPERATURE].count > 0
                  ? scene_response_write_noise(run, &noisy)
@@ -373,9 +361,9 @@ static void print_table(FILE *out, const grid *g)
   const int frequencies = g->axis[g->axes - 1] == DECK_AXIS_DRIVE_FREQUENCY;
   const int both = g->axes == 3;
   const scene_cell cells[] = {
-    {.heading = scene_peak_heading(g->axis[0]), .format = "%-9.4g ",
+    {.heading = scene_parameter_of(g->axis[0])->heading, .format = "%-9.4g ",
      .value = offsetof(scene_peak, beside)},
-    {.heading = scene_peak_heading(g->axis[g->axes - 2]), .format = "%-9.4g ",
+    {.heading = scene_parameter_of(g->axis[g->axes - 2])->heading, .format = "%-9.4g ",
      .value = offsetof(scene_peak, at)},
     {.heading = frequencies ? "resonant freq.   " : "resonant period  ", .format = "%.9f      ",
      .value = frequencies ? offsetof(scene_peak, resonance_frequency)
