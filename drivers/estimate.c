@@ -6,31 +6,7 @@
 #include <string.h>
 #include <sys/statvfs.h>
 
-/*
- * Bytes that a file has beside its points (headers and provenance), bytes a point and bytes of
- * memory a point; how many times the journal of a first stage comes again in later ones; processor
- * time of all of a run over that of its first stage, and seconds a point where not even one task
- * can be tried, on a processor of 3 GHz.
- */
-typedef struct rule {
-  double head, point, memory, stages, after, seconds;
-} rule;
-
-static const rule rules[DECK_KIND_COUNT] = {
-  [DECK_FREE_OSCILLATION] = { 26e3, 40.0, 100.0, 1.0, 1.0, 1e-5 },
-  [DECK_RESONANCE_CURVE] = { 32e3, 240.0, 2e3, 1.0, 1.0, 0.02 },
-  [DECK_RESPONSE] = { 50e3, 128.0, 300.0, 2.0, 1.0, 4e-4 },
-  [DECK_ORBIT] = { 45e3, 36.0, 60.0, 1.0, 1.0, 1e-5 },
-  [DECK_BASINS] = { 75e3, 0.12, 30.0, 1.0, 1.2, 4e-6 },
-  [DECK_PHASE_DIAGRAM] = { 60e3, 17.0, 300.0, 3.0, 1.2, 1e-3 },
-  [DECK_BRANCHES] = { 60e3, 470.0, 1e3, 2.0, 1.1, 2e-3 },
-  [DECK_WORK_PRECISION] = { 45e3, 200.0, 1e3, 0.0, 1.0, 0.5 },
-  [DECK_HARD_CASES] = { 24e3, 100.0, 1e3, 1.0, 1.0, 10.0 },
-  [DECK_SWITCHING] = { 55e3, 400.0, 1e3, 1.0, 1.0, 2.0 },
-  [DECK_HYSTERESIS] = { 40e3, 240.0, 60e3, 1.0, 1.0, 0.03 },
-  [DECK_BIFURCATION_DIAGRAM] = { 60e3, 200.0, 100e3, 2.0, 1.0, 0.3 },
-  [DECK_LYAPUNOV_MAP] = { 40e3, 18.0, 100.0, 1.0, 1.0, 5e-4 },
-};
+#include "scenes/scene.h"
 
 /* What every run has in memory, and what a thread adds. */
 static const double program_memory = 19e6, thread_memory = 9e6;
@@ -48,6 +24,11 @@ enum { FIRST_SAMPLES = 2000 };
 /* A diagram keeps the records of its lines, and its curves are longer the more orbits are in
    these: bytes of memory a byte, and of output a byte of a line's. */
 static const double record_memory = 1.5, record_output = 0.57;
+
+static const scene_size *size_of(const deck *d)
+{
+  return &scene_find(d->kind)->size;
+}
 
 /* Points of the results' grid. */
 static double points_of(const deck *d)
@@ -76,7 +57,7 @@ static double strobes_of(const deck *d)
    longer. */
 static double states_output(const deck *d, const farm_trial *t)
 {
-  const double states = points_of(d), same = rules[DECK_BASINS].point;
+  const double states = points_of(d), same = size_of(d)->point;
   if (t != NULL && t->changes > 0.0 && !d->basins.refine)
     return same * states + change_bytes * t->changes;
   return states * (same + 150.0 / sqrt(states));
@@ -92,7 +73,7 @@ static double ramp_output(const deck *d)
 
 static double points_output(const deck *d, const farm_trial *t)
 {
-  const rule *r = &rules[d->kind];
+  const scene_size *r = size_of(d);
   const double points = points_of(d);
   switch (d->kind) {
   case DECK_BASINS:
@@ -112,13 +93,13 @@ static double points_output(const deck *d, const farm_trial *t)
 static double estimate_output(const deck *d, const farm_trial *t)
 {
   const double strobe = d->kind == DECK_BIFURCATION_DIAGRAM ? repeated_bytes : strobe_bytes;
-  return rules[d->kind].head + points_output(d, t) + strobe * strobes_of(d);
+  return size_of(d)->head + points_output(d, t) + strobe * strobes_of(d);
 }
 
 /* Bytes of memory on so many threads. */
 static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 {
-  double grid = rules[d->kind].memory * points_of(d);
+  double grid = size_of(d)->memory * points_of(d);
   /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
   if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
   /* Whole points are in memory as long as they are few (scene_spill.h). */
@@ -132,7 +113,7 @@ static double estimate_memory(const deck *d, const farm_trial *t, int threads)
 static double estimate_journal(const deck *d, const farm_trial *t)
 {
   if (t->what == NULL) return t->journal;
-  if (t->tried > 0) return t->journal * rules[d->kind].stages;
+  if (t->tried > 0) return t->journal * size_of(d)->stages;
   const int ways = d->kind == DECK_HYSTERESIS ? 2 : d->kind == DECK_BIFURCATION_DIAGRAM;
   return 1.2e3 * ways * points_of(d) + 8.0 * strobes_of(d);
 }
@@ -159,7 +140,7 @@ static void print_seconds(double seconds, FILE *out)
 
 static void print_time(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
 {
-  const rule *r = &rules[d->kind];
+  const scene_size *r = size_of(d);
   const int tried = t->what == NULL || t->tried > 0;
   const double factor = t->what == NULL ? 1.0 : r->after;
   const double seconds = program_seconds + outside +

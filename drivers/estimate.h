@@ -1,11 +1,11 @@
 /*
  * estimate.h -- what a run will take, told before it is begun.
  *
- * Owns: the rules for memory and for the size of the output, a row a kind of scene, and what
- * --dry-run says of time. Rules were measured on the decks of input/ and are meant to be right
- * within a factor of two there; what depends on the answers, as how often a pendulum has to go
- * round until it settles and how many neighbours of a grid differ, is found by computing a little
- * of the run (farm/trial.h).
+ * Owns: the rules for memory and for the size of the output, of which each scene tells its own
+ * (scene_size), and what --dry-run says of time. Rules were measured on the decks of input/ and
+ * are meant to be right within a factor of two there; what depends on the answers, as how often a
+ * pendulum has to go round until it settles and how many neighbours of a grid differ, is found by
+ * computing a little of the run (farm/trial.h).
  */
 #ifndef ESTIMATE_H
 #define ESTIMATE_H

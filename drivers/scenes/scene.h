@@ -30,10 +30,21 @@ typedef struct scene_run {
   char message[512];    /* why run() failed */
 } scene_run;
 
+/*
+ * What runs of a kind take, for --dry-run: bytes that a file has beside its points (headers and
+ * provenance), bytes a point and bytes of memory a point; how many times the journal of a first
+ * stage comes again in later ones; processor time of all of a run over that of its first stage, and
+ * seconds a point where not even one task can be tried, on a processor of 3 GHz.
+ */
+typedef struct scene_size {
+  double head, point, memory, stages, after, seconds;
+} scene_size;
+
 typedef struct scene_kind {
   deck_kind kind;
   const char *references; /* root attribute of the file: what the scene reproduces, and methods */
   int budget;             /* not 0: its tasks tell their points, which --budget can end */
+  scene_size size;
   /* What would be computed, in a few lines (--dry-run). */
   void (*describe)(const deck *d, FILE *out);
   /* Compute and write everything but the provenance. */

@@ -216,19 +216,11 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
   scene_along_row *rows = scene_rows(run, path->points, sizeof *rows);
   for (size_t i = 0; i < path->points && rows != NULL; i++) {
     const pendres_hysteresis_point *p = &path->point[i];
-    const pendres_attractor *a = &p->attractor;
-    const pendres_orbit *o = &a->orbit;
+    const pendres_orbit *o = &p->attractor.orbit;
     const double closed = scene_along_closed(p) ? 0.0 : NAN;
-    const scene_failure failed = failure_of(p);
-    rows[i] = (scene_along_row){
-      .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
-      .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
-      .loop_area = o->loop_area, .loop_area_error = o->loop_area_error,
-      .mean_velocity = p->mean_velocity, .mean_velocity_error = p->mean_velocity_error,
-      .lyapunov = a->lyapunov, .lyapunov_error = a->lyapunov_error,
-      .period = o->period + closed, .period_error = closed,
-      .winding = o->winding + closed, .winding_error = closed, .label = (int)a->label,
-      .failed = failed};
+    rows[i] = (scene_along_row){.of = *p, .period = o->period + closed, .period_error = closed,
+                                .winding = o->winding + closed, .winding_error = closed,
+                                .failed = (int)failure_of(p)};
   }
   return rows;
 }
@@ -251,7 +243,7 @@ scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path
 
 const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
   { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
-    .value = offsetof(scene_along_row, label), .names = scene_motion_names },
+    .value = offsetof(scene_along_row, of.attractor.label), .names = scene_motion_names },
   { .name = "failed", .long_name = "why there is no attractor", .type = SCENE_FLAG,
     .value = offsetof(scene_along_row, failed), .names = scene_failure_names },
 };

@@ -54,13 +54,17 @@ pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
 /* Whether a point is on a closed orbit. */
 int scene_along_closed(const pendres_hysteresis_point *point);
 
-/* A point as a row of results. */
+/* A point as a row of results, and columns of what it and its attractor and orbit have. */
 typedef struct scene_along_row {
-  double amplitude, amplitude_error, phase_lag, phase_lag_error, loop_area, loop_area_error;
-  double mean_velocity, mean_velocity_error, lyapunov, lyapunov_error;
+  pendres_hysteresis_point of;
   double period, period_error, winding, winding_error; /* NaN unless the orbit closes */
-  int label, failed;                                   /* failed: a scene_failure */
+  int failed;                                          /* a scene_failure */
 } scene_along_row;
+
+#define SCENE_ALONG_COLUMN(label, field, words, unit)                                           \
+  {.name = #label, .long_name = words, .units = unit,                                            \
+   .value = offsetof(scene_along_row, of.field),                                                 \
+   .error = offsetof(scene_along_row, of.field##_error)}
 
 /* What ends a state, as a row of results. */
 typedef struct scene_along_jump {

@@ -450,5 +450,6 @@ const scene_kind scene_basins = {
     "SC11 (2011); linear theory: N. G. van Kampen, Stochastic Processes in Physics and Chemistry, "
     "chapter VIII.6.",
   .budget = 1,
+  .size = {75e3, 0.12, 30.0, 1.0, 1.2, 4e-6},
   .describe = describe,
   .run = run_scene};

@@ -153,7 +153,7 @@ static const scene_column of_strobes[] = {
 };
 
 static const scene_column of_points[] = {
-  SCENE_COLUMN(scene_along_row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent a unit time", "1"),
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
 };
 
@@ -319,6 +319,7 @@ const scene_kind scene_bifurcation_diagram = {
   .references = "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996); M. J. Feigenbaum, Journal "
                 "of Statistical Physics 19 (1978) 25",
   .budget = 1,
+  .size = {60e3, 200.0, 100e3, 2.0, 1.0, 0.3},
   .describe = describe,
   .run = run_scene,
 };

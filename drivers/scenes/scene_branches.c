@@ -357,5 +357,6 @@ const scene_kind scene_branches = {
                 "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
                 "chapters 4, 9 and 10",
   .budget = 1,
+  .size = {60e3, 470.0, 1e3, 2.0, 1.1, 2e-3},
   .describe = describe,
   .run = run_scene};

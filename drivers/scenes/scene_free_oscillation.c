@@ -160,6 +160,7 @@ const scene_kind scene_free_oscillation = {
   .kind = DECK_FREE_OSCILLATION,
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Fig. 1",
+  .size = {26e3, 40.0, 100.0, 1.0, 1.0, 1e-5},
   .describe = describe,
   .run = run,
 };

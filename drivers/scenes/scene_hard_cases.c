@@ -161,6 +161,7 @@ const scene_kind scene_hard_cases = {
   .kind = DECK_HARD_CASES,
   .references = "N. J. Higham, Accuracy and Stability of Numerical Algorithms; "
                 "M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, chapter 17",
+  .size = {24e3, 100.0, 1e3, 1.0, 1.0, 10.0},
   .describe = describe,
   .run = run_scene,
 };

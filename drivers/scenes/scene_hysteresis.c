@@ -53,13 +53,15 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column of_points[] = {
-  SCENE_COLUMN(scene_along_row, amplitude, "half peak to peak of the angle", "rad"),
-  SCENE_COLUMN(scene_along_row, phase_lag, "lag of the first harmonic behind the drive", "rad"),
-  SCENE_COLUMN(scene_along_row, loop_area, "area of the hysteresis loop, a drive cycle", "1"),
-  SCENE_COLUMN(scene_along_row, mean_velocity, "mean velocity of x", "1"),
+  SCENE_ALONG_COLUMN(amplitude, attractor.orbit.amplitude, "half peak to peak of the angle", "rad"),
+  SCENE_ALONG_COLUMN(phase_lag, attractor.orbit.phase_lag,
+                     "lag of the first harmonic behind the drive", "rad"),
+  SCENE_ALONG_COLUMN(loop_area, attractor.orbit.loop_area,
+                     "area of the hysteresis loop, a drive cycle", "1"),
+  SCENE_ALONG_COLUMN(mean_velocity, mean_velocity, "mean velocity of x", "1"),
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
-  SCENE_COLUMN(scene_along_row, lyapunov, "largest Lyapunov exponent a unit time", "1"),
+  SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent a unit time", "1"),
 };
 
 static const char *const directions[DIRECTIONS] = {"up", "down"};
@@ -180,6 +182,7 @@ const scene_kind scene_hysteresis = {
   .references = "Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, chapter 4; J. M. T. "
                 "Thompson and M. S. Soliman, Proceedings of the Royal Society A 432 (1991) 101",
   .budget = 1,
+  .size = {40e3, 240.0, 60e3, 1.0, 1.0, 0.03},
   .describe = describe,
   .run = run_scene,
 };

@@ -246,6 +246,7 @@ const scene_kind scene_orbit = {
   .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
                 "pendulum, Figs. 5 and 6",
   .budget = 1,
+  .size = {45e3, 36.0, 60.0, 1.0, 1.0, 1e-5},
   .describe = describe,
   .run = run_scene,
 };

@@ -90,5 +90,6 @@ const scene_kind scene_phase_diagram = {
                 "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
                 "Bifurcation Theory, chapters 9 and 10",
   .budget = 1,
+  .size = {60e3, 17.0, 300.0, 3.0, 1.2, 1e-3},
   .describe = describe,
   .run = run_scene};

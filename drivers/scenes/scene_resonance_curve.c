@@ -291,5 +291,6 @@ const scene_kind scene_resonance_curve = {
                 "pendulum, Fig. 2; Ch. Tsitouras and S. N. Papakostas, SIAM J. Sci. Comput. 20 "
                 "(1999) 2067",
   .budget = 1,
+  .size = {32e3, 240.0, 2e3, 1.0, 1.0, 0.02},
   .describe = describe,
   .run = run_scene};

@@ -438,5 +438,6 @@ const scene_kind scene_response = {
                 "pendulum, Figs. 3 and 4; with temperature: S. A. Chin, Phys. Lett. A 226 (1997) "
                 "344; H. A. Forbert and S. A. Chin, Phys. Rev. E 63 (2000) 016703",
   .budget = 1,
+  .size = {50e3, 128.0, 300.0, 2.0, 1.0, 4e-4},
   .describe = describe,
   .run = run_scene};

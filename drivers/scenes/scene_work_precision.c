@@ -371,6 +371,7 @@ const scene_kind scene_work_precision = {
   .kind = DECK_WORK_PRECISION,
   .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations "
                 "I, section II.10",
+  .size = {45e3, 200.0, 1e3, 0.0, 1.0, 0.5},
   .describe = describe,
   .run = run_scene
 };
