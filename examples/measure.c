@@ -35,7 +35,7 @@ int main(void)
     const double period = 2.0 * 3.14159265358979324 / guess.pendulum.drive_frequency;
 
     printf("mean kinetic energy %.12f, velocities to %.0e\n", energy, v_error);
-    /* What friction takes a cycle is twice that, times the damping and the period. */
+    /* The dissipation of a cycle is twice that, times the damping and the period. */
     printf("dissipation from it %.12f, the library's %.12f +- %.0e\n",
            2.0 * guess.pendulum.damping * energy * period, orbit.dissipation,
            orbit.dissipation_error);

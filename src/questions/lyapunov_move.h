@@ -1,7 +1,7 @@
 /*
- * lyapunov_move.h -- verdicts on many pendulums, and where they have come meanwhile.
+ * lyapunov_move.h -- verdicts on many pendulums, and their states in the end.
  *
- * Owns: what a slow sweep needs of lyapunov.h.
+ * Owns: the parts of lyapunov.h that a slow sweep needs.
  */
 #ifndef PENDRES_LYAPUNOV_MOVE_H
 #define PENDRES_LYAPUNOV_MOVE_H
@@ -12,7 +12,7 @@
    not. */
 int pendres_lyapunov_may_rotate(const pendres_pendulum *p);
 
-/* How much is done for a verdict. */
+/* How much work is done for a verdict. */
 typedef enum pendres_lyapunov_care {
   PENDRES_CARE_FULL, /* as pendres_lyapunov_find, with two further averages, the longest ones */
   PENDRES_CARE_ONCE, /* one average; a pendulum that it does not decide about is unresolved */

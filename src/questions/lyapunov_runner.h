@@ -1,7 +1,7 @@
 /*
- * lyapunov_runner.h -- pendulums that run until they come back, or until averages are known.
+ * lyapunov_runner.h -- pendulums that run until their strobe points repeat, or averages are known.
  *
- * Owns: when strobe points have come back; the growth of tangent vectors and of distances to
+ * Owns: whether strobe points have repeated; the growth of tangent vectors and of distances to
  * neighbours, and its averages, batch by batch, and with the smooth weights that rotations need.
  */
 #ifndef PENDRES_LYAPUNOV_RUNNER_H
@@ -58,8 +58,8 @@ pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_r
 
 /*
  * Growth found with steps twice as long has 16 times the error: a fifteenth of the difference is
- * taken off r->growth[0]. Returns how much that is a period, which is more than the error left; 0
- * for runners with neighbours.
+ * subtracted from r->growth[0]. Returns this correction for one period, which exceeds the error
+ * that is left; 0 for runners with neighbours.
  */
 double pendres_runner_extrapolate(pendres_runner *r, long batch);
 

@@ -1,5 +1,5 @@
 /*
- * phase_record.h -- what is known of a line of a phase diagram, and its form as plain bytes.
+ * phase_record.h -- the results of a line of a phase diagram, and their form as plain bytes.
  */
 #ifndef PENDRES_PHASE_RECORD_H
 #define PENDRES_PHASE_RECORD_H
@@ -31,7 +31,7 @@ typedef struct pendres_phase_done {
   pendres_branches *branches;
 } pendres_phase_done;
 
-/* A line of which nothing is known. Free it in any case. */
+/* A line without results. Free it in any case. */
 pendres_status pendres_phase_done_create(size_t values, pendres_phase_done *out);
 pendres_status pendres_phase_done_copy(const pendres_phase_done *from, pendres_phase_done *to);
 void pendres_phase_done_free(pendres_phase_done *line);

@@ -1,8 +1,8 @@
 /*
  * resonance_gap.h -- what may happen between two neighbouring frequencies of a search.
  *
- * Owns: which states go on from one to the other, which members change theirs, and how large the
- * mean loop area can become in between.
+ * Owns: which states continue from one to the other, which members change their state, and how
+ * large the mean loop area can be in between.
  */
 #ifndef PENDRES_RESONANCE_GAP_H
 #define PENDRES_RESONANCE_GAP_H

@@ -6,7 +6,7 @@
 
 #include <pendres/resonance.h>
 
-/* A frequency that was looked at. */
+/* A frequency that was evaluated. */
 typedef struct pendres_scan_point {
   pendres_response response; /* its states have their slopes by frequency */
   double slope;              /* d(mean loop area)/domega with the members' states held */
@@ -28,11 +28,11 @@ pendres_status pendres_scan_evaluate(pendres_context *ctx, size_t n,
 pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
                                    double omega, pendres_scan_point *to);
 
-/* A resonance's frequency, area and response are those of a point. */
+/* Set the resonance's frequency, area and response to those of a point. */
 void pendres_resonance_take(pendres_resonance *r, const pendres_scan_point *at);
 
-/* Add to its errors what changes along the branch within the error of the frequency; near: a point
-   beside it. */
+/* Add to its errors the change along the branch within the error of the frequency, by means of a
+   nearby point `near`. */
 void pendres_resonance_add_error(pendres_resonance *r, const pendres_scan_point *near);
 
 /*

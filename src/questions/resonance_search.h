@@ -1,9 +1,9 @@
 /*
- * resonance_search.h -- the frequencies that a search for a resonance has looked at.
+ * resonance_search.h -- the frequencies that a search for a resonance has evaluated.
  *
  * Owns: the points of a search in ascending frequency, the first scan of the range, and the budget
- * of work: what a point may cost is bounded, whatever its parameters. Searches may share a budget;
- * what they wish to look at is then evaluated side by side.
+ * of work, which bounds the cost of a search whatever its parameters. Searches may share a budget;
+ * the frequencies that they need are then evaluated side by side.
  */
 #ifndef PENDRES_RESONANCE_SEARCH_H
 #define PENDRES_RESONANCE_SEARCH_H
@@ -16,7 +16,7 @@ enum {
   PENDRES_SEARCH_CUTS = PENDRES_SEARCH_POINTS / 2 + 19 /* most of those that follow in the scan */
 };
 
-/* What searches may cost, and have cost so far: about seconds of a processor. */
+/* What searches may cost, and have cost so far, in units of about a second of one processor. */
 typedef struct pendres_search_budget {
   pendres_context *ctx;
   double most;           /* nothing more is begun when this is spent */
@@ -54,9 +54,9 @@ void pendres_search_free(pendres_search *s);
 double pendres_scan_frequency(const pendres_scan_point *p);
 
 /*
- * Evaluate the frequencies that n searches with one budget and one ensemble wish, and sort them in,
- * as far as room and budget go: `crowded` or `exhausted` is set if they did not do for all. Each
- * search gets what it would get alone.
+ * Evaluate the frequencies that n searches with one budget and one ensemble need, and insert the
+ * points in order, as far as room and budget allow: `crowded` or `exhausted` is set if they did not
+ * suffice for all. Each search gets the same points as it would alone.
  */
 pendres_status pendres_search_add(size_t n, pendres_search *const *s);
 
@@ -67,17 +67,18 @@ pendres_status pendres_search_insert(pendres_search *s, const pendres_scan_point
 /* Add what the context has spent since the last time to the work of the search. */
 void pendres_search_account(pendres_search *s, double omega);
 
-/* Whether no more frequencies are to be looked at. */
+/* Whether no more frequencies are to be evaluated. */
 int pendres_search_over(const pendres_search *s);
 
-/* Whether the reserve of the budget is spent, too, by which the best that was found is refined. */
+/* Whether the reserve of the budget, which is for refining the best point found, is spent as
+   well. */
 int pendres_search_ended(const pendres_search *s);
 
-/* Width over which a response may change at a frequency: that of the resonances there. */
+/* The width over which a response may change at a frequency, that of a resonance there. */
 double pendres_search_width(const pendres_pendulum *p, double omega);
 
-/* Wish the next frequencies of the first scan, which looks at the range as finely as damping
-   demands, coarsely at first. If there are no wishes, it is done. */
+/* Ask for the next frequencies of the first scan, which is coarse at first and in the end as fine
+   as the damping demands. If it asks for none, it is done. */
 pendres_status pendres_search_scan(pendres_search *s);
 
 #endif

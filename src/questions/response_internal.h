@@ -9,9 +9,9 @@
 #include "orbits/catalogue.h"
 
 /*
- * The response of n members whose outcomes count the attractors of c: means over all of them, and
- * those attractors listed that most members are on. where[n], which may be NULL, receives the
- * listed attractor that each member is on; -1: none.
+ * The response of n members, whose outcomes number the attractors of c: means over all members, and
+ * a list of the attractors that most members are on. where[n], which may be NULL, receives the
+ * listed attractor that each member is on; -1: none of these.
  */
 pendres_status pendres_response_summarize(pendres_context *ctx, const pendres_catalogue *c,
                                           size_t n, const pendres_outcome *outcome,

@@ -1,8 +1,8 @@
 /*
  * response_loop.h -- the loop averaged over an ensemble where its harmonics are many.
  *
- * Owns: averages of loops that are traced anew. Orbits keep 24 harmonics; those of a slow drive
- * have hundreds that matter.
+ * Owns: averages of loops that are computed anew. Orbits keep 24 harmonics, and those of a slow
+ * drive have hundreds that matter.
  */
 #ifndef PENDRES_RESPONSE_LOOP_H
 #define PENDRES_RESPONSE_LOOP_H
@@ -10,9 +10,9 @@
 #include <pendres/response.h>
 
 /*
- * After an average over n attractors with members[n] each: what the harmonics that orbits do not
- * keep may add to the averaged loop is in r->mean_loop_amplitude_error. Where that is more than a
- * tenth of the tolerance both are computed from all harmonics.
+ * To be called after an average over n attractors with members[n] each, whose error
+ * r->mean_loop_amplitude_error includes the harmonics that orbits do not keep. If these contribute
+ * more than a tenth of the tolerance, average and error are computed again from all harmonics.
  */
 pendres_status pendres_response_refine_loop(pendres_context *ctx, size_t n,
                                             const pendres_attractor *attractor,

@@ -1,5 +1,5 @@
 /*
- * response_members.h -- the response of an ensemble, and what became of each member.
+ * response_members.h -- the response of an ensemble, and the state of each member.
  */
 #ifndef PENDRES_RESPONSE_MEMBERS_H
 #define PENDRES_RESPONSE_MEMBERS_H
@@ -7,15 +7,15 @@
 #include <pendres/response.h>
 
 /*
- * As pendres_response_compute. where[n * members], unless it is NULL, tells the state that each
- * member is on, as a number in its response's state[]; -1: none of those.
+ * As pendres_response_compute(). where[n * members], unless it is NULL, receives the state that
+ * each member is on, as a number in its response's state[]; -1: none of those.
  */
 pendres_status pendres_response_members(pendres_context *ctx, size_t n,
                                         const pendres_pendulum *pendulums,
                                         const pendres_ensemble *ensemble, signed char *where,
                                         pendres_response *out);
 
-/* NULL if a pendulum can be started from all of the ensemble, or why not. */
+/* NULL if the pendulum and the ensemble's starts are valid, or what is wrong with them. */
 const char *pendres_response_refuses(const pendres_pendulum *p, const pendres_ensemble *e);
 
 #endif

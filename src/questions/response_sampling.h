@@ -1,5 +1,5 @@
 /*
- * response_sampling.h -- what an ensemble that is a sample leaves open.
+ * response_sampling.h -- the sampling error of an ensemble that is a sample of an area.
  */
 #ifndef PENDRES_RESPONSE_SAMPLING_H
 #define PENDRES_RESPONSE_SAMPLING_H
@@ -16,7 +16,7 @@ void pendres_response_sample(const pendres_ensemble *e, const signed char *where
 /* The same with a share that is known, for a response that has none yet. */
 void pendres_response_widen(pendres_response *r, double sampling);
 
-/* Whole turns again and again: such a motion has no amplitude and no loop. */
+/* Whether a motion turns over again and again: it has no amplitude and no loop. */
 int pendres_response_running(const pendres_attractor *a);
 
 #endif

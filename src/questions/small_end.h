@@ -1,7 +1,7 @@
 /*
  * small_end.h -- the fold at which SA ends along a line of points in one parameter.
  *
- * Owns: how that fold, found once for the line, names what is alone at each of its points.
+ * Owns: how that fold, found once for the line, gives a name to a state that is alone at a point.
  */
 #ifndef PENDRES_SMALL_END_H
 #define PENDRES_SMALL_END_H

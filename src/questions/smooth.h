@@ -1,8 +1,8 @@
 /*
- * smooth.h -- means of what a rotation does a period, with weights that fall smoothly to zero at
- * both ends.
+ * smooth.h -- means over the periods of a rotation, with weights that fall smoothly to zero at both
+ * ends.
  *
- * Owns: the sums, and how far means over parts of the periods are apart.
+ * Owns: the sums, and the scatter of means over parts of the periods.
  *
  * Source: Das, Saiki, Sander and Yorke, Nonlinearity 30 (2017) 4111.
  */
@@ -20,7 +20,7 @@ typedef struct pendres_smooth {
   long count;
 } pendres_smooth;
 
-/* A period: number k of n, the growth of the logarithm and the turns in it. */
+/* Add period k of n: the growth of the logarithm and the turns in it. */
 void pendres_smooth_add(pendres_smooth *s, long k, long n, double growth, double turned);
 
 /* Means a period, and how far those over the parts are apart; `uneven` is by how much more than the
