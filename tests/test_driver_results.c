@@ -48,6 +48,22 @@ static double read_one(const char *path, const char *name)
   return value;
 }
 
+/* Counts among the figures of hard cases are exact; errors are not told to have none. The first
+   rows are two counts, of which the naive way has the second alone, and two errors. */
+static void test_hard_figures(void **state)
+{
+  enum { ROWS = 15 };
+  double error[ROWS], naive[ROWS];
+  (void)state;
+  write_text("hard.nml", "&scene kind = 'hard_cases' /\n"
+                         "&sweep case = 'tolerance', 'separatrix' /\n");
+  check_code(RUN("-q", "hard.nml"), DONE);
+  read_all("hard.h5", "figure_error", error, ROWS);
+  read_all("hard.h5", "naive_figure_error", naive, ROWS);
+  assert_true(error[0] == 0.0 && error[1] == 0.0 && isnan(naive[0]) && naive[1] == 0.0);
+  for (int i = 2; i < ROWS; i++) assert_true(isnan(error[i]) && isnan(naive[i]));
+}
+
 /* The orbit scene against the long double reference, within ten times the errors claimed. */
 static void test_orbit(void **state)
 {
@@ -204,6 +220,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_run),        TEST(test_orbit), TEST(test_identity),      TEST(test_transient),
+    TEST(test_hard_figures),
     TEST(test_method),
     TEST(test_input),      TEST(test_failed_points), TEST(test_cost_of_noise),
   };

@@ -17,7 +17,15 @@
 typedef struct row {
   hard_row of;
   int holds;
+  double figure_error, naive_figure_error;
 } row;
+
+/* Of a figure: counts, which must be zero, are exact; all else is an error itself, or a ratio of
+   errors: the bound leaves room for what the truth beside it is uncertain by. */
+static double error_of(const hard_row *r, double figure)
+{
+  return r->bound == 0.0 && isfinite(figure) ? 0.0 : NAN;
+}
 
 typedef struct work {
   farm *farm;
@@ -62,7 +70,9 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   row *all = realloc(w->row, (w->rows + n) * sizeof *all);
   if (all == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t k = 0; k < n; k++)
-    all[w->rows + k] = (row){found[k], hard_row_holds(&found[k])};
+    all[w->rows + k] = (row){found[k], hard_row_holds(&found[k]),
+                             error_of(&found[k], found[k].figure),
+                             error_of(&found[k], found[k].naive)};
   w->row = all;
   w->rows += n;
   return PENDRES_OK;
@@ -94,18 +104,24 @@ static const char *yes_or_no(int value)
   return value != 0 ? "yes" : "NO";
 }
 
+#define NO_ERROR                                                                                  \
+  "counts, which must be 0, are exact; other figures are errors themselves, against exact values " \
+  "or extended precision, and have no error of their own (NaN): the bound leaves room for what "   \
+  "these are uncertain by"
+
 static const scene_column columns[] = {
   {.name = "case_name", .long_name = "case", .type = SCENE_TEXT, .value = offsetof(row, of.name)},
   {.name = "quantity", .long_name = "what was measured", .type = SCENE_TEXT,
    .value = offsetof(row, of.quantity)},
   {.name = "bound", .long_name = "what the figure must not exceed", .type = SCENE_PLAIN,
    .value = offsetof(row, of.bound)},
-  {.name = "figure", .long_name = "what was measured", .type = SCENE_PLAIN,
-   .value = offsetof(row, of.figure)},
+  {.name = "figure", .long_name = "what was measured", .value = offsetof(row, of.figure),
+   .error = offsetof(row, figure_error), .units = "1", .comment = NO_ERROR},
   {.name = "holds", .long_name = "is the figure within its bound", .type = SCENE_FLAG,
    .value = offsetof(row, holds), .names = holds_names},
-  {.name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE",
-   .type = SCENE_PLAIN, .value = offsetof(row, of.naive)},
+  {.name = "naive_figure", .long_name = "the same figure by plain adaptive ARKODE", .units = "1",
+   .value = offsetof(row, of.naive), .error = offsetof(row, naive_figure_error),
+   .comment = NO_ERROR},
 };
 
 static const scene_cell cells[] = {
