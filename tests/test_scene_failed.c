@@ -59,15 +59,21 @@ static void reasons_of_statuses(void **state)
 /* Steps go with one over a weak damping, and with the square of a strong one. */
 static void what_takes_too_long(void **state)
 {
-  static const struct { double damping; int too_long; } cases[] = {
-    { 1e-9, 1 }, { 1e-4, 0 }, { 0.2, 0 }, { 20.0, 0 }, { 2e5, 1 } };
+  static const struct { double damping, frequency; int too_long; } cases[] = {
+    { 1e-9, 0.5, 1 }, { 1e-6, 0.5, 1 }, { 1e-4, 0.5, 0 }, { 0.2, 0.5, 0 }, { 20.0, 0.5, 0 },
+    { 2e5, 0.5, 1 }, { 0.12, 1e6, 1 }, { 0.12, 1e3, 0 }, { 0.12, 1e-4, 0 } };
   char words[SCENE_TOLD] = "";
   (void)state;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    const pendres_pendulum p = { .damping = cases[i].damping, .drive_frequency = 0.8 };
+    const pendres_pendulum p = { .damping = cases[i].damping,
+                                 .drive_frequency = cases[i].frequency };
     assert_int_equal(scene_failure_too_long(&p, 1.0, words, sizeof words), cases[i].too_long);
     /* 18 times 2 / damping, of two steps in three units of time. */
-    if (i == 0) assert_non_null(strstr(words, "damping 1e-09 asks for some 2.4e+10 steps"));
+    if (i == 0)
+      assert_non_null(strstr(words, "damping 1e-09, drive_frequency 0.5 ask for some 2.4e+10 "
+                                    "steps"));
+    /* 300 units of time and 20 periods, each of which has 8 steps. */
+    if (i == 6) assert_non_null(strstr(words, "3.8e+08 steps"));
   }
 }
 
@@ -140,6 +146,32 @@ static void lines_keep_the_others(void **state)
   }
 }
 
+/* What takes too long, alone or beside others, is marked at once by other scenes, too. */
+static void others_mark_what_takes_too_long(void **state)
+{
+  static const char orbit[] = "&scene kind = 'orbit' /\n&pendulum damping = %s, "
+                              "drive_amplitude = 0.2, drive_frequency = %s /\n"
+                              "&orbit start = 'sa' /\n";
+  static const char map[] = "&scene kind = 'lyapunov_map' /\n&pendulum drive_amplitude = 0.2 /\n"
+                            "&sweep damping = 1e-9, 0.3, drive_frequency = 0.5, 0.8 /\n";
+  static const char *const odd[3][2] = { { "1e-9", "0.84" }, { "0.12", "1e6" }, { "1e5", "0.84" } };
+  static const int wanted[4] = { SCENE_FAILURE_TOO_LONG, SCENE_FAILURE_TOO_LONG, 0, 0 };
+  char deck[300];
+  int codes[4];
+  (void)state;
+  for (int i = 0; i < 3; i++) {
+    snprintf(deck, sizeof deck, orbit, odd[i][0], odd[i][1]);
+    assert_int_equal(scene_run_marked(NULL, deck, 1, "orbit"), 1);
+    get_codes("orbit", "failed", codes, 1);
+    assert_int_equal(codes[0], SCENE_FAILURE_TOO_LONG);
+    assert_non_null(strstr(scene_told, "precision.period_budget bounds them"));
+  }
+  assert_int_equal(scene_run_marked(NULL, map, 1, "map"), 2);
+  get_codes("map", "failed", codes, 4);
+  assert_memory_equal(codes, wanted, sizeof codes);
+  assert_non_null(strstr(scene_told, "lyapunov_map.transient"));
+}
+
 /* States that do not settle in the time given. */
 static void states_are_marked(void **state)
 {
@@ -190,6 +222,7 @@ int main(void)
     cmocka_unit_test(what_takes_too_long),
     cmocka_unit_test(response_keeps_the_others),
     cmocka_unit_test(lines_keep_the_others),
+    cmocka_unit_test(others_mark_what_takes_too_long),
     cmocka_unit_test(states_are_marked),
     cmocka_unit_test(lines_name_the_remedy),
   };

@@ -64,8 +64,9 @@ static pendres_status find_point(pendres_context *ctx, const pendres_pendulum *p
   return PENDRES_NOT_FOUND;
 }
 
-pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
-                                 pendres_attractor *out, char *why, size_t size)
+/* *found: how many attractors there are. */
+static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
+                            pendres_attractor *out, size_t *found, char *why, size_t size)
 {
   pendres_attractors *set = NULL;
   pendres_status status = pendres_attractors_find(ctx, p, 0, NULL, NULL, &set);
@@ -92,8 +93,16 @@ pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p
     snprintf(why, size, "there is no attractor '%s' at these parameters; found: %s", start,
              list[0] != '\0' ? list : "none");
   }
+  *found = pendres_attractors_count(set);
   pendres_attractors_free(set);
   return status;
+}
+
+pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
+                                 pendres_attractor *out, char *why, size_t size)
+{
+  size_t found = 0;
+  return named(ctx, p, start, out, &found, why, size);
 }
 
 /* ---- paths --------------------------------------------------------------------------------- */
@@ -141,17 +150,25 @@ static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
   return PENDRES_OK;
 }
 
-/* The attractor that a path starts on, at its first value that can be computed: the path leaves out
-   those before. */
+/* The attractor that a path starts on, at its first value at which something settles: the path
+   leaves out those before, but where it comes to them soon. */
 static pendres_status find_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
                                  pendres_attractor *start, farm_record *out)
 {
   pendres_pendulum p = scene_along_pendulum(d);
-  pendres_status status = PENDRES_OK;
+  pendres_status status = PENDRES_NOT_FOUND;
   for (size_t i = 0; i < way->n; i++) {
+    char why[SCENE_TOLD];
+    size_t found = 0;
     scene_along_set(&p, way->axis, way->value[i]);
-    status = scene_along_named(ctx, &p, d->orbit.start, start, out->message, sizeof out->message);
-    if (status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED) break;
+    if (scene_settling_too_long(d, &p, 1.0, why, sizeof why)) {
+      if (i == 0) snprintf(out->message, sizeof out->message, "%s", why);
+      continue;
+    }
+    status = named(ctx, &p, d->orbit.start, start, &found, out->message, sizeof out->message);
+    const int nothing = status == PENDRES_NOT_FOUND && found == 0;
+    if (!nothing && status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED)
+      break;
   }
   return status;
 }

@@ -388,8 +388,11 @@ static pendres_status compute_cut(basins *b)
 
 static pendres_status find_attractors(basins *b)
 {
+  char why[SCENE_TOLD];
   pendres_context *ctx = scene_context(b->run);
   if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (scene_settling_too_long(b->d, &b->pendulum, 1.0, why, sizeof why))
+    return scene_fail(b->run, PENDRES_NOT_CONVERGED, "%s", why);
   return scene_asked(b->run, pendres_basin_attractors(ctx, &b->pendulum, &b->grid, &b->set));
 }
 

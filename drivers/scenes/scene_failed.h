@@ -45,10 +45,15 @@ scene_failure scene_failure_of(pendres_status status);
  * steps than one would wait for. Strong damping needs short steps (their length times the damping
  * stays below 4) and a long time: the rate at which an overdamped pendulum settles is one over the
  * damping, so that the number of steps goes with its square. At weak damping it goes with the
- * damping's reciprocal, and more steps are allowed. It depends on the parameters alone, so that the
- * same points are refused in all runs. words[size] then says how many steps.
+ * damping's reciprocal, and at fast drives with their frequency. It depends on the parameters
+ * alone, so that the same points are refused in all runs. words[size] then says how many steps.
  */
 int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size);
+
+/* The same for a deck that may bound the drive periods of a pendulum itself, and then never takes
+   too long; words[size] name that key. Without damping nothing settles: it is not asked. */
+int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
+                            size_t size);
 
 /* What became of a point, for the record of a task; zero: nothing failed. */
 typedef struct scene_verdict {

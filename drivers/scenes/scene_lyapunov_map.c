@@ -78,16 +78,30 @@ typedef struct some {
   row *rows;
 } some;
 
+/* Whether one of them would not settle in a time that one waits, unless the deck says how long. */
+static int too_long(const work *w, const some *s)
+{
+  char words[SCENE_TOLD];
+  int any = 0;
+  for (size_t i = 0; i < s->n && w->d->lyapunov.transient == 0 && !any; i++)
+    any = scene_failure_too_long(&s->p[i], 1.0, words, sizeof words);
+  return any;
+}
+
 static pendres_status find(const work *w, const some *s, pendres_context *ctx, farm_record *out)
 {
   const pendres_lyapunov_options options = {.transient = (long)w->d->lyapunov.transient,
                                             .periods = (long)w->d->lyapunov.periods};
   const size_t half = s->n / 2;
   scene_point_begin(out, w->d, s->first, s->n, AXES, w->axis);
-  pendres_status status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
-  for (size_t i = 0; i < s->n && status == PENDRES_OK; i++) s->rows[i] = row_of(&s->found[i]);
+  pendres_status status = PENDRES_OK;
+  scene_failure own = too_long(w, s) ? SCENE_FAILURE_TOO_LONG : SCENE_FAILURE_NONE;
+  if (own == SCENE_FAILURE_NONE)
+    status = pendres_lyapunov_find(ctx, s->n, s->p, s->x, s->v, &options, s->found);
+  for (size_t i = 0; i < s->n && status == PENDRES_OK && own == SCENE_FAILURE_NONE; i++)
+    s->rows[i] = row_of(&s->found[i]);
   const int late = farm_gave_up(out, status);
-  const scene_failure own = scene_failure_of(status);
+  if (own == SCENE_FAILURE_NONE) own = scene_failure_of(status);
   if (!late && own == SCENE_FAILURE_NONE) return status;
   if (half == 0) {
     if (late) farm_lost(out, NULL, 0);
@@ -132,17 +146,30 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
+/* NULL: what is said of all. */
+static const char *words_for(scene_failure reason)
+{
+  switch (reason) {
+  case SCENE_FAILURE_UNRESOLVED: return "neither an orbit nor chaos within its time";
+  case SCENE_FAILURE_TOLERANCE:
+    return "more steps a period are needed there than are taken; a looser precision.tolerance may "
+           "do";
+  case SCENE_FAILURE_TOO_LONG:
+    return "settling would take too many steps of the integrator; lyapunov_map.transient says "
+           "after how many drive periods to look in spite of that";
+  default: return NULL;
+  }
+}
+
 static void tell_failed(scene_run *run, const work *w)
 {
   for (size_t i = 0; i < w->count; i++) {
     if (w->rows[i].failed == SCENE_FAILURE_NONE) continue;
     const scene_failure reason = (scene_failure)w->rows[i].failed;
-    const char *words = "neither an orbit nor chaos within its time";
     char where[200];
     run->failed_points++;
     scene_point_name(w->d, i, AXES, w->axis, where, sizeof where);
-    scene_failure_tell(run, reason, reason == SCENE_FAILURE_UNRESOLVED ? words : NULL, "%s",
-                       where);
+    scene_failure_tell(run, reason, words_for(reason), "%s", where);
   }
 }
 

@@ -159,15 +159,21 @@ static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
   return PENDRES_OK;
 }
 
-/* Find what there is to record. The budget applies to this search; a record takes a known time. */
+/* Find what there is to record. The budget applies to this search; a record takes a known time.
+   What cannot be found is marked; a name that no attractor has is a mistake of the deck. */
 static pendres_status find(orbit_work *w, pendres_context *ctx, farm_record *out)
 {
   const int named = w->d->orbit.start[0] != '\0';
+  char words[SCENE_TOLD];
+  pendres_status status = PENDRES_OK;
+  w->found.label = PENDRES_LABEL_UNRESOLVED;
   farm_point(out, 1, "what the pendulum settles on");
-  pendres_status status = named ? find_named(w, ctx, out) : find_from_start(w, ctx);
-  if (farm_gave_up(out, status)) {
-    w->found.label = PENDRES_LABEL_UNRESOLVED;
-    status = scene_verdict_point(&w->found.verdict, status, NULL, out);
+  if (scene_settling_too_long(w->d, &w->pendulum, 1.0, words, sizeof words)) {
+    if (!w->transient) scene_verdict_mark(&w->found.verdict, SCENE_FAILURE_TOO_LONG, words);
+  } else {
+    status = named ? find_named(w, ctx, out) : find_from_start(w, ctx);
+    if (status != PENDRES_NOT_FOUND)
+      status = scene_verdict_point(&w->found.verdict, status, pendres_context_message(ctx), out);
   }
   farm_point(out, 0, "the record of the orbit");
   return status;

@@ -41,7 +41,8 @@
  * drive, or under both drives.
  *
  * Unless the caller says how long to follow a pendulum, no transient and no average takes more than
- * 5e7 steps; a point that needs more is unresolved.
+ * 5e7 steps; a point that needs more is unresolved, and so is chaos after a transient that was too
+ * short to forget the start.
  *
  * Chaos that ends later than it is followed is not distinguished from chaos that lasts.
  */

@@ -14,6 +14,12 @@
 /* A lane that is in a chaotic attractor's cells at so many strobes in a row is chaotic. */
 enum { CHAOTIC_STREAK = 32 };
 
+/* Steps after which a lane is given up, unless the caller has set a budget of periods: seconds'
+   where it is alone, ten times what settling takes at a damping of 1e-4. Slow drives take many
+   steps a period: they get some periods in any case. */
+static const double most_steps = 5e6;
+static const long some_periods = 200;
+
 /* The time, in drive periods, in which a small oscillation decays to 1/e. */
 static double settling_time(const pendres_pendulum *p)
 {
@@ -203,6 +209,12 @@ static size_t set_of(const pendres_settle_labelling *l, size_t i)
   return l->set != NULL ? l->set[i] : 0;
 }
 
+static int spent(const pendres_settle_labelling *l, size_t set, const pendres_strobe_lane *lane)
+{
+  return lane->period >= l->budget[set] ||
+         (lane->period >= some_periods && (double)lane->period * lane->steps >= l->most_steps);
+}
+
 static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
 {
   const pendres_settle_labelling *l = arg;
@@ -212,7 +224,7 @@ static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
   if (l->before != NULL && escapes(l, i, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
-  return lane->period >= l->budget[set];
+  return spent(l, set, lane);
 }
 
 /* List the lanes that are to run: those that are unresolved, in no trap, and within their budget.
@@ -227,7 +239,7 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
     const size_t i = l->order != NULL ? l->order[k] : k, set = set_of(l, i);
     const pendres_catalogue *c = &l->catalogues[set];
     if (pendres_settle_ended(&l->outcome[i])) continue;
-    if (trapped(l, i, c, &lanes[i]) || lanes[i].period >= l->budget[set]) continue;
+    if (trapped(l, i, c, &lanes[i]) || spent(l, set, &lanes[i])) continue;
     *covers |= c->covers > 0;
     *open |= pendres_escape_possible(&c->pendulum);
     which[left++] = i;
@@ -240,6 +252,7 @@ pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_stro
 {
   int covers = 0, open = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
+  l->most_steps = ctx->options.period_budget > 0 ? INFINITY : most_steps;
   size_t *which = calloc(n + 1, sizeof *which);
   if (which == NULL) goto no_memory;
   const size_t left = list_unsettled(n, lanes, l, which, &covers, &open);

@@ -32,6 +32,7 @@ typedef struct pendres_settle_labelling {
                                the largest one that cannot change its label, which is certain up to
                                1. NULL: not kept */
   /* Of the run itself: */
+  double most_steps;        /* of a lane */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
   double *entry;            /* largest variance of its error before that */
   struct pendres_settle_place *before; /* a period ago, of lanes that may escape; NULL: none may */

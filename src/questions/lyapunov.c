@@ -75,6 +75,11 @@ int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
 
 /* ---- coming back --------------------------------------------------------------------------- */
 
+static double longest_transient(const pendres_strobe_lane *lane)
+{
+  return fmin(1e7, most_steps / lane->steps);
+}
+
 /* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
 static long transient_of(const job *j, const pendres_strobe_lane *lane)
 {
@@ -83,9 +88,16 @@ static long transient_of(const job *j, const pendres_strobe_lane *lane)
   /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
   const double forgets = p->drive_frequency / (two_pi * p->damping);
   if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
-  const double most = fmin(1e7, most_steps / lane->steps);
-  return (long)fmax(TRANSIENT,
-                    fmin(most, 80.0 * p->drive_frequency / (two_pi * p->damping)));
+  return (long)fmax(TRANSIENT, fmin(longest_transient(lane), 80.0 * forgets));
+}
+
+/* Whether the start is forgotten before averages begin. Where damping is so weak that it is not,
+   what looks like chaos may be a transient. */
+static int forgets_start(const job *j, const pendres_strobe_lane *lane)
+{
+  const pendres_pendulum *p = lane->pendulum;
+  return j->transient > 0 ||
+         80.0 * p->drive_frequency / (two_pi * p->damping) <= longest_transient(lane);
 }
 
 static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
@@ -284,7 +296,7 @@ static void judge(job *j, long batch, double accuracy, pendres_lyapunov *out)
     double least = r->neighbour ? least_growth : least_carried;
     if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
     const int chaotic = growth > significance * error + carried_in_doubt * off &&
-                        growth > least && !changes(r->growth[0]);
+                        growth > least && !changes(r->growth[0]) && forgets_start(j, &r->lane);
     out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
