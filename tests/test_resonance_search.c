@@ -138,7 +138,7 @@ static void a_budget_that_ends(void **state)
   pendres_context *ctx = context();
   pendres_resonance r;
   (void)state;
-  check_ok(pendres_resonance_find_within(ctx, &torn, 0.6, 0.8, &e, 0.7, &r));
+  check_ok(pendres_resonance_find_within(ctx, &torn, (double[]){0.6, 0.8}, &e, 0.7, &r));
   assert_true(r.peak == PENDRES_PEAK_RAGGED && !r.complete);
   assert_true(r.frequency_error > 1e-4 && r.response.mean_loop_area_error >= r.loop_area_error);
   pendres_pendulum p = torn;
@@ -156,7 +156,7 @@ static void no_budget_at_all(void **state)
   pendres_context *ctx = context();
   pendres_resonance r;
   (void)state;
-  assert_int_equal(pendres_resonance_find_within(ctx, &torn, 0.6, 0.8, &e, 1e-4, &r),
+  assert_int_equal(pendres_resonance_find_within(ctx, &torn, (double[]){0.6, 0.8}, &e, 1e-4, &r),
                    PENDRES_NOT_CONVERGED);
   assert_non_null(strstr(pendres_context_message(ctx), "budget"));
   assert_null(strstr(pendres_context_message(ctx), "end of the range"));
@@ -199,7 +199,7 @@ static void slow_drives(void **state)
   pendres_context *ctx = context();
   pendres_resonance r;
   (void)state;
-  check_ok(pendres_resonance_find_within(ctx, &p, 0.05, 0.1, &e, 2.0, &r));
+  check_ok(pendres_resonance_find_within(ctx, &p, (double[]){0.05, 0.1}, &e, 2.0, &r));
   assert_true(r.peak == PENDRES_PEAK_RAGGED && r.loop_area > 1.3829);
   static const double elsewhere[] = {0.057143, 0.0625, 0.09};
   for (int i = 0; i < 3; i++) {
@@ -223,9 +223,9 @@ static void whatever_came_before(void **state)
       pendres_context *ctx = context();
       const double work = cut ? 1.0 : 6.0 /* of two */;
       if (i > 0)
-        check_ok(pendres_resonance_find_within(ctx, &calm, calm_range[0], calm_range[1], &e, 6.0,
+        check_ok(pendres_resonance_find_within(ctx, &calm, calm_range, &e, 6.0,
                                                &r[1]));
-      check_ok(pendres_resonance_find_within(ctx, &calm, calm_range[0], calm_range[1], &e, work,
+      check_ok(pendres_resonance_find_within(ctx, &calm, calm_range, &e, work,
                                              &r[i]));
       assert_int_equal(r[i].complete, !cut);
       pendres_context_free(ctx);

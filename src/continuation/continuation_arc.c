@@ -311,20 +311,19 @@ done:
 }
 
 pendres_status pendres_arc_correct(pendres_context *ctx, const pendres_arc *kind, size_t n,
-                                   const pendres_arc_point *points, const int *steps,
-                                   double (*u)[PENDRES_U_COUNT], double *rounding)
+                                   pendres_arc_correction *points)
 {
   candidate *c = malloc((n + 1) * sizeof *c);
   if (c == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++) {
-    c[i] = (candidate){.arc = kind, .tangent = points[i].tangent, .steps = steps[i]};
-    memcpy(c[i].u, u[i], sizeof c[i].u);
+    c[i] = (candidate){.arc = kind, .tangent = points[i].tangent, .steps = points[i].steps};
+    memcpy(c[i].u, points[i].u, sizeof c[i].u);
   }
   const pendres_status status = converge(ctx, n, c);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    memcpy(u[i], c[i].u, sizeof c[i].u);
-    rounding[i] = c[i].state == CONVERGED ? rounding_of(&c[i]) : NAN;
+    memcpy(points[i].u, c[i].u, sizeof c[i].u);
+    points[i].rounding = c[i].state == CONVERGED ? rounding_of(&c[i]) : NAN;
   }
   free(c);
   return status;
@@ -372,31 +371,31 @@ pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
                                  const double u[PENDRES_U_COUNT], double direction)
 {
   pendres_continuation_equations e;
-  double place[1][PENDRES_U_COUNT], rounding = NAN;
-  int steps = 0;
+  pendres_arc_correction place;
   w->here = (pendres_arc_point){.arclength = 0.0};
   w->stuck = w->found = w->apart = 0;
   w->step = 0.1 * w->longest;
   memset(w->bend, 0, sizeof w->bend);
-  memcpy(place[0], u, sizeof place[0]);
+  memcpy(place.u, u, sizeof place.u);
   pendres_status status =
-    pendres_continuation_map_steps(ctx, w->map.force, u, w->tolerance, &steps);
-  if (status == PENDRES_OK) status = equations_at(ctx, w, steps, u, &e);
+    pendres_continuation_map_steps(ctx, w->map.force, u, w->tolerance, &place.steps);
+  if (status == PENDRES_OK) status = equations_at(ctx, w, place.steps, u, &e);
   if (status != PENDRES_OK) return status;
   if (!first_tangent(w, &e, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
-  status = pendres_arc_correct(ctx, w, 1, &w->here, &steps, place, &rounding);
-  if (status == PENDRES_OK && isnan(rounding)) status = PENDRES_NOT_CONVERGED;
-  if (status == PENDRES_OK) status = equations_at(ctx, w, steps, place[0], &e);
+  memcpy(place.tangent, w->here.tangent, sizeof place.tangent);
+  status = pendres_arc_correct(ctx, w, 1, &place);
+  if (status == PENDRES_OK && isnan(place.rounding)) status = PENDRES_NOT_CONVERGED;
+  if (status == PENDRES_OK) status = equations_at(ctx, w, place.steps, place.u, &e);
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++) {
     pendres_continuation_map half;
     pendres_continuation_miss miss;
     if (!pendres_continuation_map_half(&w->map, which, &half)) break;
-    status = pendres_continuation_map_closes(ctx, &half, steps, 1,
-                                             (const double (*)[PENDRES_U_COUNT])place, &miss);
+    status = pendres_continuation_map_closes(ctx, &half, place.steps, 1,
+                                             (const double (*)[PENDRES_U_COUNT])&place.u, &miss);
     if (status == PENDRES_OK && hypot(miss.off[0], miss.off[1]) > too_close) w->apart |= 1 << which;
   }
   if (status != PENDRES_OK) return status;
-  memcpy(w->here.u, place[0], sizeof w->here.u);
+  memcpy(w->here.u, place.u, sizeof w->here.u);
   describe(w, &e, NULL, &w->here);
   return first_tangent(w, &e, direction, w->here.tangent) ? PENDRES_OK : PENDRES_NOT_CONVERGED;
 }

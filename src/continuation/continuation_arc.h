@@ -74,15 +74,20 @@ pendres_arc pendres_arc_of(const pendres_orbit *orbit, pendres_continuation_cond
 pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *arc,
                                  const double u[PENDRES_U_COUNT], double direction);
 
-/*
- * Correct n points of one kind of curve (the arc's map, condition, unknowns and what it keeps
- * apart from; its place is not read), each at its own steps and within the plane through it across
- * its tangent. u is replaced, *rounding[i] becomes the error of the scaled unknowns by rounding,
- * NaN where the correction failed, or led astray to orbits that the arc keeps apart from.
- */
+/* A point that is to be corrected, and what becomes of it. */
+typedef struct pendres_arc_correction {
+  double tangent[PENDRES_ARC_UNKNOWNS]; /* the point stays in the plane across it */
+  int steps;                            /* a period */
+  double u[PENDRES_U_COUNT];            /* where it is; replaced */
+  double rounding;           /* becomes the error of the scaled unknowns by rounding; NaN where the
+                                correction failed, or led astray to orbits that the arc keeps apart
+                                from */
+} pendres_arc_correction;
+
+/* Correct n points of one kind of curve: the arc's map, condition, unknowns and what it keeps apart
+   from; its place is not read. */
 pendres_status pendres_arc_correct(pendres_context *ctx, const pendres_arc *kind, size_t n,
-                                   const pendres_arc_point *points, const int *steps,
-                                   double (*u)[PENDRES_U_COUNT], double *rounding);
+                                   pendres_arc_correction *points);
 
 /* What a point of the curve is beside its place: image, growth, and null vector and bending with
    the sign of the null vector that the point has already. */

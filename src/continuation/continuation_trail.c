@@ -29,59 +29,65 @@ static int add(way *w, const pendres_arc_point *point)
   return 0;
 }
 
-/* Find the parameter among the unknowns that is out of its bounds, and that bound; -1: none is. */
+/* The bound of a parameter that a curve meets, and the point of the curve there. */
+typedef struct landing {
+  int unknown; /* number of the parameter among the unknowns */
+  double bound;
+  int landed; /* 0: there is no such point */
+  pendres_arc_point point;
+} landing;
+
+/* Find the parameter among the unknowns that is out of its bounds, and that bound; 0: none is. */
 static int out_of_bounds(const pendres_arc *w, const pendres_trail_bounds *b,
-                         const double u[PENDRES_U_COUNT], double *bound)
+                         const double u[PENDRES_U_COUNT], landing *out)
 {
   for (int k = 2; k < w->unknowns; k++) {
     const double value = u[w->unknown[k]];
     if (value < b->low[k - 2] || value > b->high[k - 2]) {
-      *bound = value < b->low[k - 2] ? b->low[k - 2] : b->high[k - 2];
-      return k;
+      out->unknown = k;
+      out->bound = value < b->low[k - 2] ? b->low[k - 2] : b->high[k - 2];
+      return 1;
     }
   }
-  return -1;
+  return 0;
 }
 
-/* The point of the curve on a bound, between the last point inside and the first outside. */
+/* Find the point of the curve on a bound, between the last point inside and the first outside. */
 static pendres_status land(pendres_context *ctx, const pendres_arc *w,
                            const pendres_arc_point *inside, const pendres_arc_point *outside,
-                           int k, double bound, pendres_arc_point *point, int *landed)
+                           landing *out)
 {
-  const int place = w->unknown[k];
-  const double way_out = outside->u[place] - inside->u[place];
+  const int k = out->unknown, place = w->unknown[k];
+  const double bound = out->bound, way_out = outside->u[place] - inside->u[place];
   const double part = (bound - inside->u[place]) / way_out;
-  double u[1][PENDRES_U_COUNT], rounding = NAN;
-  int steps = 0;
-  *landed = 0;
+  pendres_arc_point *point = &out->point;
+  pendres_arc_correction c = {.rounding = NAN};
+  out->landed = 0;
   if (!(part > 0.0 && part < 1.0)) return PENDRES_OK;
   *point = *inside;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    u[0][i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
-  u[0][place] = bound;
-  memset(point->tangent, 0, sizeof point->tangent);
-  point->tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
+    c.u[i] = inside->u[i] + part * (outside->u[i] - inside->u[i]);
+  c.u[place] = bound;
+  c.tangent[k] = way_out > 0.0 ? 1.0 : -1.0;
   pendres_status status =
-    pendres_continuation_map_steps(ctx, w->map.force, u[0], w->tolerance, &steps);
-  if (status == PENDRES_OK)
-    status = pendres_arc_correct(ctx, w, 1, point, &steps, u, &rounding);
+    pendres_continuation_map_steps(ctx, w->map.force, c.u, w->tolerance, &c.steps);
+  if (status == PENDRES_OK) status = pendres_arc_correct(ctx, w, 1, &c);
   const double chord = pendres_arc_distance(inside->u, outside->u);
-  if (status != PENDRES_OK || isnan(rounding) ||
-      pendres_arc_distance(inside->u, u[0]) > chord ||
-      fabs(u[0][place] - bound) > 1e-12)
+  if (status != PENDRES_OK || isnan(c.rounding) ||
+      pendres_arc_distance(inside->u, c.u) > chord || fabs(c.u[place] - bound) > 1e-12)
     return status;
-  memcpy(point->u, u[0], sizeof point->u);
+  memcpy(point->u, c.u, sizeof point->u);
   point->u[place] = bound;
   point->held = k + 1;
-  point->arclength = inside->arclength + pendres_arc_distance(inside->u, u[0]);
+  point->arclength = inside->arclength + pendres_arc_distance(inside->u, c.u);
   point->bending = inside->bending + part * (outside->bending - inside->bending);
   /* What belongs to the place and not to the plane is taken from the way there. */
   for (int i = 0; i < w->unknowns; i++)
     point->tangent[i] = inside->tangent[i] + part * (outside->tangent[i] - inside->tangent[i]);
-  const pendres_continuation_system system = pendres_arc_system(w, steps);
-  status = pendres_continuation_map_images(ctx, &system, 1, (const double (*)[PENDRES_U_COUNT])u,
-                                           &point->image);
-  *landed = status == PENDRES_OK;
+  const pendres_continuation_system system = pendres_arc_system(w, c.steps);
+  status = pendres_continuation_map_images(ctx, &system, 1,
+                                           (const double (*)[PENDRES_U_COUNT])&c.u, &point->image);
+  out->landed = status == PENDRES_OK;
   return status;
 }
 
@@ -128,16 +134,13 @@ static pendres_status take(pendres_context *ctx, const pendres_arc *w,
   for (int i = 0; i < w->found && to->going; i++) {
     const pendres_arc_point *p = &w->ahead[i];
     const pendres_arc_point *last = to->count > 0 ? &to->point[to->count - 1] : start;
-    pendres_arc_point landing;
-    double bound = 0.0;
-    int landed = 0;
-    const int k = out_of_bounds(w, b, p->u, &bound);
-    if (k >= 0) {
+    landing at;
+    if (out_of_bounds(w, b, p->u, &at)) {
       to->going = 0;
       to->end = PENDRES_END_RANGE;
-      status = land(ctx, w, last, p, k, bound, &landing, &landed);
+      status = land(ctx, w, last, p, &at);
       if (status != PENDRES_OK) return status;
-      if (landed && add(to, &landing) != 0) goto no_memory;
+      if (at.landed && add(to, &at.point) != 0) goto no_memory;
       break;
     }
     if (p->arclength > 4.0 * pendres_arc_distance(last->u, p->u) &&
@@ -310,17 +313,12 @@ typedef struct polish {
   const pendres_trail *trail;
   pendres_continuation_pair *pairs;
   size_t left, *index; /* of the points left */
-  pendres_arc_point *point;
-  double (*u)[PENDRES_U_COUNT], *rounding;
-  int *steps;
+  pendres_arc_correction *point;
 } polish;
 
 static void free_polish(polish *p)
 {
   free(p->point);
-  free(p->u);
-  free(p->rounding);
-  free(p->steps);
   free(p->index);
 }
 
@@ -329,10 +327,8 @@ static pendres_status begin_polish(pendres_context *ctx, const pendres_trail *t,
 {
   const size_t n = t->count + 1;
   *p = (polish){.trail = t, .pairs = pairs, .left = t->count, .index = malloc(n * sizeof *p->index),
-                .point = malloc(n * sizeof *p->point), .u = malloc(n * sizeof *p->u),
-                .rounding = malloc(n * sizeof *p->rounding), .steps = malloc(n * sizeof *p->steps)};
-  if (p->index == NULL || p->point == NULL || p->u == NULL || p->rounding == NULL ||
-      p->steps == NULL)
+                .point = malloc(n * sizeof *p->point)};
+  if (p->index == NULL || p->point == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
@@ -355,27 +351,29 @@ static pendres_status correct(pendres_context *ctx, polish *w, int fine)
   pendres_status status = PENDRES_OK;
   for (size_t i = 0; i < w->left; i++) {
     pendres_continuation_pair *p = &w->pairs[w->index[i]];
-    w->point[i] = w->trail->point[w->index[i]];
-    if (w->point[i].held > 0) {
-      memset(w->point[i].tangent, 0, sizeof w->point[i].tangent);
-      w->point[i].tangent[w->point[i].held - 1] = 1.0;
+    const pendres_arc_point *at = &w->trail->point[w->index[i]];
+    pendres_arc_correction *c = &w->point[i];
+    memcpy(c->tangent, at->tangent, sizeof c->tangent);
+    if (at->held > 0) {
+      memset(c->tangent, 0, sizeof c->tangent);
+      c->tangent[at->held - 1] = 1.0;
     }
     if (fine) {
       p->fine_steps = pendres_steps_rung((int)ceil(1.4 * p->coarse_steps));
       p->fine_steps += p->fine_steps % 2;
     }
-    w->steps[i] = fine ? p->fine_steps : p->coarse_steps;
-    memcpy(w->u[i], p->coarse, sizeof w->u[i]);
+    c->steps = fine ? p->fine_steps : p->coarse_steps;
+    memcpy(c->u, p->coarse, sizeof c->u);
   }
   for (size_t first = 0; first < w->left && status == PENDRES_OK; first += CHUNK)
     status = pendres_arc_correct(ctx, kind, w->left - first < CHUNK ? w->left - first : CHUNK,
-                                 w->point + first, w->steps + first, w->u + first,
-                                 w->rounding + first);
+                                 w->point + first);
   for (size_t i = 0; i < w->left && status == PENDRES_OK; i++) {
     pendres_continuation_pair *p = &w->pairs[w->index[i]];
     /* A point that cannot be corrected stays where the arc left it, with an error that says so. */
-    memcpy(fine ? p->fine : p->coarse, w->u[i], sizeof w->u[i]);
-    p->rounding = isnan(w->rounding[i]) ? kind->tolerance : w->rounding[i];
+    const pendres_arc_correction *c = &w->point[i];
+    memcpy(fine ? p->fine : p->coarse, c->u, sizeof c->u);
+    p->rounding = isnan(c->rounding) ? kind->tolerance : c->rounding;
   }
   return status;
 }

@@ -179,25 +179,24 @@ pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *t
 
 /* The point of the curve near the place s between two points: linear, then corrected. */
 static pendres_status point_at(pendres_context *ctx, const pendres_trail *t,
-                               const pendres_arc_point *a, const pendres_arc_point *b, double s,
+                               const pendres_arc_point between[2], double s,
                                pendres_arc_point *out, int *good)
 {
+  const pendres_arc_point *a = &between[0], *b = &between[1];
   const double part = (s - a->arclength) / (b->arclength - a->arclength);
-  double u[1][PENDRES_U_COUNT], rounding = NAN;
-  int steps = 0;
+  pendres_arc_correction c;
   *out = part < 0.5 ? *a : *b;
-  for (int i = 0; i < PENDRES_U_COUNT; i++) u[0][i] = a->u[i] + part * (b->u[i] - a->u[i]);
-  pendres_status status =
-    pendres_continuation_map_steps(ctx, t->kind.map.force, u[0], pendres_accuracy_first(ctx),
-                                   &steps);
-  if (status == PENDRES_OK)
-    status = pendres_arc_correct(ctx, &t->kind, 1, out, &steps, u, &rounding);
-  *good = status == PENDRES_OK && !isnan(rounding);
+  memcpy(c.tangent, out->tangent, sizeof c.tangent);
+  for (int i = 0; i < PENDRES_U_COUNT; i++) c.u[i] = a->u[i] + part * (b->u[i] - a->u[i]);
+  pendres_status status = pendres_continuation_map_steps(ctx, t->kind.map.force, c.u,
+                                                         pendres_accuracy_first(ctx), &c.steps);
+  if (status == PENDRES_OK) status = pendres_arc_correct(ctx, &t->kind, 1, &c);
+  *good = status == PENDRES_OK && !isnan(c.rounding);
   if (!*good) return status;
-  memcpy(out->u, u[0], sizeof out->u);
+  memcpy(out->u, c.u, sizeof out->u);
   out->held = 0;
   out->arclength = s;
-  return pendres_arc_describe(ctx, &t->kind, steps, out);
+  return pendres_arc_describe(ctx, &t->kind, c.steps, out);
 }
 
 static int insert(pendres_trail *t, size_t at, const pendres_arc_point *p)
@@ -238,7 +237,7 @@ static pendres_status descend(pendres_context *ctx, const pendres_trail *t,
     const int side = next < s[1] ? 0 : 1;
     pendres_arc_point here;
     const pendres_status status =
-      point_at(ctx, t, &points[side], &points[side + 1], next, &here, &good);
+      point_at(ctx, t, &points[side], next, &here, &good);
     if (status != PENDRES_OK) return status;
     if (!good) break;
     const double value = test(&here);

@@ -222,11 +222,11 @@ static int is_there(double before, double after)
 static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
                                           pendres_newton_candidate *c, const result *coarse)
 {
-  for (size_t first = 0, last; first < n; first = last) {
+  for (size_t first = 0, count; first < n; first += count) {
     const pendres_status status =
-      pendres_newton_pass(ctx, n, c, first, PENDRES_ORBIT_PLAIN, NULL, &last);
+      pendres_newton_pass(ctx, n - first, c + first, PENDRES_ORBIT_PLAIN, NULL, &count);
     if (status != PENDRES_OK) return status;
-    for (size_t i = first; i < last; i++) {
+    for (size_t i = first; i < first + count; i++) {
       const pendres_newton_candidate *at = &c[i];
       const result *before = &coarse[at->index];
       double shift[2];
@@ -241,16 +241,31 @@ static pendres_status move_to_finer_point(pendres_context *ctx, size_t n,
   return PENDRES_OK;
 }
 
+/* Where results go, as many of each as there are guesses; coarser may be NULL. */
+typedef struct outputs {
+  pendres_orbit *orbit;
+  pendres_status *outcome;
+  pendres_orbit_coarser *coarser;
+} outputs;
+
+/* What is measured with n and with 1.4 n steps, for each guess. */
+typedef struct two_runs {
+  pendres_orbit_want want;
+  result *coarse, *fine;
+} two_runs;
+
 /*
  * Converge, and measure with n and with 1.4 n steps; candidates are sorted in place. A ghost, or
  * what is too close to one to tell, has the outcome PENDRES_NOT_CONVERGED, but a state that is
  * converged.
  */
 static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
-                                  pendres_orbit_want want, result *coarse, result *fine,
-                                  pendres_orbit *out, pendres_status *outcome)
+                                  const two_runs *runs, const outputs *to)
 {
   const double rounding = pendres_newton_rounding(ctx->options.table);
+  const pendres_orbit_want want = runs->want;
+  result *coarse = runs->coarse, *fine = runs->fine;
+  pendres_status *outcome = to->outcome;
   pendres_status status = pendres_newton_converge(ctx, n, c);
   if (status == PENDRES_OK) status = measure_all(ctx, n, c, want, 1, coarse);
   if (status != PENDRES_OK) return status;
@@ -273,9 +288,9 @@ static pendres_status refine_once(pendres_context *ctx, size_t n, pendres_newton
       outcome[k] = PENDRES_NOT_CONVERGED;
       continue;
     }
-    fill(&c[i], first, second, rounding, &out[k], fine[k].rounded);
+    fill(&c[i], first, second, rounding, &to->orbit[k], fine[k].rounded);
     outcome[k] =
-      accurate(&out[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
+      accurate(&to->orbit[k], ctx->options.tolerance) ? PENDRES_OK : PENDRES_TOLERANCE_UNREACHABLE;
   }
   return status;
 }
@@ -306,15 +321,9 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
   return PENDRES_OK;
 }
 
-/* Where results go, n of each; coarser may be NULL. */
-typedef struct outputs {
-  pendres_orbit *orbit;
-  pendres_status *outcome;
-  pendres_orbit_coarser *coarser;
-} outputs;
-
-static void set_coarser(size_t n, const result *coarse, const result *fine, const outputs *to)
+static void set_coarser(size_t n, const two_runs *runs, const outputs *to)
 {
+  const result *coarse = runs->coarse, *fine = runs->fine;
   for (size_t i = 0; i < n && to->coarser != NULL; i++)
     to->coarser[i] = to->outcome[i] == PENDRES_NOT_CONVERGED
                        ? (pendres_orbit_coarser){NAN, NAN, NAN, NAN, NAN}
@@ -339,15 +348,17 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
 
   pendres_status status = PENDRES_OK;
   pendres_newton_candidate *c = malloc(n * sizeof *c);
-  result *coarse = malloc(n * sizeof *coarse), *fine = malloc(n * sizeof *fine);
-  if (c == NULL || coarse == NULL || fine == NULL) {
+  const two_runs runs = {.want = want,
+                         .coarse = malloc(n * sizeof *runs.coarse),
+                         .fine = malloc(n * sizeof *runs.fine)};
+  if (c == NULL || runs.coarse == NULL || runs.fine == NULL) {
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu orbits", n);
     goto done;
   }
   status = start(ctx, n, guess, c);
   size_t left = n;
   for (int attempt = 0; attempt < MOST_TRIES && left > 0 && status == PENDRES_OK; attempt++) {
-    status = refine_once(ctx, left, c, want, coarse, fine, to->orbit, outcome);
+    status = refine_once(ctx, left, c, &runs, to);
     /* What missed the tolerance, or could not be told from a ghost, goes on from where it is, with
        more steps. */
     size_t again = 0;
@@ -357,11 +368,11 @@ static pendres_status orbit_refine(pendres_context *ctx, size_t n, const pendres
         c[again++] = c[i];
     left = again;
   }
-  if (status == PENDRES_OK) set_coarser(n, coarse, fine, to);
+  if (status == PENDRES_OK) set_coarser(n, &runs, to);
 done:
   free(c);
-  free(coarse);
-  free(fine);
+  free(runs.coarse);
+  free(runs.fine);
   return status;
 }
 

@@ -43,17 +43,17 @@ pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
   const double spacing = two_pi * s->period / (double)n, q = s->period;
   const double square = p->drive_frequency * p->drive_frequency;
   const int plain = pendres_model_kind(p) == PENDRES_MODEL_PLAIN;
-  double *y = work, *slope = work + n, *curvature = work + 2 * n;
+  double *const sample[3] = {work, work + n, work + 2 * n};
 
   for (size_t k = 0; k < n; k++) {
     const double theta = spacing * (double)k;
     const double force = plain ? p->drive_amplitude * cos(theta) - sin(s->y[k])
                                : force_on(p, s->y[k], cos(theta));
-    y[k] = s->y[k] - s->winding * theta / q;
-    slope[k] = q * s->w[k] - s->winding;
-    curvature[k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
+    sample[0][k] = s->y[k] - s->winding * theta / q;
+    sample[1][k] = q * s->w[k] - s->winding;
+    sample[2][k] = q * q * (force / square - p->damping / p->drive_frequency * s->w[k]);
   }
-  return pendres_orbit_series_build(s->tables, n, y, slope, curvature, work + 3 * n, out);
+  return pendres_orbit_series_build(s->tables, n, sample, work + 3 * n, out);
 }
 
 /*

@@ -100,30 +100,29 @@ static void read_lane(const pendres_rows *rows, int sensitive, pendres_newton_ca
 }
 
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
-                                   size_t first, pendres_orbit_want want,
-                                   pendres_newton_samples *taken, size_t *last)
+                                   pendres_orbit_want want, pendres_newton_samples *taken,
+                                   size_t *count)
 {
   pendres_block b;
   const int sensitive = want == PENDRES_ORBIT_FREQUENCY_SLOPE;
-  const int steps = c[first].steps, q = c[first].guess->period;
+  const int steps = c[0].steps, q = c[0].guess->period;
   pendres_status status = pendres_block_open(
     ctx, sensitive ? PENDRES_FLOW_SENSITIVITY : PENDRES_FLOW_VARIATIONAL, steps, &b);
   if (status != PENDRES_OK) return status;
 
-  const pendres_model_terms model = pendres_model_kind(&c[first].guess->pendulum);
+  const pendres_model_terms model = pendres_model_kind(&c[0].guess->pendulum);
   const int companions = taken != NULL && taken->bends ? 2 : 0;
   const size_t most = pendres_block_capacity(&b) / (size_t)(1 + companions);
   size_t lanes = 0;
-  while (first + lanes < n && lanes < most &&
-         c[first + lanes].steps == steps && c[first + lanes].guess->period == q &&
-         pendres_model_kind(&c[first + lanes].guess->pendulum) == model)
+  while (lanes < n && lanes < most && c[lanes].steps == steps && c[lanes].guess->period == q &&
+         pendres_model_kind(&c[lanes].guess->pendulum) == model)
     lanes++;
-  *last = first + lanes;
+  *count = lanes;
 
   const size_t kept = sensitive ? PENDRES_ROWS_SENSITIVITY : PENDRES_ROWS_VARIATIONAL;
   if (taken != NULL && prepare_samples(taken, (size_t)steps * (size_t)q, lanes, kept) != 0)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbit samples");
-  load_lanes(&b, lanes, companions, c + first);
+  load_lanes(&b, lanes, companions, c);
   recorder r = {.taken = taken};
   const pendres_rows rows = pendres_block_rows(&b);
   if (taken != NULL) record(&r, 0, &rows);
@@ -134,7 +133,7 @@ pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newto
   }
   if (status != PENDRES_OK) return status;
   ctx->cost.newton_steps += (double)lanes;
-  for (size_t i = first; i < *last; i++) {
+  for (size_t i = 0; i < lanes; i++) {
     read_lane(&rows, sensitive, &c[i]);
     if (companions) read_companions(&rows, lanes, &c[i]);
   }
@@ -297,11 +296,11 @@ pendres_status pendres_newton_converge(pendres_context *ctx, size_t n, pendres_n
   }
   while (active > 0) {
     pendres_newton_order(n, c);
-    for (size_t first = 0, last; first < active; first = last) {
+    for (size_t first = 0, count; first < active; first += count) {
       const pendres_status status =
-        pendres_newton_pass(ctx, active, c, first, PENDRES_ORBIT_PLAIN, NULL, &last);
+        pendres_newton_pass(ctx, active - first, c + first, PENDRES_ORBIT_PLAIN, NULL, &count);
       if (status != PENDRES_OK) return status;
-      for (size_t i = first; i < last; i++) improve(&c[i]);
+      for (size_t i = first; i < first + count; i++) improve(&c[i]);
     }
     size_t still = 0;
     for (size_t i = 0; i < active; i++) still += c[i].state == PENDRES_NEWTON_ACTIVE;

@@ -54,13 +54,13 @@ const char *pendres_orbit_refuses(const pendres_orbit *o);
 void pendres_newton_samples_free(pendres_newton_samples *taken);
 
 /*
- * Integrate c[first ..) once over their period, up to the first candidate whose steps or period
- * differ, the end, or the block's capacity; *last is the one after. `taken` may be NULL.
- * What is found for candidates that have failed is not to be read.
+ * Integrate the first *count of n candidates once over their period: up to the first one whose
+ * steps or period differ, the end, or the block's capacity. `taken` may be NULL. What is found for
+ * candidates that have failed is not to be read.
  */
 pendres_status pendres_newton_pass(pendres_context *ctx, size_t n, pendres_newton_candidate *c,
-                                   size_t first, pendres_orbit_want want,
-                                   pendres_newton_samples *taken, size_t *last);
+                                   pendres_orbit_want want, pendres_newton_samples *taken,
+                                   size_t *count);
 
 /* Put candidates that may share a block side by side; those still active come first. */
 void pendres_newton_order(size_t n, pendres_newton_candidate *c);

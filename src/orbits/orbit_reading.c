@@ -47,11 +47,11 @@ pendres_status pendres_orbit_read(pendres_context *ctx, const pendres_orbit_read
   room r = {.work = NULL};
   pendres_status status = PENDRES_OK;
   pendres_newton_order(n, c);
-  for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
-    status = pendres_newton_pass(ctx, n, c, first, reader->want, &taken, &last);
+  for (size_t first = 0, count; first < n && status == PENDRES_OK; first += count) {
+    status = pendres_newton_pass(ctx, n - first, c + first, reader->want, &taken, &count);
     if (status == PENDRES_OK) status = provide(ctx, taken.count, &r);
     if (status != PENDRES_OK) break;
-    for (size_t i = first; i < last && status == PENDRES_OK; i++) {
+    for (size_t i = first; i < first + count && status == PENDRES_OK; i++) {
       if (c[i].state != PENDRES_NEWTON_CONVERGED) continue;
       status = read_one(reader, &taken, &r, &c[i]);
       if (status != PENDRES_OK)

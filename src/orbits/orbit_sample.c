@@ -29,10 +29,10 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *o, int st
   pendres_newton_candidate c = {.guess = &guess, .y = s.y, .w = s.w, .steps = steps};
   pendres_newton_samples taken = {0};
   pendres_orbit_tables tables = {0};
-  size_t last = 0;
+  size_t count = 0;
   double shift[2];
   pendres_status status =
-    pendres_newton_pass(ctx, 1, &c, 0, PENDRES_ORBIT_PLAIN, &taken, &last);
+    pendres_newton_pass(ctx, 1, &c, PENDRES_ORBIT_PLAIN, &taken, &count);
   if (status != PENDRES_OK) goto done;
   const size_t n = taken.count;
   double *memory = malloc((2 * n + pendres_orbit_measure_work(n)) * sizeof *memory);

@@ -46,7 +46,7 @@ static pendres_status provide_backward(pendres_orbit_tables *t, size_t points)
 }
 
 /* Transform three arrays in place, into coefficients in GSL's half-complex order. */
-static pendres_status transform(pendres_orbit_tables *t, size_t n, double *values[3])
+static pendres_status transform(pendres_orbit_tables *t, size_t n, double *const values[3])
 {
   pendres_status status = provide_forward(t, n);
   for (int i = 0; i < 3 && status == PENDRES_OK; i++)
@@ -72,11 +72,10 @@ static complex_number coefficient(const double *c, size_t n, size_t k)
  * i (k + n) and second derivatives by the squares: three equations for three harmonics. They are
  * solved by Lagrange's polynomials; no quotient is larger than two.
  */
-static void unfold(size_t n, size_t k, const double *y, const double *slope,
-                   const double *curvature, pendres_orbit_series *out)
+static void unfold(size_t n, size_t k, double *const sample[3], pendres_orbit_series *out)
 {
-  const complex_number a = coefficient(y, n, k), b = coefficient(slope, n, k);
-  const complex_number c = coefficient(curvature, n, k);
+  const complex_number a = coefficient(sample[0], n, k), b = coefficient(sample[1], n, k);
+  const complex_number c = coefficient(sample[2], n, k);
   const double N = (double)n, u = (double)k;
   /* Sums of a_m, of m a_m and of m^2 a_m over the three m. */
   const double s0[2] = {a.re, a.im}, s1[2] = {b.im, -b.re}, s2[2] = {-c.re, -c.im};
@@ -97,25 +96,24 @@ static void unfold(size_t n, size_t k, const double *y, const double *slope,
 
 /* With an even number of samples, in the middle: harmonics n/2 and -n/2, which are conjugate. Those
    of 3n/2 are left out. */
-static void unfold_middle(size_t n, const double *y, const double *slope, pendres_orbit_series *out)
+static void unfold_middle(size_t n, double *const sample[3], pendres_orbit_series *out)
 {
   const size_t k = n / 2;
-  out->re[k] = 0.5 * coefficient(y, n, k).re;
-  out->im[k] = -0.5 * coefficient(slope, n, k).re / (double)k;
+  out->re[k] = 0.5 * coefficient(sample[0], n, k).re;
+  out->im[k] = -0.5 * coefficient(sample[1], n, k).re / (double)k;
 }
 
-pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n, double *y,
-                                          double *slope, double *curvature, double *memory,
+pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n,
+                                          double *const sample[3], double *memory,
                                           pendres_orbit_series *out)
 {
-  double *values[3] = {y, slope, curvature};
-  const pendres_status status = transform(tables, n, values);
+  const pendres_status status = transform(tables, n, sample);
   if (status != PENDRES_OK) return status;
   const size_t last = (n - 1) / 2;
   *out = (pendres_orbit_series){
     .samples = n, .modes = n + last + 1, .re = memory, .im = memory + n + last + 1};
-  for (size_t k = 0; k <= last; k++) unfold(n, k, y, slope, curvature, out);
-  if (n % 2 == 0) unfold_middle(n, y, slope, out);
+  for (size_t k = 0; k <= last; k++) unfold(n, k, sample, out);
+  if (n % 2 == 0) unfold_middle(n, sample, out);
   return PENDRES_OK;
 }
 

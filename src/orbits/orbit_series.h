@@ -40,11 +40,11 @@ static inline size_t pendres_orbit_series_memory(size_t n)
 }
 
 /*
- * From n >= 1 equally spaced values, slopes and second derivatives by phase, 0 to 2 pi; all three
- * are overwritten. memory: pendres_orbit_series_memory(n).
+ * From n >= 1 equally spaced values, sample[0], slopes, [1], and second derivatives by phase, [2],
+ * 0 to 2 pi; all three are overwritten. memory: pendres_orbit_series_memory(n).
  */
-pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n, double *y,
-                                          double *slope, double *curvature, double *memory,
+pendres_status pendres_orbit_series_build(pendres_orbit_tables *tables, size_t n,
+                                          double *const sample[3], double *memory,
                                           pendres_orbit_series *out);
 
 /* Value and first two derivatives at a phase. */

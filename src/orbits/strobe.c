@@ -51,19 +51,17 @@ static double periods_that_count(const pendres_pendulum *p, long periods)
   return 1.0 / fmax(decay, 1.0 / fmax(1.0, (double)periods));
 }
 
-/* Put lanes at their starts, and choose their steps where steps are fixed. */
-static pendres_status load(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                           const double *x, const double *v, long periods,
-                           pendres_strobe_lane *lanes)
+/* Choose the steps of lanes that start from x and v, where steps are fixed. */
+static pendres_status choose_steps(pendres_context *ctx, size_t n, const double *x,
+                                   const double *v, long periods, pendres_strobe_lane *lanes)
 {
+  if (!pendres_method_of(ctx)->fixed_steps) return PENDRES_OK;
   for (size_t i = 0; i < n; i++) {
-    pendres_strobe_lane *l = &lanes[i];
-    *l = pendres_strobe_lane_at(&p[i], x[i], v[i]);
-    if (!pendres_method_of(ctx)->fixed_steps) continue;
+    const pendres_pendulum *p = lanes[i].pendulum;
     const pendres_status status =
-      pendres_steps_choose(ctx, &p[i], pendres_steps_speed(&p[i], x[i], v[i]),
-                           pendres_accuracy_of_run(ctx, periods_that_count(&p[i], periods)),
-                           &l->steps);
+      pendres_steps_choose(ctx, p, pendres_steps_speed(p, x[i], v[i]),
+                           pendres_accuracy_of_run(ctx, periods_that_count(p, periods)),
+                           &lanes[i].steps);
     if (status != PENDRES_OK) return status;
   }
   return PENDRES_OK;
@@ -261,7 +259,8 @@ static pendres_status strobe_advance(pendres_context *ctx, size_t n,
   pendres_strobe_lane *lanes = malloc(n * sizeof *lanes);
   if (lanes == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  status = load(ctx, n, pendulums, x, v, periods, lanes);
+  for (size_t i = 0; i < n; i++) lanes[i] = pendres_strobe_lane_at(&pendulums[i], x[i], v[i]);
+  status = choose_steps(ctx, n, x, v, periods, lanes);
   if (status == PENDRES_OK && error != NULL) {
     status = run_with_errors(ctx, n, periods, lanes, error);
   } else if (status == PENDRES_OK) {

@@ -307,12 +307,19 @@ static double ring_tolerance(double margin)
   return margin >= 0.05 ? 1e-4 : margin >= 1e-3 ? 1e-6 : margin >= 1e-5 ? 1e-8 : 1e-12;
 }
 
+/* Room for the points of all rings of a pass, and for the lanes that they are integrated in. */
+typedef struct room {
+  pendres_trap_point *points;
+  pendres_strobe_lane *lanes;
+} room;
+
 /* Integrate the rings of all searches at once, and close the arcs of those that come home. */
 static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                                 const pendres_orbit *orbits, pendres_trap_effort effort,
-                                pendres_trap_point *points, pendres_strobe_lane *lanes)
+                                const room *room)
 {
   const int many = effort == PENDRES_TRAP_MANY;
+  pendres_trap_point *points = room->points;
   size_t count = 0;
   pendres_trap_ring **rings = malloc((n * RINGS + 1) * sizeof *rings);
   pendres_status status = PENDRES_OK;
@@ -329,7 +336,7 @@ static pendres_status run_rings(pendres_context *ctx, size_t n, search *s,
                                                    t->w * r->pendulum->drive_frequency);
       status = pendres_steps_choose(ctx, r->pendulum, speed, ring_tolerance(r->margin), &r->steps);
     }
-  if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, lanes);
+  if (status == PENDRES_OK) status = pendres_trap_rings_run(ctx, count, rings, points, room->lanes);
   if (status == PENDRES_OK)
     status = pendres_trap_rings_close(ctx, count, rings, points, many ? MANY_MORE : FEW_MORE);
   free(rings);
@@ -341,8 +348,7 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
 {
   pendres_status status = PENDRES_OK;
   search *s = malloc((n + 1) * sizeof *s);
-  pendres_trap_point *points = NULL;
-  pendres_strobe_lane *lanes = NULL;
+  room room = {NULL, NULL};
   size_t left = 0;
   if (s == NULL) goto no_memory;
   for (size_t i = 0; i < n; i++) {
@@ -362,16 +368,16 @@ pendres_status pendres_trap_find(pendres_context *ctx, size_t n, const pendres_o
                          .looks = patience(o, effort)};
   }
   const size_t most = left * RINGS * (effort == PENDRES_TRAP_MANY ? MANY_POINTS : FEW_POINTS);
-  points = malloc((most + 1) * sizeof *points);
-  lanes = malloc((most + 1) * sizeof *lanes);
-  if (points == NULL || lanes == NULL) goto no_memory;
+  room.points = malloc((most + 1) * sizeof *room.points);
+  room.lanes = malloc((most + 1) * sizeof *room.lanes);
+  if (room.points == NULL || room.lanes == NULL) goto no_memory;
 
   while (left > 0 && status == PENDRES_OK) {
     for (size_t i = 0; i < left; i++) choose_rings(&s[i], &traps[s[i].orbit]);
-    status = run_rings(ctx, left, s, orbits, effort, points, lanes);
+    status = run_rings(ctx, left, s, orbits, effort, &room);
     size_t again = 0;
     for (size_t i = 0; i < left && status == PENDRES_OK; i++) {
-      judge(&s[i], points, &orbits[s[i].orbit], effort);
+      judge(&s[i], room.points, &orbits[s[i].orbit], effort);
       traps[s[i].orbit].radius = (1.0 - pendres_trap_margin) * s[i].proven;
       if (s[i].stage != STAGE_DONE) s[again++] = s[i];
     }
@@ -382,7 +388,7 @@ no_memory:
   status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for trapping rings");
 done:
   free(s);
-  free(points);
-  free(lanes);
+  free(room.points);
+  free(room.lanes);
   return status;
 }

@@ -48,9 +48,10 @@ static void eigenvectors(const pendres_continuation_image *image, double eigenva
 }
 
 /* l . D2P(e, e) by central differences of the monodromy over h. */
-static pendres_status second_derivative(pendres_context *ctx, const pendres_continuation_map *map,
-                                        int steps, const double u[PENDRES_U_COUNT],
-                                        const double e[2], const double l[2], double *out)
+static pendres_status second_derivative(pendres_context *ctx,
+                                        const pendres_continuation_system *closing,
+                                        const double u[PENDRES_U_COUNT], const double e[2],
+                                        const double l[2], double *out)
 {
   const double h = 1e-4;
   double points[2][PENDRES_U_COUNT], sum = 0.0;
@@ -61,7 +62,7 @@ static pendres_status second_derivative(pendres_context *ctx, const pendres_cont
     points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
   }
   const pendres_status status = pendres_continuation_map_states(
-    ctx, map, steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
+    ctx, closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
   for (int i = 0; i < 2 && status == PENDRES_OK; i++)
     for (int k = 0; k < 2; k++)
       sum += l[i] * (image[1].n[i][k] - image[0].n[i][k]) / (2.0 * h) * e[k];
@@ -97,7 +98,7 @@ pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_or
                                 fabs(large), fabs(small));
   eigenvectors(&at.image, small, stable, unused);
   eigenvectors(&at.image, large, unstable, left);
-  status = second_derivative(ctx, &map, steps, u, stable, left, &second);
+  status = second_derivative(ctx, &closing, u, stable, left, &second);
   if (status != PENDRES_OK) return status;
 
   const double across[2] = {-stable[1], stable[0]};

@@ -114,7 +114,9 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
     x[k] = s[which[k]].x;
     v[k] = s[which[k]].v;
   }
-  const pendres_status status = pendres_lyapunov_move(ctx, n, p, x, v, care, l, orbit);
+  const pendres_lyapunov_motion motion = {
+    .n = n, .pendulum = p, .x = x, .v = v, .out = l, .orbit = orbit};
+  const pendres_status status = pendres_lyapunov_move(ctx, &motion, care);
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     s[which[k]].x = x[k];
     s[which[k]].v = v[k];

@@ -383,20 +383,20 @@ static const char *refuses(const pendres_pendulum *p, double x, double v)
   return pendres_passage_refuses(p, x, v);
 }
 
-pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                     double *x, double *v, pendres_lyapunov_care care,
-                                     pendres_lyapunov *out, pendres_orbit *orbit)
+pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapunov_motion *m,
+                                     pendres_lyapunov_care care)
 {
   static const int rounds[] = {
     [PENDRES_CARE_FULL] = MORE_ROUNDS, [PENDRES_CARE_ONCE] = 1, [PENDRES_CARE_CLOSE] = MORE_ROUNDS};
-  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner), .orbit = orbit, .care = care,
+  const size_t n = m->n;
+  job j = {.n = n, .runner = malloc((n + 1) * sizeof *j.runner), .orbit = m->orbit, .care = care,
            .periods = care == PENDRES_CARE_CLOSE ? FEW_PERIODS : PERIODS, .rounds = rounds[care]};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
-  for (size_t i = 0; i < n; i++) orbit[i] = pendres_orbit_none(&p[i]);
-  const pendres_status status = find_all(ctx, &j, p, x, v, out);
+  for (size_t i = 0; i < n; i++) m->orbit[i] = pendres_orbit_none(&m->pendulum[i]);
+  const pendres_status status = find_all(ctx, &j, m->pendulum, m->x, m->v, m->out);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
-    pendres_strobe_lane_out(&j.runner[i].lane, &x[i], &v[i]);
+    pendres_strobe_lane_out(&j.runner[i].lane, &m->x[i], &m->v[i]);
   free(j.runner);
   return status;
 }

@@ -19,11 +19,19 @@ typedef enum pendres_lyapunov_care {
   PENDRES_CARE_CLOSE /* pendulums next to rotations that are not locked, which are told sooner */
 } pendres_lyapunov_care;
 
-/* As pendres_lyapunov_find with its defaults but for `care`, for pendulums that have been checked.
-   x[n] and v[n] become states at drive phase 0 that the pendulums are in at the end, less whole
-   turns, and orbit[n] the orbits that they have come to: of period 0 where there is none. */
-pendres_status pendres_lyapunov_move(pendres_context *ctx, size_t n, const pendres_pendulum *p,
-                                     double *x, double *v, pendres_lyapunov_care care,
-                                     pendres_lyapunov *out, pendres_orbit *orbit);
+/* Pendulums that are moved: arrays side by side, all the caller's. */
+typedef struct pendres_lyapunov_motion {
+  size_t n;
+  const pendres_pendulum *pendulum;
+  double *x, *v;         /* starts; they become states at drive phase 0 that the pendulums are
+                            in at the end, less whole turns */
+  pendres_lyapunov *out; /* what they do, and ... */
+  pendres_orbit *orbit;  /* ... the orbits that they have come to; of period 0 if to none */
+} pendres_lyapunov_motion;
+
+/* As pendres_lyapunov_find with its defaults but for `care`, for pendulums that have been
+   checked. */
+pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapunov_motion *m,
+                                     pendres_lyapunov_care care);
 
 #endif

@@ -155,41 +155,49 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, 
 
 /* ---- without noise ---- */
 
+/* Trajectories that are followed, and where points of the first go. */
+typedef struct course {
+  int steps;         /* a period */
+  size_t n;          /* trajectories, ... */
+  uint64_t first_id; /* ... and the number of the first */
+  long every;        /* drive periods from one point to the next */
+  double *x, *v;     /* points; NULL: not wanted */
+} course;
+
 /* One run, watched. */
 typedef struct run {
   pendres_ramp_watch watch;
-  long every;
-  double *x, *v; /* points; NULL: not wanted */
+  const course *course;
 } run;
 
 static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *s)
 {
   run *r = arg;
   pendres_ramp_watch_see(&r->watch, s);
-  if (r->x != NULL && s->period % r->every == 0) {
-    r->x[s->period / r->every] = s->x[0];
-    r->v[s->period / r->every] = s->v[0];
+  const course *c = r->course;
+  if (c->x != NULL && s->period % c->every == 0) {
+    c->x[s->period / c->every] = s->x[0];
+    c->v[s->period / c->every] = s->v[0];
   }
   return PENDRES_LANGEVIN_GO_ON;
 }
 
-/* n trajectories; time[jumps][n]. x and v, which belong to the first, may be NULL. */
-static pendres_status follow(pendres_context *ctx, motion *m, int steps, size_t n,
-                             uint64_t first_id, long every, double *x, double *v, double *time)
+/* time[jumps][n] receives the jumps. */
+static pendres_status follow(pendres_context *ctx, motion *m, const course *c, double *time)
 {
   const pendres_ramp *ramp = m->ramp;
-  run r = {.every = every, .x = x, .v = v};
+  run r = {.course = c};
   const pendres_langevin_observer observer = {.see = see, .arg = &r, .harmonics = 1};
   const pendres_langevin_moving moving = {
-    .motion = pendulum_at, .arg = m, .n = n, .first_id = first_id,
-    .periods = pendres_ramp_periods(ramp), .steps = steps, .x = ramp->point[0].x,
+    .motion = pendulum_at, .arg = m, .n = c->n, .first_id = c->first_id,
+    .periods = pendres_ramp_periods(ramp), .steps = c->steps, .x = ramp->point[0].x,
     .v = ramp->point[0].v, .may_leave = pendres_escape_possible(&ramp->pendulum),
     .observer = &observer};
-  if (x != NULL) {
-    x[0] = moving.x;
-    v[0] = moving.v;
+  if (c->x != NULL) {
+    c->x[0] = moving.x;
+    c->v[0] = moving.v;
   }
-  pendres_status status = pendres_ramp_watch_open(ctx, ramp, n, time, &r.watch);
+  pendres_status status = pendres_ramp_watch_open(ctx, ramp, c->n, time, &r.watch);
   if (status == PENDRES_OK) status = pendres_langevin_move(ctx, &moving);
   if (status == PENDRES_OK) pendres_ramp_watch_end(&r.watch);
   pendres_ramp_watch_close(&r.watch);
@@ -302,10 +310,11 @@ static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp
   int steps = 0;
   status = choose_steps(ctx, ramp, ctx->options.tolerance, &steps);
   const int half = (steps + 1) / 2;
-  if (status == PENDRES_OK)
-    status = follow(ctx, &m, half, 1, 0, to->every, to->x_error, to->v_error, time);
-  if (status == PENDRES_OK)
-    status = follow(ctx, &m, 2 * half, 1, 0, to->every, to->x, to->v, fine);
+  const course coarser = {
+    .steps = half, .n = 1, .every = to->every, .x = to->x_error, .v = to->v_error};
+  const course finer = {.steps = 2 * half, .n = 1, .every = to->every, .x = to->x, .v = to->v};
+  if (status == PENDRES_OK) status = follow(ctx, &m, &coarser, time);
+  if (status == PENDRES_OK) status = follow(ctx, &m, &finer, fine);
   const double rounding = rounding_of(ramp, 2 * half);
   if (status == PENDRES_OK && jump != NULL) judge(ramp, time, fine, rounding, jump);
   if (status == PENDRES_OK && record != NULL) {
@@ -333,10 +342,9 @@ static pendres_status ramp_scatter(pendres_context *ctx, const pendres_ramp *ram
   if (status != PENDRES_OK) return status;
   if (time == NULL && n > 0 && ramp->jumps > 0) return PENDRES_CONTEXT_NULL(ctx, "time");
   motion m = {.ramp = ramp, .temperature = ramp->pendulum.temperature};
-  int steps = 0;
-  status = choose_steps(ctx, ramp, pendres_accuracy_with_noise(ctx), &steps);
-  if (status == PENDRES_OK)
-    status = follow(ctx, &m, steps, n, first_id, 1, NULL, NULL, time);
+  course c = {.n = n, .first_id = first_id};
+  status = choose_steps(ctx, ramp, pendres_accuracy_with_noise(ctx), &c.steps);
+  if (status == PENDRES_OK) status = follow(ctx, &m, &c, time);
   for (size_t i = 0; i < ramp->jumps * n && status == PENDRES_OK && value != NULL; i++)
     value[i] = pendres_ramp_value(ramp, time[i]);
   return status;

@@ -77,22 +77,22 @@ static int is_at_rest(const pendres_pendulum *p)
 }
 
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
-                                             double lowest, double highest,
+                                             const double range[2],
                                              const pendres_ensemble *ensemble, double most_work,
                                              pendres_resonance *out)
 {
   if (p == NULL || ensemble == NULL || out == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, ensemble and out");
   clear(out);
-  const char *why = refuses(p, lowest, highest, ensemble);
+  const char *why = refuses(p, range[0], range[1], ensemble);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (is_at_rest(p)) return pendres_resonance_no_area(ctx, p);
   pendres_resonance_work w;
   pendres_search *s = &w.s;
   pendres_search_budget budget = pendres_search_budget_of(ctx, most_work);
   pendres_status status = pendres_resonance_work_create(&budget, p, ensemble, &w);
-  s->lowest = lowest;
-  s->highest = highest;
+  s->lowest = range[0];
+  s->highest = range[1];
   while (status == PENDRES_OK) {
     status = pendres_resonance_work_next(&w, out);
     if (status != PENDRES_OK || s->wishes == 0) break;
@@ -109,8 +109,9 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out)
 {
+  const double range[2] = {lowest, highest};
   return PENDRES_CONTEXT_CALL(
-    ctx, pendres_resonance_find_within(ctx, p, lowest, highest, ensemble, most_work, out));
+    ctx, pendres_resonance_find_within(ctx, p, range, ensemble, most_work, out));
 }
 
 /* ---- side by side ---- */

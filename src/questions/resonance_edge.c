@@ -184,23 +184,28 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
   return status;
 }
 
-/* A fold between two points at which a state ends, and the response of the others there: those of
-   `without`. side: where the state exists. *beside: a frequency next to it on that side. */
+/* A state that one of two points has, and the other has not. */
+typedef struct ending {
+  const pendres_attractor *state;
+  const pendres_scan_point *without; /* the point that has it not */
+  double side;                       /* -1, 1: where the state exists */
+} ending;
+
+/* The fold between two points at which a state ends, and the response of the others there. */
 static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ensemble,
-                              const pendres_attractor *state, const pendres_scan_point *without,
-                              double side, const double range[2], pendres_scan_point *at)
+                              const ending *e, const double range[2], pendres_scan_point *at)
 {
   pendres_fold fold;
   int decides = 0;
-  pendres_status status = pendres_fold_find(ctx, &state->orbit, &fold);
+  pendres_status status = pendres_fold_find(ctx, &e->state->orbit, &fold);
   if (status == PENDRES_NOT_CONVERGED || status == PENDRES_NOT_FOUND) return PENDRES_OK;
   if (status != PENDRES_OK && status != PENDRES_TOLERANCE_UNREACHABLE) return status;
   if (!(fold.value > range[0] && fold.value < range[1])) return PENDRES_OK;
-  status = fold_decides(ctx, ensemble, &fold, side, &decides);
+  status = fold_decides(ctx, ensemble, &fold, e->side, &decides);
   if (status != PENDRES_OK || !decides) return status;
-  status = pendres_scan_follow(ctx, without, fold.value, at);
+  status = pendres_scan_follow(ctx, e->without, fold.value, at);
   if (status != PENDRES_OK) return status;
-  at->at_fold = side < 0.0 ? -1 : 1;
+  at->at_fold = e->side < 0.0 ? -1 : 1;
   at->fold = fold.value;
   at->fold_error = fold.value_error;
   return status;
@@ -208,8 +213,7 @@ static pendres_status fold_of(pendres_context *ctx, const pendres_ensemble *ense
 
 pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
                                            const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_point *at,
-                                           double *beside, int *found)
+                                           const pendres_scan_point *b, pendres_scan_fold *out)
 {
   const double range[2] = {a->response.pendulum.drive_frequency,
                            b->response.pendulum.drive_frequency};
@@ -217,20 +221,20 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
   /* Where all members change at once, either's state may be the one that ends; in a wide gap states
      that go on may have moved so far that they are not known again. */
   const double close = 1e-4;
-  const pendres_attractor *ends[2] = {ending_state(&a->response, &b->response),
-                                      ending_state(&b->response, &a->response)};
-  const pendres_scan_point *without[2] = {b, a};
+  const ending ends[2] = {{ending_state(&a->response, &b->response), b, -1.0},
+                          {ending_state(&b->response, &a->response), a, 1.0}};
+  pendres_scan_point *at = &out->at;
   pendres_status status = PENDRES_OK;
-  *found = 0;
-  if (ends[0] != NULL && ends[1] != NULL && range[1] - range[0] > close * rate) return status;
-  for (int k = 0; k < 2 && !*found && status == PENDRES_OK; k++) {
-    const double side = k == 0 ? -1.0 : 1.0;
+  out->found = 0;
+  if (ends[0].state != NULL && ends[1].state != NULL && range[1] - range[0] > close * rate)
+    return status;
+  for (int k = 0; k < 2 && !out->found && status == PENDRES_OK; k++) {
     at->at_fold = 0;
-    if (ends[k] == NULL || without[k]->response.states == 0) continue;
-    status = fold_of(ctx, ensemble, ends[k], without[k], side, range, at);
+    if (ends[k].state == NULL || ends[k].without->response.states == 0) continue;
+    status = fold_of(ctx, ensemble, &ends[k], range, at);
     if (status != PENDRES_OK || !at->at_fold) continue;
-    *beside = at->fold + side * fmin(1e-3 * rate, 0.5 * fabs(at->fold - range[k]));
-    *found = 1;
+    out->beside = at->fold + ends[k].side * fmin(1e-3 * rate, 0.5 * fabs(at->fold - range[k]));
+    out->found = 1;
   }
   return status;
 }

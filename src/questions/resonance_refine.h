@@ -43,15 +43,17 @@ pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres
                                              const pendres_scan_point *a,
                                              const pendres_scan_point *b, pendres_resonance *out);
 
-/*
- * The fold that ends a state between a and b, if one does and if it makes a jump: *at is then the
- * point at the fold without that state, *beside a frequency on the side with it, close by. *found
- * tells.
- */
+/* A fold that ends a state, and makes a jump by that. */
+typedef struct pendres_scan_fold {
+  int found;             /* 0: there is none, and nothing below */
+  pendres_scan_point at; /* the point at the fold without that state */
+  double beside;         /* a frequency on the side with it, close by */
+} pendres_scan_fold;
+
+/* The fold that ends a state between a and b, if one does. */
 pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
                                            const pendres_scan_point *a,
-                                           const pendres_scan_point *b, pendres_scan_point *at,
-                                           double *beside, int *found);
+                                           const pendres_scan_point *b, pendres_scan_fold *out);
 
 /* The resonance at a point at a fold. */
 pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,

@@ -120,20 +120,20 @@ static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *foun
   }
   *sought = gap < s->count;
   if (!*sought) return PENDRES_OK;
-  pendres_scan_point at, *a = &s->points[gap], *b = &s->points[gap + 1];
-  double beside;
+  pendres_scan_point *a = &s->points[gap], *b = &s->points[gap + 1];
+  pendres_scan_fold fold;
   a->fold_sought = 1;
-  pendres_status status =
-    pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &at, &beside, found);
+  pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &fold);
   pendres_search_account(s, pendres_scan_frequency(a));
-  if (status != PENDRES_OK || !*found) return status;
+  *found = status == PENDRES_OK && fold.found;
+  if (!*found) return status;
   if (s->count + 2 > PENDRES_SEARCH_POINTS) {
     s->crowded = 1;
     return PENDRES_OK;
   }
   s->wishes = 1;
-  s->wish[0] = beside;
-  return pendres_search_insert(s, &at, at.at_fold < 0 ? b : a);
+  s->wish[0] = fold.beside;
+  return pendres_search_insert(s, &fold.at, fold.at.at_fold < 0 ? b : a);
 }
 
 /*

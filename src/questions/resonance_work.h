@@ -38,7 +38,7 @@ pendres_status pendres_resonance_work_next(pendres_resonance_work *w, pendres_re
 /* pendres_resonance_find_ensemble() with a budget of work, which is about seconds of one
    processor. */
 pendres_status pendres_resonance_find_within(pendres_context *ctx, const pendres_pendulum *p,
-                                             double lowest, double highest,
+                                             const double range[2],
                                              const pendres_ensemble *ensemble, double most_work,
                                              pendres_resonance *out);
 

@@ -154,10 +154,17 @@ static int choose_way(pendres_stretch *s)
   return 0;
 }
 
-static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
-                             pendres_parameter parameter, double from, double limit,
+/* Where a stretch is to lead. */
+typedef struct way {
+  pendres_parameter parameter;
+  double from, limit;
+} way;
+
+static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit, const way *w,
                              size_t points, pendres_branch **out)
 {
+  const pendres_parameter parameter = w->parameter;
+  const double from = w->from, limit = w->limit;
   const double room = margin * pendres_parameter_scale(parameter);
   const double here = pendres_parameter_get(parameter, &orbit->pendulum);
   double low = fmin(fmin(from, limit), here) - room, high = fmax(fmax(from, limit), here) + room;
@@ -193,6 +200,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
                                     pendres_stretch *out)
 {
   const double from = pendres_parameter_get(parameter, &orbit->pendulum);
+  const way way = {.parameter = parameter, .from = from, .limit = limit};
   pendres_stretch s = {.parameter = parameter, .direction = limit >= from ? 1 : -1};
   *out = pendres_stretch_none;
   const size_t most = most_points(orbit);
@@ -200,7 +208,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
     double off = 0.0;
     s.period = orbit->period;
     s.winding = orbit->winding;
-    const pendres_status status = follow(ctx, orbit, parameter, from, limit, points, &s.branch);
+    const pendres_status status = follow(ctx, orbit, &way, points, &s.branch);
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
     if (choose_way(&s)) {
@@ -223,6 +231,7 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
                                     double limit, pendres_stretch *out)
 {
   static const double near_birth = 1e-5;
+  const way way = {.parameter = at->parameter, .from = at->value, .limit = limit};
   pendres_stretch s = {.parameter = at->parameter, .direction = limit >= at->value ? 1 : -1};
   pendres_orbit child;
   *out = pendres_stretch_none;
@@ -234,8 +243,7 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   const size_t most = most_points(&child);
   for (size_t points = first_points(&child);; points = more(points, most)) {
     double off = INFINITY;
-    status = follow(ctx, &child, at->parameter, at->value, limit, points,
-                    &s.branch);
+    status = follow(ctx, &child, &way, points, &s.branch);
     if (status == PENDRES_NOT_CONVERGED) return PENDRES_NOT_FOUND;
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, at->parameter, at->value, &at->orbit, 1, &off);

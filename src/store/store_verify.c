@@ -48,18 +48,24 @@ static herr_t read_attribute(hid_t object, const char *name, const H5A_info_t *i
   return result;
 }
 
-/* Rows first ... of a dataset that has rows, or all of a scalar. */
-static herr_t read_some(hid_t id, hid_t type, hid_t space, const hsize_t *start,
-                        const hsize_t *count, int rank, size_t n)
+/* Some rows of a dataset, or all of a scalar, which has rank 0. */
+typedef struct piece {
+  int rank;
+  hsize_t start[MOST_RANK], count[MOST_RANK];
+  size_t n; /* elements */
+} piece;
+
+static herr_t read_some(hid_t id, hid_t type, hid_t space, const piece *p)
 {
-  const hid_t memory = rank ? H5Screate_simple(rank, count, NULL) : H5Screate(H5S_SCALAR);
-  void *data = calloc(n + 1, H5Tget_size(type));
+  const hid_t memory = p->rank ? H5Screate_simple(p->rank, p->count, NULL) : H5Screate(H5S_SCALAR);
+  void *data = calloc(p->n + 1, H5Tget_size(type));
   herr_t result = -1;
 
   if (memory >= 0 && data &&
-      (!rank || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) >= 0) &&
+      (!p->rank ||
+       H5Sselect_hyperslab(space, H5S_SELECT_SET, p->start, NULL, p->count, NULL) >= 0) &&
       (result = H5Dread(id, type, memory, space, H5P_DEFAULT, data)) >= 0)
-    free_elements(type, n, data);
+    free_elements(type, p->n, data);
   if (memory >= 0) H5Sclose(memory);
   free(data);
   return result;
@@ -81,18 +87,21 @@ static hsize_t rows_at_once(hid_t id, int rank, hsize_t row_bytes)
 static herr_t read_rows(hid_t id, hid_t type, hid_t space)
 {
   const int rank = H5Sget_simple_extent_ndims(space);
-  hsize_t sizes[MOST_RANK] = { 1 }, start[MOST_RANK] = { 0 }, row = 1, step;
+  piece p = { .rank = rank, .count = { 1 } };
+  hsize_t row = 1, step;
   herr_t result = 0;
 
-  if (rank < 0 || rank > MOST_RANK || H5Sget_simple_extent_dims(space, sizes, NULL) < 0) return -1;
-  for (int k = 1; k < rank; k++) row *= sizes[k];
+  if (rank < 0 || rank > MOST_RANK || H5Sget_simple_extent_dims(space, p.count, NULL) < 0)
+    return -1;
+  for (int k = 1; k < rank; k++) row *= p.count[k];
   if (!row) return 0;
-  const hsize_t rows = rank ? sizes[0] : 1;
+  const hsize_t rows = rank ? p.count[0] : 1;
   step = rank ? rows_at_once(id, rank, row * H5Tget_size(type)) : 1;
   for (hsize_t done = 0; done < rows && result >= 0; done += step) {
-    start[0] = done;
-    sizes[0] = rows - done < step ? rows - done : step;
-    result = read_some(id, type, space, start, sizes, rank, (size_t)(sizes[0] * row));
+    p.start[0] = done;
+    p.count[0] = rows - done < step ? rows - done : step;
+    p.n = (size_t)(p.count[0] * row);
+    result = read_some(id, type, space, &p);
   }
   return result;
 }
