@@ -22,12 +22,12 @@ int main(void)
   pendres_context *ctx = NULL;
   pendres_orbit orbit;
   pendres_status outcome = PENDRES_OK;
-  double x[SAMPLES], v[SAMPLES], v_error;
+  double x[SAMPLES], v[SAMPLES], error[2];
   int failed;
 
   failed = pendres_context_create(NULL, &ctx) ||
            pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome) || outcome ||
-           pendres_orbit_sample_with_error(ctx, &orbit, SAMPLES, x, v, NULL, &v_error);
+           pendres_orbit_sample_with_error(ctx, &orbit, SAMPLES, x, v, error);
   if (failed) {
     fprintf(stderr, "%s\n", pendres_context_message(ctx));
   } else {

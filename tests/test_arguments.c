@@ -11,41 +11,50 @@ static void strobes(void **state)
   fixture *f = *state;
   f->wrong = 0;
   double x = 1.0, v = 0.0, many[40];
+  const pendres_state start = { x, v };
+  const pendres_record to = { .x = many, .v = many };
   REFUSED(pendres_strobe_advance(f->ctx, 1, NULL, &x, &v, 1, NULL));
   REFUSED(pendres_strobe_advance(f->ctx, 1, &good, NULL, &v, 1, NULL));
   REFUSED(pendres_strobe_advance(f->ctx, 1, &good, &x, NULL, 1, NULL));
   REFUSED(pendres_strobe_advance(f->ctx, 1, &good, &x, &v, -1, NULL));
   REFUSED(pendres_strobe_advance(f->ctx, 1, &good, &x, &v, LONG_MIN, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, NULL, x, v, 1, 2, many, many, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, 2, NULL, many, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, 2, many, NULL, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, 2, many, many, many, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, -1, 2, many, many, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, LONG_MAX, 2, many, many, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, 0, many, many, NULL, NULL));
-  REFUSED(pendres_strobe_record(f->ctx, &good, x, v, 1, INT_MAX, many, many, NULL, NULL));
+  REFUSED(pendres_strobe_record(f->ctx, NULL, &start, 1, 2, &to));
+  REFUSED(pendres_strobe_record(f->ctx, &good, NULL, 1, 2, &to));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 2, NULL));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 2,
+                                &(pendres_record){.x = NULL, .v = many}));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 2,
+                                &(pendres_record){.x = many, .v = NULL}));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 2,
+                                &(pendres_record){many, many, many, NULL}));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, -1, 2, &to));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, LONG_MAX, 2, &to));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, 0, &to));
+  REFUSED(pendres_strobe_record(f->ctx, &good, &start, 1, INT_MAX, &to));
   pendres_recording r = { .samples = 0 };
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, many, NULL, NULL));
-  REFUSED(pendres_recording_begin(f->ctx, NULL, x, v, 1, 2, &r));
-  REFUSED(pendres_recording_begin(f->ctx, &good, x, v, 1, 2, NULL));
-  REFUSED(pendres_recording_begin(f->ctx, &good, x, NAN, 1, 2, &r));
-  REFUSED(pendres_recording_begin(f->ctx, &good, x, v, 1, 0, &r));
-  check_ok(pendres_recording_begin(f->ctx, &good, x, v, 1, 2, &r));
-  REFUSED(pendres_recording_go_on(f->ctx, NULL, 1, many, many, NULL, NULL));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, -1, many, many, NULL, NULL));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, NULL, many, NULL, NULL));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, NULL, NULL, NULL));
-  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, many, many, many, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &to));
+  REFUSED(pendres_recording_begin(f->ctx, NULL, &start, 1, 2, &r));
+  REFUSED(pendres_recording_begin(f->ctx, &good, NULL, 1, 2, &r));
+  REFUSED(pendres_recording_begin(f->ctx, &good, &start, 1, 2, NULL));
+  REFUSED(pendres_recording_begin(f->ctx, &good, &(pendres_state){x, NAN}, 1, 2, &r));
+  REFUSED(pendres_recording_begin(f->ctx, &good, &start, 1, 0, &r));
+  check_ok(pendres_recording_begin(f->ctx, &good, &start, 1, 2, &r));
+  REFUSED(pendres_recording_go_on(f->ctx, NULL, 1, &to));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, -1, &to));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, NULL));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){.x = NULL, .v = many}));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){.x = many, .v = NULL}));
+  REFUSED(pendres_recording_go_on(f->ctx, &r, 1, &(pendres_record){many, many, many, NULL}));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_strobe_advance(f->ctx, 1, &bad_pendulums[i], &x, &v, 1, NULL));
-    REFUSED(pendres_strobe_record(f->ctx, &bad_pendulums[i], x, v, 1, 2, many, many, NULL, NULL));
+    REFUSED(pendres_strobe_record(f->ctx, &bad_pendulums[i], &start, 1, 2, &to));
   }
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
     double b = bad_numbers[i];
     REFUSED(pendres_strobe_advance(f->ctx, 1, &good, &b, &v, 1, NULL));
     REFUSED(pendres_strobe_advance(f->ctx, 1, &good, &x, &b, 1, NULL));
-    REFUSED(pendres_strobe_record(f->ctx, &good, b, v, 1, 2, many, many, NULL, NULL));
-    REFUSED(pendres_strobe_record(f->ctx, &good, x, b, 1, 2, many, many, NULL, NULL));
+    REFUSED(pendres_strobe_record(f->ctx, &good, &(pendres_state){b, v}, 1, 2, &to));
+    REFUSED(pendres_strobe_record(f->ctx, &good, &(pendres_state){x, b}, 1, 2, &to));
   }
   assert_true(x == 1.0 && v == 0.0);
   assert_int_equal(f->wrong, 0);
@@ -104,7 +113,7 @@ static void orbits(void **state)
     const pendres_orbit_guess g = { o->pendulum, o->x, o->v, o->period, o->winding };
     REFUSED(pendres_orbit_refine(f->ctx, 1, &g, PENDRES_ORBIT_PLAIN, &out, &how));
     REFUSED(pendres_orbit_sample(f->ctx, o, 8, x, v));
-    REFUSED(pendres_orbit_sample_with_error(f->ctx, o, 8, x, v, x, v));
+    REFUSED(pendres_orbit_sample_with_error(f->ctx, o, 8, x, v, x));
   }
   REFUSED(pendres_orbit_sample(f->ctx, NULL, 8, x, v));
   REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, 0, x, v));
@@ -132,17 +141,18 @@ static void basins(void **state)
   const pendres_basin_grid grid = { .nx = 2, .nv = 2, .x = x, .v = v };
   const double distance[1] = { 0.01 }, three[3] = { 0.01, 0.02, 0.04 };
   const pendres_basin_window window = { .x_high = 1.0, .v_high = 1.0 };
+  const pendres_basin_sample sample = { 9, 1, 1, distance };
   pendres_basin_grid bad[] = {
     { .nx = 0, .nv = 2, .x = x, .v = v }, { .nx = 2, .nv = 0, .x = x, .v = v },
     { .nx = 2, .nv = 2, .v = v }, { .nx = 2, .nv = 2, .x = x }, { .nx = 1, .nv = 1 } };
   REFUSED(pendres_basin_attractors(f->ctx, NULL, &grid, &out));
   REFUSED(pendres_basin_attractors(f->ctx, &good, NULL, &out));
   REFUSED(pendres_basin_attractors(f->ctx, &good, &grid, NULL));
-  REFUSED(pendres_basin_rows(f->ctx, NULL, &grid, 0, 1, s, &grown));
-  REFUSED(pendres_basin_rows(f->ctx, f->set, NULL, 0, 1, s, &grown));
-  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 0, 1, NULL, &grown));
-  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 2, 1, s, &grown));
-  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 1, SIZE_MAX, s, &grown));
+  REFUSED(pendres_basin_rows(f->ctx, NULL, &grid, 0, 1, s));
+  REFUSED(pendres_basin_rows(f->ctx, f->set, NULL, 0, 1, s));
+  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 0, 1, NULL));
+  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 2, 1, s));
+  REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 1, SIZE_MAX, s));
   REFUSED(pendres_basin_states(f->ctx, NULL, &grid, 1, &index, s));
   REFUSED(pendres_basin_states(f->ctx, f->set, NULL, 1, &index, s));
   REFUSED(pendres_basin_states(f->ctx, f->set, &grid, 1, NULL, s));
@@ -158,7 +168,7 @@ static void basins(void **state)
   REFUSED(pendres_basin_compute(f->ctx, f->set, &grid, NULL));
   for (size_t i = 0; i < COUNT(bad); i++) {
     REFUSED(pendres_basin_attractors(f->ctx, &good, &bad[i], &out));
-    REFUSED(pendres_basin_rows(f->ctx, f->set, &bad[i], 0, 1, s, &grown));
+    REFUSED(pendres_basin_rows(f->ctx, f->set, &bad[i], 0, 1, s));
     REFUSED(pendres_basin_states(f->ctx, f->set, &bad[i], 1, &index, s));
     REFUSED(pendres_basin_extend(f->ctx, f->set, &bad[i], 1, &index, &grown));
     REFUSED(pendres_basin_compute(f->ctx, f->set, &bad[i], s));
@@ -169,26 +179,33 @@ static void basins(void **state)
     x[1] = bad_numbers[i], v[1] = i % 2 ? bad_numbers[i] : 0.5;
     index = 3;
     REFUSED(pendres_basin_attractors(f->ctx, &good, &grid, &out));
-    REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 0, 2, s, &grown));
+    REFUSED(pendres_basin_rows(f->ctx, f->set, &grid, 0, 2, s));
     REFUSED(pendres_basin_states(f->ctx, f->set, &grid, 1, &index, s));
     REFUSED(pendres_basin_extend(f->ctx, f->set, &grid, 1, &index, &grown));
     REFUSED(pendres_basin_compute(f->ctx, f->set, &grid, s));
     pendres_basin_window w = window;
     w.x_high = bad_numbers[i];
-    REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &w, 9, 1, distance, 1, &statistics));
-    REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, &bad_numbers[i], 1,
+    REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &w, &sample, &statistics));
+    REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window,
+                                      &(pendres_basin_sample){9, 1, 1, &bad_numbers[i]},
                                       &statistics));
   }
   pendres_basin_window no_end = window;
   no_end.by = (pendres_basin_end)7;
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &no_end, 16, 3, three, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, NULL, &window, 9, 1, distance, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, NULL, 9, 1, distance, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 0, 1, distance, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 0, distance, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 999, distance, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, NULL, 1, &statistics));
-  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, 9, 1, distance, 1, NULL));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &no_end,
+                                    &(pendres_basin_sample){16, 1, 3, three}, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, NULL, &window, &sample, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, NULL, &sample, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window,
+                                    &(pendres_basin_sample){0, 1, 1, distance}, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window,
+                                    &(pendres_basin_sample){9, 1, 0, distance}, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window,
+                                    &(pendres_basin_sample){9, 1, 999, distance}, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, &(pendres_basin_sample){9, 1, 1, NULL},
+                                    &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, NULL, &statistics));
+  REFUSED(pendres_basin_uncertainty(f->ctx, f->set, &window, &sample, NULL));
   REFUSED(pendres_basin_statistics_refine(f->ctx, NULL, &grid, &statistics, &index));
   REFUSED(pendres_basin_statistics_refine(f->ctx, f->set, NULL, &statistics, &index));
   REFUSED(pendres_basin_statistics_refine(f->ctx, f->set, &grid, NULL, &index));

@@ -71,21 +71,32 @@ static void hysteresis(void **state)
 {
   fixture *f = *state;
   f->wrong = 0;
-  const double value[] = { 0.7, 0.75 }, none[] = { 0.7, NAN };
+  const double value[] = { 0.7, 0.75 }, none[] = { 0.7, NAN }, undamped[] = { 0.1, 0.0 };
   const pendres_parameter along = PENDRES_DRIVE_FREQUENCY;
+  const pendres_state start = { 1.0, 0.0 };
+  const pendres_hysteresis_path path = { along, 2, value };
   pendres_hysteresis *h = NULL;
-  REFUSED(pendres_hysteresis_follow(f->ctx, NULL, along, 1.0, 0.0, 2, value, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, NULL, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, value, NULL));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, 0.0, 2, none, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, PENDRES_DAMPING, 1.0, 0.0, 2,
-                                    (const double[]){ 0.1, 0.0 }, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, (pendres_parameter)-1, 1.0, 0.0, 2, value, &h));
-  REFUSED(pendres_hysteresis_follow(f->ctx, &good, PENDRES_PARAMETER_COUNT, 1.0, 0.0, 2, value,
+  REFUSED(pendres_hysteresis_follow(f->ctx, NULL, &start, &path, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, NULL, &path, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start, NULL, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
+                                    &(pendres_hysteresis_path){along, 2, NULL}, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start, &path, NULL));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
+                                    &(pendres_hysteresis_path){along, 2, none}, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
+                                    &(pendres_hysteresis_path){PENDRES_DAMPING, 2, undamped}, &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
+                                    &(pendres_hysteresis_path){(pendres_parameter)-1, 2, value},
+                                    &h));
+  REFUSED(pendres_hysteresis_follow(f->ctx, &good, &start,
+                                    &(pendres_hysteresis_path){PENDRES_PARAMETER_COUNT, 2, value},
                                     &h));
   for (size_t i = 0; i < COUNT(bad_numbers); i++) {
-    REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, bad_numbers[i], 0.0, 2, value, &h));
-    REFUSED(pendres_hysteresis_follow(f->ctx, &good, along, 1.0, bad_numbers[i], 2, value, &h));
+    REFUSED(pendres_hysteresis_follow(f->ctx, &good, &(pendres_state){bad_numbers[i], 0.0}, &path,
+                                      &h));
+    REFUSED(pendres_hysteresis_follow(f->ctx, &good, &(pendres_state){1.0, bad_numbers[i]}, &path,
+                                      &h));
   }
   assert_null(h);
   assert_int_equal(f->wrong, 0);

@@ -111,17 +111,18 @@ static void dimensions(void **state)
   double error = 1.0;
   (void)state;
   check_ok(pendres_context_create(NULL, &ctx));
-  assert_int_equal(pendres_correlation_measure(NULL, 3, x, x, 0.0, 0.0, &c),
+  assert_int_equal(pendres_correlation_measure(NULL, &(pendres_section){3, x, x, 0.0}, 0.0, &c),
                    PENDRES_INVALID_ARGUMENT);
-  REFUSED(pendres_correlation_measure(ctx, 3, NULL, x, 0.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, NULL, 0.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, x, 0.0, 0.0, NULL));
-  REFUSED(pendres_correlation_measure(ctx, 1, x, x, 0.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, bad, x, 0.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, bad, 0.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, x, -1.0, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, x, INFINITY, 0.0, &c));
-  REFUSED(pendres_correlation_measure(ctx, 3, x, x, 0.0, NAN, &c));
+  REFUSED(pendres_correlation_measure(ctx, NULL, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, NULL, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, NULL, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, 0.0}, 0.0, NULL));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){1, x, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, bad, x, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, bad, 0.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, -1.0}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, INFINITY}, 0.0, &c));
+  REFUSED(pendres_correlation_measure(ctx, &(pendres_section){3, x, x, 0.0}, NAN, &c));
   assert_true(isnan(pendres_lyapunov_dimension(NULL, 0.1, 0.0, &error)) && isnan(error));
   for (int i = 1; i < 3; i++) assert_true(isnan(pendres_lyapunov_dimension(&p, bad[i], 0.0, NULL)));
   pendres_context_free(ctx);

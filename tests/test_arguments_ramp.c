@@ -19,7 +19,9 @@ static void ramps(void **state)
   const long period[] = {0, 9}, late[] = {1, 9}, back[] = {0, 0};
   double x[10], time[4];
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_FREQUENCY, 1.6, 0.0, 2, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.6, 0.0},
+                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 2, value},
+                                     &h));
   const pendres_jump jump = {.step = 2};
   const pendres_ramp good = {.pendulum = p, .parameter = PENDRES_DRIVE_FREQUENCY, .corners = 2,
                              .period = period, .value = value, .points = 2,

@@ -80,7 +80,8 @@ static void uncertainty_exponent(void **state)
   pendres_attractors *set = NULL;
   pendres_basin_statistics s;
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
-  check_ok(pendres_basin_uncertainty(*state, set, &window, 4000, 5, distance, 1, &s));
+  check_ok(pendres_basin_uncertainty(*state, set, &window,
+                                     &(pendres_basin_sample){4000, 1, 5, distance}, &s));
   assert_int_equal(s.unresolved, 0);
   /* A straight line over four decades: a fractal boundary of dimension 2 - 0.15. */
   assert_true(s.uncertainty_exponent_error < 0.05);
@@ -213,7 +214,8 @@ static void exponent_by_another_way(void **state)
     double error = 0.0;
     check_ok(pendres_attractors_find(*state, &p, 0, NULL, NULL, &set));
     assert_int_equal(pendres_attractors_count(set), cases[i].attractors);
-    check_ok(pendres_basin_uncertainty(*state, set, &window, 16000, 4, distance, 1, &s));
+    check_ok(pendres_basin_uncertainty(*state, set, &window,
+                                       &(pendres_basin_sample){16000, 1, 4, distance}, &s));
     const double want = plain_exponent(&p, 3000, ends, &error);
     /* Measured: 0.145(8) and 0.154(7), 0.293(24) and 0.290(20). */
     assert_true(error < 0.03 && s.uncertainty_exponent_error < 0.03);

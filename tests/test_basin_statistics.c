@@ -108,7 +108,8 @@ static void exponents_of_other_seeds(void **state)
   check_ok(pendres_attractors_find(*state, &p, 0, NULL, NULL, &set));
   for (int i = 0; i < SEEDS; i++) {
     pendres_basin_statistics s;
-    check_ok(pendres_basin_uncertainty(*state, set, &window, STATES, 5, distance, (uint64_t)i, &s));
+    const pendres_basin_sample sample = {STATES, (uint64_t)i, 5, distance};
+    check_ok(pendres_basin_uncertainty(*state, set, &window, &sample, &s));
     value[i] = s.uncertainty_exponent;
     mean += value[i] / SEEDS;
     claimed += s.uncertainty_exponent_error / SEEDS;
@@ -143,28 +144,27 @@ static void samples_within_bounds(void **state)
 {
   enum { ASKED = 1 << 20 };
   static const double distance[] = {1e-5, 1e-4, 1e-3}, most = 1e8;
+  pendres_basin_sample sample = {ASKED, 1, 3, distance};
   pendres_basin_statistics first, again, whole;
   pendres_attractors *set = NULL;
   pendres_context *fresh = context_with_lanes(0), *other = context_with_lanes(96);
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
 
   double before = pendres_context_slopes(fresh);
-  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1,
-                                            &first));
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, &sample, &first));
   const double spent = pendres_context_slopes(fresh) - before;
   if (!(spent > 0.5 * most && spent < most * 31.0 / 30.0))
     print_error("%zu states took %.3g of %.3g\n", first.states, spent, most);
   assert_true(spent > 0.5 * most && spent < most * 31.0 / 30.0);
   assert_true(first.states > 256 && first.states < ASKED);
 
-  check_ok(pendres_basin_uncertainty_within(other, most, set, &turn, ASKED, 3, distance, 1,
-                                            &again));
+  check_ok(pendres_basin_uncertainty_within(other, most, set, &turn, &sample, &again));
   assert_int_equal(again.states, first.states);
-  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, ASKED, 3, distance, 1,
-                                            &again));
+  check_ok(pendres_basin_uncertainty_within(fresh, most, set, &turn, &sample, &again));
   assert_int_equal(again.states, first.states);
 
-  check_ok(pendres_basin_uncertainty(*state, set, &turn, first.states, 3, distance, 1, &whole));
+  sample.n = first.states;
+  check_ok(pendres_basin_uncertainty(*state, set, &turn, &sample, &whole));
   assert_memory_equal(whole.uncertain, first.uncertain, 3 * sizeof *whole.uncertain);
   check_near(whole.uncertainty_exponent, first.uncertainty_exponent, 0.0); /* the same states */
   pendres_attractors_free(set);
@@ -180,12 +180,13 @@ static void samples_that_are_of_no_use(void **state)
 {
   enum { ASKED = 1000000, LOOKED_AT = 256, EACH = 7 * 16 };
   static const double distance[] = {0.1, 0.3, 1.0};
+  const pendres_basin_sample sample = {ASKED, 1, 3, distance};
   pendres_attractors *set = NULL;
   pendres_basin_statistics s;
   pendres_cost cost;
   check_ok(pendres_attractors_find(*state, &wada, 0, NULL, NULL, &set));
   pendres_context_cost_reset(*state);
-  assert_int_equal(pendres_basin_uncertainty(*state, set, &turn, ASKED, 3, distance, 1, &s),
+  assert_int_equal(pendres_basin_uncertainty(*state, set, &turn, &sample, &s),
                    PENDRES_NOT_FOUND);
   pendres_context_cost(*state, &cost);
   assert_int_equal(s.states, LOOKED_AT);
@@ -334,6 +335,7 @@ static void by_well(void **state)
 static void exponent_by_well(void **state)
 {
   static const double distance[] = {1e-7, 6e-7, 3.6e-6, 2.16e-5};
+  const pendres_basin_sample sample = {600, 1, 4, distance};
   const pendres_options options = {.tolerance = 1e-10};
   const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 1.0, .drive_frequency = 1.0};
   pendres_basin_window window = turn;
@@ -342,10 +344,9 @@ static void exponent_by_well(void **state)
   pendres_context *ctx = context_with(&options);
   (void)state;
   check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
-  assert_int_equal(pendres_basin_uncertainty(ctx, set, &window, 600, 4, distance, 1, &s),
-                   PENDRES_NOT_FOUND);
+  assert_int_equal(pendres_basin_uncertainty(ctx, set, &window, &sample, &s), PENDRES_NOT_FOUND);
   window.by = PENDRES_BASIN_BY_WELL;
-  check_ok(pendres_basin_uncertainty(ctx, set, &window, 600, 4, distance, 1, &s));
+  check_ok(pendres_basin_uncertainty(ctx, set, &window, &sample, &s));
   assert_true(s.uncertain[0] > 0.0 && s.uncertain[0] < s.uncertain[3]);
   assert_true(s.uncertainty_exponent > 0.0 && s.uncertainty_exponent < 1.0);
   pendres_attractors_free(set);

@@ -140,7 +140,8 @@ static void slow_sweep(void **state)
   pendres_hysteresis *h = NULL;
   double value[N];
   for (int i = 0; i < N; i++) value[i] = 2.2787 - 0.0091 * i;
-  check_ok(pendres_hysteresis_follow(*state, &junction, PENDRES_TORQUE, 0.0, 7.5, N, value, &h));
+  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){0.0, 7.5},
+                                     &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
   pendres_pendulum p[N];
   pendres_lyapunov l[N];
   double x[N], v[N];

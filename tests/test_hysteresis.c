@@ -29,7 +29,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p,
   assert_non_null(value);
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_follow(ctx, &p, parameter, x, 0.0, 2 * n, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, 0.0},
+                                     &(pendres_hysteresis_path){parameter, 2 * n, value}, &h));
   assert_int_equal(pendres_hysteresis_count(h), 2 * n);
   for (size_t i = 0; i < 2 * n; i++)
     assert_true(pendres_hysteresis_get(h, i)->value == value[i]);
@@ -155,7 +156,9 @@ static void running(void **state)
   const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 2.0 / 3.0};
   const double value[2] = {1.40, 1.41};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 1.6, 0.0, 2, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.6, 0.0},
+                                     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
+                                     &h));
   for (size_t i = 0; i < 2; i++) {
     const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
     const pendres_orbit *o = &point->attractor.orbit;
@@ -186,13 +189,15 @@ static void stopped(void **state)
   size_t reached = 0, first = 0;
   pendres_hysteresis *whole = NULL, *part = NULL;
   for (int i = 0; i < VALUES; i++) value[i] = 0.8 + 0.001 * i;
-  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_FREQUENCY, 1.0, 0.0, VALUES, value,
-                                     &whole));
+  check_ok(pendres_hysteresis_follow(
+    ctx, &p, &(pendres_state){1.0, 0.0},
+    &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, VALUES, value}, &whole));
   for (int questions = 0; reached < VALUES; questions = 2 * questions + 1) {
     int left = questions;
     pendres_context_set_interrupt(ctx, after_some, &left);
-    const pendres_status status = pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_FREQUENCY, 1.0,
-                                                            0.0, VALUES, value, &part);
+    const pendres_status status = pendres_hysteresis_follow(
+      ctx, &p, &(pendres_state){1.0, 0.0},
+      &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, VALUES, value}, &part);
     pendres_context_set_interrupt(ctx, NULL, NULL);
     assert_int_equal(status, left < 0 ? PENDRES_INTERRUPTED : PENDRES_OK);
     assert_int_equal(pendres_hysteresis_count(part), VALUES);
@@ -228,7 +233,9 @@ static void out_of_chaos(void **state)
                               .torque = -0.6113300743};
   pendres_hysteresis *h = NULL;
   (void)state;
-  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 1.3, 0.0, 2, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){1.3, 0.0},
+                                     &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, 2, value},
+                                     &h));
   assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label, PENDRES_LABEL_CHAOTIC);
   assert_int_equal(pendres_hysteresis_get(h, 1)->attractor.orbit.period, 2);
   const size_t n = pendres_hysteresis_jumps(h);
@@ -256,8 +263,9 @@ static void escaped(void **state)
                               .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0, -1.0}};
   pendres_hysteresis *h = NULL;
   (void)state;
-  check_ok(pendres_hysteresis_follow(ctx, &p, PENDRES_DRIVE_AMPLITUDE, 0.1, 0.0, VALUES, value,
-                                     &h));
+  check_ok(pendres_hysteresis_follow(
+    ctx, &p, &(pendres_state){0.1, 0.0},
+    &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, VALUES, value}, &h));
   for (size_t i = 0; i < VALUES; i++) {
     const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
     assert_int_equal(point->attractor.label == PENDRES_LABEL_ESCAPE, i >= AWAY);
@@ -291,10 +299,12 @@ static void left_out(void **state)
   static const int number[ALL] = {-1, 0, 1, -1, -1, 2, 3};
   const pendres_pendulum p = {.damping = 0.15, .drive_amplitude = 0.2};
   pendres_hysteresis *h = NULL, *kept = NULL;
-  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_FREQUENCY, 1.6, 0.0, ALL, value,
-                                     &h));
-  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_FREQUENCY, 1.6, 0.0, WITHOUT,
-                                     without, &kept));
+  check_ok(pendres_hysteresis_follow(
+    *state, &p, &(pendres_state){1.6, 0.0},
+    &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, ALL, value}, &h));
+  check_ok(pendres_hysteresis_follow(
+    *state, &p, &(pendres_state){1.6, 0.0},
+    &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, WITHOUT, without}, &kept));
   for (size_t i = 0; i < ALL; i++) {
     const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);
     if (number[i] >= 0) {

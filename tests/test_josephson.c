@@ -23,7 +23,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, double low, double high, 
   assert_true(n <= MOST);
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = low + (high - low) * (double)i / (double)(n - 1);
-  check_ok(pendres_hysteresis_follow(ctx, &junction, PENDRES_TORQUE, 1.6, 0.0, 2 * n, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &junction, &(pendres_state){1.6, 0.0},
+                                     &(pendres_hysteresis_path){PENDRES_TORQUE, 2 * n, value}, &h));
   return h;
 }
 
@@ -99,7 +100,8 @@ static void slips(void **state)
 {
   const double value[2] = {1.37, 1.39};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(*state, &junction, PENDRES_TORQUE, 1.6, 8.0, 2, value, &h));
+  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){1.6, 8.0},
+                                     &(pendres_hysteresis_path){PENDRES_TORQUE, 2, value}, &h));
   const pendres_jump *j = pendres_hysteresis_jump(h, 0);
   assert_non_null(j);
   assert_int_equal(j->kind, PENDRES_JUMP_FOLD);

@@ -68,7 +68,8 @@ static void lay(pendres_context *ctx, course *c, pendres_pendulum p, pendres_par
   const pendres_attractor a = start_of(ctx, &p);
   *c = (course){.period = {0, periods, 2 * periods},
                 .value = {value[0], value[POINTS - 1], value[0]}};
-  check_ok(pendres_hysteresis_follow(ctx, &p, parameter, a.orbit.x, a.orbit.v, n, value, &c->path));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){a.orbit.x, a.orbit.v},
+                                     &(pendres_hysteresis_path){parameter, n, value}, &c->path));
   c->ramp = (pendres_ramp){.pendulum = p, .parameter = parameter, .corners = back ? 3 : 2,
                            .period = c->period, .value = c->value, .points = n,
                            .point = pendres_hysteresis_get(c->path, 0),
@@ -155,8 +156,9 @@ static double passage(pendres_context *ctx)
   const pendres_attractor a = start_of(ctx, &plain);
   double value[3] = {plain.drive_frequency, fold - off[0], fold - off[1]};
   pendres_hysteresis *h = NULL;
-  check_ok(pendres_hysteresis_follow(ctx, &plain, PENDRES_DRIVE_FREQUENCY, a.orbit.x, a.orbit.v, 3,
-                                     value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &plain, &(pendres_state){a.orbit.x, a.orbit.v},
+                                     &(pendres_hysteresis_path){PENDRES_DRIVE_FREQUENCY, 3, value},
+                                     &h));
   for (size_t i = 0; i < 2; i++) {
     const double all = pendres_hysteresis_get(h, i + 1)->attractor.orbit.multiplier_re[0];
     m[i] = (1.0 - all) * (1.0 - all) / (4.0 * off[i]);
@@ -379,8 +381,9 @@ static void capsizes(void **state)
   const pendres_ramp_record record = {1, x, v, x_error, v_error};
   pendres_ramp_jump jump[8];
   pendres_hysteresis *path = NULL;
-  check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_DRIVE_AMPLITUDE, 0.1, 0.0, VALUES, value,
-                                     &path));
+  check_ok(pendres_hysteresis_follow(
+    *state, &p, &(pendres_state){0.1, 0.0},
+    &(pendres_hysteresis_path){PENDRES_DRIVE_AMPLITUDE, VALUES, value}, &path));
   assert_int_equal(pendres_hysteresis_get(path, VALUES - 1)->attractor.label,
                    PENDRES_LABEL_ESCAPE);
   const pendres_ramp ramp = {.pendulum = p, .parameter = PENDRES_DRIVE_AMPLITUDE, .corners = 2,

@@ -194,7 +194,8 @@ static pendres_hysteresis *sweep(pendres_context *ctx, pendres_pendulum p, pendr
   for (size_t i = 0; i < n; i++)
     value[i] = value[2 * n - 1 - i] = from + (to - from) * (double)i / (double)(n - 1);
   p.drive_frequency = 0.7; /* which nothing depends on */
-  check_ok(pendres_hysteresis_follow(ctx, &p, which, 0.5 * pi, v, 2 * n, value, &h));
+  check_ok(pendres_hysteresis_follow(ctx, &p, &(pendres_state){0.5 * pi, v},
+                                     &(pendres_hysteresis_path){which, 2 * n, value}, &h));
   free(value);
   return h;
 }
@@ -282,7 +283,8 @@ static void starts(void **state)
     const double start = -6.0 + 0.5 * i;
     double y = 0.0, v = start;
     pendres_hysteresis *h = NULL;
-    check_ok(pendres_hysteresis_follow(*state, &p, PENDRES_TORQUE, 0.5 * pi, start, 1, &p.torque,
+    check_ok(pendres_hysteresis_follow(*state, &p, &(pendres_state){0.5 * pi, start},
+                                       &(pendres_hysteresis_path){PENDRES_TORQUE, 1, &p.torque},
                                        &h));
     for (int k = 0; k < 50000; k++) step(p.damping, p.torque, 2e-3, &y, &v);
     assert_int_equal(pendres_hysteresis_get(h, 0)->attractor.label,

@@ -28,8 +28,9 @@ static void parts(void **state)
   scene_run_deck(text, 2, "two");
   scene_check_same_bytes("one", "two");
   check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
-  check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, SAMPLES, want, want + (N + 1),
-                                 want + 2 * (N + 1), want + 3 * (N + 1)));
+  check_ok(pendres_strobe_record(
+    ctx, &p, &(pendres_state){-1.0, 0.4}, PERIODS, SAMPLES,
+    &(pendres_record){want, want + (N + 1), want + 2 * (N + 1), want + 3 * (N + 1)}));
   pendres_store *store = scene_open("one");
   for (int i = 0; i < 4; i++) {
     size_t n = 0;

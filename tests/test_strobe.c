@@ -248,8 +248,9 @@ static void test_rounding_within_a_period(void **state)
       check_ok(pendres_strobe_advance(ctx, 1, &p, &x, &v, 1, &error));
       const double off = true_error(&p, x0, v0, 1, x, v);
       assert_true(error >= off);
-      check_ok(pendres_strobe_record(ctx, &p, x0, v0, 1, 4, points[0], points[1], errors[0],
-                                     errors[1]));
+      check_ok(pendres_strobe_record(
+        ctx, &p, &(pendres_state){x0, v0}, 1, 4,
+        &(pendres_record){points[0], points[1], errors[0], errors[1]}));
       assert_true(fmax(errors[0][4], errors[1][4]) >=
                   true_error(&p, x0, v0, 1, points[0][4], points[1][4]));
       ratio[i] = off / error;

@@ -54,7 +54,8 @@ static void test_far_angles(void **state)
     check_near(v, (double)w, 2e-14);
     check_near(x - far[i].x, moved, place + 2e-14);
     assert_true(error >= place && error < 4.0 * place);
-    check_ok(pendres_strobe_record(ctx, &p, far[i].x, 0.3, 3, 2, xs, vs, x_error, v_error));
+    check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){far[i].x, 0.3}, 3, 2,
+                                   &(pendres_record){xs, vs, x_error, v_error}));
     check_near(vs[6], (double)w, 2e-14);
     check_near(xs[6] - far[i].x, moved, place + 2e-14);
     assert_true(x_error[6] >= place && x_error[6] < 4.0 * place);
@@ -87,7 +88,8 @@ static void test_too_far(void **state)
       for (int call = 0; call < 4; call++) {
         const pendres_status status =
           call == 0   ? pendres_strobe_advance(ctx, 1, &p, &x, &v, 2, NULL)
-          : call == 1 ? pendres_strobe_record(ctx, &p, x, v, 2, 1, xs, vs, NULL, NULL)
+          : call == 1 ? pendres_strobe_record(ctx, &p, &(pendres_state){x, v}, 2, 1,
+                                              &(pendres_record){.x = xs, .v = vs})
           : call == 2 ? pendres_settle(ctx, 1, &p, &x, &v, &outcome, NULL)
                       : pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &how);
         assert_int_equal(status, PENDRES_INVALID_ARGUMENT);
@@ -109,7 +111,8 @@ static void test_no_numbers_are_a_failure(void **state)
                    PENDRES_INTEGRATION_FAILED);
   assert_non_null(strstr(pendres_context_message(ctx), "double precision"));
   assert_true(x == 1.0 && v == 1.0);
-  assert_int_equal(pendres_strobe_record(ctx, &p, x, v, 20, 1, xs, vs, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){x, v}, 20, 1,
+                                         &(pendres_record){.x = xs, .v = vs}),
                    PENDRES_INTEGRATION_FAILED);
   pendres_context_free(ctx);
 }

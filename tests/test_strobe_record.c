@@ -36,8 +36,8 @@ static void test_reference(void **state)
     for (double tolerance = 1e-6; tolerance > 1e-13; tolerance *= 1e-2) {
       const pendres_pendulum p = { cases[c].damping, cases[c].drive, cases[c].frequency, 0.0 };
       pendres_context *ctx = context(tolerance);
-      check_ok(pendres_strobe_record(ctx, &p, cases[c].x, cases[c].v, PERIODS, SAMPLES, x, v,
-                                     x_error, v_error));
+      check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){cases[c].x, cases[c].v}, PERIODS,
+                                     SAMPLES, &(pendres_record){x, v, x_error, v_error}));
       for (long k = 0; k <= PERIODS; k++) {
         long double y = (long double)cases[c].x - 1.57079632679489661923L, w = cases[c].v;
         long turns = 0;
@@ -67,7 +67,8 @@ static void test_lost_for_good(void **state)
   pendres_context *ctx = context(1e-2);
   size_t lost = N;
   (void)state;
-  check_ok(pendres_strobe_record(ctx, &p, x0, v0, PERIODS, SAMPLES, x, v, x_error, v_error));
+  check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){x0, v0}, PERIODS, SAMPLES,
+                                 &(pendres_record){x, v, x_error, v_error}));
   for (size_t k = 0; k < N; k++) {
     assert_true(isfinite(x_error[k]) == isfinite(v_error[k]));
     if (k < lost && !isfinite(v_error[k])) lost = k;
@@ -93,9 +94,10 @@ static void test_phases(void **state)
   pendres_context *ctx = context(1e-13);
   (void)state;
   check_ok(pendres_harmonic_response(&p, &h));
-  check_ok(pendres_strobe_record(ctx, &p, 0.5 * pi + h.amplitude * cos(h.phase_lag),
-                                 0.8 * h.amplitude * sin(h.phase_lag), PERIODS, SAMPLES, x, v, NULL,
-                                 NULL));
+  const pendres_state start = {0.5 * pi + h.amplitude * cos(h.phase_lag),
+                               0.8 * h.amplitude * sin(h.phase_lag)};
+  check_ok(pendres_strobe_record(ctx, &p, &start, PERIODS, SAMPLES,
+                                 &(pendres_record){.x = x, .v = v}));
   for (int k = 0; k < N; k++) {
     const double theta = 2.0 * pi * k / SAMPLES;
     check_near(x[k] - 0.5 * pi, h.amplitude * cos(theta - h.phase_lag), 1e-14);
@@ -119,8 +121,8 @@ static void test_densities(void **state)
   for (size_t i = 0; i < COUNT(samples); i++) {
     const size_t n = (size_t)(PERIODS * samples[i]);
     double *x = memory, *v = x + MOST, *x_error = v + MOST, *v_error = x_error + MOST;
-    check_ok(pendres_strobe_record(ctx, &p, -1.0, 0.4, PERIODS, samples[i], x, v, x_error,
-                                   v_error));
+    check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){-1.0, 0.4}, PERIODS, samples[i],
+                                   &(pendres_record){x, v, x_error, v_error}));
     check_near(x[0], -1.0, 0.0);
     check_near(v[0], 0.4, 0.0);
     /* Within ten times what each of the two claims. */
@@ -143,23 +145,31 @@ static void test_refusals(void **state)
   double x[11], v[11];
   pendres_context *ctx = context(1e-8);
   (void)state;
-  assert_int_equal(pendres_strobe_record(ctx, &bad, 0, 0, 1, 10, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &bad, &(pendres_state){0, 0}, 1, 10,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_strobe_record(ctx, &p, NAN, 0, 1, 10, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){NAN, 0}, 1, 10,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, -1, 10, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){0, 0}, -1, 10,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 0, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){0, 0}, 1, 0,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 10, x, v, x, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){0, 0}, 1, 10,
+                                         &(pendres_record){x, v, x, NULL}),
                    PENDRES_INVALID_ARGUMENT);
-  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1L << 60, 1000, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){0, 0}, 1L << 60, 1000,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INVALID_ARGUMENT);
   /* No periods: the start alone. */
-  check_ok(pendres_strobe_record(ctx, &p, 0.7, 0.1, 0, 10, x, v, NULL, NULL));
+  check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){0.7, 0.1}, 0, 10,
+                                 &(pendres_record){.x = x, .v = v}));
   check_near(x[0], 0.7, 0.0);
   pendres_context_set_interrupt(ctx, always, NULL);
-  assert_int_equal(pendres_strobe_record(ctx, &p, 0, 0, 1, 10, x, v, NULL, NULL),
+  assert_int_equal(pendres_strobe_record(ctx, &p, &(pendres_state){0, 0}, 1, 10,
+                                         &(pendres_record){.x = x, .v = v}),
                    PENDRES_INTERRUPTED);
   pendres_context_free(ctx);
 }
@@ -175,10 +185,10 @@ static void test_pieces(void **state)
   pendres_context *ctx = context(1e-8);
   pendres_recording r;
   (void)state;
-  check_ok(pendres_strobe_record(ctx, &p, 1.8, 0.1, PERIODS, SAMPLES, want[0], want[1], want[2],
-                                 want[3]));
+  check_ok(pendres_strobe_record(ctx, &p, &(pendres_state){1.8, 0.1}, PERIODS, SAMPLES,
+                                 &(pendres_record){want[0], want[1], want[2], want[3]}));
   assert_true(isfinite(want[2][20]) && isinf(want[2][N - 1]));
-  check_ok(pendres_recording_begin(ctx, &p, 1.8, 0.1, PERIODS, SAMPLES, &r));
+  check_ok(pendres_recording_begin(ctx, &p, &(pendres_state){1.8, 0.1}, PERIODS, SAMPLES, &r));
   for (long done = 0, some = 1; done < PERIODS; done += some, some = (2 * some) % 13 + 1) {
     const pendres_recording before = r;
     const size_t at = (size_t)done * SAMPLES;
@@ -186,8 +196,8 @@ static void test_pieces(void **state)
     ctx = context(1e-8);
     if (some > PERIODS - done) some = PERIODS - done;
     r = before;
-    check_ok(pendres_recording_go_on(ctx, &r, some, got[0] + at, got[1] + at, got[2] + at,
-                                     got[3] + at));
+    check_ok(pendres_recording_go_on(
+      ctx, &r, some, &(pendres_record){got[0] + at, got[1] + at, got[2] + at, got[3] + at}));
     assert_true(r.periods == done + some && r.x == got[0][at + (size_t)some * SAMPLES]);
   }
   assert_true(r.lost == 1);

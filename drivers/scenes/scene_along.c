@@ -189,8 +189,9 @@ pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pen
   }
   farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
              deck_axis_name(way->axis), way->value[0]);
-  status = pendres_hysteresis_follow(ctx, &p, scene_parameter_of(way->axis)->parameter, x, v,
-                                     way->n, way->value, &h);
+  const pendres_hysteresis_path path = {scene_parameter_of(way->axis)->parameter, way->n,
+                                        way->value};
+  status = pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, v}, &path, &h);
   if (farm_gave_up(out, status)) status = leave_rest(h, out);
   if (status == PENDRES_OK) status = keep(h, out);
   pendres_hysteresis_free(h);

@@ -61,9 +61,12 @@ static size_t rows_of(const sweep *s, size_t task)
 
 /* Finish the states of rows that had been deferred. */
 static pendres_status finish_rows(pendres_context *ctx, const basins *b, size_t offset, size_t n,
-                                  size_t deferred, pendres_basin_state *state)
+                                  pendres_basin_state *state)
 {
-  size_t *index = malloc(deferred * sizeof *index), k = 0;
+  size_t deferred = 0, k = 0;
+  for (size_t i = 0; i < n; i++) deferred += state[i].how == PENDRES_BASIN_DEFERRED;
+  if (deferred == 0) return PENDRES_OK;
+  size_t *index = malloc(deferred * sizeof *index);
   pendres_basin_state *rest = malloc(deferred * sizeof *rest);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   if (index == NULL || rest == NULL) goto done;
@@ -146,15 +149,13 @@ static pendres_status compute_rows(const void *arg, size_t task, pendres_context
   const sweep *s = arg;
   const basins *b = s->b;
   const size_t first = task * s->rows, rows = rows_of(s, task), n = rows * b->grid.nv;
-  size_t deferred = 0;
   part *p = farm_record_resize(out, sizeof *p + n * sizeof(pendres_basin_state));
   if (p == NULL) return PENDRES_OUT_OF_MEMORY;
   pendres_basin_state *state = (pendres_basin_state *)(p + 1);
   begin_states(b, first * b->grid.nv, n, out);
   pendres_status status =
-    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, state, &deferred);
-  if (status == PENDRES_OK && deferred > 0)
-    status = finish_rows(ctx, b, first * b->grid.nv, n, deferred, state);
+    pendres_basin_rows(ctx, b->set, &b->grid, first, rows, state);
+  if (status == PENDRES_OK) status = finish_rows(ctx, b, first * b->grid.nv, n, state);
   if (farm_gave_up(out, status))
     status = find_apart(b, first * b->grid.nv, n, ctx, out, state);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)

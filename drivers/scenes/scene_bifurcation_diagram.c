@@ -95,8 +95,8 @@ static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, rec
   if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED ||
       point->attractor.label == PENDRES_LABEL_ESCAPE)
     return status;
-  return pendres_strobe_record(ctx, &p, point->x, point->v, (long)w->strobes - 1, 1, x,
-                               x + w->strobes, NULL, NULL);
+  return pendres_strobe_record(ctx, &p, &(pendres_state){point->x, point->v}, (long)w->strobes - 1,
+                               1, &(pendres_record){.x = x, .v = x + w->strobes});
 }
 
 static pendres_status find_strobes(const void *arg, size_t task, pendres_context *ctx,

@@ -132,8 +132,9 @@ static pendres_status begin_trajectory(orbit_work *w, pendres_context *ctx)
   if (!w->transient) /* on the chaotic attractor */
     status = pendres_strobe_advance(ctx, 1, &w->pendulum, &x, &v, WANDERING, &error);
   if (status == PENDRES_OK)
-    status = pendres_recording_begin(ctx, &w->pendulum, x, v, (long)w->d->orbit.periods,
-                                     (int)w->d->orbit.samples, &w->recording);
+    status = pendres_recording_begin(ctx, &w->pendulum, &(pendres_state){x, v},
+                                     (long)w->d->orbit.periods, (int)w->d->orbit.samples,
+                                     &w->recording);
   return status;
 }
 
@@ -148,11 +149,10 @@ static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
 {
   const long first = (long)task * w->chunk, periods = periods_of(w, task);
   if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) {
+    const pendres_record to = { out->x, out->v, out->x_error, out->v_error };
     const pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
-    return status != PENDRES_OK
-             ? status
-             : pendres_recording_go_on(ctx, &w->recording, periods, out->x, out->v, out->x_error,
-                                       out->v_error);
+    return status == PENDRES_OK ? pendres_recording_go_on(ctx, &w->recording, periods, &to)
+                                : status;
   }
   if (w->found.closed) return sample_orbit(w, ctx, first, periods, out);
   no_samples((size_t)periods * (size_t)w->d->orbit.samples, out);

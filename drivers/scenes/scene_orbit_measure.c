@@ -87,10 +87,11 @@ static pendres_status measure_correlation(orbit_work *w)
   if (w->found.closed) c->dimension = c->dimension_error = 0.0;
   if (m->points < 2) return PENDRES_OK;
   if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
-  return scene_asked(w->run, pendres_correlation_measure(
-                               ctx, m->points, m->x, m->v,
-                               pendres_model_of(w->pendulum.force)->period,
-                               RESOLUTION * w->d->precision.tolerance, c));
+  const pendres_section section = { m->points, m->x, m->v,
+                                    pendres_model_of(w->pendulum.force)->period };
+  return scene_asked(w->run,
+                     pendres_correlation_measure(ctx, &section,
+                                                 RESOLUTION * w->d->precision.tolerance, c));
 }
 
 typedef struct dimensions {

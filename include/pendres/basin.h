@@ -90,13 +90,12 @@ pendres_status pendres_basin_attractors(pendres_context *ctx, const pendres_pend
                                         const pendres_basin_grid *grid, pendres_attractors **out);
 
 /**
- * Rows first .. first + rows - 1 of a grid; state[rows * nv] is written. *deferred, if not NULL,
- * receives the number of states marked as deferred. Where very many do not settle soon they are
- * given all their budget at once, and none is deferred.
+ * Rows first .. first + rows - 1 of a grid; state[rows * nv] is written. Where very many do not
+ * settle soon they are given all their budget at once, and none is deferred.
  */
 pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
                                   const pendres_basin_grid *grid, size_t first, size_t rows,
-                                  pendres_basin_state *state, size_t *deferred);
+                                  pendres_basin_state *state);
 
 /** States number index[0 .. n) of a grid, with all their budget; state[n] is written. */
 pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attractors *set,
@@ -284,19 +283,26 @@ typedef struct pendres_basin_window {
   pendres_basin_end by; /**< when two states of it are alike */
 } pendres_basin_window;
 
+/** Random states of a window, each with neighbours at v + distance[k] and v - distance[k]. */
+typedef struct pendres_basin_sample {
+  size_t n;               /**< how many states */
+  uint64_t seed;          /**< what they depend on, beside the window */
+  int scales;             /**< how many distances, PENDRES_BASIN_SCALES at most */
+  const double *distance; /**< [scales], not kept; meaningless well below the tolerance */
+} pendres_basin_sample;
+
 /**
- * The uncertainty exponent from n random states of a window, each compared with its neighbours at
- * v + distance[k] and v - distance[k], k = 0 .. scales - 1 <= PENDRES_BASIN_SCALES. Distances well
- * below the tolerance are meaningless. The states depend only on seed. If they take too long to
- * settle, as in chaos that ends late, or if more than half of them are uncertain at nearly all
- * distances, only the first of them are used; the field `states` says how many. The fields states,
- * unresolved, uncertainty_exponent, distance and uncertain are set; others are NaN or 0.
+ * The uncertainty exponent from random states of a window, each compared with its neighbours. If
+ * they take too long to settle, as in chaos that ends late, or if more than half of them are
+ * uncertain at nearly all distances, only the first of them are used; the field `states` says how
+ * many. The fields states, unresolved, uncertainty_exponent, distance and uncertain are set; others
+ * are NaN or 0.
  * PENDRES_NOT_FOUND: there are too few distances at which the boundary is met often enough for a
  * count, but by fewer than half of the states (shares near one are no power of the distance).
  */
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                         const pendres_basin_window *window, size_t n,
-                                         int scales, const double *distance, uint64_t seed,
+                                         const pendres_basin_window *window,
+                                         const pendres_basin_sample *sample,
                                          pendres_basin_statistics *out);
 
 /**

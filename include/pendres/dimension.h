@@ -41,11 +41,20 @@ typedef struct pendres_correlation {
   double sum_error[PENDRES_CORRELATION_SCALES]; /**< standard error of the share */
 } pendres_correlation;
 
+/** A stroboscopic section: points in the order of time, as pendres_strobe_record() with one sample
+    a period makes them. */
+typedef struct pendres_section {
+  size_t n;        /**< how many points */
+  const double *x; /**< [n] positions */
+  const double *v; /**< [n] velocities */
+  double turn;     /**< length of the circle that x lies on: 2 pi for the pendulum; 0: x is no
+                        angle */
+} pendres_section;
+
 /**
- * The correlation dimension of n points x[n], v[n] in the order of time, as
- * pendres_strobe_record() with one sample a period makes them. Distances are sqrt(dx^2 + dv^2) with
- * dx taken around the circle of length `turn` (2 pi for the pendulum; 0: x is no angle). Distances
- * below `resolution`, the error of the points, are not looked at (0: all are).
+ * The correlation dimension of the points of a section. Distances are sqrt(dx^2 + dv^2) with dx
+ * taken around the circle. Distances below `resolution`, the error of the points, are not looked at
+ * (0: all are).
  *
  * Pairs less than 32 apart in time are left out, as they are close for another reason. The
  * dimension is the slope of log sum against log distance, from a thirty-second of the points'
@@ -54,13 +63,12 @@ typedef struct pendres_correlation {
  * added, since sums of fractal sets wind around their straight line. Costs n^2 / 2 distances of
  * some two nanoseconds each.
  *
- * x and v are read, *out is written. Errors: PENDRES_INVALID_ARGUMENT (fewer than two points, one
- * that is no number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY, PENDRES_INTERRUPTED.
- * Thread safety: as for the context.
+ * The section is read, *out is written. Errors: PENDRES_INVALID_ARGUMENT (fewer than two points,
+ * one that is no number, a turn or a resolution below 0), PENDRES_OUT_OF_MEMORY,
+ * PENDRES_INTERRUPTED. Thread safety: as for the context.
  */
-pendres_status pendres_correlation_measure(pendres_context *ctx, size_t n, const double *x,
-                                           const double *v, double turn, double resolution,
-                                           pendres_correlation *out);
+pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_section *section,
+                                           double resolution, pendres_correlation *out);
 
 /**
  * The Lyapunov dimension of a pendulum's attractor from its largest exponent a unit time, by

@@ -125,14 +125,21 @@ typedef struct pendres_jump {
   int certain;               /**< 1: all of them did, mirror images not being told apart */
 } pendres_jump;
 
+/** Values of a parameter in the order in which they are come to: each is approached from the one
+    before, slowly and monotonically. A sweep up and down is a list that ascends and then
+    descends. */
+typedef struct pendres_hysteresis_path {
+  pendres_parameter parameter; /**< what moves */
+  size_t n;                    /**< how many values */
+  const double *value;         /**< [n], not kept */
+} pendres_hysteresis_path;
+
 /** Opaque: what was met on a path. */
 typedef struct pendres_hysteresis pendres_hysteresis;
 
 /**
- * Follow the state that pendulum `p` settles on from position x and velocity v at drive phase 0,
- * along the values value[n] of a parameter, in their order: each value is approached from the one
- * before, slowly and monotonically. A sweep up and down is a list that ascends and then descends.
- * p's own value of the parameter is not read.
+ * Follow the state that pendulum `p` settles on from a state at drive phase 0 along a path. p's own
+ * value of the parameter is not read.
  *
  * Orbits of one drive period are named SA and LA where two of them are met at the same value of the
  * path, by amplitude, and keep their names along the whole stretch that is followed; elsewhere they
@@ -140,16 +147,17 @@ typedef struct pendres_hysteresis pendres_hysteresis;
  *
  * Points that were left out have an outcome that says why, and nothing else.
  *
- * p and value are read. *out is to be freed by pendres_hysteresis_free; NULL on failure, but for
- * PENDRES_INTERRUPTED on the way: then it has what was met until then, and the points that were not
- * reached are unresolved, with NaN for x and v.
+ * p, start and path are read. *out is to be freed by pendres_hysteresis_free; NULL on failure, but
+ * for PENDRES_INTERRUPTED on the way: then it has what was met until then, and the points that were
+ * not reached are unresolved, with NaN for x and v.
  * Errors: PENDRES_INVALID_ARGUMENT (the message says which), PENDRES_OUT_OF_MEMORY,
  * PENDRES_INTERRUPTED, those of the integration. PENDRES_OK also where some points are unresolved.
  * Thread safety: as for the context.
  */
 pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
-                                         pendres_parameter parameter, double x, double v, size_t n,
-                                         const double *value, pendres_hysteresis **out);
+                                         const pendres_state *start,
+                                         const pendres_hysteresis_path *path,
+                                         pendres_hysteresis **out);
 /** Free what was met; NULL is allowed. */
 void pendres_hysteresis_free(pendres_hysteresis *h);
 

@@ -124,12 +124,11 @@ pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *o
                                     double *x, double *v);
 
 /**
- * The same, to the context's tolerance, with an estimate of the largest error of any x[] and of
- * any v[]; x_error and v_error may be NULL. At least twice as dear.
+ * The same, to the context's tolerance, with estimates of the largest error of any x[], error[0],
+ * and of any v[], error[1]; error may be NULL. At least twice as dear.
  */
 pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
-                                               int count, double *x, double *v, double *x_error,
-                                               double *v_error);
+                                               int count, double *x, double *v, double error[2]);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -99,6 +99,12 @@ typedef struct pendres_pendulum {
                                                               the others are zero */
 } pendres_pendulum;
 
+/** A state of a pendulum at drive phase 0. */
+typedef struct pendres_state {
+  double x; /**< position, in rad */
+  double v; /**< velocity, in rad a unit time */
+} pendres_state;
+
 /** What all pendulums with this force have in common; NULL if force is out of range. */
 const pendres_model *pendres_model_of(pendres_force force);
 

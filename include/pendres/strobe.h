@@ -52,24 +52,31 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
                                       long periods, double *error);
 
+/** Where a motion is recorded: arrays of the caller. */
+typedef struct pendres_record {
+  double *x;       /**< positions, in rad; not wrapped */
+  double *v;       /**< velocities, in rad a unit time */
+  double *x_error; /**< errors of x; NULL: not wanted */
+  double *v_error; /**< errors of v; NULL where x_error is */
+} pendres_record;
+
 /**
- * Record one pendulum from position x0 and velocity v0 at drive phase 0 on: `samples` equally
- * spaced points a drive period over `periods` periods. Point k, at drive phase
- * 2 pi k / samples, goes to x[k] and v[k]; k = 0 is the start and k = periods * samples the end, so
- * the arrays hold periods * samples + 1 values. x is not wrapped.
+ * Record one pendulum from a state at drive phase 0 on: `samples` equally spaced points a drive
+ * period over `periods` periods. Point k, at drive phase 2 pi k / samples, goes to out->x[k] and
+ * out->v[k]; k = 0 is the start and k = periods * samples the end, so the arrays hold
+ * periods * samples + 1 values.
  *
- * x_error and v_error, of the same length, receive estimates of the errors: a second run with
- * twice the steps is compared with the first, and rounding is carried along by the variational
- * equation. Where the runs have lost each other, and from there on, both are infinite. Both may be
- * NULL, and that run is then not made.
+ * Errors are estimates: a second run with twice the steps is compared with the first, and rounding
+ * is carried along by the variational equation. Where the runs have lost each other, and from there
+ * on, both are infinite. If they are not wanted, that run is not made.
  *
  * The steps are fixed ones and end on each point, whatever the context's method: nothing is
  * interpolated. Their choice and the statuses returned are those of pendres_strobe_advance().
  * What was written before a failure is to be ignored.
  */
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                     double x0, double v0, long periods, int samples, double *x,
-                                     double *v, double *x_error, double *v_error);
+                                     const pendres_state *start, long periods, int samples,
+                                     const pendres_record *out);
 
 /** Where one of the two runs of a recording stands. The library's own. */
 typedef struct pendres_recording_place {
@@ -99,25 +106,24 @@ typedef struct pendres_recording {
 } pendres_recording;
 
 /**
- * Begin a record of a pendulum from position x0 and velocity v0 at drive phase 0, which is to have
- * `periods` drive periods in all: the steps are so fine that errors may add up over all of them.
- * *out is written on PENDRES_OK. The other statuses are those of pendres_strobe_record(). Thread
- * safety is that of the context.
+ * Begin a record of a pendulum from a state at drive phase 0, which is to have `periods` drive
+ * periods in all: the steps are so fine that errors may add up over all of them. *out is written on
+ * PENDRES_OK. The other statuses are those of pendres_strobe_record(). Thread safety is that of the
+ * context.
  */
 pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                       double x0, double v0, long periods, int samples,
+                                       const pendres_state *start, long periods, int samples,
                                        pendres_recording *out);
 
 /**
  * Go on by some periods. Arrays are as of pendres_strobe_record(), of periods * samples + 1 values:
  * the first is the last of the piece before. All pieces together are the same bytes as the record
- * in one piece. x_error and v_error may be NULL; errors of later pieces are then infinite.
+ * in one piece. After a piece without errors those of later pieces are infinite.
  *
  * On a failure *recording is unchanged. Thread safety: as for the context.
  */
 pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
-                                       long periods, double *x, double *v, double *x_error,
-                                       double *v_error);
+                                       long periods, const pendres_record *out);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

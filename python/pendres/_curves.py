@@ -152,9 +152,12 @@ def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", co
     """The state that a pendulum from (x, v) settles on, followed along the values of a parameter,
     slowly and in their order: a Hysteresis. A sweep up and down is a list that ascends and then
     descends."""
-    path = np.ascontiguousarray(values, float)
-    return make(Hysteresis, c.hysteresis_follow, default_context(context), one_pendulum(p),
-                named(parameter), x, v, path.size, path)
+    along = np.ascontiguousarray(values, float)
+    start, path = array("pendres_state", 1), array("pendres_hysteresis_path", 1)
+    start["x"], start["v"] = x, v
+    path["parameter"], path["n"], path["value"] = named(parameter), along.size, along.ctypes.data
+    return make(Hysteresis, c.hysteresis_follow, default_context(context), one_pendulum(p), start,
+                path)
 
 
 def saddle(attractor, *, context=None):

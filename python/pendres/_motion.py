@@ -30,8 +30,11 @@ def strobe_record(p, x0, v0, periods, samples, *, error=False, context=None):
     """One pendulum from (x0, v0) at drive phase 0 on, `samples` points a drive period: (x, v), or
     (x, v, x_error, v_error), of periods * samples + 1 points, at drive phases 2 pi k / samples."""
     arrays = [np.empty(periods * samples + 1) for _ in range(4 if error else 2)]
-    c.strobe_record(default_context(context), one_pendulum(p), x0, v0, periods, samples, *arrays,
-                    *([] if error else [None, None]))
+    start, out = array("pendres_state", 1), array("pendres_record", 1)
+    start["x"], start["v"] = x0, v0
+    for name, values in zip(("x", "v", "x_error", "v_error"), arrays):
+        out[name] = values.ctypes.data
+    c.strobe_record(default_context(context), one_pendulum(p), start, periods, samples, out)
     return tuple(arrays)
 
 
@@ -62,9 +65,9 @@ def orbit_sample(orbit, count, *, error=False, context=None):
     if not error:
         c.orbit_sample(default_context(context), one, count, x, v)
         return x, v
-    x_error, v_error = np.empty(1), np.empty(1)
-    c.orbit_sample_with_error(default_context(context), one, count, x, v, x_error, v_error)
-    return x, v, x_error[0], v_error[0]
+    errors = np.empty(2)
+    c.orbit_sample_with_error(default_context(context), one, count, x, v, errors)
+    return x, v, *errors
 
 
 def free_frequency(amplitude):

@@ -107,7 +107,7 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
 }
 
 static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                             double *x, double *v, double *x_error, double *v_error)
+                             double *x, double *v, double *error)
 {
   enum { MOST_TRIES = 5, MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
   curve coarse = {.memory = NULL}, fine = {.memory = NULL};
@@ -121,8 +121,8 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "samples of an orbit: %s", why);
   int steps = orbit->steps;
   pendres_status status = trace(ctx, orbit, steps, &fine);
-  if (status == PENDRES_OK && (x_error != NULL || v_error != NULL)) {
-    double error[2] = {INFINITY, INFINITY};
+  if (error != NULL) {
+    error[0] = error[1] = INFINITY;
     for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
       const curve older = coarse;
       coarse = fine;
@@ -132,8 +132,6 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
       if (status == PENDRES_OK) errors_of(orbit, &coarse, &fine, error);
       if (!(fmax(error[0], error[1]) > ctx->options.tolerance)) break;
     }
-    if (x_error != NULL) *x_error = error[0];
-    if (v_error != NULL) *v_error = error[1];
   }
   const size_t points = (size_t)orbit->period * (size_t)count;
   for (size_t k = 0; k < points && status == PENDRES_OK; k++) {
@@ -148,14 +146,13 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
 }
 
 pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
-                                               int count, double *x, double *v, double *x_error,
-                                               double *v_error)
+                                               int count, double *x, double *v, double error[2])
 {
-  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, x_error, v_error));
+  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, error));
 }
 
 pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
                                     double *x, double *v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, NULL, NULL));
+  return PENDRES_CONTEXT_CALL(ctx, sample(ctx, orbit, count, x, v, NULL));
 }

@@ -135,8 +135,8 @@ static pendres_status estimate(pendres_context *ctx, pendres_recording *next, co
 
 /* ---- beginning and going on ---------------------------------------------------------------- */
 
-static pendres_status check(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
-                            long periods, int samples)
+static pendres_status check(pendres_context *ctx, const pendres_pendulum *p,
+                            const pendres_state *start, long periods, int samples)
 {
   const char *why = NULL;
   if (pendres_pendulum_check(p, &why) == PENDRES_OK) {
@@ -144,18 +144,21 @@ static pendres_status check(pendres_context *ctx, const pendres_pendulum *p, dou
     else if (samples < 1 || samples > MOST_SAMPLES)
       why = "the number of samples a period must lie between 1 and 1000000";
     else if (periods >= LONG_MAX / 64 / samples) why = "there are too many samples in all";
-    else why = pendres_passage_refuses(p, x0, v0);
+    else why = pendres_passage_refuses(p, start->x, start->v);
   }
   if (why == NULL) return PENDRES_OK;
   return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
 }
 
-static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p, double x0, double v0,
-                            long periods, int samples, pendres_recording *out)
+static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p,
+                            const pendres_state *start, long periods, int samples,
+                            pendres_recording *out)
 {
   int steps = 0;
-  if (p == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "pendulum and out");
-  pendres_status status = check(ctx, p, x0, v0, periods, samples);
+  if (p == NULL || start == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, start and out");
+  const double x0 = start->x, v0 = start->v;
+  pendres_status status = check(ctx, p, start, periods, samples);
   if (status == PENDRES_OK)
     /* Errors of all periods may add up. */
     status = pendres_steps_choose(ctx, p, pendres_steps_speed(p, x0, v0),
@@ -177,16 +180,18 @@ static pendres_status begin(pendres_context *ctx, const pendres_pendulum *p, dou
 }
 
 pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                       double x0, double v0, long periods, int samples,
+                                       const pendres_state *start, long periods, int samples,
                                        pendres_recording *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, begin(ctx, pendulum, x0, v0, periods, samples, out));
+  return PENDRES_CONTEXT_CALL(ctx, begin(ctx, pendulum, start, periods, samples, out));
 }
 
-static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long periods, double *x,
-                            double *v, double *x_error, double *v_error)
+static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long periods,
+                            const pendres_record *to)
 {
-  if (r == NULL || x == NULL || v == NULL) return PENDRES_CONTEXT_NULL(ctx, "recording, x and v");
+  if (r == NULL || to == NULL || to->x == NULL || to->v == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "recording, out, x and v");
+  double *x = to->x, *v = to->v, *x_error = to->x_error, *v_error = to->v_error;
   if ((x_error == NULL) != (v_error == NULL))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "errors are of both x and v, or of neither");
@@ -221,27 +226,23 @@ static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long per
 }
 
 pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
-                                       long periods, double *x, double *v, double *x_error,
-                                       double *v_error)
+                                       long periods, const pendres_record *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, go_on(ctx, recording, periods, x, v, x_error, v_error));
+  return PENDRES_CONTEXT_CALL(ctx, go_on(ctx, recording, periods, out));
 }
 
 static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                   double x0, double v0, long periods, int samples, double *x,
-                                   double *v, double *x_error, double *v_error)
+                                   const pendres_state *start, long periods, int samples,
+                                   const pendres_record *out)
 {
   pendres_recording r;
-  if (pendulum == NULL || x == NULL || v == NULL)
-    return PENDRES_CONTEXT_NULL(ctx, "pendulum, x and v");
-  const pendres_status status = begin(ctx, pendulum, x0, v0, periods, samples, &r);
-  return status == PENDRES_OK ? go_on(ctx, &r, periods, x, v, x_error, v_error) : status;
+  const pendres_status status = begin(ctx, pendulum, start, periods, samples, &r);
+  return status == PENDRES_OK ? go_on(ctx, &r, periods, out) : status;
 }
 
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,
-                                     double x0, double v0, long periods, int samples, double *x,
-                                     double *v, double *x_error, double *v_error)
+                                     const pendres_state *start, long periods, int samples,
+                                     const pendres_record *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, whole_record(ctx, pendulum, x0, v0, periods, samples, x,
-                                                        v, x_error, v_error));
+  return PENDRES_CONTEXT_CALL(ctx, whole_record(ctx, pendulum, start, periods, samples, out));
 }

@@ -161,12 +161,11 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
 
 /* Finish the states that have not settled soon if there are many of them; otherwise mark them. */
 static pendres_status defer(const picture *of, size_t offset, size_t n,
-                            pendres_basin_state *state, size_t *deferred)
+                            pendres_basin_state *state)
 {
   size_t left = 0;
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; k < n; k++) left += state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN;
-  if (deferred != NULL) *deferred = left;
   if (left < WORTH_WAITING) {
     for (size_t k = 0; k < n; k++)
       if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) state[k].how = PENDRES_BASIN_DEFERRED;
@@ -184,7 +183,6 @@ static pendres_status defer(const picture *of, size_t offset, size_t n,
     if (state[k].attractor == PENDRES_ATTRACTOR_UNKNOWN) index[left++] = offset + k;
   status = settle_states(of, left, index, PENDRES_SETTLE_FULL, rest);
   for (size_t k = 0; k < left && status == PENDRES_OK; k++) state[index[k] - offset] = rest[k];
-  if (deferred != NULL) *deferred = 0;
 done:
   free(index);
   free(rest);
@@ -193,7 +191,7 @@ done:
 
 static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors *set,
                                  const pendres_basin_grid *grid, size_t first, size_t rows,
-                                 pendres_basin_state *state, size_t *deferred)
+                                 pendres_basin_state *state)
 {
   if (set == NULL || grid == NULL || state == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "attractors, grid and state");
@@ -210,14 +208,14 @@ static pendres_status basin_rows(pendres_context *ctx, const pendres_attractors 
   const picture of = {ctx, set, grid};
   status = settle_states(&of, n, index, PENDRES_SETTLE_SHORT, state);
   free(index);
-  return status == PENDRES_OK ? defer(&of, offset, n, state, deferred) : status;
+  return status == PENDRES_OK ? defer(&of, offset, n, state) : status;
 }
 
 pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors *set,
                                   const pendres_basin_grid *grid, size_t first, size_t rows,
-                                  pendres_basin_state *state, size_t *deferred)
+                                  pendres_basin_state *state)
 {
-  return PENDRES_CONTEXT_CALL(ctx, basin_rows(ctx, set, grid, first, rows, state, deferred));
+  return PENDRES_CONTEXT_CALL(ctx, basin_rows(ctx, set, grid, first, rows, state));
 }
 
 static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set,
@@ -271,7 +269,7 @@ static pendres_status compute_once(pendres_context *ctx, const pendres_attractor
   const size_t rows_a_time = 1 + 200000 / grid->nv;
   for (size_t i = 0; i < grid->nx && status == PENDRES_OK; i += rows_a_time) {
     const size_t rows = grid->nx - i < rows_a_time ? grid->nx - i : rows_a_time;
-    status = pendres_basin_rows(ctx, set, grid, i, rows, state + i * grid->nv, NULL);
+    status = pendres_basin_rows(ctx, set, grid, i, rows, state + i * grid->nv);
   }
   if (status != PENDRES_OK) return status;
   const size_t n = list_states(grid->nx * grid->nv, state, 1, index);

@@ -29,18 +29,16 @@ enum {
 static const double most_slopes = 4e9;
 
 /* State number i of a sample and its neighbours: 1 + 2 * scales of x and v. */
-static void place(const pendres_basin_window *window, uint64_t seed, uint64_t i, int scales,
-                  const double *distance, double *x, double *v)
+static void place(const pendres_basin_window *w, const pendres_basin_sample *s, uint64_t i,
+                  double *x, double *v)
 {
-  const double at_x =
-    window->x_low + (window->x_high - window->x_low) * pendres_mix_uniform(seed, 2 * i);
-  const double at_v =
-    window->v_low + (window->v_high - window->v_low) * pendres_mix_uniform(seed, 2 * i + 1);
-  for (int k = 0; k <= 2 * scales; k++) x[k] = at_x;
+  const double at_x = w->x_low + (w->x_high - w->x_low) * pendres_mix_uniform(s->seed, 2 * i);
+  const double at_v = w->v_low + (w->v_high - w->v_low) * pendres_mix_uniform(s->seed, 2 * i + 1);
+  for (int k = 0; k <= 2 * s->scales; k++) x[k] = at_x;
   v[0] = at_v;
-  for (int k = 0; k < scales; k++) {
-    v[1 + 2 * k] = at_v - distance[k];
-    v[2 + 2 * k] = at_v + distance[k];
+  for (int k = 0; k < s->scales; k++) {
+    v[1 + 2 * k] = at_v - s->distance[k];
+    v[2 + 2 * k] = at_v + s->distance[k];
   }
 }
 
@@ -92,7 +90,7 @@ static int hopeful(const pendres_scatter *s, double states, int scales)
 typedef struct sample {
   const pendres_attractors *set;
   const pendres_basin_window *window;
-  uint64_t seed;
+  const pendres_basin_sample *of;
   double *x, *v; /* a state and its neighbours, one after the other */
   pendres_outcome *outcome;
 } sample;
@@ -103,8 +101,7 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
 {
   const size_t each = 1 + 2 * (size_t)out->scales;
   for (size_t i = 0; i < count; i++)
-    place(a->window, a->seed, (uint64_t)(out->states + i), out->scales, out->distance,
-          &a->x[i * each], &a->v[i * each]);
+    place(a->window, a->of, (uint64_t)(out->states + i), &a->x[i * each], &a->v[i * each]);
   const pendres_settle_starts starts = {.n = count * each, .x = a->x, .v = a->v};
   const pendres_status status =
     pendres_settle_known(ctx, a->set->catalogues, &starts, pendres_accuracy_to_sample(ctx),
@@ -168,12 +165,15 @@ static pendres_status compute_sample(pendres_context *ctx, sample *a, size_t n, 
 
 pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
                                                 const pendres_attractors *set,
-                                                const pendres_basin_window *window, size_t n,
-                                                int scales, const double *distance, uint64_t seed,
+                                                const pendres_basin_window *window,
+                                                const pendres_basin_sample *asked,
                                                 pendres_basin_statistics *out)
 {
-  if (set == NULL || window == NULL || distance == NULL || out == NULL)
-    return PENDRES_CONTEXT_NULL(ctx, "attractors, window, distance and out");
+  if (set == NULL || window == NULL || asked == NULL || asked->distance == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "attractors, window, sample, its distances and out");
+  const size_t n = asked->n;
+  const int scales = asked->scales;
+  const double *distance = asked->distance;
   if (n < LEAST_STATES || scales < LEAST_SCALES || scales > PENDRES_BASIN_SCALES ||
       set->sets != 1)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
@@ -192,7 +192,7 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
                                     .boundary_entropy_error = NAN, .boundary_boxes = NAN};
   for (int k = 0; k < PENDRES_BASIN_SCALES; k++)
     out->distance[k] = k < scales ? distance[k] : NAN;
-  sample a = {.set = set, .window = window, .seed = seed};
+  sample a = {.set = set, .window = window, .of = asked};
   const pendres_status status = compute_sample(ctx, &a, n, most, out);
   if (status != PENDRES_OK) return status;
   if (isnan(out->uncertainty_exponent))
@@ -204,13 +204,12 @@ pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double mos
 }
 
 pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_attractors *set,
-                                         const pendres_basin_window *window, size_t n, int scales,
-                                         const double *distance, uint64_t seed,
+                                         const pendres_basin_window *window,
+                                         const pendres_basin_sample *asked,
                                          pendres_basin_statistics *out)
 {
   return PENDRES_CONTEXT_CALL(
-    ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, n, scales, distance, seed,
-                                          out));
+    ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, asked, out));
 }
 
 /* ---- in place of a grid's exponent ---- */
@@ -249,8 +248,9 @@ static pendres_status statistics_refine(pendres_context *ctx, const pendres_attr
   *states = 0;
   if (!random_states_tell_more(s, nearest)) return PENDRES_OK;
   for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = nearest * pow(apart, k);
-  const pendres_status status = pendres_basin_uncertainty(
-    ctx, set, &window, RANDOM_STATES, RANDOM_SCALES, distance, RANDOM_SEED, &random);
+  const pendres_basin_sample asked = {
+    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = RANDOM_SCALES, .distance = distance};
+  const pendres_status status = pendres_basin_uncertainty(ctx, set, &window, &asked, &random);
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
   if (status != PENDRES_OK) return status;
   *states = random.states;

@@ -13,8 +13,8 @@
  */
 pendres_status pendres_basin_uncertainty_within(pendres_context *ctx, double most,
                                                 const pendres_attractors *set,
-                                                const pendres_basin_window *window, size_t n,
-                                                int scales, const double *distance, uint64_t seed,
+                                                const pendres_basin_window *window,
+                                                const pendres_basin_sample *sample,
                                                 pendres_basin_statistics *out);
 
 #endif

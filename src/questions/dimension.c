@@ -194,11 +194,13 @@ static pendres_status measure(pendres_context *ctx, survey *s, double resolution
   return PENDRES_OK;
 }
 
-static pendres_status correlation_measure(pendres_context *ctx, size_t n, const double *x,
-                                          const double *v, double turn, double resolution,
-                                          pendres_correlation *out)
+static pendres_status correlation_measure(pendres_context *ctx, const pendres_section *section,
+                                          double resolution, pendres_correlation *out)
 {
-  if (x == NULL || v == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "x, v and out");
+  if (section == NULL || section->x == NULL || section->v == NULL || out == NULL)
+    return PENDRES_CONTEXT_NULL(ctx, "section, its x and v, and out");
+  const size_t n = section->n;
+  const double *x = section->x, *v = section->v, turn = section->turn;
   if (n < 2 || !(turn >= 0.0) || !(resolution >= 0.0) || !isfinite(turn))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "two points or more, a turn and a resolution that are not "
@@ -221,11 +223,10 @@ static pendres_status correlation_measure(pendres_context *ctx, size_t n, const 
   return status;
 }
 
-pendres_status pendres_correlation_measure(pendres_context *ctx, size_t n, const double *x,
-                                           const double *v, double turn, double resolution,
-                                           pendres_correlation *out)
+pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_section *section,
+                                           double resolution, pendres_correlation *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, correlation_measure(ctx, n, x, v, turn, resolution, out));
+  return PENDRES_CONTEXT_CALL(ctx, correlation_measure(ctx, section, resolution, out));
 }
 
 double pendres_lyapunov_dimension(const pendres_pendulum *p, double exponent,

@@ -432,22 +432,24 @@ pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hys
 }
 
 static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
-                              pendres_parameter parameter, double x, double v, size_t n,
-                              const double *value, pendres_hysteresis **out)
+                              const pendres_state *start, const pendres_hysteresis_path *along,
+                              pendres_hysteresis **out)
 {
-  if (p == NULL || out == NULL || (n > 0 && value == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "pendulum, value and out");
+  if (p == NULL || start == NULL || along == NULL || out == NULL ||
+      (along->n > 0 && along->value == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, start, path, its values and out");
   *out = NULL;
-  if ((unsigned)parameter >= PENDRES_PARAMETER_COUNT)
+  if ((unsigned)along->parameter >= PENDRES_PARAMETER_COUNT)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown parameter");
-  path w = {.ctx = ctx, .pendulum = *p, .parameter = parameter, .all = value,
-            .n = n, .value = value};
-  return pendres_path_run(&w, x, v, out);
+  path w = {.ctx = ctx, .pendulum = *p, .parameter = along->parameter, .all = along->value,
+            .n = along->n, .value = along->value};
+  return pendres_path_run(&w, start->x, start->v, out);
 }
 
 pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
-                                         pendres_parameter parameter, double x, double v, size_t n,
-                                         const double *value, pendres_hysteresis **out)
+                                         const pendres_state *start,
+                                         const pendres_hysteresis_path *along,
+                                         pendres_hysteresis **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, checked(ctx, p, parameter, x, v, n, value, out));
+  return PENDRES_CONTEXT_CALL(ctx, checked(ctx, p, start, along, out));
 }

@@ -64,8 +64,8 @@ static void compute(accuracy_random *r, void *of, long number)
   if (status == PENDRES_OK)
     status = pendres_strobe_advance(ctx, 1, &t->pendulum, &x, &v, t->periods, &t->claim);
   if (status == PENDRES_OK)
-    status = pendres_strobe_record(ctx, &t->pendulum, t->x, t->v, t->periods, SAMPLES, xs, vs,
-                                   x_error, v_error);
+    status = pendres_strobe_record(ctx, &t->pendulum, &(pendres_state){t->x, t->v}, t->periods,
+                                   SAMPLES, &(pendres_record){xs, vs, x_error, v_error});
   pendres_context_free(ctx);
   if (status != PENDRES_OK) return;
   t->error = off_by(t, x, v, &t->there);

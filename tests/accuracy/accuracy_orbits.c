@@ -153,10 +153,10 @@ static void note_samples(accuracy *a, const item *t, const char *how)
 {
   enum { MOST = 8 };
   const pendres_orbit *o = &t->orbit;
-  double x[MOST], v[MOST], x_error = INFINITY, v_error = INFINITY, off[2] = {0.0, 0.0};
+  double x[MOST], v[MOST], error[2] = {INFINITY, INFINITY}, off[2] = {0.0, 0.0};
   pendres_context *ctx = context_with(t->tolerance);
   if (ctx != NULL && o->period <= MOST && o->period > 1 &&
-      pendres_orbit_sample_with_error(ctx, o, 1, x, v, &x_error, &v_error) == PENDRES_OK) {
+      pendres_orbit_sample_with_error(ctx, o, 1, x, v, error) == PENDRES_OK) {
     for (int k = 0; k < o->period; k++) {
       long double y = t->exact.y, w = t->exact.v;
       if (pendres_reference_advance(&o->pendulum, &y, &w, NULL, k) != PENDRES_OK) continue;
@@ -164,8 +164,8 @@ static void note_samples(accuracy *a, const item *t, const char *how)
       off[0] = fmax(off[0], (double)fabsl(x[k] - turn - half_pi - y));
       off[1] = fmax(off[1], (double)fabsl(v[k] - w));
     }
-    accuracy_note_error(a, "x of samples", off[0], x_error, how);
-    accuracy_note_error(a, "v of samples", off[1], v_error, how);
+    accuracy_note_error(a, "x of samples", off[0], error[0], how);
+    accuracy_note_error(a, "v of samples", off[1], error[1], how);
   }
   pendres_context_free(ctx);
 }
