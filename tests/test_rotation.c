@@ -154,6 +154,61 @@ static void rotations(void **state)
   check_near(r.mean_velocity, sqrt(1.25) / 50.0, 1e-3 * r.mean_velocity);
 }
 
+/* Strong friction next to a torque of 1, where a turn by small steps takes seconds: beside Taylor
+   series of order 40 in 30 digits. Claims are some units of the last place. */
+static void strong_friction(void **state)
+{
+  static const struct { double damping, torque, period, v; } sets[] = {
+    {1.2, 3.0, 2.5401712794634990071, 2.8199640520959619256},
+    {1.3, 1.01, 48.717559734254404895, 1.1800287646076878590},
+    {3.0, 1.001, 421.15507285660146246, 0.37995682113905322506},
+    {5.0, 1.5, 28.080010484735955869, 0.31299278401533727204},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+    const pendres_pendulum p = {.damping = sets[i].damping, .torque = sets[i].torque,
+                                .drive_frequency = 1.0};
+    pendres_rotation r;
+    check_ok(pendres_rotation_find(&p, &r, NULL));
+    check_near(r.period, sets[i].period, r.period_error);
+    check_near(r.v, sets[i].v, r.v_error);
+    assert_true(r.period_error < 1e-14 * r.period && r.v_error < 1e-14 * r.v);
+  }
+  /* All the way to the fold 2 pi / T = sqrt(I^2 - 1) / gamma, but for a share of damping^-2 times
+     what I is above 1 by, and one of damping^-4 times that root. */
+  for (int k = 4; k <= 12; k += 4) {
+    const pendres_pendulum p = {.damping = 20.0, .torque = 1.0 + pow(10.0, -k),
+                                .drive_frequency = 1.0};
+    const double above = p.torque - 1.0;
+    pendres_rotation r;
+    check_ok(pendres_rotation_find(&p, &r, NULL));
+    check_near(r.mean_velocity, sqrt(above * (2.0 + above)) / p.damping,
+               (above + 2.0 * pow(p.damping, -4.0) * sqrt(2.0 * above) + 1e-14) *
+                 r.mean_velocity);
+    assert_true(r.mean_velocity_error < 1e-14 * r.mean_velocity);
+  }
+}
+
+/* Next to a connection rounding of the velocity lengthens a turn. Beside long doubles these periods
+   were 31, 6 and 5 times as far off as was claimed. */
+static void next_to_connections(void **state)
+{
+  static const struct { double damping, torque, period; } sets[] = {
+    {0.0081989169277785212, 0.010439015410540589, 19.2086429835211767},
+    {0.089859112866695928, 0.11418361594927673, 18.7873589651812303},
+    {0.11546235276923988, 0.14652657333769994, 17.5029032000322609},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+    const pendres_pendulum p = {.damping = sets[i].damping, .torque = sets[i].torque,
+                                .drive_frequency = 1.0};
+    pendres_rotation r;
+    check_ok(pendres_rotation_find(&p, &r, NULL));
+    check_near(r.period, sets[i].period, r.period_error);
+    assert_true(r.period_error < 1e-4 * r.period);
+  }
+}
+
 static void no_rotations(void **state)
 {
   const pendres_pendulum weak = {.damping = 0.1, .torque = 0.127, .drive_frequency = 1.0};
@@ -299,7 +354,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(least_torque), cmocka_unit_test(small_damping), cmocka_unit_test(most_damping),
-    cmocka_unit_test(rotations),    cmocka_unit_test(no_rotations),
+    cmocka_unit_test(rotations),    cmocka_unit_test(strong_friction),
+    cmocka_unit_test(next_to_connections),    cmocka_unit_test(no_rotations),
     cmocka_unit_test_setup_teardown(current_and_voltage, setup, teardown),
     cmocka_unit_test_setup_teardown(other_ends, setup, teardown),
     cmocka_unit_test_setup_teardown(starts, setup, teardown),

@@ -14,9 +14,11 @@
  * equilibrium comes back to it after a turn; or, beyond a damping of 1.19, at a torque of exactly
  * 1, where the equilibria are born on it.
  *
- * Method: Taylor series of v in the angle, from the equilibrium on along its manifolds. Errors are
- * twice the difference of two computations of different order and step length, and what rounding
- * may add.
+ * Method: Taylor series of v in the angle, from the equilibrium on along its manifolds; for
+ * rotations at a damping of 1 or more and a torque above 1 implicit collocation, since friction
+ * leaves series no long steps there. Errors are twice the difference of two computations of
+ * different order and step length, or panels, and what rounding may add: some units of the last
+ * place, next to a homoclinic connection times what it lengthens the slow passage by.
  *
  * Source: F. Tricomi, Annali della Scuola Normale Superiore di Pisa 2 (1933) 1; M. Urabe, Journal
  * of Science of the Hiroshima University A 18 (1955) 379; for small damping Melnikov's 4 gamma /
