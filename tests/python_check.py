@@ -209,8 +209,9 @@ def test_overhead():
     pointers = (ffi.from_buffer("pendres_pendulum[]", p), ffi.from_buffer("double[]", x),
                 ffi.from_buffer("double[]", v))
     context, times = pendres.Context(), ([], [])
-    # The fastest of each, since a busy machine slows single calls of either kind.
-    for _ in range(200):
+    # The fastest of each, since a busy machine slows single calls of either kind; where it is so busy
+    # that none of forty is undisturbed, of more.
+    for _ in range(1000):
         start = time.process_time()
         pendres.strobe_advance(p, x, v, 20, out=(x, v), context=context)
         middle = time.process_time()
