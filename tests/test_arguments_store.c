@@ -51,9 +51,14 @@ static void no_store(void **state)
   assert_non_null(pendres_store_message(NULL));
   REFUSED(pendres_store_flush(NULL));
   REFUSED(pendres_store_group(NULL, "g"));
-  REFUSED(pendres_store_dimension(NULL, "", "x", 1, &number, "x", "1"));
-  REFUSED(pendres_store_dimension_integer(NULL, "", "x", 1, &whole, "x", "1"));
-  REFUSED(pendres_store_dimension_text(NULL, "", "x", 1, words, "x"));
+  REFUSED(pendres_store_dimension(NULL, &(pendres_store_spec){.name = "x", .long_name = "x"}, 1,
+                                  &number));
+  REFUSED(pendres_store_dimension(
+    NULL, &(pendres_store_spec){.name = "x", .type = PENDRES_STORE_INT64, .long_name = "x"}, 1,
+    &whole));
+  REFUSED(pendres_store_dimension(
+    NULL, &(pendres_store_spec){.name = "x", .type = PENDRES_STORE_STRING, .long_name = "x"}, 1,
+    words));
   REFUSED(pendres_store_variable(NULL, &spec, &id));
   REFUSED(pendres_store_result(NULL, &spec, &id, &id));
   REFUSED(pendres_store_write(NULL, 0, &number, 1));
@@ -70,7 +75,7 @@ static void no_store(void **state)
   REFUSED(pendres_store_member(NULL, "", 0, NULL, &text));
   REFUSED(pendres_store_dimension_of(NULL, "", "a", 0, &text));
   REFUSED(pendres_store_read(NULL, "", "a", PENDRES_STORE_DOUBLE, &number, 1));
-  REFUSED(pendres_store_read_rows(NULL, "", "a", PENDRES_STORE_DOUBLE, 0, 1, &number, 1));
+  REFUSED(pendres_store_read_rows(NULL, &(pendres_store_spec){.name = "a"}, 0, 1, &number, 1));
   REFUSED(pendres_store_read_text(NULL, "", "a", 0, &text));
   REFUSED(pendres_store_read_attribute_text(NULL, "", NULL, "a", &text));
   REFUSED(pendres_store_read_attribute_double(NULL, "", NULL, "a", &number));
@@ -93,10 +98,20 @@ static void written(pendres_store *s, int *count)
   bad[3].dimensions[0] = "nowhere";
   bad[4].deflate = 99;
   bad[5].flag_count = 3;
-  REFUSED(pendres_store_dimension(s, "", NULL, 2, numbers, "x", "1"));
-  REFUSED(pendres_store_dimension_integer(s, "", NULL, 2, whole, "x", "1"));
-  REFUSED(pendres_store_dimension_text(s, "", "w", 2, NULL, "w"));
-  check_ok(pendres_store_dimension(s, "", "x", 2, numbers, "x", "1"));
+  REFUSED(pendres_store_dimension(s, &(pendres_store_spec){.name = NULL, .long_name = "x"}, 2,
+                                  numbers));
+  REFUSED(pendres_store_dimension(
+    s, &(pendres_store_spec){.name = NULL, .type = PENDRES_STORE_INT64, .long_name = "x"}, 2,
+    whole));
+  REFUSED(pendres_store_dimension(
+    s, &(pendres_store_spec){.name = "w", .type = PENDRES_STORE_STRING, .long_name = "w"}, 2,
+    NULL));
+  REFUSED(pendres_store_dimension(s, NULL, 2, numbers));
+  REFUSED(pendres_store_dimension(
+    s, &(pendres_store_spec){.name = "w", .type = (pendres_store_type)99, .long_name = "w"}, 2,
+    numbers));
+  check_ok(pendres_store_dimension(s, &(pendres_store_spec){.name = "x", .long_name = "x"}, 2,
+                                   numbers));
   REFUSED(pendres_store_variable(s, NULL, &id));
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     REFUSED(pendres_store_variable(s, &bad[i], &id));
@@ -149,9 +164,11 @@ static void read_back(pendres_store *s, int *count)
   REFUSED(pendres_store_read(s, "", "v", PENDRES_STORE_DOUBLE, NULL, 2));
   REFUSED(pendres_store_read(s, "", "v", PENDRES_STORE_DOUBLE, numbers, 1));
   REFUSED(pendres_store_read(s, "", "v", (pendres_store_type)99, numbers, 2));
-  REFUSED(pendres_store_read_rows(s, "", "v", PENDRES_STORE_DOUBLE, 2, 1, numbers, 1));
-  REFUSED(pendres_store_read_rows(s, "", "v", PENDRES_STORE_DOUBLE, UINT64_MAX, 2, numbers, 2));
-  REFUSED(pendres_store_read_rows(s, "", "v", PENDRES_STORE_DOUBLE, 0, 1, NULL, 1));
+  REFUSED(pendres_store_read_rows(s, NULL, 0, 1, numbers, 1));
+  REFUSED(pendres_store_read_rows(s, &(pendres_store_spec){.name = "v"}, 2, 1, numbers, 1));
+  REFUSED(pendres_store_read_rows(s, &(pendres_store_spec){.name = "v"}, UINT64_MAX, 2, numbers,
+                                  2));
+  REFUSED(pendres_store_read_rows(s, &(pendres_store_spec){.name = "v"}, 0, 1, NULL, 1));
   REFUSED(pendres_store_read_text(s, "", "v", 0, NULL));
   REFUSED(pendres_store_read_text(s, "", NULL, 0, &text));
   REFUSED(pendres_store_read_attribute_text(s, "", NULL, NULL, &text));

@@ -343,7 +343,8 @@ static void test_verify(void **state)
   const pendres_store_spec one = { .name = "one", .long_name = "one" };
   const pendres_store_spec many = { .name = "many", .long_name = "many", .dimensions = { "x" },
                                     .deflate = -1 };
-  assert_int_equal(pendres_store_dimension(store, "", "x", 600, NULL, "x", "1"), PENDRES_OK);
+  assert_int_equal(pendres_store_dimension(
+    store, &(pendres_store_spec){.name = "x", .long_name = "x"}, 600, NULL), PENDRES_OK);
   assert_int_equal(pendres_store_put(store, &one, &scalar, 1), PENDRES_OK);
   assert_int_equal(pendres_store_put(store, &many, numbers, 600), PENDRES_OK);
   const pendres_store_entry origin[] = { { .key = "deck_name", .text = "a.nml" },

@@ -17,8 +17,9 @@ static pendres_status run_clouds(scene_run *run)
                                .drive_frequency = run->deck->pendulum.drive_frequency };
   pendres_attractors *set = NULL;
   check_ok(pendres_attractors_find(farm_context(run->farm), &p, 0, NULL, NULL, &set));
-  check_ok(pendres_store_dimension(run->store, "", "attractor", pendres_attractors_count(set), NULL,
-                                   "number of the attractor", "1"));
+  check_ok(pendres_store_dimension(
+    run->store, &(pendres_store_spec){.name = "attractor", .long_name = "number of the attractor"},
+    pendres_attractors_count(set), NULL));
   const pendres_status status = basins_write_clouds(run, set);
   pendres_attractors_free(set);
   return status;

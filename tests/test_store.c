@@ -39,10 +39,16 @@ static void write_root(pendres_store *store)
     areas[i] = i == 5 ? NAN : area(i);
     errors[i] = 1e-9 * (double)i;
   }
-  OK(pendres_store_dimension(store, NULL, "damping", DAMPINGS, damping, "damping", "1"));
-  OK(pendres_store_dimension(store, "/", "drive_period", PERIODS, NULL, "number of the period",
-                             NULL));
-  OK(pendres_store_dimension_text(store, "", "method", 2, methods, "method"));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.name = "damping", .long_name = "damping"}, DAMPINGS, damping));
+  OK(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.group = "/", .name = "drive_period",
+                          .long_name = "number of the period"}, PERIODS, NULL));
+  OK(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.name = "method", .type = PENDRES_STORE_STRING, .long_name = "method"}, 2,
+    methods));
   OK(pendres_store_result(store, &loop_area, &id, &error_id));
   /* Rows in any order, some twice. */
   for (uint64_t r = DAMPINGS; r-- > 0;) {
@@ -72,11 +78,17 @@ static void write_groups(pendres_store *store)
 
   OK(pendres_store_group(store, "paper"));
   OK(pendres_store_group(store, "paper"));
-  OK(pendres_store_dimension_integer(store, "paper/fig2", "point", 3, index, "point", "1"));
+  OK(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.group = "paper/fig2", .name = "point", .type = PENDRES_STORE_INT64,
+                          .long_name = "point"}, 3, index));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "/paper/fig2/", .name = "turns",
        .type = PENDRES_STORE_INT32, .dimensions = { "point" }, .long_name = "turns" }, turns, 3));
-  OK(pendres_store_dimension(store, "paper", "damping", DAMPINGS, damping, "damping", "1"));
-  OK(pendres_store_dimension(store, "paper", "fold", 0, NULL, "fold", "1"));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "paper", .name = "damping", .long_name = "damping"},
+    DAMPINGS, damping));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "paper", .name = "fold", .long_name = "fold"}, 0, NULL));
   OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "paper",
        .name = "fold_damping", .dimensions = { "damping", "fold" },
        .long_name = "damping of the fold" }, &id));
@@ -93,8 +105,11 @@ static void write_large(pendres_store *store)
   assert_non_null(tall);
   for (size_t i = 0; i < 2 * WIDE; i++) wide[i] = (double)(i / 1000);
   for (size_t i = 0; i < WIDE; i++) tall[i] = (int64_t)(i / 100);
-  OK(pendres_store_dimension(store, "large", "side", 2, NULL, "side", NULL));
-  OK(pendres_store_dimension(store, "large", "sample", WIDE, NULL, "sample", NULL));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "large", .name = "side", .long_name = "side"}, 2, NULL));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "large", .name = "sample", .long_name = "sample"}, WIDE,
+    NULL));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "wide",
        .dimensions = { "side", "sample" }, .long_name = "wide" }, wide, 2 * WIDE));
   OK(pendres_store_put(store, &(pendres_store_spec){ .group = "large", .name = "tall",
@@ -133,16 +148,24 @@ static void write_numbers(const char *path)
   pendres_store *store = NULL;
 
   OK(pendres_store_create(path, &(pendres_store_options){ .title = "numbers" }, &store));
-  OK(pendres_store_dimension(store, "", "row", 2, NULL, "row", NULL));
-  OK(pendres_store_dimension(store, "", "turn", 3, corner, "turn", NULL));
+  OK(pendres_store_dimension(store, &(pendres_store_spec){.name = "row", .long_name = "row"}, 2,
+                             NULL));
+  OK(pendres_store_dimension(store, &(pendres_store_spec){.name = "turn", .long_name = "turn"}, 3,
+                             corner));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "area", .long_name = "area",
        .dimensions = { "row", "turn" } }, corner, 6));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "damping", .long_name = "damping" },
        &number, 1));
   OK(pendres_store_put(store, &(pendres_store_spec){ .name = "state", .dimensions = { "turn" },
        .type = PENDRES_STORE_INT8, .long_name = "state" }, labels, 3));
-  OK(pendres_store_dimension_text(store, "paper/f02", "quantity", 3, names, "quantity"));
-  OK(pendres_store_dimension_text(store, "paper", "quantity", 3, names, "quantity"));
+  OK(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.group = "paper/f02", .name = "quantity", .type = PENDRES_STORE_STRING,
+                          .long_name = "quantity"}, 3, names));
+  OK(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.group = "paper", .name = "quantity", .type = PENDRES_STORE_STRING,
+                          .long_name = "quantity"}, 3, names));
   write_provenance_entries(store);
   OK(pendres_store_close(store));
   pendres_store_free(store);
@@ -235,8 +258,8 @@ static void what_is_written_is_read(void **state)
   OK(pendres_store_read(store, "", "mean_loop_area", PENDRES_STORE_DOUBLE, areas, LENGTH(areas)));
   for (size_t i = 0; i < LENGTH(areas); i++)
     assert_true(i == 5 ? isnan(areas[i]) : areas[i] == area(i));
-  OK(pendres_store_read_rows(store, "", "mean_loop_area_error", PENDRES_STORE_DOUBLE, 2, 1, areas,
-                             PERIODS));
+  OK(pendres_store_read_rows(store, &(pendres_store_spec){.name = "mean_loop_area_error"}, 2, 1,
+                             areas, PERIODS));
   assert_true(areas[3] == 1e-9 * (2 * PERIODS + 3));
   OK(pendres_store_read(store, "", "damping", PENDRES_STORE_DOUBLE, rows, DAMPINGS));
   assert_memory_equal(rows, damping, sizeof damping);

@@ -242,8 +242,10 @@ static pendres_status run_until_full(const char *path, int *step)
   pendres_status status = pendres_store_create(path, NULL, &store);
 
   *step = 0;
-  if (!status) ++*step, status = pendres_store_dimension(store, "", "r", ROWS, NULL, "r", NULL);
-  if (!status) status = pendres_store_dimension(store, "", "c", ROW, NULL, "c", NULL);
+  if (!status) ++*step, status = pendres_store_dimension(
+    store, &(pendres_store_spec){.name = "r", .long_name = "r"}, ROWS, NULL);
+  if (!status) status = pendres_store_dimension(
+    store, &(pendres_store_spec){.name = "c", .long_name = "c"}, ROW, NULL);
   if (!status)
     status = pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
                .dimensions = { "r", "c" } }, &id);
@@ -354,8 +356,10 @@ static void flushed_rows_survive_a_kill(void **state)
   assert_true(child >= 0);
   if (!child) {
     int id = -1, bad = pendres_store_create(path, NULL, &store) ||
-      pendres_store_dimension(store, "", "r", ROWS, NULL, "r", NULL) ||
-      pendres_store_dimension(store, "", "c", ROW, NULL, "c", NULL) ||
+      pendres_store_dimension(store, &(pendres_store_spec){.name = "r", .long_name = "r"}, ROWS,
+                              NULL) ||
+      pendres_store_dimension(store, &(pendres_store_spec){.name = "c", .long_name = "c"}, ROW,
+                              NULL) ||
       pendres_store_variable(store, &(pendres_store_spec){ .name = "y", .long_name = "y",
         .dimensions = { "r", "c" } }, &id);
 
@@ -372,11 +376,11 @@ static void flushed_rows_survive_a_kill(void **state)
   assert_false(exists(path));
   OK(pendres_store_open(part, &store));
   for (uint64_t r = 0; r < FLUSHED; r++) {
-    OK(pendres_store_read_rows(store, "", "y", PENDRES_STORE_DOUBLE, r, 1, row, ROW));
+    OK(pendres_store_read_rows(store, &(pendres_store_spec){.name = "y"}, r, 1, row, ROW));
     for (int i = 0; i < ROW; i++) assert_true(row[i] == (double)r + 1e-3 * i);
   }
   /* What never was written is not a number. */
-  OK(pendres_store_read_rows(store, "", "y", PENDRES_STORE_DOUBLE, ROWS - 1, 1, row, ROW));
+  OK(pendres_store_read_rows(store, &(pendres_store_spec){.name = "y"}, ROWS - 1, 1, row, ROW));
   for (int i = 0; i < ROW; i++) assert_true(isnan(row[i]));
   pendres_store_free(store);
 }

@@ -15,7 +15,8 @@ static void write_small(const char *path, void (*mistakes)(pendres_store *store,
   int id = -1;
 
   OK(pendres_store_create(path, NULL, &store));
-  OK(pendres_store_dimension(store, "a", "x", 2, values, "x", "1"));
+  OK(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "a", .name = "x", .long_name = "x"}, 2, values));
   OK(pendres_store_variable(store, &(pendres_store_spec){ .group = "a", .name = "y",
        .dimensions = { "x" }, .long_name = "y" }, &id));
   if (mistakes) mistakes(store, id);
@@ -73,12 +74,24 @@ static void wrong_definitions(pendres_store *store, int id)
   assert_int_equal(error_made, -1);
   REFUSED(pendres_store_put(store, &(pendres_store_spec){ .group = "a", .name = "y",
             .dimensions = { "x" }, .long_name = "y" }, values, 2), "exists already");
-  REFUSED(pendres_store_dimension(store, "a", "x", 3, NULL, "x", "1"), "exists already");
-  REFUSED(pendres_store_dimension(store, "a", "y", 3, NULL, "x", "1"), "exists already");
-  REFUSED(pendres_store_dimension(store, "", "a", 3, NULL, "x", "1"), "exists already");
-  REFUSED(pendres_store_dimension(store, "a", "w", UINT64_MAX / 2, NULL, "w", "1"), "too large");
-  REFUSED(pendres_store_dimension(store, "a", "w", 3, NULL, NULL, "1"), "long_name");
-  REFUSED(pendres_store_dimension_text(store, "a", "w", 3, NULL, "w"), "no names");
+  REFUSED(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "a", .name = "x", .long_name = "x"}, 3,
+    NULL), "exists already");
+  REFUSED(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "a", .name = "y", .long_name = "x"}, 3,
+    NULL), "exists already");
+  REFUSED(pendres_store_dimension(store, &(pendres_store_spec){.name = "a", .long_name = "x"}, 3,
+                                  NULL), "exists already");
+  REFUSED(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "a", .name = "w", .long_name = "w"}, UINT64_MAX / 2,
+    NULL), "too large");
+  REFUSED(pendres_store_dimension(
+    store, &(pendres_store_spec){.group = "a", .name = "w", .long_name = NULL}, 3,
+    NULL), "long_name");
+  REFUSED(pendres_store_dimension(
+    store,
+    &(pendres_store_spec){.group = "a", .name = "w", .type = PENDRES_STORE_STRING,
+                          .long_name = "w"}, 3, NULL), "no names");
   REFUSED(pendres_store_group(store, "a/x"), "is a variable");
   REFUSED(pendres_store_group(store, "a/."), "not a path");
   (void)id;
@@ -179,7 +192,8 @@ static void wrong_handles(void **state)
   write_small(in_folder(path, "small.h5"), NULL);
   OK(pendres_store_open(path, &store));
   REFUSED(pendres_store_read(store, "a", "y", PENDRES_STORE_DOUBLE, &value, 1), "2 elements");
-  REFUSED(pendres_store_read_rows(store, "a", "y", PENDRES_STORE_DOUBLE, 2, 1, &value, 1), "rows");
+  REFUSED(pendres_store_read_rows(store, &(pendres_store_spec){.group = "a", .name = "y"}, 2, 1,
+                                  &value, 1), "rows");
   REFUSED(pendres_store_read_text(store, "a", "y", 2, &text), "no text number 2");
   /* A number is not a text, nor a group a variable. */
   assert_int_equal(pendres_store_read_text(store, "a", "y", 0, &text), PENDRES_IO);
@@ -187,7 +201,8 @@ static void wrong_handles(void **state)
                    PENDRES_IO);
   assert_int_equal(pendres_store_read_attribute_double(store, "a", "y", "units", &value),
                    PENDRES_IO);
-  OK(pendres_store_read_rows(store, "a", "y", PENDRES_STORE_DOUBLE, 1, 1, &value, 1));
+  OK(pendres_store_read_rows(store, &(pendres_store_spec){.group = "a", .name = "y"}, 1, 1, &value,
+                             1));
   pendres_store_free(store);
 }
 

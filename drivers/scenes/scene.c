@@ -140,8 +140,10 @@ static pendres_status write_dimension(scene_run *run, const char *group, deck_ax
                                       const char *words)
 {
   const deck_axis *a = &run->deck->axis[axis];
-  return scene_stored(run, pendres_store_dimension(run->store, group, deck_axis_name(axis),
-                                                   a->count, a->value, words, about[axis].units));
+  return scene_stored(run, pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.group = group, .name = deck_axis_name(axis), .long_name = words,
+                          .units = about[axis].units}, a->count, a->value));
 }
 
 pendres_status scene_dimension(scene_run *run, const char *group, deck_axis_id axis)
@@ -159,7 +161,8 @@ pendres_status scene_dimension_short(scene_run *run, deck_axis_id axis)
 
 pendres_status scene_numbering(scene_run *run, const char *name, size_t n, const char *words)
 {
-  return scene_stored(run, pendres_store_dimension(run->store, NULL, name, n, NULL, words, "1"));
+  return scene_stored(run, pendres_store_dimension(
+    run->store, &(pendres_store_spec){.name = name, .long_name = words}, n, NULL));
 }
 
 void scene_plane(const deck *d, deck_axis_id axis[2])
@@ -342,7 +345,10 @@ pendres_status scene_write_paper(scene_run *run, size_t n, const scene_printed *
     goto done;
   }
   for (size_t i = 0; i < n; i++) name[i] = values[i].name;
-  status = pendres_store_dimension_text(run->store, "paper", "quantity", n, name, "quantity");
+  status = pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.group = "paper", .name = "quantity", .type = PENDRES_STORE_STRING,
+                          .long_name = "quantity"}, n, name);
   for (int which = 0; which < PAPER_COUNT && status == PENDRES_OK; which++)
     status = put_paper(run->store, n, values, which, number, number + n);
   (void)scene_stored(run, status);

@@ -219,8 +219,10 @@ static pendres_status write_statistics(basins *b, const pendres_basin_statistics
   pendres_status status = SCENE_WRITE(b->run, &whole, of_statistics);
   if (status == PENDRES_OK) status = scene_columns_write(b->run, &states, 1, &random);
   if (status != PENDRES_OK || s->scales == 0) return status;
-  status = pendres_store_dimension(b->run->store, "", "distance", (uint64_t)s->scales, s->distance,
-                                   "distance in initial velocity", "1");
+  status = pendres_store_dimension(
+    b->run->store,
+    &(pendres_store_spec){.name = "distance", .long_name = "distance in initial velocity"},
+    (uint64_t)s->scales, s->distance);
   return status == PENDRES_OK ? scene_columns_write(b->run, &distances, 1, &of_distances)
                               : scene_stored(b->run, status);
 }

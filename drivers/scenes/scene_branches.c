@@ -186,8 +186,10 @@ static pendres_status put_backbone(const scene_lines *l, const double *damping,
   const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
                              .n = BACKBONE, .stride = sizeof *rows, .rows = rows};
   const pendres_status status =
-    pendres_store_dimension(l->run->store, "", "backbone_damping", BACKBONE, damping,
-                            "friction coefficient", "1");
+    pendres_store_dimension(
+      l->run->store,
+      &(pendres_store_spec){.name = "backbone_damping", .long_name = "friction coefficient"},
+      BACKBONE, damping);
   if (status != PENDRES_OK) return scene_stored(l->run, status);
   return SCENE_WRITE(l->run, &table, of_backbone);
 }
@@ -236,7 +238,9 @@ static pendres_status write_free(scene_run *run)
     error[i] = 2e-15 * frequency[i]; /* some units in the last place */
   }
   pendres_status status = pendres_store_dimension(
-    run->store, "", "free_amplitude", FREE, amplitude, "amplitude of the free pendulum", "rad");
+    run->store,
+    &(pendres_store_spec){.name = "free_amplitude", .long_name = "amplitude of the free pendulum",
+                          .units = "rad"}, FREE, amplitude);
   if (status == PENDRES_OK)
     status = pendres_store_put_result(run->store, &spec, frequency, error, FREE);
   return scene_stored(run, status);

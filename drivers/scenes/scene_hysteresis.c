@@ -142,8 +142,10 @@ static void tabulate(FILE *out, const work *w)
 
 static pendres_status write_all(scene_run *run, const work *w)
 {
-  pendres_status status = pendres_store_dimension_text(
-    run->store, NULL, "direction", DIRECTIONS, directions, "way in which the parameter goes");
+  pendres_status status = pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.name = "direction", .type = PENDRES_STORE_STRING,
+                          .long_name = "way in which the parameter goes"}, DIRECTIONS, directions);
   (void)scene_stored(run, status);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis);
   if (status == PENDRES_OK) status = write_points(run, w);

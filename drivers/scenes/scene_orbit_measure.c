@@ -122,8 +122,9 @@ static const scene_column of_frequencies[] = {
 static pendres_status put_over(scene_run *run, const scene_table *table, const char *words,
                                const double *at, const scene_column *column)
 {
-  const pendres_status status = scene_stored(
-    run, pendres_store_dimension(run->store, NULL, table->dimensions[0], table->n, at, words, "1"));
+  const pendres_store_spec spec = {.name = table->dimensions[0], .long_name = words};
+  const pendres_status status =
+    scene_stored(run, pendres_store_dimension(run->store, &spec, table->n, at));
   return status == PENDRES_OK ? scene_columns_write(run, table, 1, column) : status;
 }
 

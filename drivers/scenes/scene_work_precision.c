@@ -183,9 +183,11 @@ static pendres_status write_left_out(scene_run *run, const work *w)
   const scene_table table = {.dimensions = {"mark"}, .n = WORK_UNIT_MARKS,
                              .stride = sizeof *left_out, .rows = left_out};
   for (int m = 0; m < WORK_UNIT_MARKS; m++) left_out[m] = (double)left_out_of(w, m);
-  const pendres_status status = pendres_store_dimension_integer(
-    run->store, NULL, "mark", WORK_UNIT_MARKS, (const int64_t[]){10, 100},
-    "drive periods after which errors are measured", "1");
+  const pendres_status status = pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.name = "mark", .type = PENDRES_STORE_INT64,
+                          .long_name = "drive periods after which errors are measured"},
+    WORK_UNIT_MARKS, (const int64_t[]){10, 100});
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
                               : scene_stored(run, status);
 }
@@ -214,10 +216,16 @@ static pendres_status write_speeds(scene_run *run, const char *group, size_t met
   const scene_table table = {.group = group, .dimensions = {"method", "error"},
                              .n = methods * ERRORS, .stride = sizeof *speed, .rows = speed};
   pendres_status status =
-    pendres_store_dimension_text(run->store, group, "method", methods, names, "method");
+    pendres_store_dimension(
+      run->store,
+      &(pendres_store_spec){.group = group, .name = "method", .type = PENDRES_STORE_STRING,
+                            .long_name = "method"}, methods, names);
   if (status == PENDRES_OK)
-    status = pendres_store_dimension(run->store, group, "error", ERRORS, error_marks,
-                                     "largest error after 100 drive periods", "1");
+    status = pendres_store_dimension(
+      run->store,
+      &(pendres_store_spec){.group = group, .name = "error",
+                            .long_name = "largest error after 100 drive periods"}, ERRORS,
+      error_marks);
   return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
                               : scene_stored(run, status);
 }

@@ -6,11 +6,12 @@
  * renames it to PATH when it is closed, so that PATH is either what it was before or complete.
  *
  *     pendres_store *store = NULL;
+ *     const pendres_store_spec damping = { .name = "damping", .long_name = "damping" };
  *     const pendres_store_spec area = { .name = "loop_area", .dimensions = { "damping" },
  *                                       .long_name = "area of the loop" };
  *
  *     if (pendres_store_create("run.h5", &(pendres_store_options){ .title = "A run" }, &store) ||
- *         pendres_store_dimension(store, "", "damping", n, gamma, "damping", "1") ||
+ *         pendres_store_dimension(store, &damping, n, gamma) ||
  *         pendres_store_put_result(store, &area, areas, errors, n) ||
  *         pendres_store_close(store))
  *       fprintf(stderr, "%s\n", pendres_store_message(store));
@@ -178,23 +179,12 @@ pendres_status pendres_store_flush(pendres_store *store);
 pendres_status pendres_store_group(pendres_store *store, const char *group);
 
 /**
- * Define a dimension of a group and its scale. values[size], if NULL 0, 1, ... size - 1 (as
- * int64), is written at once. size may be 0. units NULL: "1". The name must be new.
+ * Define a dimension and its scale. Of spec are read: group, name, which must be new, type,
+ * long_name and units. values[size] of that type are written at once; NULL: 0, 1, ... size - 1 as
+ * int64, but strings, names of methods say, must be given. size may be 0.
  */
-pendres_status pendres_store_dimension(pendres_store *store, const char *group, const char *name,
-                                       uint64_t size, const double *values, const char *long_name,
-                                       const char *units);
-
-/** The same with whole numbers. */
-pendres_status pendres_store_dimension_integer(pendres_store *store, const char *group,
-                                               const char *name, uint64_t size,
-                                               const int64_t *values, const char *long_name,
-                                               const char *units);
-
-/** The same with names, e.g. of methods. */
-pendres_status pendres_store_dimension_text(pendres_store *store, const char *group,
-                                            const char *name, uint64_t size,
-                                            const char *const *values, const char *long_name);
+pendres_status pendres_store_dimension(pendres_store *store, const pendres_store_spec *spec,
+                                       uint64_t size, const void *values);
 
 /** Define a variable; *id is what the writing functions take. The name must be new and the
  *  dimensions must exist in the same group. */
@@ -286,10 +276,10 @@ pendres_status pendres_store_dimension_of(pendres_store *store, const char *grou
 pendres_status pendres_store_read(pendres_store *store, const char *group, const char *name,
                                   pendres_store_type type, void *data, size_t n);
 
-/** Read rows first, ... first + rows - 1 along the first dimension; n elements in all. */
-pendres_status pendres_store_read_rows(pendres_store *store, const char *group, const char *name,
-                                       pendres_store_type type, uint64_t first, uint64_t rows,
-                                       void *data, size_t n);
+/** Read rows first, ... first + rows - 1 along the first dimension; n elements in all. Of spec are
+ *  read: group, name and type, to which they are converted (not a string). */
+pendres_status pendres_store_read_rows(pendres_store *store, const pendres_store_spec *spec,
+                                       uint64_t first, uint64_t rows, void *data, size_t n);
 
 /** Read element `index` of a variable of strings. *text is the caller's, to be freed by free(). */
 pendres_status pendres_store_read_text(pendres_store *store, const char *group, const char *name,

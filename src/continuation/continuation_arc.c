@@ -209,10 +209,12 @@ static pendres_status evaluate(pendres_context *ctx, size_t n, candidate *c, siz
 
 /* Fail the candidates that close by half map number `which`, of arcs that began off such orbits. */
 static pendres_status keep_off(pendres_context *ctx, int which, size_t n, candidate *c,
-                               size_t *index, double (*u)[PENDRES_U_COUNT],
-                               pendres_continuation_miss *miss)
+                               size_t *index, double (*u)[PENDRES_U_COUNT])
 {
   pendres_status status = PENDRES_OK;
+  pendres_continuation_miss *miss = malloc((n + 1) * sizeof *miss);
+  if (miss == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (size_t i = 0; i < n; i++)
     c[i].waiting = c[i].state == CONVERGED && (c[i].arc->apart >> which & 1) != 0;
   for (size_t first = 0; first < n && status == PENDRES_OK; first++) {
@@ -225,6 +227,7 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, candid
     for (size_t i = 0; i < count && status == PENDRES_OK; i++)
       if (!(hypot(miss[i].off[0], miss[i].off[1]) > too_close)) c[index[i]].state = FAILED;
   }
+  free(miss);
   return status;
 }
 
@@ -236,12 +239,8 @@ static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, s
                                  double (*u)[PENDRES_U_COUNT])
 {
   pendres_status status = PENDRES_OK;
-  pendres_continuation_miss *miss = malloc((n + 1) * sizeof *miss);
-  if (miss == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (int which = 0; which < PENDRES_MAP_HALVES && status == PENDRES_OK; which++)
-    status = keep_off(ctx, which, n, c, index, u, miss);
-  free(miss);
+    status = keep_off(ctx, which, n, c, index, u);
   return status;
 }
 

@@ -178,7 +178,9 @@ static pendres_status write_index(pendres_store *store, const pendres_store_node
 static pendres_status define_dimension(pendres_store *store, const pendres_store_spec *spec,
                                        uint64_t size, const void *values)
 {
-  pendres_store_node node = { .kind = PENDRES_STORE_SCALE, .type = spec->type, .rank = 1 };
+  const int given = values || spec->type == PENDRES_STORE_STRING;
+  pendres_store_node node = { .kind = PENDRES_STORE_SCALE, .rank = 1,
+                              .type = given ? spec->type : PENDRES_STORE_INT64 };
   const pendres_store_node *made;
   char *path = NULL;
   pendres_status status = check_new(store, spec->group, spec->name, spec->long_name, &path);
@@ -201,46 +203,23 @@ static pendres_status define_dimension(pendres_store *store, const pendres_store
   return status;
 }
 
-static pendres_status add_dimension(pendres_store *store, const pendres_store_spec *spec,
-                                    uint64_t size, const void *values)
+pendres_status pendres_store_dimension(pendres_store *store, const pendres_store_spec *spec,
+                                       uint64_t size, const void *values)
 {
   pendres_store_quiet quiet;
   pendres_status status = pendres_store_enter(store, &quiet, 1);
 
+  if (!status && !spec)
+    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no specification");
+  if (!status && ((int)spec->type < 0 || spec->type >= PENDRES_STORE_TYPE_COUNT))
+    status =
+      pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "dimension '%s': type %d is unknown",
+                         spec->name ? spec->name : "(null)", (int)spec->type);
   if (!status && spec->type == PENDRES_STORE_STRING && size && !values)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "dimension '%s' has no names",
                                 spec->name ? spec->name : "(null)");
   if (!status) status = define_dimension(store, spec, size, values);
   return pendres_store_leave(store, &quiet, status);
-}
-
-pendres_status pendres_store_dimension(pendres_store *store, const char *group, const char *name,
-                                       uint64_t size, const double *values, const char *long_name,
-                                       const char *units)
-{
-  const pendres_store_spec spec = {
-    .group = group, .name = name, .long_name = long_name, .units = units,
-    .type = values ? PENDRES_STORE_DOUBLE : PENDRES_STORE_INT64 };
-  return add_dimension(store, &spec, size, values);
-}
-
-pendres_status pendres_store_dimension_integer(pendres_store *store, const char *group,
-                                               const char *name, uint64_t size,
-                                               const int64_t *values, const char *long_name,
-                                               const char *units)
-{
-  const pendres_store_spec spec = { .group = group, .name = name, .long_name = long_name,
-                                    .units = units, .type = PENDRES_STORE_INT64 };
-  return add_dimension(store, &spec, size, values);
-}
-
-pendres_status pendres_store_dimension_text(pendres_store *store, const char *group,
-                                            const char *name, uint64_t size,
-                                            const char *const *values, const char *long_name)
-{
-  const pendres_store_spec spec = { .group = group, .name = name, .long_name = long_name,
-                                    .type = PENDRES_STORE_STRING };
-  return add_dimension(store, &spec, size, values);
 }
 
 /* ---- Variables ------------------------------------------------------------------------------- */

@@ -293,17 +293,18 @@ pendres_status pendres_store_read(pendres_store *store, const char *group, const
   return pendres_store_leave(store, &quiet, status);
 }
 
-pendres_status pendres_store_read_rows(pendres_store *store, const char *group, const char *name,
-                                       pendres_store_type type, uint64_t first, uint64_t rows,
-                                       void *data, size_t n)
+pendres_status pendres_store_read_rows(pendres_store *store, const pendres_store_spec *spec,
+                                       uint64_t first, uint64_t rows, void *data, size_t n)
 {
   pendres_store_quiet quiet;
   const pendres_store_piece piece = { first, rows, n };
   pendres_status status = pendres_store_enter(store, &quiet, 0);
 
+  if (!status && !spec)
+    status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "no specification");
   if (!status && rows == UINT64_MAX)
     status = pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "too many rows");
-  if (!status) status = read_numbers(store, group, name, type, piece, data);
+  if (!status) status = read_numbers(store, spec->group, spec->name, spec->type, piece, data);
   return pendres_store_leave(store, &quiet, status);
 }
 
