@@ -64,10 +64,18 @@ static pendres_status find_point(pendres_context *ctx, const pendres_pendulum *p
   return PENDRES_NOT_FOUND;
 }
 
-/* *found: how many attractors there are. */
-static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
-                            pendres_attractor *out, size_t *found, char *why, size_t size)
+/* An attractor that is asked for by its name or number. */
+typedef struct request {
+  const char *start;
+  size_t found; /* how many attractors there are */
+  char *why;    /* says what is wrong, in ... */
+  size_t size;  /* ... so many bytes */
+} request;
+
+static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, request *r,
+                            pendres_attractor *out)
 {
+  const char *start = r->start;
   pendres_attractors *set = NULL;
   pendres_status status = pendres_attractors_find(ctx, p, 0, NULL, NULL, &set);
   if (status != PENDRES_OK) return status;
@@ -85,15 +93,15 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, con
   if (status == PENDRES_OK && out->label == PENDRES_LABEL_CHAOTIC) {
     status = find_point(ctx, p, set, chosen, &out->orbit);
     if (status == PENDRES_NOT_FOUND)
-      snprintf(why, size, "no start is found that leads to the chaotic attractor '%s': give one by "
-               "'x' and 'v'", start);
+      snprintf(r->why, r->size, "no start is found that leads to the chaotic attractor '%s': give "
+               "one by 'x' and 'v'", start);
   } else if (status != PENDRES_OK) {
     char list[100];
     list_labels(set, list, sizeof list);
-    snprintf(why, size, "there is no attractor '%s' at these parameters; found: %s", start,
+    snprintf(r->why, r->size, "there is no attractor '%s' at these parameters; found: %s", start,
              list[0] != '\0' ? list : "none");
   }
-  *found = pendres_attractors_count(set);
+  r->found = pendres_attractors_count(set);
   pendres_attractors_free(set);
   return status;
 }
@@ -101,8 +109,8 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, con
 pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
                                  pendres_attractor *out, char *why, size_t size)
 {
-  size_t found = 0;
-  return named(ctx, p, start, out, &found, why, size);
+  request r = {.start = start, .why = why, .size = size};
+  return named(ctx, p, &r, out);
 }
 
 /* ---- paths --------------------------------------------------------------------------------- */
@@ -159,14 +167,15 @@ static pendres_status find_start(const deck *d, const scene_along_way *way, pend
   pendres_status status = PENDRES_NOT_FOUND;
   for (size_t i = 0; i < way->n; i++) {
     char why[SCENE_TOLD];
-    size_t found = 0;
+    request r = {
+      .start = d->orbit.start, .why = out->message, .size = sizeof out->message};
     scene_along_set(&p, way->axis, way->value[i]);
     if (scene_settling_too_long(d, &p, 1.0, why, sizeof why)) {
       if (i == 0) snprintf(out->message, sizeof out->message, "%s", why);
       continue;
     }
-    status = named(ctx, &p, d->orbit.start, start, &found, out->message, sizeof out->message);
-    const int nothing = status == PENDRES_NOT_FOUND && found == 0;
+    status = named(ctx, &p, &r, start);
+    const int nothing = status == PENDRES_NOT_FOUND && r.found == 0;
     if (!nothing && status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED)
       break;
   }
