@@ -89,13 +89,15 @@ static void make_rule(rule *r)
     }
   }
   solve(value, NODES, unit); /* unit[j]: the coefficients of what is 1 at node j alone */
-  for (int i = 0; i < NODES; i++)
+  for (int i = 0; i < NODES; i++) {
+    double up_to[NODES];
+    for (int k = 0; k < NODES; k++) up_to[k] = chebyshev_integral(k, r->node[i]);
     for (int j = 0; j < NODES; j++) {
       r->coefficient[i][j] = unit[j][i];
       r->integral[i][j] = 0.0;
-      for (int k = 0; k < NODES; k++)
-        r->integral[i][j] += unit[j][k] * chebyshev_integral(k, r->node[i]);
+      for (int k = 0; k < NODES; k++) r->integral[i][j] += unit[j][k] * up_to[k];
     }
+  }
 }
 
 /* The torque less sin y at s = y - pi/2, the angle from the slowest place on, around which neither
