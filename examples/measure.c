@@ -34,7 +34,7 @@ int main(void)
     const double energy = mean_kinetic_energy(v, SAMPLES);
     const double period = 2.0 * 3.14159265358979324 / guess.pendulum.drive_frequency;
 
-    printf("mean kinetic energy %.12f, velocities to %.0e\n", energy, v_error);
+    printf("mean kinetic energy %.12f, velocities to %.0e\n", energy, error[1]);
     /* The dissipation of a cycle is twice that, times the damping and the period. */
     printf("dissipation from it %.12f, the library's %.12f +- %.0e\n",
            2.0 * guess.pendulum.damping * energy * period, orbit.dissipation,
