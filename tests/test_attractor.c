@@ -188,6 +188,25 @@ static void independent_of_company(void **state)
   free(together);
 }
 
+/* Nor of the order of starts at rest. Under a force without a period a start farther out is faster
+   on its way in, and needs more steps, than the one before it: Duffing's, hardening. */
+static void independent_of_order(void **state)
+{
+  const double x[] = {0.1, 16.0}, turned[] = {16.0, 0.1}, v[2] = {0.0};
+  const pendres_pendulum one = {.damping = 0.32, .drive_amplitude = 0.3, .drive_frequency = 1.2,
+                                .force = PENDRES_FORCE_POLYNOMIAL,
+                                .force_coefficients = {1.0, 0.0, 1.0}},
+                         p[] = {one, one};
+  pendres_outcome first[2], second[2];
+  check_ok(pendres_settle(*state, 2, p, x, v, first, NULL));
+  check_ok(pendres_settle(*state, 2, p, turned, v, second, NULL));
+  for (int i = 0; i < 2; i++) {
+    assert_int_equal(first[i].label, PENDRES_LABEL_PERIODIC);
+    assert_true(first[i].certain);
+    assert_true(same_outcome(&first[i], &second[1 - i]));
+  }
+}
+
 /* Attractors found from one crowd of scouts label another crowd as it would label itself. */
 static void known_attractors(void **state)
 {
@@ -381,6 +400,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(pairs, setup, teardown),
     cmocka_unit_test_setup_teardown(mirror_of_one, setup, teardown),
     cmocka_unit_test_setup_teardown(independent_of_company, setup, teardown),
+    cmocka_unit_test_setup_teardown(independent_of_order, setup, teardown),
     cmocka_unit_test_setup_teardown(known_attractors, setup, teardown),
     cmocka_unit_test_setup_teardown(ghost_of_a_fold, setup, teardown),
     cmocka_unit_test_setup_teardown(rest, setup, teardown),

@@ -78,11 +78,14 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
     goto done;
   }
+  double speed = NAN, last; /* of starts as fast as their neighbours the steps are the same */
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
     const pendres_pendulum *p = &catalogues[set[i]].pendulum;
     outcome[i] = pendres_settle_unresolved;
     doubt[i] = NAN;
-    if (i > 0 && set[i] == set[i - 1] && v[i] == v[i - 1])
+    last = speed;
+    speed = pendres_steps_speed(p, x[i], v[i]);
+    if (i > 0 && set[i] == set[i - 1] && speed == last)
       lanes[i] = pendres_settle_load_like(&lanes[i - 1], x[i], v[i]);
     else
       status = pendres_settle_load(ctx, p, x[i], v[i], accuracy, &lanes[i]);
