@@ -1,5 +1,5 @@
 /*
- * rotation_stiff.h -- rotations beyond a torque of 1 where friction is strong.
+ * rotation_stiff.h -- rotations just beyond a torque of 1 where friction is strong.
  *
  * Owns: their velocity along the angle by implicit collocation. Off the rotation motions come to
  * it within a small angle, v / gamma, so that series in the angle take no longer steps; next to a
