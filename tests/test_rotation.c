@@ -154,6 +154,16 @@ static void rotations(void **state)
   check_near(r.mean_velocity, sqrt(1.25) / 50.0, 1e-3 * r.mean_velocity);
 }
 
+/* The rotation without a drive, whose period is this one. */
+static pendres_rotation found_with(double damping, double torque, double period)
+{
+  const pendres_pendulum p = {.damping = damping, .torque = torque, .drive_frequency = 1.0};
+  pendres_rotation r;
+  check_ok(pendres_rotation_find(&p, &r, NULL));
+  check_near(r.period, period, r.period_error);
+  return r;
+}
+
 /* Strong friction next to a torque of 1, where a turn by small steps takes seconds: beside Taylor
    series of order 40 in 30 digits. Claims are some units of the last place. */
 static void strong_friction(void **state)
@@ -166,11 +176,7 @@ static void strong_friction(void **state)
   };
   (void)state;
   for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-    const pendres_pendulum p = {.damping = sets[i].damping, .torque = sets[i].torque,
-                                .drive_frequency = 1.0};
-    pendres_rotation r;
-    check_ok(pendres_rotation_find(&p, &r, NULL));
-    check_near(r.period, sets[i].period, r.period_error);
+    const pendres_rotation r = found_with(sets[i].damping, sets[i].torque, sets[i].period);
     check_near(r.v, sets[i].v, r.v_error);
     assert_true(r.period_error < 1e-14 * r.period && r.v_error < 1e-14 * r.v);
   }
@@ -202,11 +208,7 @@ static void next_to_connections(void **state)
   };
   (void)state;
   for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
-    const pendres_pendulum p = {.damping = sets[i].damping, .torque = sets[i].torque,
-                                .drive_frequency = 1.0};
-    pendres_rotation r;
-    check_ok(pendres_rotation_find(&p, &r, NULL));
-    check_near(r.period, sets[i].period, r.period_error);
+    const pendres_rotation r = found_with(sets[i].damping, sets[i].torque, sets[i].period);
     assert_true(r.period_error < sets[i].most * r.period);
   }
 }
