@@ -230,21 +230,23 @@ static int now(void *arg)
 /* A method that gives up leaves words instead of figures; an interrupt ends everything. */
 static void failures_are_said(void **state)
 {
+  const contest_rules plain = { .tolerance = 1e-8 }, tight = { .tolerance = 1e-20 };
+  const contest_rules stopped = { .tolerance = 1e-8, .stop = now };
   work_unit w = { 0 };
   contest c;
   (void)state;
   check_ok(work_unit_make("ensemble", &w));
   w.pendulum[7].damping = 1e6;
   w.pendulum[7].drive_frequency = 0.01;
-  check_ok(contest_run(&w, "block_fixed", 1e-8, 0, NULL, NULL, &c));
+  check_ok(contest_run(&w, "block_fixed", &plain, &c));
   assert_non_null(strstr(c.failure, "cvode_bdf"));
   assert_true(isnan(c.error[0]) && isnan(c.error[1]) && isnan(c.estimate) && isnan(c.honesty));
   assert_true(isnan(c.steps) && isnan(c.rhs) && isnan(c.seconds) && isnan(c.throughput));
   assert_int_equal(c.pendulums, MEMBERS);
-  check_ok(contest_run(&w, "block_fixed", 1e-20, 0, NULL, NULL, &c));
+  check_ok(contest_run(&w, "block_fixed", &tight, &c));
   assert_true(isnan(c.error[1]) && strlen(c.failure) > 10);
-  assert_int_equal(contest_run(&w, "cvode_bdf", 1e-8, 0, now, NULL, &c), PENDRES_INTERRUPTED);
-  assert_int_equal(contest_run(&w, "gsl_rk8pd", 1e-8, 0, now, NULL, &c), PENDRES_INTERRUPTED);
+  assert_int_equal(contest_run(&w, "cvode_bdf", &stopped, &c), PENDRES_INTERRUPTED);
+  assert_int_equal(contest_run(&w, "gsl_rk8pd", &stopped, &c), PENDRES_INTERRUPTED);
   work_unit_free(&w);
 }
 
