@@ -242,6 +242,7 @@ static int open_output(job *j)
     progress_error(&j->progress, "%s", *why != '\0' ? why : "out of memory for the output");
     return FAILED;
   }
+  if (together_helping()) together_unname(output);
   j->run.table = open_memstream(&j->table, &j->table_size);
   if (j->run.table != NULL) return DONE;
   progress_error(&j->progress, "out of memory for the table of results");

@@ -23,6 +23,10 @@ int together_helping(void);
 /* Where such a rank has what it would write: in a folder for what does not last. */
 void together_output(char *path, size_t size);
 
+/* The file that a store writes for that path loses its name, so that a rank that is killed leaves
+   nothing behind. */
+void together_unname(const char *path);
+
 /* Its standard streams lead nowhere. */
 void together_silence(void);
 

@@ -82,9 +82,11 @@ timeout 100 "$mpirun" -n 2 "$program" -t1 -f --resume -o killed.h5 killed.nml >r
 [ $code -eq 0 ] || grep -q "going on from" err.txt || complain "nothing was kept of a lost rank's run"
 "$python" "$same" whole.h5 killed.h5 >same.txt || { complain "after a lost rank"; cat same.txt; }
 
-# All four at once, time and again, each time after some more tasks and a part of one.
+# All four at once, time and again, each time after some more tasks and a part of one. Nothing of
+# them stays in the folder for what does not last.
+mkdir passing
 for kept in 1 20000 45000 70000; do
-  "$mpirun" -n 4 "$program" -q -t1 --resume -o all.h5 killed.nml >out.txt 2>err.txt &
+  "$mpirun" -n 4 env TMPDIR="$work/passing" "$program" -q -t1 --resume -o all.h5 killed.nml >out.txt 2>err.txt &
   launcher=$!
   until [ -e all.h5.journal ] && [ "$(wc -c <all.h5.journal)" -gt $kept ]; do
     kill -0 $launcher 2>/dev/null || break
@@ -99,6 +101,7 @@ timeout 100 "$mpirun" -n 4 "$program" -t1 -f --resume -o all.h5 killed.nml >rank
   { complain "no resuming after all ranks were killed"; cat err.txt; }
 "$python" "$same" whole.h5 all.h5 >same.txt || { complain "after killed ranks"; cat same.txt; }
 [ "$(echo all.h5*)" = all.h5 ] || complain "killed ranks leave $(echo all.h5*)"
+[ -z "$(ls -A passing)" ] || complain "killed ranks leave $(ls -A passing) in TMPDIR"
 
 # Two decks, stopped at the first: no rank waits for the others at the second.
 timeout -s KILL 60 "$mpirun" -n 2 "$program" -q -t1 -f killed.nml "$kinds/curve.nml" >out.txt 2>err.txt &
