@@ -113,13 +113,16 @@ static double size_of(const double (*m)[2])
 }
 
 /* The error of the trace. Its two parts are looked at one by one, since their sum may agree by
-   chance. */
+   chance. With few steps both parts may agree by chance: then the entries off the diagonal tell, in
+   units in which they are equal. */
 static double trace_error_of(const pendres_orbit_spectrum *s, const pendres_orbit_doubt *doubt)
 {
   const double upper = s->fine[0][0] - s->coarse[0][0], lower = s->fine[1][1] - s->coarse[1][1];
   const double bend = hypot(s->by_point[0][0][0] + s->by_point[0][1][1],
                             s->by_point[1][0][0] + s->by_point[1][1][1]);
-  return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) +
+  const double across =
+    sqrt(fabs((s->fine[0][1] - s->coarse[0][1]) * (s->fine[1][0] - s->coarse[1][0])));
+  return 0.3 * fabs(upper + lower) + 0.3 * (fabs(upper) + fabs(lower)) + 0.04 * across +
          bend * (0.1 * doubt->apart + doubt->rounding) + s->left * size_of(s->fine);
 }
 
