@@ -29,6 +29,7 @@ static void nothing(void **state)
   pendres_attractors_free(NULL);
   assert_int_equal(pendres_attractors_count(NULL), 0);
   assert_null(pendres_attractors_get(NULL, 0));
+  assert_null(pendres_orbit_quantity_get((size_t)-1));
   pendres_boundary_free(NULL);
   assert_int_equal(pendres_boundary_count(NULL), 0);
   assert_null(pendres_boundary_x(NULL));

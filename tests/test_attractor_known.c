@@ -12,6 +12,40 @@ typedef struct fact {
   int period, winding; /* |winding| */
 } fact;
 
+static double number_at(const pendres_orbit *o, size_t offset)
+{
+  double value = 0.0; /* what is exact has no error */
+  if (offset != PENDRES_ORBIT_EXACT) memcpy(&value, (const char *)o + offset, sizeof value);
+  return value;
+}
+
+/* The library's list of measures: each is there once, with words, and has a value in closed orbits;
+   chaos has means of some, and neither value nor error of the others. */
+static void check_quantities(const pendres_orbit *o, int closed)
+{
+  static const char *const of_chaos[] = {"amplitude", "loop_area", "dissipation", "mean_power"};
+  const pendres_orbit_quantity *q;
+  size_t n = 0, means = 0;
+  for (; (q = pendres_orbit_quantity_get(n)) != NULL; n++) {
+    const double value = number_at(o, q->value), error = number_at(o, q->error);
+    int has = closed;
+    for (size_t k = 0; k < sizeof of_chaos / sizeof *of_chaos; k++)
+      if (strcmp(q->name, of_chaos[k]) == 0) has = 1, means++;
+    for (size_t k = 0; k < n; k++)
+      assert_true(strcmp(q->name, pendres_orbit_quantity_get(k)->name) != 0 &&
+                  q->value != pendres_orbit_quantity_get(k)->value);
+    assert_true(q->value < sizeof *o && (q->error < sizeof *o || q->error == PENDRES_ORBIT_EXACT));
+    assert_true(*q->long_name != '\0' && *q->definition != '\0');
+    assert_true(strcmp(q->units, "rad") == 0 || strcmp(q->units, "1") == 0);
+    if (has)
+      assert_true(isfinite(value) && (error > 0.0 || q->of_forces));
+    else
+      assert_true(isnan(value) && (isnan(error) || q->error == PENDRES_ORBIT_EXACT));
+  }
+  assert_int_equal(means, sizeof of_chaos / sizeof *of_chaos);
+  assert_null(pendres_orbit_quantity_get(n + 1));
+}
+
 static void check_fact(pendres_context *ctx, const fact *f)
 {
   const pendres_pendulum p = {
@@ -22,6 +56,7 @@ static void check_fact(pendres_context *ctx, const fact *f)
   for (size_t i = 0; i < f->attractors; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
     assert_int_equal(a->label, f->label);
+    check_quantities(&a->orbit, f->label != PENDRES_LABEL_CHAOTIC);
     if (f->label == PENDRES_LABEL_CHAOTIC) {
       assert_true(a->lyapunov > 5.0 * a->lyapunov_error && a->lyapunov_error > 0.0);
       assert_true(isnan(a->orbit.x) && isnan(a->orbit.phase_lag) && isnan(a->trap_radius));

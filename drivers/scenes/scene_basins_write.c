@@ -143,9 +143,6 @@ static const scene_column of_attractors[] = {
   PLAIN(winding, SCENE_NUMBER, orbit.winding, "whole turns in that time"),
   OF_ORBIT(x, "position at drive phase 0, in well 0", "rad"),
   OF_ORBIT(v, "velocity at drive phase 0", "1"),
-  OF_ORBIT(amplitude, "amplitude of the angle", "rad"),
-  OF_ORBIT(phase_lag, "phase lag of the angle's first harmonic", "rad"),
-  OF_ORBIT(loop_area, "loop area a drive cycle", "1"),
   OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent a unit time"),
   OF_ATTRACTOR(drift, drift, "mean whole turns a drive period, of chaos"),
   PLAIN(watched_periods, SCENE_PLAIN, watched_periods,
@@ -177,6 +174,10 @@ static pendres_status write_attractors(basins *b, size_t n, const row *rows)
   pendres_status status =
     scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
   if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
+  const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor", .n = n,
+                              .stride = sizeof *rows, .rows = rows};
+  if (status == PENDRES_OK)
+    status = scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
   if (status == PENDRES_OK) status = basins_write_wells(b, n);
   return scene_stored(b->run, status);
 }

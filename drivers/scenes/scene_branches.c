@@ -44,9 +44,9 @@ static const scene_column columns[] = {
 /* Points of all branches of all lines, one after another. */
 typedef struct row {
   scene_place place;
-  double amplitude, amplitude_error, phase_lag, phase_lag_error, loop_area, loop_area_error;
-  double multiplier_re[2], multiplier_im[2], multiplier_error[2];
-  int stable, kind, doubt, number, period;
+  pendres_orbit of;
+  double multiplier_error[2]; /* of both the same */
+  int kind, doubt, number;
 } row;
 
 static const char *stabilities(int value)
@@ -66,15 +66,12 @@ static const char *doubts(int value)
 }
 
 static const scene_column of_points[] = {
-  SCENE_COLUMN(row, amplitude, "amplitude of the orbit", "rad"),
-  SCENE_COLUMN(row, phase_lag, "phase lag of the orbit", "rad"),
-  SCENE_COLUMN(row, loop_area, "loop area of the orbit", "1"),
   {.name = "multiplier_re", .long_name = "real part of the Floquet multiplier", .pairs = 1,
-   .value = offsetof(row, multiplier_re), .error = offsetof(row, multiplier_error)},
+   .value = offsetof(row, of.multiplier_re), .error = offsetof(row, multiplier_error)},
   {.name = "multiplier_im", .long_name = "imaginary part of the Floquet multiplier", .pairs = 1,
-   .value = offsetof(row, multiplier_im), .error = offsetof(row, multiplier_error)},
+   .value = offsetof(row, of.multiplier_im), .error = offsetof(row, multiplier_error)},
   {.name = "stable", .long_name = "whether the orbit attracts", .type = SCENE_FLAG,
-   .value = offsetof(row, stable), .names = stabilities},
+   .value = offsetof(row, of.stable), .names = stabilities},
   {.name = "kind", .long_name = "what happens at the point", .type = SCENE_FLAG,
    .value = offsetof(row, kind), .names = scene_special_names},
   {.name = "doubt", .long_name = "what the bifurcations do not explain there: sum of the flags",
@@ -83,22 +80,16 @@ static const scene_column of_points[] = {
   {.name = "number", .long_name = "number of the branch", .type = SCENE_NUMBER,
    .value = offsetof(row, number)},
   {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
-   .value = offsetof(row, period)},
+   .value = offsetof(row, of.period)},
 };
 
 static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
 {
   const pendres_orbit *o = &p->orbit;
   const double error[2] = {p->parameter_error, 0.0};
-  return (row){.place = scene_lines_place(l, &o->pendulum, error),
-               .amplitude = o->amplitude, .amplitude_error = o->amplitude_error,
-               .phase_lag = o->phase_lag, .phase_lag_error = o->phase_lag_error,
-               .loop_area = o->loop_area, .loop_area_error = o->loop_area_error,
-               .multiplier_re = {o->multiplier_re[0], o->multiplier_re[1]},
-               .multiplier_im = {o->multiplier_im[0], o->multiplier_im[1]},
+  return (row){.place = scene_lines_place(l, &o->pendulum, error), .of = *o,
                .multiplier_error = {o->multiplier_error, o->multiplier_error},
-               .stable = o->stable, .kind = (int)p->kind, .doubt = p->doubt,
-               .number = number, .period = o->period};
+               .kind = (int)p->kind, .doubt = p->doubt, .number = number};
 }
 
 /* Their number; rows may be NULL. */
@@ -133,6 +124,8 @@ static pendres_status write_branches(const scene_lines *l)
   if (status == PENDRES_OK)
     status = scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points,
                                       of_points);
+  if (status == PENDRES_OK)
+    status = scene_columns_write_orbits(l->run, &table, offsetof(row, of));
   free(rows);
   return status;
 }

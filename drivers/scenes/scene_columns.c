@@ -240,6 +240,21 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t 
   return status;
 }
 
+pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
+{
+  const pendres_orbit_quantity *q;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+    const int exact = q->error == PENDRES_ORBIT_EXACT;
+    const scene_column column = {.name = q->name, .long_name = q->long_name, .units = q->units,
+                                 .type = exact ? SCENE_PLAIN : SCENE_REAL,
+                                 .value = orbit + q->value,
+                                 .error = exact ? 0 : orbit + q->error};
+    if (q->principal) status = scene_columns_write(run, t, 1, &column);
+  }
+  return status;
+}
+
 pendres_status scene_columns_define(scene_run *run, const scene_table *t,
                                     const scene_variables *of)
 {

@@ -70,6 +70,9 @@ pendres_status scene_columns_write(scene_run *run, const scene_table *table, siz
 #define SCENE_WRITE(run, table, columns) \
   scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
 
+/* Write the principal measures of the orbits that stand at that offset in the rows. */
+pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
+
 /* Columns of a table that comes in pieces, none of which has an error, and the store's numbers of
    their variables. */
 typedef struct scene_variables {

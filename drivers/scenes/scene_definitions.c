@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names of results that mean the same in every file; and what they are where x is no angle, if that
-   is something else. */
+/* Names of results that mean the same in every file, beside the measures of orbits that the library
+   defines; and what they are where x is no angle, if that is something else. */
 static const struct { const char *name, *definition, *no_angle; } definitions[] = {
   { "x", "the particle's coordinate in the potential -sin x; the pendulum's angle from rest is "
          "x - pi/2",
@@ -18,19 +18,6 @@ static const struct { const char *name, *definition, *no_angle; } definitions[] 
     "dx/dt" },
   { "temperature", "T = k T / (m g l); the potential's barrier is 2",
     "T, of the noise sqrt(2 damping T) xi(t)" },
-  { "amplitude", "half peak to peak of the angle, in rad",
-    "half peak to peak of x" },
-  { "first_harmonic_amplitude", "a in the part a cos(omega t - phase_lag) of the angle, in rad",
-    "a in the part a cos(omega t - phase_lag) of x" },
-  { "phase_lag", "phi in 0 to pi, in rad: the angle's first harmonic is a cos(omega t - phi)",
-    "phi in 0 to pi, in rad: the first harmonic of x is a cos(omega t - phi)" },
-  { "loop_area", "work of the drive a drive cycle, the closed integral of F dx, in m g l",
-    "work of the drive a drive cycle, the closed integral of F dx" },
-  { "dissipation", "gamma times the closed integral of v^2 dt a drive cycle, in m g l; on a "
-                   "periodic orbit the same as loop_area",
-    "gamma times the closed integral of v^2 dt a drive cycle" },
-  { "mean_power", "loop area times omega / (2 pi), in m g l omega0",
-    "loop area times omega / (2 pi)" },
   { "mean_loop_area", "mean over the members of the work of the drive a drive cycle, the closed "
                       "integral of F dx, in m g l",
     "mean over the members of the work of the drive a drive cycle, the closed integral of F "
@@ -151,16 +138,24 @@ static pendres_status rename_angles(pendres_store *store, const char *group)
   return status;
 }
 
+/* Say what a variable is, if the file has it. */
+static pendres_status define(pendres_store *store, const char *name, const char *words)
+{
+  return words != NULL && pendres_store_has(store, "", name)
+           ? pendres_store_attribute_text(store, "", name, "comment", words) : PENDRES_OK;
+}
+
 pendres_status scene_define(scene_run *run)
 {
   const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
+  const pendres_orbit_quantity *q;
   pendres_status status = angle ? PENDRES_OK : rename_angles(run->store, "");
-  for (size_t i = 0; i < sizeof definitions / sizeof *definitions && status == PENDRES_OK; i++) {
-    const char *no_angle = definitions[i].no_angle;
-    if (pendres_store_has(run->store, "", definitions[i].name))
-      status = pendres_store_attribute_text(
-        run->store, "", definitions[i].name, "comment",
-        angle || no_angle == NULL ? definitions[i].definition : no_angle);
-  }
+  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++)
+    status = define(run->store, q->name,
+                    angle || q->coordinate == NULL ? q->definition : q->coordinate);
+  for (size_t i = 0; i < sizeof definitions / sizeof *definitions && status == PENDRES_OK; i++)
+    status = define(run->store, definitions[i].name,
+                    angle || definitions[i].no_angle == NULL ? definitions[i].definition
+                                                             : definitions[i].no_angle);
   return scene_stored(run, status);
 }

@@ -53,11 +53,6 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 /* ---- results ------------------------------------------------------------------------------- */
 
 static const scene_column of_points[] = {
-  SCENE_ALONG_COLUMN(amplitude, attractor.orbit.amplitude, "half peak to peak of the angle", "rad"),
-  SCENE_ALONG_COLUMN(phase_lag, attractor.orbit.phase_lag,
-                     "lag of the first harmonic behind the drive", "rad"),
-  SCENE_ALONG_COLUMN(loop_area, attractor.orbit.loop_area,
-                     "area of the hysteresis loop, a drive cycle", "1"),
   SCENE_ALONG_COLUMN(mean_velocity, mean_velocity, "mean velocity of x", "1"),
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(scene_along_row, winding, "whole turns until the orbit closes", "1"),
@@ -102,7 +97,9 @@ static pendres_status write_points(scene_run *run, const work *w)
   const scene_table table = {.dimensions = {"direction", deck_axis_name(w->axis)},
                              .n = w->path.points, .stride = sizeof *rows, .rows = rows};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status = SCENE_WRITE(run, &table, of_points);
+  pendres_status status =
+    scene_columns_write_orbits(run, &table, offsetof(scene_along_row, of.attractor.orbit));
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_points);
   if (status == PENDRES_OK)
     status = scene_columns_write(run, &table, SCENE_ALONG_VERDICTS, scene_along_verdicts);
   free(rows);

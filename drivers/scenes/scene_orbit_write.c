@@ -1,6 +1,7 @@
 /* scene_orbit_write.c -- what the scene `orbit` writes; see scene_orbit.h. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
@@ -10,62 +11,81 @@ static const double eps = 2.220446049250313e-16;
 
 enum { MULTIPLIERS = 2 };
 
+/* What stands at an offset of a measure or its error; exact ones have the error 0. */
+static double quantity_of(const pendres_orbit *o, size_t offset)
+{
+  double value = 0.0;
+  if (offset != PENDRES_ORBIT_EXACT) memcpy(&value, (const char *)o + offset, sizeof value);
+  return value;
+}
+
+/* A result without dimensions, or NaN. */
+static pendres_status put_scalar(scene_run *run, const scene_column *column, double value,
+                                 double error)
+{
+  const double pair[2] = {value, isnan(value) ? NAN : error};
+  const scene_table table = {.n = 1, .stride = sizeof pair, .rows = pair};
+  return scene_columns_write(run, &table, 1, column);
+}
+
+/* Such a column: the error stands behind the value. */
+#define SCALAR(what, words, unit) \
+  {.name = what, .long_name = words, .units = unit, .error = sizeof(double)}
+
+/* Whether a measure is written: those of forces that the pendulum does not have are all 0. */
+static int is_shown(const orbit_work *w, const pendres_orbit_quantity *q)
+{
+  return !q->of_forces || !deck_is_plain(w->d);
+}
+
+static pendres_status put_quantities(scene_run *run, const orbit_work *w)
+{
+  const orbit_found *f = &w->found;
+  const int there = f->closed || f->label == PENDRES_LABEL_CHAOTIC;
+  const pendres_orbit_quantity *q;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+    const scene_column column = SCALAR(q->name, q->long_name, q->units);
+    const double value = there ? quantity_of(&f->orbit, q->value) : NAN;
+    if (is_shown(w, q))
+      status = put_scalar(run, &column, value, quantity_of(&f->orbit, q->error));
+  }
+  return status;
+}
+
 static pendres_status put_scalars(scene_run *run, const orbit_work *w)
 {
   const orbit_found *f = &w->found;
   const pendres_orbit *o = &f->orbit;
   const double waited = f->settling_periods >= 0 ? (double)f->settling_periods : NAN;
   const struct {
-    const char *name, *long_name, *units;
+    scene_column column;
     double value, error;
-    /* Closed orbits alone, chaos too, whatever there is; closed ones of other than plain pendulums.
-       */
-    enum { CLOSED, CHAOTIC, ALWAYS, OTHERS } of;
+    enum { CLOSED, CHAOTIC, ALWAYS } of; /* closed orbits alone, chaos too, whatever there is */
   } scalars[] = {
-    { "loop_area", "area of the hysteresis loop, a drive cycle", "1", o->loop_area,
-      o->loop_area_error, CHAOTIC },
-    { "dissipation", "energy dissipated a drive cycle", "1", o->dissipation,
-      o->dissipation_error, CHAOTIC },
-    { "torque_work", "energy that the torque gives a drive cycle", "1", o->torque_work, 0.0,
-      OTHERS },
-    { "parametric_work", "energy that the parametric drive gives a drive cycle", "1",
-      o->parametric_work, o->parametric_work_error, OTHERS },
-    { "amplitude", "half peak to peak of the angle", "rad", o->amplitude, o->amplitude_error,
-      CHAOTIC },
-    { "first_harmonic_amplitude", "amplitude of the angle's first harmonic", "rad",
-      o->first_harmonic_amplitude, o->first_harmonic_amplitude_error, CLOSED },
-    { "phase_lag", "lag of the first harmonic behind the drive", "rad", o->phase_lag,
-      o->phase_lag_error, CLOSED },
-    { "mean_power", "mean power taken from the drive", "1", o->mean_power, o->mean_power_error,
-      CHAOTIC },
-    { "period", "drive periods until the orbit closes", "1", o->period, 0.0, CLOSED },
-    { "winding", "whole turns until the orbit closes", "1", o->winding, 0.0, CLOSED },
-    { "well", "number of the well of the orbit", "1", o->winding == 0 ? (double)f->well : NAN, 0.0,
-      CLOSED },
-    { "settling_periods", "drive periods from the start to the trapping region", "1", waited, 0.0,
-      ALWAYS },
-    { "lyapunov_exponent", "largest Lyapunov exponent a unit time", "1", f->lyapunov,
+    { SCALAR("period", "drive periods until the orbit closes", "1"), o->period, 0.0, CLOSED },
+    { SCALAR("winding", "whole turns until the orbit closes", "1"), o->winding, 0.0, CLOSED },
+    { SCALAR("well", "number of the well of the orbit", "1"),
+      o->winding == 0 ? (double)f->well : NAN, 0.0, CLOSED },
+    { SCALAR("settling_periods", "drive periods from the start to the trapping region", "1"),
+      waited, 0.0, ALWAYS },
+    { SCALAR("lyapunov_exponent", "largest Lyapunov exponent a unit time", "1"), f->lyapunov,
       f->lyapunov_error, ALWAYS },
-    { "drift", "mean whole turns a drive period, of chaos", "1", f->drift, f->drift_error,
-      CHAOTIC },
-    { "watched_periods", "drive periods that chaos was watched for without ending, all walkers",
-      "1",
+    { SCALAR("drift", "mean whole turns a drive period, of chaos", "1"), f->drift,
+      f->drift_error, CHAOTIC },
+    { SCALAR("watched_periods",
+             "drive periods that chaos was watched for without ending, all walkers", "1"),
       f->watched_periods, 0.0, CHAOTIC },
-    { "escape_rate_bound", "largest rate of ending, a drive period, that is not excluded at 95 %",
-      "1", f->escape_rate_bound, 0.0, CHAOTIC },
+    { SCALAR("escape_rate_bound",
+             "largest rate of ending, a drive period, that is not excluded at 95 %", "1"),
+      f->escape_rate_bound, 0.0, CHAOTIC },
   };
-  pendres_status status = PENDRES_OK;
+  pendres_status status = put_quantities(run, w);
   for (size_t i = 0; i < sizeof scalars / sizeof *scalars && status == PENDRES_OK; i++) {
-    if (scalars[i].of == OTHERS && deck_is_plain(w->d)) continue;
     const int there = f->closed || scalars[i].of == ALWAYS ||
                       (scalars[i].of == CHAOTIC && f->label == PENDRES_LABEL_CHAOTIC);
-    const double value = there ? scalars[i].value : NAN;
-    const double error = isnan(value) ? NAN : scalars[i].error;
-    const double pair[2] = {value, error};
-    const scene_column column = {.name = scalars[i].name, .long_name = scalars[i].long_name,
-                                 .units = scalars[i].units, .error = sizeof value};
-    const scene_table table = {.n = 1, .stride = sizeof pair, .rows = pair};
-    status = scene_columns_write(run, &table, 1, &column);
+    status = put_scalar(run, &scalars[i].column, there ? scalars[i].value : NAN,
+                        scalars[i].error);
   }
   return status;
 }
@@ -229,16 +249,16 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
   if (!f->closed) return;
   fprintf(out, "%-26s %d\n%-26s %d\n", "period", o->period, "winding", o->winding);
   if (o->winding == 0) fprintf(out, "%-26s %ld\n", "well", f->well);
-  const struct { const char *name; double value, error; } rows[] = {
-    { "amplitude", o->amplitude, o->amplitude_error },
-    { "first harmonic amplitude", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error },
-    { "phase lag", o->phase_lag, o->phase_lag_error },
-    { "loop area", o->loop_area, o->loop_area_error },
-    { "dissipation", o->dissipation, o->dissipation_error },
-    { "mean power", o->mean_power, o->mean_power_error },
-  };
-  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-    fprintf(out, "%-26s %.12f +- %.0e\n", rows[i].name, rows[i].value, rows[i].error);
+  const pendres_orbit_quantity *q;
+  for (size_t k = 0; (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+    char words[32];
+    (void)snprintf(words, sizeof words, "%s", q->name);
+    for (char *at = words; *at != '\0'; at++)
+      if (*at == '_') *at = ' ';
+    if (is_shown(w, q))
+      fprintf(out, "%-26s %.12f +- %.0e\n", words, quantity_of(o, q->value),
+              quantity_of(o, q->error));
+  }
   for (int i = 0; i < MULTIPLIERS; i++)
     fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i],
             o->multiplier_im[i]);

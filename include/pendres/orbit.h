@@ -84,6 +84,28 @@ typedef struct pendres_orbit {
   double parametric_work_error; /**< its error */
 } pendres_orbit;
 
+/** A measure of orbits: what it is, and where it stands in a pendres_orbit. */
+typedef struct pendres_orbit_quantity {
+  const char *name;       /**< of the field, and of variables in files */
+  const char *long_name;  /**< in a few words */
+  const char *units;      /**< "rad", or "1": those of the equation */
+  const char *definition; /**< as a formula in words */
+  const char *coordinate; /**< the same where x is no angle; NULL: the same words */
+  size_t value;           /**< offset in bytes of the value, a double */
+  size_t error;           /**< offset of its error; PENDRES_ORBIT_EXACT: it has none */
+  int principal;          /**< 1: belongs to the few that tell orbits apart at first sight */
+  int of_forces;          /**< 1: zero without a torque, a parametric drive or another force */
+} pendres_orbit_quantity;
+
+/** The offset of an error that is none. */
+#define PENDRES_ORBIT_EXACT ((size_t)-1)
+
+/**
+ * The measures of orbits by number, from 0 on; NULL beyond the last. Nothing is to be freed; any
+ * thread may call it. A program that lists or stores measures so has those of later versions, too.
+ */
+const pendres_orbit_quantity *pendres_orbit_quantity_get(size_t number);
+
 /** Where to look for an orbit. */
 typedef struct pendres_orbit_guess {
   pendres_pendulum pendulum; /**< the parameters */

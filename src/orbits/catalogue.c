@@ -11,6 +11,7 @@
 #include "engine/passage.h"
 #include "model/model.h"
 #include "orbits/label.h"
+#include "orbits/orbit_table.h"
 
 const char *pendres_label_name(pendres_label label)
 {
@@ -112,15 +113,17 @@ pendres_orbit pendres_orbit_none(const pendres_pendulum *p)
 {
   pendres_orbit o = {.pendulum = *p};
   double *const numbers[] = {
-    &o.x, &o.v, &o.x_error, &o.v_error, &o.multiplier_error, &o.loop_area, &o.loop_area_error,
-    &o.dissipation, &o.dissipation_error, &o.mean_power, &o.mean_power_error, &o.amplitude,
-    &o.amplitude_error, &o.first_harmonic_amplitude, &o.first_harmonic_amplitude_error,
-    &o.phase_lag, &o.phase_lag_error, &o.mean_angle, &o.loop_area_slope, &o.loop_area_slope_error,
-    &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0], &o.multiplier_im[1],
-    &o.torque_work, &o.parametric_work, &o.parametric_work_error, &o.frequency_derivative[0],
-    &o.frequency_derivative[1], &o.monodromy[0][0],
-    &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
+    &o.x, &o.v, &o.x_error, &o.v_error, &o.multiplier_error, &o.mean_angle, &o.loop_area_slope,
+    &o.loop_area_slope_error, &o.multiplier_re[0], &o.multiplier_re[1], &o.multiplier_im[0],
+    &o.multiplier_im[1], &o.frequency_derivative[0], &o.frequency_derivative[1],
+    &o.monodromy[0][0], &o.monodromy[0][1], &o.monodromy[1][0], &o.monodromy[1][1]};
   for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) *numbers[i] = NAN;
+  const pendres_orbit_row *row;
+  for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++) {
+    double *error = pendres_orbit_row_error(row, &o);
+    *pendres_orbit_row_value(row, &o) = NAN;
+    if (error != NULL) *error = NAN;
+  }
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++) o.cosine[m] = o.sine[m] = NAN;
   return o;
 }

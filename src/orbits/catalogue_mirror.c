@@ -5,25 +5,12 @@
 #include "orbits/catalogue.h"
 
 #include <math.h>
-#include <stddef.h>
+
+#include "orbits/orbit_table.h"
 
 /* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
 static const double same_harmonics = 1e-6;
 enum { HARMONICS = 5 /* so many are compared */ };
-
-/* What an orbit and its mirror image have in common, and its error. */
-#define MEASURE(name) {offsetof(pendres_attractor, name), offsetof(pendres_attractor, name##_error)}
-static const struct {
-  size_t value, error;
-} common[] = {
-  MEASURE(orbit.loop_area), MEASURE(orbit.dissipation), MEASURE(orbit.mean_power),
-  MEASURE(orbit.amplitude), MEASURE(orbit.first_harmonic_amplitude), MEASURE(orbit.phase_lag),
-  MEASURE(lyapunov)};
-
-static double *at(pendres_attractor *a, size_t offset)
-{
-  return (double *)(void *)((char *)a + offset);
-}
 
 /* y(t) -> -y(t + half a drive period) changes the sign of the mean and of even harmonics. */
 static int are_images(const pendres_orbit *a, const pendres_orbit *b)
@@ -45,20 +32,27 @@ static void raise_to(double difference, double *a, double *b)
   if (*b < difference) *b = difference;
 }
 
+/* Two values that are the same by symmetry. */
+static void compare_values(double value, double other, double *error, double *other_error)
+{
+  const double difference = fabs(value - other);
+  if (difference > *error + *other_error) raise_to(difference, error, other_error);
+}
+
 static void compare(pendres_attractor *a, pendres_attractor *b)
 {
   pendres_orbit *o = &a->orbit, *p = &b->orbit;
+  const pendres_orbit_row *row;
   double apart = 0.0;
   for (int k = 0; k < 2; k++)
     apart = fmax(apart, hypot(o->multiplier_re[k] - p->multiplier_re[k],
                               fabs(o->multiplier_im[k]) - fabs(p->multiplier_im[k])));
-  if (apart > o->multiplier_error + p->multiplier_error)
-    raise_to(apart, &o->multiplier_error, &p->multiplier_error);
-  for (size_t k = 0; k < sizeof common / sizeof *common; k++) {
-    const double difference = fabs(*at(a, common[k].value) - *at(b, common[k].value));
-    double *error = at(a, common[k].error), *other = at(b, common[k].error);
-    if (difference > *error + *other) raise_to(difference, error, other);
-  }
+  compare_values(apart, 0.0, &o->multiplier_error, &p->multiplier_error);
+  for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++)
+    if (row->image && row->shown.error != PENDRES_ORBIT_EXACT)
+      compare_values(*pendres_orbit_row_value(row, o), *pendres_orbit_row_value(row, p),
+                     pendres_orbit_row_error(row, o), pendres_orbit_row_error(row, p));
+  compare_values(a->lyapunov, b->lyapunov, &a->lyapunov_error, &b->lyapunov_error);
 }
 
 void pendres_catalogue_compare_images(pendres_catalogue *c)

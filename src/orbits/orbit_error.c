@@ -8,8 +8,7 @@
 #include "base/angles.h"
 #include "engine/passage.h"
 #include "orbits/orbit_newton.h"
-
-static const double root_two = 1.41421356237309504880;
+#include "orbits/orbit_table.h"
 
 /*
  * With 1.4 times the steps the error of a method of order 8 falls to a fifteenth. A quarter of a
@@ -35,50 +34,47 @@ static long turns_of_mean(const pendres_pendulum *p, double mean)
   return inside <= tie - pi && pendres_model_of(p->force)->period > 0.0 ? turns - 1 : turns;
 }
 
+/* The values of the table's measures and their errors. */
+static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
+                     const pendres_orbit_doubt *doubt, pendres_orbit *o)
+{
+  const pendres_orbit_row *row;
+  for (size_t k = 0; (row = pendres_orbit_row_get(k)) != NULL; k++) {
+    const pendres_orbit_value *fine = &b->of[k];
+    double coarse = a->of[k].value, *error = pendres_orbit_row_error(row, o);
+    if (row->measure == NULL) continue;
+    *pendres_orbit_row_value(row, o) = fine->value;
+    if (error == NULL) continue;
+    if (row->angle) coarse = fine->value + remainder(coarse - fine->value, two_pi);
+    *error =
+      pendres_orbit_error(coarse, fine->value, fine->sensitivity, doubt) + fine->unresolved;
+  }
+}
+
 /* Everything but the point, the multipliers and the slopes. Returns the whole turns by which the
    orbit's mean lies outside of well 0. */
 static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
                          const pendres_orbit_doubt *doubt, pendres_orbit *o)
 {
   const pendres_pendulum *p = &o->pendulum;
-  const double omega = p->drive_frequency, drive = fabs(p->drive_amplitude);
+  const double omega = p->drive_frequency;
   const long turns = turns_of_mean(p, b->mean_angle);
 
+  set_rows(a, b, doubt, o);
   o->mean_angle = b->mean_angle - two_pi * (double)turns;
-  o->loop_area = b->loop_area;
-  o->loop_area_error =
-    pendres_orbit_error(a->loop_area, b->loop_area, pi * drive * root_two, doubt);
-  o->dissipation = b->dissipation;
-  o->dissipation_error = pendres_orbit_error(
-    a->dissipation, b->dissipation, 2.0 * two_pi * p->damping * omega * b->rms_speed, doubt);
-  o->torque_work = b->torque_work;
-  o->parametric_work = b->parametric_work;
-  o->parametric_work_error = pendres_orbit_error(a->parametric_work, b->parametric_work,
-                                                 b->parametric_sensitivity, doubt);
   /* What the drives and the torque give is dissipated. A difference is an error of one of the two
      at least. */
-  const double given = b->loop_area + b->torque_work + b->parametric_work;
-  const double balance = 0.5 * fabs(given - b->dissipation);
+  const double given = o->loop_area + o->torque_work + o->parametric_work;
+  const double balance = 0.5 * fabs(given - o->dissipation);
   if (p->parametric_amplitude != 0.0)
     o->parametric_work_error = fmax(o->parametric_work_error, balance);
   o->loop_area_error = fmax(o->loop_area_error, balance);
   o->dissipation_error = fmax(o->dissipation_error, balance);
   o->mean_power = o->loop_area * omega / two_pi;
   o->mean_power_error = o->loop_area_error * omega / two_pi;
-  o->amplitude = b->amplitude;
-  o->amplitude_error =
-    pendres_orbit_error(a->amplitude, b->amplitude, 1.0, doubt) + b->unresolved;
   memcpy(o->cosine, b->cosine, sizeof o->cosine);
   memcpy(o->sine, b->sine, sizeof o->sine);
   o->harmonics_rest = b->harmonics_rest;
-  o->first_harmonic_amplitude = hypot(b->cosine[0], b->sine[0]);
-  o->first_harmonic_amplitude_error =
-    pendres_orbit_error(hypot(a->cosine[0], a->sine[0]), o->first_harmonic_amplitude, 1.0, doubt);
-  o->phase_lag = pendres_orbit_phase_lag(b->cosine[0], b->sine[0], p->drive_amplitude);
-  const double earlier = pendres_orbit_phase_lag(a->cosine[0], a->sine[0], p->drive_amplitude);
-  o->phase_lag_error =
-    pendres_orbit_error(o->phase_lag + remainder(earlier - o->phase_lag, two_pi), o->phase_lag,
-                        1.0 / o->first_harmonic_amplitude, doubt);
   o->symmetric = o->winding == 0 && pendres_pendulum_symmetric(p) &&
                  b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
   return turns;

@@ -15,26 +15,6 @@ static double force_on(const pendres_pendulum *p, double y, double cosine)
   return p->torque + p->drive_amplitude * cosine - force * (1.0 + p->parametric_amplitude * cosine);
 }
 
-/* The work of the torque and of the parametric drive in a drive cycle; the latter's force is
-   -b cos theta f. */
-static void works(const pendres_pendulum *p, const pendres_orbit_samples *s,
-                  pendres_orbit_measures *out)
-{
-  double sum = 0.0, springs = 0.0, forces = 0.0;
-  out->torque_work = two_pi * p->torque * s->winding / s->period;
-  if (p->parametric_amplitude == 0.0) return;
-  for (size_t k = 0; k < s->n; k++) {
-    double force, slope;
-    pendres_model_force(p, s->y[k], &force, &slope);
-    sum += cos(two_pi * s->period * (double)k / (double)s->n) * force * s->w[k];
-    springs += slope * slope * s->w[k] * s->w[k];
-    forces += force * force;
-  }
-  const double cycle = two_pi * fabs(p->parametric_amplitude), n = (double)s->n;
-  out->parametric_work = -two_pi * p->parametric_amplitude * sum / n;
-  out->parametric_sensitivity = cycle * (sqrt(springs / n) + sqrt(forces / n));
-}
-
 pendres_status pendres_orbit_samples_series(const pendres_pendulum *p,
                                             const pendres_orbit_samples *s, double *work,
                                             pendres_orbit_series *out)
@@ -116,14 +96,11 @@ pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_or
               (series.re[m] * series.re[m] + series.im[m] * series.im[m]);
   }
   keep_harmonics(&series, s->period, out);
-  out->loop_area = 0.5 * two_pi * p->drive_amplitude * out->sine[0];
-  out->dissipation = p->damping * p->drive_frequency * two_pi * square;
-  works(p, s, out);
   out->mean_angle = series.re[0];
   /* At rest rounding may put the top below the bottom. */
   out->amplitude = fmax(0.0, 0.5 * (highest - lowest));
   out->unresolved = pendres_orbit_series_tail(&series);
-  out->rms_speed = sqrt(square);
+  out->square_speed = square;
   out->symmetry_defect = symmetry_defect(&series, s->period);
   return PENDRES_OK;
 }

@@ -1,7 +1,8 @@
 /*
  * orbit_measure.h -- what is measured on equally spaced samples of a closed orbit.
  *
- * Owns: sums over samples, and what their Fourier series gives. Nothing is integrated here.
+ * Owns: the Fourier series of samples, and what it tells of an orbit. Nothing is integrated here.
+ * The measures that users see follow from it: orbit_table.h.
  */
 #ifndef PENDRES_ORBIT_MEASURE_H
 #define PENDRES_ORBIT_MEASURE_H
@@ -13,7 +14,10 @@
 
 #include "orbits/orbit_series.h"
 
-enum { PENDRES_ORBIT_SPECTRUM = 64 /* harmonics by which two computations are compared */ };
+enum {
+  PENDRES_ORBIT_SPECTRUM = 64, /* harmonics by which two computations are compared */
+  PENDRES_ORBIT_MEASURES = 16  /* rows that the table of measures has room for */
+};
 
 /* Samples k = 0..n-1 at theta = 2 pi q k / n of a closed orbit: angle y, slope w = dy/dtheta. */
 typedef struct pendres_orbit_samples {
@@ -23,14 +27,21 @@ typedef struct pendres_orbit_samples {
   pendres_orbit_tables *tables; /* the caller's */
 } pendres_orbit_samples;
 
+/* A measure in one computation. */
+typedef struct pendres_orbit_value {
+  double value;
+  double sensitivity; /* its derivative by an error of y and w along the orbit, at most */
+  double unresolved;  /* what harmonics too high for the samples may add to it */
+} pendres_orbit_value;
+
+/* What one computation tells of an orbit. */
 typedef struct pendres_orbit_measures {
-  double loop_area, dissipation, amplitude, mean_angle;
+  pendres_orbit_value of[PENDRES_ORBIT_MEASURES]; /* by the rows of the table */
+  double amplitude, mean_angle;
   double cosine[PENDRES_ORBIT_HARMONICS], sine[PENDRES_ORBIT_HARMONICS]; /* see orbit.h */
   double harmonics_rest;  /* bounds what harmonics beyond those add to the angle */
   double unresolved;      /* what harmonics too high for the samples may add to the angle */
-  double rms_speed;       /* root mean square of w */
-  double torque_work, parametric_work; /* a drive cycle */
-  double parametric_sensitivity; /* of the latter, to an error of y and w along the orbit */
+  double square_speed;    /* mean square of w */
   double symmetry_defect; /* largest harmonic of the angle that mirror symmetry forbids */
   double spectrum[2 * PENDRES_ORBIT_SPECTRUM]; /* re, im of coefficients m >= 0 */
 } pendres_orbit_measures;
@@ -41,6 +52,7 @@ static inline size_t pendres_orbit_measure_work(size_t n)
   return 3 * n + pendres_orbit_series_memory(n);
 }
 
+/* All but the measures of the table. */
 pendres_status pendres_orbit_measure(const pendres_pendulum *p, const pendres_orbit_samples *s,
                                      double *work, pendres_orbit_measures *out);
 

@@ -5,6 +5,7 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "orbits/orbit_table.h"
 
 /* Memory for samples and what measuring them takes. */
 typedef struct room {
@@ -27,7 +28,7 @@ static pendres_status read_one(const pendres_orbit_reader *reader,
   const pendres_orbit_samples samples = {
     .n = n, .period = c->guess->period, .winding = c->guess->winding, .y = y, .w = w,
     .tables = &r->tables};
-  return pendres_orbit_measure(&c->guess->pendulum, &samples, r->work + 2 * n, out);
+  return pendres_orbit_table_measure(&c->guess->pendulum, &samples, r->work + 2 * n, out);
 }
 
 static pendres_status provide(pendres_context *ctx, size_t samples, room *r)

@@ -1,0 +1,34 @@
+/*
+ * orbit_table.h -- the measures of orbits, one row each.
+ *
+ * Owns: the table. What goes through all measures of an orbit, from its two computations to their
+ * errors, motions that have none, mirror images and files, reads it here.
+ */
+#ifndef PENDRES_ORBIT_TABLE_H
+#define PENDRES_ORBIT_TABLE_H
+
+#include "orbits/orbit_measure.h"
+
+typedef struct pendres_orbit_row {
+  pendres_orbit_quantity shown;
+  /* The value in one computation, of which all but `of` is known; NULL: orbit_error.c has it from
+     other measures. */
+  pendres_orbit_value (*measure)(const pendres_pendulum *p, const pendres_orbit_samples *s,
+                                 const pendres_orbit_measures *m);
+  int angle; /* 1: whole turns do not count in differences */
+  int image; /* 1: a mirror image has the same value */
+} pendres_orbit_row;
+
+/* pendres_orbit_measure, and the values of all rows. */
+pendres_status pendres_orbit_table_measure(const pendres_pendulum *p,
+                                           const pendres_orbit_samples *s, double *work,
+                                           pendres_orbit_measures *out);
+
+/* NULL beyond the last. */
+const pendres_orbit_row *pendres_orbit_row_get(size_t number);
+
+/* The value of a row in an orbit, and its error; NULL if it is exact. */
+double *pendres_orbit_row_value(const pendres_orbit_row *row, pendres_orbit *o);
+double *pendres_orbit_row_error(const pendres_orbit_row *row, pendres_orbit *o);
+
+#endif
