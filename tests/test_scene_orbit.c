@@ -1,6 +1,6 @@
 /*
- * test_scene_orbit.c -- the scene `orbit`, run in this process: records in parts, and what is
- * measured of them.
+ * test_scene_orbit.c -- the scene `orbit`, run in this process: records in parts, what is measured
+ * of them, and escapes.
  */
 #include "scene_fixture.h"
 
@@ -120,6 +120,66 @@ static void chaos_by_number(void **state)
   pendres_store_free(store);
 }
 
+/* x'' = 0.1 cos(0.85 t) - 0.1 x' - x + x^2 by the classical method of order 4, whose 4000 steps a
+   drive period leave some 1e-12. */
+static void helmholtz_period(double s[2])
+{
+  enum { STEPS = 4000 };
+  const double omega = 0.85, h = 6.28318530717958647693 / omega / STEPS;
+  for (int k = 0; k < STEPS; k++) {
+    double d[4][2] = {{0.0}}, sum[2] = {0.0};
+    for (int i = 0; i < 4; i++) {
+      const double part = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5, weight = i % 3 == 0 ? 1.0 : 2.0;
+      const double *before = d[i > 0 ? i - 1 : 0];
+      const double x = s[0] + part * h * before[0], v = s[1] + part * h * before[1];
+      d[i][0] = v;
+      d[i][1] = 0.1 * cos(omega * h * (k + part)) - 0.1 * v - x + x * x;
+      for (int j = 0; j < 2; j++) sum[j] += weight * d[i][j];
+    }
+    for (int j = 0; j < 2; j++) s[j] += h / 6.0 * sum[j];
+  }
+}
+
+/* A trajectory to infinity is an answer, and not a failure: its label says so, and the record goes
+   as far as there is something to record; in parts, too. Without a transient there is nothing. */
+static void escape(void **state)
+{
+  enum { PERIODS = 8, STAYS = 3 };
+  size_t n = 0;
+  double s[2] = {0.0, 0.0};
+  (void)state;
+  for (int samples = 4; samples <= 40000; samples += 39996) {
+    char text[400];
+    snprintf(text, sizeof text, "&scene kind = 'orbit' /\n&pendulum force = 'polynomial',\n"
+             "  force_coefficients = 1, -1, damping = 0.1, drive_amplitude = 0.1,\n"
+             "  drive_frequency = 0.85 /\n"
+             "&orbit x = 0, v = 0, samples = %d, periods = %d, transient = .true. /\n", samples,
+             PERIODS);
+    scene_run_deck(text, 1, "escape");
+    pendres_store *store = scene_open("escape");
+    double *x = scene_values(store, "x", &n), *error = scene_values(store, "x_error", &n);
+    assert_int_equal(n, PERIODS * samples);
+    assert_true(scene_scalar(store, "label") == (double)PENDRES_LABEL_ESCAPE);
+    assert_true(isnan(scene_scalar(store, "loop_area")));
+    s[0] = s[1] = 0.0;
+    for (int k = 0; k <= STAYS; k++, helmholtz_period(s))
+      check_near(x[k * samples], s[0], error[k * samples] + 1e-11);
+    for (size_t k = 0; k < n; k++)
+      assert_int_equal(isnan(x[k]) != 0 && isnan(error[k]) != 0, k > (size_t)(STAYS * samples));
+    free(x);
+    free(error);
+    pendres_store_free(store);
+  }
+  scene_run_deck("&scene kind = 'orbit' /\n&pendulum force = 'polynomial',\n"
+                 "  force_coefficients = 1, -1, damping = 0.1, drive_amplitude = 0.1,\n"
+                 "  drive_frequency = 0.85 /\n&orbit x = 0, v = 0, samples = 4 /\n", 1, "gone");
+  pendres_store *store = scene_open("gone");
+  double *x = scene_values(store, "x", &n);
+  for (size_t k = 0; k < n; k++) assert_true(isnan(x[k]));
+  free(x);
+  pendres_store_free(store);
+}
+
 /* An attribute of a variable is a text, and a word is in it or not. */
 static void check_text(pendres_store *store, const char *name, const char *attribute,
                        const char *text, const char *never)
@@ -165,7 +225,7 @@ static void units_of_the_coordinate(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(parts), cmocka_unit_test(spectrum),
-                                     cmocka_unit_test(chaos_by_number),
+                                     cmocka_unit_test(chaos_by_number), cmocka_unit_test(escape),
                                      cmocka_unit_test(units_of_the_coordinate)};
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

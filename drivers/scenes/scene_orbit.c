@@ -89,6 +89,8 @@ static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
     w->found.well = outcome.well;
     w->found.settling_periods = outcome.settling_periods;
   }
+  if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE)
+    w->found.label = outcome.label;
   pendres_attractors_free(set);
   return status;
 }
@@ -144,10 +146,40 @@ static void no_samples(size_t n, const orbit_samples *out)
     out->x[k] = out->v[k] = out->x_error[k] = out->v_error[k] = NAN;
 }
 
+/* A trajectory to infinity is recorded period by period, up to the last state that double precision
+   can say. */
+static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t task,
+                                    const orbit_samples *out)
+{
+  const size_t count = (size_t)w->d->orbit.samples;
+  const long periods = periods_of(w, task);
+  pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
+  const int begun = status == PENDRES_OK && !w->found.gone;
+  size_t at = 0;
+  for (long k = 0; k < periods && begun && status == PENDRES_OK; k++, at += count) {
+    const pendres_record to = { out->x + at, out->v + at, out->x_error + at, out->v_error + at };
+    status = pendres_recording_go_on(ctx, &w->recording, 1, &to);
+    if (status != PENDRES_OK) break;
+  }
+  const orbit_samples rest = { out->x + at, out->v + at, out->x_error + at, out->v_error + at };
+  no_samples((size_t)periods * count - at, &rest);
+  if (status != PENDRES_INTEGRATION_FAILED) return status;
+  if (begun) {
+    *rest.x = w->recording.x;
+    *rest.v = w->recording.v;
+    *rest.x_error = w->recording.x_error;
+    *rest.v_error = w->recording.v_error;
+  }
+  w->found.gone = 1;
+  return PENDRES_OK;
+}
+
 static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
                              const orbit_samples *out)
 {
   const long first = (long)task * w->chunk, periods = periods_of(w, task);
+  if (w->transient && w->found.label == PENDRES_LABEL_ESCAPE)
+    return sample_escape(w, ctx, task, out);
   if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) {
     const pendres_record to = { out->x, out->v, out->x_error, out->v_error };
     const pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;

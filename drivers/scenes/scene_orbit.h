@@ -13,6 +13,8 @@ typedef struct orbit_found {
   pendres_label label;
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
+  int gone;                      /* nonzero: double precision can no longer say where the recorded
+                                    trajectory is on its way to infinity */
   pendres_orbit orbit;
   double lyapunov, lyapunov_error;
   double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */

@@ -95,9 +95,7 @@ typedef struct verdict {
   int label, failed;
 } verdict;
 
-static const scene_column of_verdicts[] = {
-  {.name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
-   .value = offsetof(verdict, label), .names = scene_label_names},
+static const scene_column of_failures[] = {
   {.name = "failed", .long_name = "why there is no orbit", .type = SCENE_FLAG,
    .value = offsetof(verdict, failed), .names = scene_failure_names},
 };
@@ -112,11 +110,16 @@ static pendres_status put_label(scene_run *run, const orbit_work *w)
                                                         : SCENE_FAILURE_NONE;
   const verdict of = {(int)w->found.label, failed};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const scene_column label = {
+    .name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
+    .value = offsetof(verdict, label),
+    .names = pendres_pendulum_leaves(&w->pendulum) ? scene_fate_names : scene_label_names};
   if (lost)
     scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
                        "orbit");
   run->failed_points = (size_t)lost;
-  return SCENE_WRITE(run, &table, of_verdicts);
+  const pendres_status status = scene_columns_write(run, &table, 1, &label);
+  return status == PENDRES_OK ? SCENE_WRITE(run, &table, of_failures) : status;
 }
 
 typedef struct multiplier {
