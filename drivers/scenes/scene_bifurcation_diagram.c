@@ -147,9 +147,14 @@ static pendres_status collect_strobes(void *arg, size_t task, const farm_record 
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
+#define STROBE(field, words)                                                                     \
+  {.name = #field, .long_name = words, .units = "1", .value = offsetof(strobe, field),            \
+   .error = offsetof(strobe, field##_error),                                                      \
+   .comment = "errors are NaN in chaos: its points are on the attractor, but no two runs have "    \
+              "the same ones"}
 static const scene_column of_strobes[] = {
-  SCENE_COLUMN(strobe, x, "position at drive phase 0, within one turn", "1"),
-  SCENE_COLUMN(strobe, v, "velocity at drive phase 0", "1"),
+  STROBE(x, "position at drive phase 0, within one turn"),
+  STROBE(v, "velocity at drive phase 0"),
 };
 
 static const scene_column of_points[] = {

@@ -11,12 +11,18 @@ static const double eps = 2.220446049250313e-16;
 
 enum { MULTIPLIERS = 2 };
 
-/* What stands at an offset of a measure or its error; exact ones have the error 0. */
-static double quantity_of(const pendres_orbit *o, size_t offset)
+static double number_at(const pendres_orbit *o, size_t offset)
 {
-  double value = 0.0;
-  if (offset != PENDRES_ORBIT_EXACT) memcpy(&value, (const char *)o + offset, sizeof value);
-  return value;
+  double number;
+  memcpy(&number, (const char *)o + offset, sizeof number);
+  return number;
+}
+
+/* What is exact is rounded all the same. */
+static double error_of(const pendres_orbit *o, const pendres_orbit_quantity *q)
+{
+  return q->error == PENDRES_ORBIT_EXACT ? eps * fabs(number_at(o, q->value))
+                                         : number_at(o, q->error);
 }
 
 /* A result without dimensions, or NaN. */
@@ -46,9 +52,9 @@ static pendres_status put_quantities(scene_run *run, const orbit_work *w)
   pendres_status status = PENDRES_OK;
   for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
     const scene_column column = SCALAR(q->name, q->long_name, q->units);
-    const double value = there ? quantity_of(&f->orbit, q->value) : NAN;
+    const double value = there ? number_at(&f->orbit, q->value) : NAN;
     if (is_shown(w, q))
-      status = put_scalar(run, &column, value, quantity_of(&f->orbit, q->error));
+      status = put_scalar(run, &column, value, error_of(&f->orbit, q));
   }
   return status;
 }
@@ -259,8 +265,8 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
     for (char *at = words; *at != '\0'; at++)
       if (*at == '_') *at = ' ';
     if (is_shown(w, q))
-      fprintf(out, "%-26s %.12f +- %.0e\n", words, quantity_of(o, q->value),
-              quantity_of(o, q->error));
+      fprintf(out, "%-26s %.12f +- %.0e\n", words, number_at(o, q->value),
+              error_of(o, q));
   }
   for (int i = 0; i < MULTIPLIERS; i++)
     fprintf(out, "%-26s %.10f %+.10f i\n", "Floquet multiplier", o->multiplier_re[i],

@@ -92,12 +92,13 @@ typedef struct pendres_orbit_quantity {
   const char *definition; /**< as a formula in words */
   const char *coordinate; /**< the same where x is no angle; NULL: the same words */
   size_t value;           /**< offset in bytes of the value, a double */
-  size_t error;           /**< offset of its error; PENDRES_ORBIT_EXACT: it has none */
+  size_t error;           /**< offset of its error; PENDRES_ORBIT_EXACT: it is
+                               exact but for rounding */
   int principal;          /**< 1: belongs to the few that tell orbits apart at first sight */
   int of_forces;          /**< 1: zero without a torque, a parametric drive or another force */
 } pendres_orbit_quantity;
 
-/** The offset of an error that is none. */
+/** In the place of the offset of an error. */
 #define PENDRES_ORBIT_EXACT ((size_t)-1)
 
 /**
