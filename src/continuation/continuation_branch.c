@@ -204,6 +204,7 @@ static pendres_status fill(pendres_context *ctx, const pendres_course *c, pendre
 typedef struct branch_call {
   const pendres_orbit *starts;
   const pendres_branch_options *options;
+  int outline; /* without measures */
   pendres_branch **out;
 } branch_call;
 
@@ -228,9 +229,10 @@ static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_
   if (status == PENDRES_OK) status = pendres_trail_refine(ctx, t, test_flip);
   if (status == PENDRES_OK) status = pendres_course_begin(ctx, t, MOST_BIFURCATIONS, &c);
   if (status == PENDRES_OK) status = locate_all(ctx, &c);
-  if (status == PENDRES_OK) status = pendres_course_measure(ctx, &c);
+  if (status == PENDRES_OK)
+    status = to->outline ? pendres_course_outline(ctx, &c) : pendres_course_measure(ctx, &c);
   if (status == PENDRES_OK) status = fill(ctx, &c, b);
-  if (status == PENDRES_OK) pendres_branch_check(b);
+  if (status == PENDRES_OK && !to->outline) pendres_branch_check(b);
   pendres_course_free(&c);
   return status;
 }
@@ -254,14 +256,12 @@ const char *pendres_branch_refuses(const pendres_branch_options *o, size_t n,
   return NULL;
 }
 
-static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
-                                    const pendres_branch_options *options, pendres_branch **out)
+static pendres_status follow(pendres_context *ctx, size_t n, branch_call *call)
 {
-  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
-    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
-  for (size_t i = 0; i < n; i++) out[i] = NULL;
+  const pendres_orbit *starts = call->starts;
+  const pendres_branch_options *o = call->options;
+  for (size_t i = 0; i < n; i++) call->out[i] = NULL;
   if (n == 0) return PENDRES_OK;
-  const pendres_branch_options *o = options;
   const char *why = pendres_branch_refuses(o, n, starts);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
 
@@ -271,13 +271,28 @@ static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendre
                                        .high = {o->high},
                                        .wildest = o->wildest > 0.0 ? o->wildest : 1e3,
                                        .most_points = o->most_points > 0 ? o->most_points : 2000};
-  branch_call call = {.starts = starts, .options = o, .out = out};
-  const pendres_status status = pendres_course_follow(ctx, &kind, n, &bounds, &call);
+  const pendres_status status = pendres_course_follow(ctx, &kind, n, &bounds, call);
   for (size_t i = 0; i < n && status != PENDRES_OK; i++) {
-    pendres_branch_free(out[i]);
-    out[i] = NULL;
+    pendres_branch_free(call->out[i]);
+    call->out[i] = NULL;
   }
   return status;
+}
+
+static pendres_status branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
+                                    const pendres_branch_options *options, pendres_branch **out)
+{
+  if (options == NULL || (n > 0 && (starts == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "starts, options and out");
+  branch_call call = {.starts = starts, .options = options, .out = out};
+  return follow(ctx, n, &call);
+}
+
+pendres_status pendres_branch_outline(pendres_context *ctx, const pendres_orbit *start,
+                                      const pendres_branch_options *options, pendres_branch **out)
+{
+  branch_call call = {.starts = start, .options = options, .outline = 1, .out = out};
+  return follow(ctx, 1, &call);
 }
 
 pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,

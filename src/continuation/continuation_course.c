@@ -3,8 +3,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "orbits/catalogue.h"
+#include "orbits/orbit_measure.h"
 
 pendres_status pendres_course_begin(pendres_context *ctx, const pendres_trail *t, size_t room,
                                     pendres_course *c)
@@ -96,6 +101,83 @@ pendres_status pendres_course_measure(pendres_context *ctx, pendres_course *c)
     status = pendres_continuation_orbit_measure(ctx, c->trail->count, c->pair, c->orbit);
   if (status == PENDRES_OK) list_points(c);
   return status;
+}
+
+/* ---- outlines ---- */
+
+/* The special points stand behind points i of the trail: polish these and the next ones, so that
+   points and special points are in the order of the parameter, too. */
+static pendres_status polish_neighbours(pendres_context *ctx, pendres_course *c)
+{
+  const pendres_trail *t = c->trail;
+  pendres_trail part = *t;
+  size_t *index = malloc((2 * c->specials + 1) * sizeof *index), n = 0;
+  pendres_continuation_pair *pair = malloc((2 * c->specials + 1) * sizeof *pair);
+  double(*error)[2] = malloc((2 * c->specials + 1) * sizeof *error);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  part.point = malloc((2 * c->specials + 1) * sizeof *part.point);
+  if (index == NULL || pair == NULL || error == NULL || part.point == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for a branch");
+    goto done;
+  }
+  for (size_t k = 0; k < c->specials; k++)
+    for (size_t i = c->special[k].at.i; i <= c->special[k].at.i + 1 && i < t->count; i++)
+      if (n == 0 || i > index[n - 1]) index[n++] = i;
+  for (size_t k = 0; k < n; k++) part.point[k] = t->point[index[k]];
+  part.count = n;
+  status = pendres_trail_polish(ctx, &part, pair, error);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    c->pair[index[k]] = pair[k];
+    memcpy(c->error[index[k]], error[k], sizeof error[k]);
+  }
+done:
+  free(index);
+  free(pair);
+  free(error);
+  free(part.point);
+  return status;
+}
+
+/* The trace of the derivative over all of the orbit's period, from that of its map. */
+static double trace_of(const pendres_continuation_map *map, const pendres_continuation_image *image)
+{
+  const double trace = image->trace;
+  if (map->mirror == PENDRES_MIRROR_NONE) return trace;
+  /* Of rest the map is the strobe map itself, followed by a reflection. */
+  if (map->mirror == PENDRES_MIRROR_WHOLE && map->period == 1) return -trace;
+  return trace * trace - 2.0 * image->determinant;
+}
+
+static pendres_orbit outline_of(const pendres_continuation_pair *pair,
+                                const pendres_continuation_image *image)
+{
+  const double *u = pair->fine;
+  const pendres_pendulum p = pendres_continuation_map_pendulum(pair->map.force, u);
+  const pendres_place place = {.y = u[PENDRES_U_Y], .w = u[PENDRES_U_W]};
+  const double time = two_pi * pair->map.period / p.drive_frequency;
+  pendres_orbit o = pendres_orbit_none(&p);
+  pendres_passage_out(&p, &place, &o.x, &o.v);
+  o.period = pair->map.period;
+  o.winding = pair->map.mirror ? 0 : pair->map.winding;
+  pendres_orbit_set_multipliers(trace_of(&pair->map, image), exp(-0.5 * p.damping * time), &o);
+  return o;
+}
+
+pendres_status pendres_course_outline(pendres_context *ctx, pendres_course *c)
+{
+  const pendres_trail *t = c->trail;
+  qsort(c->special, c->specials, sizeof *c->special, in_order);
+  for (size_t i = 0; i < t->count; i++) {
+    c->pair[i] = (pendres_continuation_pair){.map = t->kind.map};
+    memcpy(c->pair[i].fine, t->point[i].u, sizeof c->pair[i].fine);
+    c->error[i][0] = c->error[i][1] = t->kind.tolerance;
+  }
+  const pendres_status status = polish_neighbours(ctx, c);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < t->count; i++)
+    c->orbit[i] = outline_of(&c->pair[i], &t->point[i].image);
+  list_points(c);
+  return PENDRES_OK;
 }
 
 /* ---- following ---- */

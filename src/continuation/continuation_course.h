@@ -60,6 +60,14 @@ pendres_status pendres_course_locate(pendres_context *ctx, pendres_course_locato
 /* Put the special points in order, measure the trail's points, and list all of them. */
 pendres_status pendres_course_measure(pendres_context *ctx, pendres_course *course);
 
+/*
+ * The same for a branch that is only to lead on: its points are left where the arc found them, with
+ * errors of the arc's tolerance, but for those next to special points. Of an orbit there are the
+ * state, period, winding, multipliers and stability, which agree with the signs of test functions;
+ * measures and errors are NaN.
+ */
+pendres_status pendres_course_outline(pendres_context *ctx, pendres_course *course);
+
 /* What one kind of course, branches or curves, does in its own way; `call` is the caller's. */
 typedef struct pendres_course_kind {
   const char *name;  /* "branches" */

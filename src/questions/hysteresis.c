@@ -111,8 +111,10 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   pendres_stretch next = pendres_stretch_none;
   int goes_on = 0;
   pendres_status status = go_over(w, &end, limit, &next);
+  pendres_orbit arrived;
+  if (status == PENDRES_OK) status = pendres_stretch_arrive(w->ctx, &next, &arrived);
   if (status == PENDRES_OK) {
-    w->state.attractor = pendres_settled_orbit(&pendres_stretch_last(&next)->orbit);
+    w->state.attractor = pendres_settled_orbit(&arrived);
     w->at = end.value;
     j.gradual = j.certain = 1;
     j.share = 1.0;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/turns.h"
+#include "continuation/continuation_branch.h"
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
@@ -174,7 +175,7 @@ static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit, c
                                           .spacing = spacing / orbit->period,
                                           .wildest = wildest,
                                           .most_points = points};
-  return pendres_branch_follow(ctx, 1, orbit, &options, out);
+  return pendres_branch_outline(ctx, orbit, &options, out);
 }
 
 static size_t first_points(const pendres_orbit *orbit)
@@ -265,6 +266,19 @@ const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s)
   for (size_t k = s->points; k-- > 0;)
     if (point_of(s, k)->bifurcation < 0) return point_of(s, k);
   return NULL;
+}
+
+pendres_status pendres_stretch_arrive(pendres_context *ctx, const pendres_stretch *s,
+                                      pendres_orbit *out)
+{
+  pendres_status outcome = PENDRES_OK;
+  const pendres_orbit *last = &pendres_stretch_last(s)->orbit;
+  const pendres_orbit_guess guess = {.pendulum = last->pendulum, .x = last->x, .v = last->v,
+                                     .period = last->period, .winding = last->winding};
+  const pendres_status status =
+    pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, out, &outcome);
+  if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED) *out = *last;
+  return status;
 }
 
 int pendres_stretch_holds(const pendres_stretch *s, double value)

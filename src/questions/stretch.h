@@ -45,8 +45,12 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
 pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcation *at,
                                     double limit, pendres_stretch *out);
 
-/* The last regular point of it. */
+/* The last regular point of it: a state, period, winding and stability, without measures. */
 const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s);
+
+/* Its orbit with measures; without, if Newton's method does not lead there. */
+pendres_status pendres_stretch_arrive(pendres_context *ctx, const pendres_stretch *s,
+                                      pendres_orbit *out);
 
 /* Whether a value of the parameter comes before the stretch ends. */
 int pendres_stretch_holds(const pendres_stretch *s, double value);
