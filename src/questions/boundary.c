@@ -9,6 +9,7 @@
 
 #include "base/angles.h"
 #include "base/grow.h"
+#include "questions/boundary_distance.h"
 #include "questions/boundary_grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -169,7 +170,7 @@ static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
   double *x = memory, *v = x + n, *error = v + n;
   pendres_status status = pendres_boundary_grow_seed(ctx, saddle, steps, &coarse);
   if (status == PENDRES_OK)
-    status = pendres_boundary_grow_distance(ctx, &coarse, n, curve->node, error);
+    status = pendres_boundary_distance(ctx, &coarse, n, curve->node, error);
   if (status != PENDRES_OK) goto done;
   double low = INFINITY, high = -INFINITY;
   for (size_t i = 0; i < n; i++) {

@@ -48,17 +48,6 @@ pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundar
                                      const pendres_boundary_options *options,
                                      pendres_boundary_curve *curve);
 
-/*
- * The distance of nodes in the (x, v) plane from the stable manifold that belongs to the seed's own
- * number of steps. Mapped forward, a node comes close to the local manifold; its distance from
- * that, divided by the derivative of the map to there, is its distance here. The curve contracts,
- * so that errors along it do not matter.
- */
-pendres_status pendres_boundary_grow_distance(pendres_context *ctx,
-                                              const pendres_boundary_seed *seed, size_t n,
-                                              const pendres_boundary_node *nodes,
-                                              double *distance);
-
 void pendres_boundary_grow_free(pendres_boundary_curve *curve);
 
 #endif
