@@ -245,7 +245,8 @@ static double least_angle(double damping, finesse how, double *rounding)
   const double high = asin(fmin(1.0, 1.01 * 4.0 * damping / pi));
   const double angle = zero_of(gap_at_angle, &m, 0.0, high), h = 1e-4 * angle;
   const double slope = (gap_at_angle(angle, &m) - gap_at_angle(angle - h, &m)) / h;
-  *rounding = 32.0 * DBL_EPSILON / fabs(slope);
+  /* Beside a computation in extended precision, 420 random dampings felt up to 7. */
+  *rounding = 12.0 * DBL_EPSILON / fabs(slope);
   return angle;
 }
 
