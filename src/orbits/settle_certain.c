@@ -85,9 +85,11 @@ static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled
 }
 
 /* The error a period that should leave no doubt: a power of ten, so that many pendulums share it,
-   and blocks stay full. */
+   and blocks stay full. How much more exact a run must be from which a pendulum's error grew beyond
+   all bounds is not known: the most exact one follows. */
 static double tighter(double accuracy, double doubt)
 {
+  if (!isfinite(doubt)) return most_exact;
   const double wanted = accuracy / fmax(at_least, to_spare * doubt);
   if (!(wanted > most_exact)) return most_exact;
   return fmax(most_exact, pow(10.0, floor(log10(wanted))));
@@ -150,24 +152,28 @@ static pendres_status run(pendres_context *ctx, const pendres_settle_labelled *l
   pendres_status status = load(ctx, l, d);
   if (status == PENDRES_OK) status = allow(ctx, l, d, &budget);
   pendres_settle_labelling job = {.catalogues = l->job->catalogues, .set = d->set,
-                                  .budget = budget, .outcome = d->outcome, .doubt = d->doubt};
+                                  .budget = budget, .outcome = d->outcome, .doubt = d->doubt,
+                                  .drop_lost = 1};
   if (status == PENDRES_OK) status = pendres_settle_lanes(ctx, d->count, d->lanes, &job);
   free(budget);
   return status;
 }
 
 /*
- * The outcome of the run counts, unless the pendulum has not settled in it. Pendulums that are
- * still in doubt, and can be run more exactly, stay in the list.
+ * The outcome of the run counts, unless the pendulum was lost or has not settled in it. Pendulums
+ * that are still in doubt, and can be run more exactly, stay in the list.
  */
 static void take_over(const pendres_settle_labelled *l, doubtful *d)
 {
   size_t left = 0;
   for (size_t k = 0; k < d->count; k++) {
     const size_t i = d->index[k];
-    if (!pendres_settle_ended(&d->outcome[k])) continue;
-    l->job->outcome[i] = d->outcome[k];
-    l->job->doubt[i] = d->doubt[k];
+    const int ended = pendres_settle_ended(&d->outcome[k]);
+    if (!ended && !isinf(d->doubt[k])) continue;
+    if (ended) {
+      l->job->outcome[i] = d->outcome[k];
+      l->job->doubt[i] = d->doubt[k];
+    }
     if (d->outcome[k].certain || d->accuracy[k] <= most_exact) continue;
     d->index[left] = i;
     d->set[left] = d->set[k];

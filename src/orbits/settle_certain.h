@@ -3,7 +3,8 @@
  *
  * Owns: what is done about a pendulum whose error, as it was carried along, is not small against
  * what separates one fate from another (settle_lanes.c). It is integrated again from its start,
- * more and more exactly, down to rounding. The label of the most exact run counts.
+ * more and more exactly, down to rounding. The label of the most exact run counts, of those in
+ * which the error stayed below what separates fates.
  */
 #ifndef PENDRES_SETTLE_CERTAIN_H
 #define PENDRES_SETTLE_CERTAIN_H
@@ -20,7 +21,8 @@ typedef struct pendres_settle_labelled {
 
 /*
  * Make labels certain that are not. Pendulums that are still in doubt after the most exact run, and
- * those that reach no trap in a further run, keep their latest label, which is not certain.
+ * those that reach no trap in a further run, keep their latest label, which is not certain. A
+ * further run of a pendulum ends where its error has grown so large that no label can be certain.
  *
  * Where errors are not carried along, as with adaptive steps, labels stay what they are, and are
  * compared with those of fixed steps: those that agree with a certain one are certain.

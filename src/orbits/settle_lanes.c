@@ -107,9 +107,11 @@ static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *
  * The error is three standard deviations of what was carried along. Inside a trap a twentieth of
  * the radius is allowed (trap_ellipse.h). On the way there the error must stay small against the
  * distance to a basin boundary: the two grow alike, until the distance is that between different
- * fates, of order one; a thirtieth of that is allowed.
+ * fates, of order one; a thirtieth of that is allowed. Where the error itself is some times as
+ * large as that distance, it is no longer known what the pendulum does: the lane is lost.
  */
 static const double deviations = 3.0, borne = 0.03;
+static const double most_doubt = 100.0; /* of a lane that is not lost */
 
 static double doubt_on_way(double worst)
 {
@@ -215,6 +217,17 @@ static int spent(const pendres_settle_labelling *l, size_t set, const pendres_st
          (lane->period >= some_periods && (double)lane->period * lane->steps >= l->most_steps);
 }
 
+/* Whether a lane is lost. What grows on a chaotic attractor after it has been reached does not
+   count: all of it has one label. */
+static int lost(const pendres_settle_labelling *l, size_t i, const pendres_catalogue *c,
+                const pendres_strobe_lane *lane)
+{
+  const int on_chaos = c->covers > 0 && l->streak[i] > 0;
+  if (doubt_on_way(on_chaos ? l->entry[i] : lane->worst) <= most_doubt) return 0;
+  l->doubt[i] = INFINITY;
+  return 1;
+}
+
 static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
 {
   const pendres_settle_labelling *l = arg;
@@ -224,6 +237,7 @@ static int settle_look(void *arg, size_t i, const pendres_strobe_lane *lane)
   if (l->before != NULL && escapes(l, i, lane)) return 1;
   if (l->histories != NULL) record(&l->histories[i], lane);
   if (c->covers > 0 && chaotic(l, i, c, lane)) return 1;
+  if (l->drop_lost && lost(l, i, c, lane)) return 1;
   return spent(l, set, lane);
 }
 

@@ -30,7 +30,10 @@ typedef struct pendres_settle_labelling {
   pendres_settle_history *histories; /* NULL: not kept */
   double *doubt;            /* of each lane that settles: the ratio of the error that it carries to
                                the largest one that cannot change its label, which is certain up to
-                               1. NULL: not kept */
+                               1. Infinite where the run ended with the lane lost. NULL: not
+                               kept */
+  int drop_lost;            /* whether a lane ends, without an outcome, where it is lost: its error
+                               is so large that no label of this run can be certain */
   /* Of the run itself: */
   double most_steps;        /* of a lane */
   int *streak;              /* how long a lane has been in the cells of a chaotic attractor */
