@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_fft_halfcomplex.h>
 #include <gsl/gsl_fft_real.h>
 
 #include "base/angles.h"
@@ -17,6 +18,9 @@ enum {
   ROUNDS = 8,     /* of Newton's method */
   SWEEPS = 400,   /* of the contraction that solves for a correction, at most */
   LOOKS = 12,     /* iterations for the angle that a period brings to a given one */
+  FINER = 4,      /* cells for each point of a circle, between which ... */
+  TAPS = 8,       /* ... corrections are interpolated from so many */
+  ABREAST = 8,    /* angles at which a polynomial is summed side by side */
   POINTS = 192,   /* of a pendulum's motion, for a guess */
   ON_THE_WAY = 32 /* periods before them */
 };
@@ -79,6 +83,44 @@ double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double
   return value;
 }
 
+/* Its values at n angles, as pendres_trigonometric_at() has them, side by side: each waits for its
+   own sums alone. */
+static void values_at(const pendres_trigonometric *t, size_t n, const double *y, double *out)
+{
+  for (size_t first = 0; first < n; first += ABREAST) {
+    double c1[ABREAST], s1[ABREAST], c[ABREAST], s[ABREAST], value[ABREAST];
+    for (size_t i = 0; i < ABREAST; i++) {
+      const multiple m = first_multiple(first + i < n ? y[first + i] : 0.0);
+      c[i] = c1[i] = m.c1;
+      s[i] = s1[i] = m.s1;
+      value[i] = t->c[0];
+    }
+    for (size_t k = 1; k < t->n / 2; k++)
+      for (size_t i = 0; i < ABREAST; i++) {
+        const double next = c[i] * c1[i] - s[i] * s1[i];
+        value[i] += t->c[2 * k - 1] * c[i] + t->c[2 * k] * s[i];
+        s[i] = s[i] * c1[i] + c[i] * s1[i];
+        c[i] = next;
+      }
+    for (size_t i = 0; i < ABREAST && first + i < n; i++) out[first + i] = value[i];
+  }
+}
+
+void pendres_trigonometric_spread(const pendres_trigonometric *t, int order, size_t cells,
+                                  double *out)
+{
+  memset(out, 0, cells * sizeof *out);
+  out[0] = order == 0 ? t->c[0] : 0.0;
+  for (size_t k = 1; k < t->n / 2; k++) {
+    const double a = t->c[2 * k - 1], b = t->c[2 * k], f = (double)k;
+    const double c = order == 0 ? a : order == 1 ? f * b : -f * f * a;
+    const double s = order == 0 ? b : order == 1 ? -f * a : -f * f * b;
+    out[k] = 0.5 * c;
+    out[cells - k] = -0.5 * s;
+  }
+  (void)gsl_fft_halfcomplex_radix2_backward(out, 1, cells); /* cells is a power of two */
+}
+
 double pendres_trigonometric_size(const pendres_trigonometric *t)
 {
   double sum = fabs(t->c[0]);
@@ -105,6 +147,12 @@ void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance)
 
 /* ---- Newton's method ----------------------------------------------------------------------- */
 
+/* Where a value between the cells of a finer grid is interpolated from. */
+typedef struct stencil {
+  size_t first;
+  double weight[TAPS];
+} stencil;
+
 /* The points of a circle and their images. */
 typedef struct shape {
   pendres_context *ctx;
@@ -113,7 +161,9 @@ typedef struct shape {
   double w[MOST];      /* C at the grid */
   double move[MOST];   /* D there */
   double off[MOST];    /* E there */
-  double source[MOST]; /* angles that a period maps to those of the grid */
+  stencil source[MOST]; /* of the angles that a period maps to those of the grid, */
+  double slope[MOST];  /* and dY/dy there */
+  double fine[FINER * MOST + TAPS], rise[FINER * MOST + 1]; /* values and slopes in cells */
   pendres_trigonometric curve, moved;
   double worst; /* largest E */
 } shape;
@@ -148,79 +198,109 @@ static pendres_status run(shape *r)
 /* After a period: the curves through the points, and how far they are from invariant. */
 static void look(shape *r)
 {
+  double image[MOST], there[MOST];
   pendres_trigonometric_fit(r->n, r->w, &r->curve);
   pendres_trigonometric_fit(r->n, r->move, &r->moved);
+  for (size_t i = 0; i < r->n; i++) image[i] = grid(r->n, i) + r->move[i];
+  values_at(&r->curve, r->n, image, there);
   r->worst = 0.0;
   for (size_t i = 0; i < r->n; i++) {
-    r->off[i] -= pendres_trigonometric_at(&r->curve, grid(r->n, i) + r->move[i], NULL);
+    r->off[i] -= there[i];
     r->worst = fmax(r->worst, isfinite(r->off[i]) ? fabs(r->off[i]) : INFINITY);
   }
 }
 
-/* The angles that a period maps to those of the grid; returns 0 if the map is not one to one. */
+/* Lagrange's polynomial through TAPS neighbouring cells, the point being s beyond the first of the
+   two in their middle. */
+static stencil stencil_at(size_t cells, long cell, double s)
+{
+  const long last = TAPS / 2 - 1;
+  stencil out = {.first = (size_t)(cell - last) & (cells - 1)};
+  for (int m = 0; m < TAPS; m++) {
+    out.weight[m] = 1.0;
+    for (int l = 0; l < TAPS; l++)
+      if (l != m) out.weight[m] *= (s + (double)(last - l)) / (double)(m - l);
+  }
+  return out;
+}
+
+/* The image of the beginning of a cell, in cells. */
+static double image_of(const shape *r, size_t cells, long cell)
+{
+  return (double)cell + r->fine[(size_t)cell & (cells - 1)];
+}
+
+/* Where in a cell, between 0 and 1, the cubic through both ends takes a value; *slope: its slope
+   there. */
+static double place_in(const shape *r, size_t cells, long cell, double wanted, double *slope)
+{
+  const double a = image_of(r, cells, cell), d = image_of(r, cells, cell + 1) - a;
+  const double left = 1.0 + r->rise[(size_t)cell & (cells - 1)];
+  const double right = 1.0 + r->rise[(size_t)(cell + 1) & (cells - 1)];
+  const double bend = 3.0 * d - 2.0 * left - right, twist = left + right - 2.0 * d;
+  double s = (wanted - a) / d, step = INFINITY;
+  for (int k = 0; k < LOOKS && fabs(step) > 1e-9; k++) {
+    *slope = left + s * (2.0 * bend + s * (3.0 * twist));
+    if (!(*slope > least_slope)) return NAN;
+    step = (wanted - a - s * (left + s * (bend + s * twist))) / *slope;
+    s = fmax(0.0, fmin(1.0, s + step));
+  }
+  return s;
+}
+
+/* The angles that a period maps to those of the grid; returns 0 if the map is not one to one. It is
+   taken from cubics in cells, exact enough for corrections. */
 static int invert(shape *r)
 {
-  double y = -r->moved.c[0], slope = 0.0;
+  const size_t cells = FINER * r->n;
+  pendres_trigonometric moved = r->moved;
+  moved.c[0] -= two_pi * floor(moved.c[0] / two_pi);
+  pendres_trigonometric_spread(&moved, 0, cells, r->fine);
+  pendres_trigonometric_spread(&moved, 1, cells, r->rise);
+  for (size_t i = 0; i < cells; i++) r->fine[i] *= (double)cells / two_pi;
+  for (long k = 0; k < (long)cells; k++)
+    if (!(image_of(r, cells, k + 1) > image_of(r, cells, k))) return 0;
+  long cell = (long)floor(-r->fine[0]);
+  while (image_of(r, cells, cell) > 0.0) cell--;
   for (size_t i = 0; i < r->n; i++) {
-    const double wanted = grid(r->n, i);
-    double step = INFINITY;
-    for (int k = 0; k < LOOKS && fabs(step) > 1e-12; k++) {
-      step = wanted - y - pendres_trigonometric_at(&r->moved, y, &slope);
-      if (!(1.0 + slope > least_slope)) return 0;
-      step = fmax(-0.5, fmin(0.5, step / (1.0 + slope)));
-      y += step;
-    }
-    if (!(fabs(step) < 1e-9)) return 0;
-    r->source[i] = y;
-    y += two_pi / (double)r->n / (1.0 + slope);
+    const double wanted = (double)(FINER * i);
+    while (image_of(r, cells, cell + 1) <= wanted) cell++;
+    const double s = place_in(r, cells, cell, wanted, &r->slope[i]);
+    if (isnan(s)) return 0;
+    r->source[i] = stencil_at(cells, cell, s);
   }
   return 1;
 }
 
-/* basis[i][k]: the function of coefficient k at the angle that is mapped to grid point i. */
-static void tabulate(const shape *r, double *basis)
+/* The polynomial through n values, at the angles that are mapped to the grid. */
+static void at_sources(shape *r, const double *value, double *out)
 {
+  const size_t cells = FINER * r->n;
+  pendres_trigonometric t;
+  pendres_trigonometric_fit(r->n, value, &t);
+  pendres_trigonometric_spread(&t, 0, cells, r->fine);
+  memcpy(r->fine + cells, r->fine, TAPS * sizeof *r->fine);
   for (size_t i = 0; i < r->n; i++) {
-    double *b = basis + i * r->n;
-    multiple m = first_multiple(r->source[i]);
-    b[0] = 1.0;
-    for (size_t k = 1; k < r->n / 2; k++, turn_on(&m)) {
-      b[2 * k - 1] = m.c;
-      b[2 * k] = m.s;
-    }
-    b[r->n - 1] = 0.0;
+    const double *f = r->fine + r->source[i].first, *w = r->source[i].weight;
+    out[i] = ((w[0] * f[0] + w[1] * f[1]) + (w[2] * f[2] + w[3] * f[3])) +
+             ((w[4] * f[4] + w[5] * f[5]) + (w[6] * f[6] + w[7] * f[7]));
   }
-}
-
-static double product(size_t n, const double *a, const double *b)
-{
-  double sum[4] = {0.0};
-  for (size_t i = 0; i < n; i += 4)
-    for (size_t k = 0; k < 4; k++) sum[k] += a[i + k] * b[i + k];
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /* The correction: c(grid i) = l c(source i) + E(source i), by iteration. */
-static int correct(shape *r, double *basis)
+static int correct(shape *r)
 {
   const pendres_pendulum *p = &r->way->pendulum;
   const double shrinks = exp(-two_pi * p->damping / p->drive_frequency);
-  double factor[MOST], given[MOST], c[MOST], change = INFINITY;
-  pendres_trigonometric t;
+  double given[MOST], c[MOST], there[MOST], change = INFINITY;
   if (!invert(r)) return 0;
-  tabulate(r, basis);
-  pendres_trigonometric_fit(r->n, r->off, &t);
-  for (size_t i = 0; i < r->n; i++) {
-    double slope = 0.0;
-    (void)pendres_trigonometric_at(&r->moved, r->source[i], &slope);
-    factor[i] = shrinks / (1.0 + slope);
-    c[i] = given[i] = product(r->n, basis + i * r->n, t.c);
-  }
+  at_sources(r, r->off, given);
+  memcpy(c, given, r->n * sizeof *c);
   for (int sweep = 0; sweep < SWEEPS && change > solved * r->worst; sweep++) {
-    pendres_trigonometric_fit(r->n, c, &t);
+    at_sources(r, c, there);
     change = 0.0;
     for (size_t i = 0; i < r->n; i++) {
-      const double next = factor[i] * product(r->n, basis + i * r->n, t.c) + given[i];
+      const double next = shrinks / r->slope[i] * there[i] + given[i];
       change = fmax(change, isfinite(next) ? fabs(next - c[i]) : INFINITY);
       c[i] = next;
     }
@@ -231,7 +311,7 @@ static int correct(shape *r, double *basis)
 }
 
 /* Newton's method with as many points as r has. */
-static pendres_status converge(shape *r, double *basis, int *found)
+static pendres_status converge(shape *r, int *found)
 {
   *found = 0;
   for (int k = 0; k < ROUNDS; k++) {
@@ -239,7 +319,7 @@ static pendres_status converge(shape *r, double *basis, int *found)
     if (status != PENDRES_OK) return status;
     look(r);
     *found = r->worst < r->way->residual;
-    if (*found || !(r->worst < hopeless) || !correct(r, basis)) return PENDRES_OK;
+    if (*found || !(r->worst < hopeless) || !correct(r)) return PENDRES_OK;
   }
   return PENDRES_OK;
 }
@@ -254,18 +334,16 @@ pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_
                                      int *found)
 {
   shape *r = malloc(sizeof *r);
-  double *basis = malloc(MOST * MOST * sizeof *basis);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   *found = 0;
-  if (r == NULL || basis == NULL) {
+  if (r == NULL) {
     (void)pendres_context_fail(ctx, status, "out of memory for an invariant circle");
     goto done;
   }
   *r = (shape){.ctx = ctx, .way = way, .curve = *guess};
   for (r->n = guess->n; r->n <= MOST; r->n *= 2) {
-    for (size_t i = 0; i < r->n; i++)
-      r->w[i] = pendres_trigonometric_at(&r->curve, grid(r->n, i), NULL);
-    status = converge(r, basis, found);
+    pendres_trigonometric_spread(&r->curve, 0, r->n, r->w);
+    status = converge(r, found);
     if (status != PENDRES_OK || (*found && tail(r) < way->tolerance)) break;
     /* Too few points to resolve the circle, but close enough to it to start with more of them. */
     if (!*found && !(r->worst < hopeless)) break;
@@ -275,7 +353,6 @@ pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_
     *out = (pendres_circle){.w = r->curve, .move = r->moved, .error = r->worst + tail(r)};
 done:
   free(r);
-  free(basis);
   return status;
 }
 

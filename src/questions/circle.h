@@ -33,6 +33,10 @@ typedef struct pendres_trigonometric {
 void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonometric *out);
 /* Its value at an angle; *slope receives the derivative there. */
 double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double *slope);
+/* Its values or derivatives, of order 1 or 2, at angles 2 pi i/cells; cells, a power of two, are n
+   at least. */
+void pendres_trigonometric_spread(const pendres_trigonometric *t, int order, size_t cells,
+                                  double *out);
 /* An upper bound on its modulus. */
 double pendres_trigonometric_size(const pendres_trigonometric *t);
 /* The largest of the last eighth of its coefficients: the truncation error is about as large. */

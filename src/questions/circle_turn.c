@@ -3,9 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <gsl/gsl_fft_halfcomplex.h>
 
 #include "base/angles.h"
 
@@ -67,21 +64,6 @@ void pendres_circle_table_free(pendres_circle_table *t)
   free(t);
 }
 
-/* The derivative of some order at the beginnings of all cells. */
-static void spread(const pendres_trigonometric *t, int order, size_t cells, double *out)
-{
-  memset(out, 0, cells * sizeof *out);
-  out[0] = order == 0 ? t->c[0] : 0.0;
-  for (size_t k = 1; k < t->n / 2; k++) {
-    const double a = t->c[2 * k - 1], b = t->c[2 * k], f = (double)k;
-    const double c = order == 0 ? a : order == 1 ? f * b : -f * f * a;
-    const double s = order == 0 ? b : order == 1 ? -f * a : -f * f * b;
-    out[k] = 0.5 * c;
-    out[cells - k] = -0.5 * s;
-  }
-  (void)gsl_fft_halfcomplex_radix2_backward(out, 1, cells); /* cells is a power of two */
-}
-
 void pendres_circle_table_set(pendres_circle_table *t, const pendres_trigonometric *move,
                               double error, const pendres_trigonometric *wrong)
 {
@@ -92,7 +74,7 @@ void pendres_circle_table_set(pendres_circle_table *t, const pendres_trigonometr
   t->cells = cells;
   t->error = error;
   for (int order = 0; order < 3; order++, scale *= h) {
-    spread(move, order, cells, f[order]);
+    pendres_trigonometric_spread(move, order, cells, f[order]);
     for (size_t i = 0; i < cells; i++) f[order][i] *= scale;
     f[order][cells] = f[order][0];
   }
@@ -105,7 +87,7 @@ void pendres_circle_table_set(pendres_circle_table *t, const pendres_trigonometr
                         10.0 * d0 - 4.0 * d1 + 0.5 * d2, -15.0 * d0 + 7.0 * d1 - d2,
                         6.0 * d0 - 3.0 * d1 + 0.5 * d2}};
   }
-  spread(wrong, 0, cells, t->wrong);
+  pendres_trigonometric_spread(wrong, 0, cells, t->wrong);
 }
 
 /* ---- orbits of the map --------------------------------------------------------------------- */
