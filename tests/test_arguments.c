@@ -79,6 +79,10 @@ static void settling(void **state)
   REFUSED(pendres_attractors_settle(f->ctx, f->set, 1, NULL, &v, &out));
   REFUSED(pendres_attractors_settle(f->ctx, f->set, 1, &x, NULL, &out));
   REFUSED(pendres_attractors_settle(f->ctx, f->set, 1, &x, &v, NULL));
+  pendres_state point;
+  REFUSED(pendres_attractors_point(f->ctx, NULL, 0, &point));
+  REFUSED(pendres_attractors_point(f->ctx, f->set, 0, NULL));
+  REFUSED(pendres_attractors_point(f->ctx, f->set, SIZE_MAX, &point));
   for (size_t i = 0; i < COUNT(bad_pendulums); i++) {
     REFUSED(pendres_settle(f->ctx, 1, &bad_pendulums[i], &x, &v, &out, &found));
     REFUSED(pendres_attractors_find(f->ctx, &bad_pendulums[i], 1, &x, &v, &found));
@@ -119,6 +123,21 @@ static void orbits(void **state)
   REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, 0, x, v));
   REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, -8, x, v));
   REFUSED(pendres_orbit_sample(f->ctx, &f->orbit, INT_MAX, x, v));
+  const pendres_orbit_stretch whole = {0, 0, 1, 8};
+  const pendres_orbit_stretch bad_stretches[] = {{0, -1, 1, 8}, {0, 0, -1, 8}, {0, 0, 1, 0},
+                                                 {0, 0, 1, INT_MAX}, {0, LONG_MAX, 1, 8},
+                                                 {0, 0, LONG_MAX, 8}, {LONG_MIN, 0, 1, 8}};
+  const pendres_record plain = {x, v, NULL, NULL}, none = {NULL, v, NULL, NULL},
+                       half = {x, v, x, NULL};
+  for (size_t i = 0; i < COUNT(bad_stretches); i++)
+    REFUSED(pendres_orbit_record(f->ctx, &f->orbit, &bad_stretches[i], &plain));
+  for (size_t i = 0; i < f->bad; i++)
+    REFUSED(pendres_orbit_record(f->ctx, &f->bad_orbits[i], &whole, &plain));
+  REFUSED(pendres_orbit_record(f->ctx, NULL, &whole, &plain));
+  REFUSED(pendres_orbit_record(f->ctx, &f->orbit, NULL, &plain));
+  REFUSED(pendres_orbit_record(f->ctx, &f->orbit, &whole, NULL));
+  REFUSED(pendres_orbit_record(f->ctx, &f->orbit, &whole, &none));
+  REFUSED(pendres_orbit_record(f->ctx, &f->orbit, &whole, &half));
   const double amplitudes[] = { NAN, INFINITY, -1.0, 0.0, 3.2, DBL_MAX };
   double one = 1.0, error;
   for (size_t i = 0; i < COUNT(amplitudes); i++)

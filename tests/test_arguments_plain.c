@@ -29,6 +29,8 @@ static void nothing(void **state)
   pendres_attractors_free(NULL);
   assert_int_equal(pendres_attractors_count(NULL), 0);
   assert_null(pendres_attractors_get(NULL, 0));
+  assert_true(isnan(pendres_attractors_weakest_multiplier(NULL)));
+  assert_true(isnan(pendres_response_weakest_multiplier(NULL)));
   assert_null(pendres_orbit_quantity_get((size_t)-1));
   pendres_boundary_free(NULL);
   assert_int_equal(pendres_boundary_count(NULL), 0);
@@ -182,7 +184,7 @@ static void models(void **state)
     (void)pendres_pendulum_well(b);
     (void)pendres_pendulum_energy(b, b);
     (void)pendres_pendulum_potential(&good, b);
-    assert_true(isnan(pendres_free_frequency(b)));
+    assert_true(isnan(pendres_free_frequency(b)) && isnan(pendres_free_frequency_error(b)));
     (void)pendres_free_frequency_kittel(b);
     (void)pendres_free_frequency_belendez(b);
     INVALID(pendres_reference_advance(&good, &far, &w, NULL, 1));

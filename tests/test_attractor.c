@@ -30,6 +30,12 @@ static void two_states(void **state)
   assert_true(sa->orbit.phase_lag < pi / 3.0 && la->orbit.phase_lag > pi / 3.0);
   /* Liouville: both multipliers together shrink areas by exp(-damping tau). */
   assert_true(sa->lyapunov < 0.0 && la->lyapunov < 0.0);
+  /* The exponent of an orbit is that of its multiplier, a drive period of 8 long; rounding. */
+  check_near(log(pendres_attractors_weakest_multiplier(e.set)),
+             8.0 * fmax(sa->lyapunov, la->lyapunov), 1e-12);
+  pendres_state at;
+  check_ok(pendres_attractors_point(*state, e.set, 1, &at));
+  assert_true(at.x == la->orbit.x && at.v == la->orbit.v);
   for (int i = 0; i < MEMBERS; i++) {
     const double x = e.x[i];
     if (x >= 0.2 * pi && x <= 1.1 * pi) {

@@ -180,6 +180,15 @@ static void two_chaotic_attractors(void **state)
   for (int i = 0; i < MEMBERS; i++)
     for (int k = 0; k < 2; k++) members[k] += e.outcome[i].attractor == chaotic[k];
   assert_true(members[0] > 20 && members[1] > 20);
+  for (int k = 0; k < 2; k++) { /* a point on either is on no other */
+    pendres_state at;
+    pendres_outcome outcome;
+    check_ok(pendres_attractors_point(*state, e.set, (size_t)chaotic[k], &at));
+    check_ok(pendres_attractors_settle(*state, e.set, 1, &at.x, &at.v, &outcome));
+    assert_int_equal(outcome.attractor, chaotic[k]);
+  }
+  assert_true(isnan(pendres_attractors_weakest_multiplier(e.set)) ||
+              pendres_attractors_count(e.set) > 2);
   pendres_attractors_free(e.set);
 }
 

@@ -66,7 +66,7 @@ static void loop_of_the_drive_frequency(void **state)
     assert_int_equal(j->direction, k == 0 ? 1 : -1);
     assert_int_equal(j->from, k == 0 ? PENDRES_LABEL_SA : PENDRES_LABEL_LA);
     assert_int_equal(j->to, k == 0 ? PENDRES_LABEL_LA : PENDRES_LABEL_SA);
-    assert_true(j->certain && !j->gradual && j->share == 1.0);
+    assert_true(j->certain && !j->gradual && j->share == 1.0 && j->share_error == 0.0);
     assert_true((before->value - j->value) * (behind->value - j->value) < 0.0);
     /* Sought from the orbit before it, with another predictor and another way. */
     check_ok(pendres_fold_find(ctx, &before->attractor.orbit, &fold));

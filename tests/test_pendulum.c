@@ -246,12 +246,35 @@ static void test_free_frequency(void **state)
                    6.0 * ulp);
 }
 
+/* The error claimed covers the formula's own and half of what a change of the amplitude by one unit
+   in its last place makes, and is not above thirty times the worst of a hundred amplitudes around:
+   rounding is a matter of chance at each of them. */
+static void test_free_frequency_error(void **state)
+{
+  enum { AROUND = 100 };
+  (void)state;
+  need_extended_precision();
+  for (double gap = 3.0; gap > 1e-9; gap *= 0.5) {
+    double worst = 0.0;
+    for (int i = 0; i < AROUND; i++) {
+      const double a = pi - gap * (1.0 - 0.001 * i), exact = frequency_by_agm(a);
+      const double off = fabs(pendres_free_frequency(a) - exact) +
+                         0.5 * fabs(frequency_by_agm(nextafter(a, 0.0)) - exact);
+      const double claimed = pendres_free_frequency_error(a);
+      assert_true(off <= claimed);
+      worst = fmax(worst, off / claimed);
+    }
+    assert_true(worst > 1.0 / 30.0);
+  }
+}
+
 static void test_free_frequency_range(void **state)
 {
   const double outside[] = {-1e-300, -1.0, 3.1415926535897936, 4.0, INFINITY, -INFINITY, NAN};
   (void)state;
   for (size_t i = 0; i < sizeof outside / sizeof *outside; i++)
-    assert_true(isnan(pendres_free_frequency(outside[i])));
+    assert_true(isnan(pendres_free_frequency(outside[i])) &&
+                isnan(pendres_free_frequency_error(outside[i])));
 }
 
 /*
@@ -337,6 +360,7 @@ int main(void)
     cmocka_unit_test(test_harmonic_area),
     cmocka_unit_test(test_harmonic_edges),
     cmocka_unit_test(test_free_frequency),
+    cmocka_unit_test(test_free_frequency_error),
     cmocka_unit_test(test_free_frequency_range),
     cmocka_unit_test(test_approximations),
     cmocka_unit_test(test_check),

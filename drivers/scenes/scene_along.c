@@ -37,33 +37,6 @@ static void list_labels(const pendres_attractors *set, char *text, size_t size)
              pendres_label_name(pendres_attractors_get(set, i)->label));
 }
 
-/*
- * Find a point on a chaotic attractor: the state of a start that leads to it, once it has settled.
- * PENDRES_NOT_FOUND if none of the starts leads to it.
- */
-static pendres_status find_point(pendres_context *ctx, const pendres_pendulum *p,
-                                 const pendres_attractors *set, int number, pendres_orbit *out)
-{
-  enum { STARTS = 256 };
-  double x[STARTS], v[STARTS], error;
-  pendres_outcome outcome[STARTS];
-  for (int i = 0; i < STARTS; i++) {
-    /* The two-dimensional golden ratio: evenly spread over one turn and speeds up to 2. */
-    x[i] = PENDRES_PI * (2.0 * fmod(0.5 + 0.7548776662466927 * i, 1.0) - 0.5);
-    v[i] = 4.0 * fmod(0.5 + 0.5698402909980532 * i, 1.0) - 2.0;
-  }
-  pendres_status status = pendres_attractors_settle(ctx, set, STARTS, x, v, outcome);
-  if (status != PENDRES_OK) return status;
-  for (int i = 0; i < STARTS; i++) {
-    if (outcome[i].attractor != number) continue;
-    status = pendres_strobe_advance(ctx, 1, p, &x[i], &v[i], outcome[i].settling_periods, &error);
-    out->x = x[i];
-    out->v = v[i];
-    return status;
-  }
-  return PENDRES_NOT_FOUND;
-}
-
 /* An attractor that is asked for by its name or number. */
 typedef struct request {
   const char *start;
@@ -81,17 +54,20 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
   if (status != PENDRES_OK) return status;
   status = PENDRES_NOT_FOUND;
   const long number = strtol(start, NULL, 10); /* 0: a name */
-  int chosen = -1;
+  size_t chosen = 0;
   for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
     const pendres_attractor *a = pendres_attractors_get(set, i);
     if (number > 0 ? (long)i + 1 != number : strcmp(pendres_label_name(a->label), start) != 0)
       continue;
     *out = *a;
-    chosen = (int)i;
+    chosen = i;
     status = PENDRES_OK;
   }
   if (status == PENDRES_OK && out->label == PENDRES_LABEL_CHAOTIC) {
-    status = find_point(ctx, p, set, chosen, &out->orbit);
+    pendres_state point = {NAN, NAN};
+    status = pendres_attractors_point(ctx, set, chosen, &point);
+    out->orbit.x = point.x;
+    out->orbit.v = point.v;
     if (status == PENDRES_NOT_FOUND)
       snprintf(r->why, r->size, "no start is found that leads to the chaotic attractor '%s': give "
                "one by 'x' and 'v'", start);
@@ -261,7 +237,7 @@ scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path
       .parameter = j->value, .parameter_error = j->value_error,
       .period = j->to_period > 0 ? j->to_period : NAN,
       .period_error = j->to_period > 0 ? 0.0 : NAN, .share = j->share,
-      .share_error = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS),
+      .share_error = j->share_error,
       .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
       .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
   }

@@ -401,18 +401,14 @@ static pendres_status find_attractors(basins *b)
 static void tell_unresolved(const basins *b)
 {
   char words[SCENE_TOLD];
-  double weakest = NAN;
-  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
-    const pendres_orbit *o = &pendres_attractors_get(b->set, i)->orbit;
-    weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
-  }
   for (size_t i = 0; i < b->given_up && i < BASINS_NAMED; i++) {
     name_state(b, b->given_up_index[i], words, sizeof words);
     scene_failure_tell(b->run, SCENE_FAILURE_OUT_OF_TIME, NULL, "the state at %s", words);
   }
   const size_t rest = b->unresolved - b->given_up;
   if (rest == 0) return;
-  scene_failure_unsettled(b->d, rest, b->grid.nx * b->grid.nv, "states", weakest, words);
+  scene_failure_unsettled(b->d, rest, b->grid.nx * b->grid.nv, "states",
+                          pendres_attractors_weakest_multiplier(b->set), words);
   scene_failure_tell(b->run, SCENE_FAILURE_UNRESOLVED, words, "basins");
 }
 

@@ -60,23 +60,12 @@ static pendres_status integrate(const void *arg, size_t task, pendres_context *c
   return status;
 }
 
-/*
- * Rounding of the elliptic integral: some units in the last place, and the last bit of pi where
- * the amplitude comes near to it (its derivative there is 1 / ((pi - a) K) of the value).
- */
-static double exact_error(double amplitude, double frequency)
-{
-  const double eps = 2.220446049250313e-16;
-  const double k = 0.5 * PENDRES_PI / frequency;
-  return frequency * eps * (4.0 + 1.0 / ((PENDRES_PI - amplitude) * k));
-}
-
 /* The three formulas, each with its rounding, beside the integration. */
 static row row_of(double amplitude, double integrated, double error)
 {
   static const double rounding = 4.5e-16;
-  const double exact = pendres_free_frequency(amplitude);
-  return (row){amplitude, exact, exact_error(amplitude, exact),
+  return (row){amplitude, pendres_free_frequency(amplitude),
+               pendres_free_frequency_error(amplitude),
                pendres_free_frequency_kittel(amplitude), rounding,
                pendres_free_frequency_belendez(amplitude), rounding, integrated, error};
 }

@@ -17,8 +17,6 @@
 #include "scenes/scene_along.h"
 #include "scenes/scene_orbit.h"
 
-static const double eps = 2.220446049250313e-16;
-
 enum {
   WANDERING = 100, /* periods before a chaotic orbit is recorded */
   CHUNK = 65536    /* samples of a task, or one period */
@@ -41,11 +39,11 @@ static long periods_of(const orbit_work *w, size_t task)
   return left < w->chunk ? left : w->chunk;
 }
 
-static orbit_samples samples_in(const orbit_work *w, const record *r)
+static pendres_record samples_in(const orbit_work *w, const record *r)
 {
   const size_t room = room_of(w);
   double *first = (double *)(r + 1);
-  return (orbit_samples){ first, first + room, first + 2 * room, first + 3 * room };
+  return (pendres_record){ first, first + room, first + 2 * room, first + 3 * room };
 }
 
 /* ---- what the pendulum settles on ---------------------------------------------------------- */
@@ -97,36 +95,6 @@ static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
 
 /* ---- the trajectory ------------------------------------------------------------------------ */
 
-/*
- * Take samples of the closed orbit over some of the deck's periods. Their errors have two parts:
- * the difference from samples with 1.4 times the steps, and the error of the orbit's own point.
- */
-static pendres_status sample_orbit(const orbit_work *w, pendres_context *ctx, long first,
-                                   long periods, const orbit_samples *out)
-{
-  const orbit_found *f = &w->found;
-  const size_t count = (size_t)w->d->orbit.samples, n = count * (size_t)f->orbit.period;
-  const double point = 2.0 * (f->orbit.x_error + f->orbit.v_error);
-  pendres_orbit finer = f->orbit;
-  double *memory = malloc(4 * n * sizeof *memory);
-  if (memory == NULL) return PENDRES_OUT_OF_MEMORY;
-  double *x = memory, *v = x + n, *x2 = v + n, *v2 = x2 + n;
-  finer.steps = (7 * finer.steps + 4) / 5;
-
-  pendres_status status = pendres_orbit_sample(ctx, &f->orbit, (int)count, x, v);
-  if (status == PENDRES_OK) status = pendres_orbit_sample(ctx, &finer, (int)count, x2, v2);
-  for (size_t i = 0; i < (size_t)periods * count && status == PENDRES_OK; i++) {
-    const size_t k = (size_t)first * count + i, at = k % n;
-    const double turns = (double)f->well + (double)f->orbit.winding * (double)(k / n);
-    out->x[i] = x2[at] + 2.0 * PENDRES_PI * turns;
-    out->v[i] = v2[at];
-    out->x_error[i] = fabs(x[at] - x2[at]) + point + eps * fabs(out->x[i]);
-    out->v_error[i] = fabs(v[at] - v2[at]) + point;
-  }
-  free(memory);
-  return status;
-}
-
 static pendres_status begin_trajectory(orbit_work *w, pendres_context *ctx)
 {
   double x = w->start_x, v = w->start_v, error = 0.0;
@@ -140,7 +108,13 @@ static pendres_status begin_trajectory(orbit_work *w, pendres_context *ctx)
   return status;
 }
 
-static void no_samples(size_t n, const orbit_samples *out)
+/* What a record has from point `at` on. */
+static pendres_record from(const pendres_record *r, size_t at)
+{
+  return (pendres_record){ r->x + at, r->v + at, r->x_error + at, r->v_error + at };
+}
+
+static void no_samples(size_t n, const pendres_record *out)
 {
   for (size_t k = 0; k < n; k++)
     out->x[k] = out->v[k] = out->x_error[k] = out->v_error[k] = NAN;
@@ -149,7 +123,7 @@ static void no_samples(size_t n, const orbit_samples *out)
 /* A trajectory to infinity is recorded period by period, up to the last state that double precision
    can say. */
 static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t task,
-                                    const orbit_samples *out)
+                                    const pendres_record *out)
 {
   const size_t count = (size_t)w->d->orbit.samples;
   const long periods = periods_of(w, task);
@@ -157,11 +131,11 @@ static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t 
   const int begun = status == PENDRES_OK && !w->found.gone;
   size_t at = 0;
   for (long k = 0; k < periods && begun && status == PENDRES_OK; k++, at += count) {
-    const pendres_record to = { out->x + at, out->v + at, out->x_error + at, out->v_error + at };
+    const pendres_record to = from(out, at);
     status = pendres_recording_go_on(ctx, &w->recording, 1, &to);
     if (status != PENDRES_OK) break;
   }
-  const orbit_samples rest = { out->x + at, out->v + at, out->x_error + at, out->v_error + at };
+  const pendres_record rest = from(out, at);
   no_samples((size_t)periods * count - at, &rest);
   if (status != PENDRES_INTEGRATION_FAILED) return status;
   if (begun) {
@@ -175,18 +149,19 @@ static pendres_status sample_escape(orbit_work *w, pendres_context *ctx, size_t 
 }
 
 static pendres_status sample(orbit_work *w, pendres_context *ctx, size_t task,
-                             const orbit_samples *out)
+                             const pendres_record *out)
 {
-  const long first = (long)task * w->chunk, periods = periods_of(w, task);
+  const long periods = periods_of(w, task);
+  const pendres_orbit_stretch stretch = { w->found.well, (long)task * w->chunk, periods,
+                                          (int)w->d->orbit.samples };
   if (w->transient && w->found.label == PENDRES_LABEL_ESCAPE)
     return sample_escape(w, ctx, task, out);
   if (w->transient || w->found.label == PENDRES_LABEL_CHAOTIC) {
-    const pendres_record to = { out->x, out->v, out->x_error, out->v_error };
     const pendres_status status = task == 0 ? begin_trajectory(w, ctx) : PENDRES_OK;
-    return status == PENDRES_OK ? pendres_recording_go_on(ctx, &w->recording, periods, &to)
+    return status == PENDRES_OK ? pendres_recording_go_on(ctx, &w->recording, periods, out)
                                 : status;
   }
-  if (w->found.closed) return sample_orbit(w, ctx, first, periods, out);
+  if (w->found.closed) return pendres_orbit_record(ctx, &w->found.orbit, &stretch, out);
   no_samples((size_t)periods * (size_t)w->d->orbit.samples, out);
   return PENDRES_OK;
 }
@@ -216,7 +191,7 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
 {
   orbit_work w = *(const orbit_work *)arg;
   record *r = out->data;
-  const orbit_samples samples = samples_in(&w, r);
+  const pendres_record samples = samples_in(&w, r);
   pendres_status status = task == 0 ? find(&w, ctx, out) : PENDRES_OK;
   if (status == PENDRES_OK) status = sample(&w, ctx, task, &samples);
   r->found = w.found;
@@ -228,7 +203,7 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   orbit_work *w = arg;
   const record *r = in->data;
-  const orbit_samples samples = samples_in(w, r);
+  const pendres_record samples = samples_in(w, r);
   const long first = (long)task * w->chunk, periods = periods_of(w, task);
   pendres_status status = PENDRES_OK;
   w->found = r->found;

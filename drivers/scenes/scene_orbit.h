@@ -21,11 +21,6 @@ typedef struct orbit_found {
   scene_verdict verdict;         /* the budget has ended the search */
 } orbit_found;
 
-/* Samples of a chunk, one after the other; those of the last period's end are the next chunk's. */
-typedef struct orbit_samples {
-  double *x, *v, *x_error, *v_error;
-} orbit_samples;
-
 /* Variables of the store that samples are written to, each with its error. */
 typedef struct orbit_variable {
   int value, error;
@@ -53,17 +48,17 @@ typedef struct orbit_work {
   orbit_measures measures;
 } orbit_work;
 
-/* scene_orbit_write.c: what was found, and variables for samples; samples of periods `first`, ...;
-   the table. */
+/* scene_orbit_write.c: what was found, and variables for samples; samples of periods `first`, ...,
+   of which those of the last period's end are the next chunk's; the table. */
 pendres_status scene_orbit_put_found(orbit_work *w);
 pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
-                                       const orbit_samples *s);
+                                       const pendres_record *s);
 void scene_orbit_tabulate(FILE *out, const orbit_work *w);
 
 /* scene_orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free always. */
 pendres_status scene_orbit_measure_begin(orbit_work *w);
 pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
-                                       const orbit_samples *s);
+                                       const pendres_record *s);
 pendres_status scene_orbit_measure_put(orbit_work *w);
 void scene_orbit_measure_free(orbit_work *w);
 

@@ -54,7 +54,7 @@ pendres_status scene_orbit_measure_begin(orbit_work *w)
 }
 
 pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
-                                       const orbit_samples *s)
+                                       const pendres_record *s)
 {
   orbit_measures *m = &w->measures;
   const size_t samples = (size_t)w->d->orbit.samples;

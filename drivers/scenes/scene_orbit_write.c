@@ -190,7 +190,7 @@ static pendres_status put_rows(orbit_work *w, const orbit_variable *to, uint64_t
 }
 
 pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
-                                       const orbit_samples *s)
+                                       const pendres_record *s)
 {
   const size_t count = (size_t)w->d->orbit.samples, n = (size_t)periods * count;
   const uint64_t at = (uint64_t)first * count;

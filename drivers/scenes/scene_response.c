@@ -149,12 +149,8 @@ static void judge_point(const grid *g, const pendres_response *p, scene_verdict 
   if (verdict->reason != SCENE_FAILURE_NONE) return;
   if (p->unresolved > 0) {
     char words[SCENE_TOLD];
-    double weakest = NAN;
-    for (size_t i = 0; i < p->states; i++) {
-      const pendres_orbit *o = &p->state[i].orbit;
-      weakest = fmax(weakest, hypot(o->multiplier_re[0], o->multiplier_im[0]));
-    }
-    scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members", weakest, words);
+    scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members",
+                            pendres_response_weakest_multiplier(p), words);
     scene_verdict_mark(verdict, SCENE_FAILURE_UNRESOLVED, words);
   } else if (isnan(p->mean_loop_area)) {
     scene_verdict_mark(verdict, SCENE_FAILURE_NO_MEAN, NULL);

@@ -143,6 +143,24 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
                                          pendres_outcome *outcome);
 
 /**
+ * A point at drive phase 0 on attractor number i of a set of one parameter set: that of a closed
+ * orbit, or of a chaotic attractor the state of a start that leads to it, once that has settled.
+ * 256 starts are tried, spread evenly over one turn and speeds up to 2. *out is written on
+ * PENDRES_OK.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT; PENDRES_NOT_FOUND if no start leads to a chaotic attractor;
+ * otherwise those of pendres_attractors_settle(). Thread safety: as for the context.
+ */
+pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attractors *set,
+                                        size_t i, pendres_state *out);
+
+/**
+ * Largest modulus of a Floquet multiplier of any closed orbit in a set: that of the attractor which
+ * draws pendulums in most slowly. NaN if there is none.
+ */
+double pendres_attractors_weakest_multiplier(const pendres_attractors *set);
+
+/**
  * What each of n pendulums settles on, whatever their parameters. Equal consecutive parameters
  * make one parameter set; attractors are found from the pendulums themselves. outcome[n] is
  * written. *found (may be NULL) receives all attractors, set after set in the order of

@@ -122,6 +122,7 @@ typedef struct pendres_jump {
                                   a loss of symmetry two orbits that are mirror images are born;
                                   chance decides between them, and one is taken */
   double share;              /**< of the trials that went there; 1 if gradual; NaN if not tried */
+  double share_error;        /**< its standard error */
   int certain;               /**< 1: all of them did, mirror images not being told apart */
 } pendres_jump;
 

@@ -32,6 +32,7 @@
 
 #include <pendres/context.h>
 #include <pendres/pendulum.h>
+#include <pendres/strobe.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -152,6 +153,31 @@ pendres_status pendres_orbit_sample(pendres_context *ctx, const pendres_orbit *o
  */
 pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,
                                                int count, double *x, double *v, double error[2]);
+
+/** Drive periods of a closed orbit that are recorded. */
+typedef struct pendres_orbit_stretch {
+  long well;    /**< the well that the orbit is in: that many whole turns are added to x */
+  long first;   /**< the first of the drive periods, from 0 on, ... */
+  long periods; /**< ... and how many they are */
+  int samples;  /**< points a drive period */
+} pendres_orbit_stretch;
+
+/**
+ * Record a closed orbit over some drive periods, with an error for each point: point k, at drive
+ * phase 2 pi k / samples after that of the first period, goes to out->x[k] and out->v[k],
+ * k < periods * samples. Arrays are the caller's. Positions go on from period to period as far as
+ * the orbit winds; they are not wrapped.
+ *
+ * The points are those of pendres_orbit_sample() with 1.4 times the orbit's steps. Their errors are
+ * the difference from those with the orbit's own steps, twice the error of its point, and rounding;
+ * if out->x_error is NULL they are not made. Pieces of a record have the same bytes as one whole.
+ *
+ * Errors: PENDRES_INVALID_ARGUMENT, with a message; otherwise those of pendres_orbit_sample(). What
+ * was written is then to be ignored. Thread safety: as for the context.
+ */
+pendres_status pendres_orbit_record(pendres_context *ctx, const pendres_orbit *orbit,
+                                    const pendres_orbit_stretch *stretch,
+                                    const pendres_record *out);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -171,6 +171,13 @@ pendres_status pendres_harmonic_response(const pendres_pendulum *p, pendres_harm
  */
 double pendres_free_frequency(double amplitude);
 
+/**
+ * Error of pendres_free_frequency(): what rounding makes of it. Some units in the last place by the
+ * formula, and what it makes that the amplitude itself is rounded to a double: next to pi the
+ * frequency f falls by f / ((pi - a) K) a radian. NaN outside the range.
+ */
+double pendres_free_frequency_error(double amplitude);
+
 /** Kittel's approximation 1 - a^2/16 (paper eq. 1.1). */
 double pendres_free_frequency_kittel(double amplitude);
 

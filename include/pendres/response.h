@@ -95,6 +95,12 @@ pendres_status pendres_response_compute(pendres_context *ctx, size_t n,
 void pendres_response_average(pendres_response *r);
 
 /**
+ * Largest modulus of a Floquet multiplier of the closed orbits that a response lists: that of the
+ * state on which members settle most slowly. NaN if there is none, or for NULL.
+ */
+double pendres_response_weakest_multiplier(const pendres_response *r);
+
+/**
  * Names for what is alone: of n responses of one damping, and of one drive amplitude at
  * frequencies in any order or of one frequency at drive amplitudes in any order, those with a
  * single orbit of one drive period and no name for it yet (see pendres_label) are named SA or LA by

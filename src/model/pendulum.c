@@ -1,6 +1,7 @@
 /* pendulum.c -- the model and its exact neighbours; see pendulum.h. */
 #include <pendres/pendulum.h>
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -100,6 +101,13 @@ double pendres_free_frequency(double amplitude)
   gsl_sf_result k;
   if (gsl_sf_ellint_RF_e(0.0, c * c, 1.0, GSL_PREC_DOUBLE, &k) != GSL_SUCCESS) return NAN;
   return half_pi / k.val;
+}
+
+double pendres_free_frequency_error(double amplitude)
+{
+  const double frequency = pendres_free_frequency(amplitude);
+  const double k = half_pi / frequency;
+  return frequency * DBL_EPSILON * (4.0 + 1.0 / ((two_pi / 2.0 - amplitude) * k));
 }
 
 double pendres_free_frequency_kittel(double amplitude)

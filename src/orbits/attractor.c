@@ -158,6 +158,52 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
   return PENDRES_CONTEXT_CALL(ctx, attractors_settle(ctx, set, n, x, v, outcome));
 }
 
+static pendres_status attractors_point(pendres_context *ctx, const pendres_attractors *set,
+                                       size_t i, pendres_state *out)
+{
+  enum { STARTS = 256 };
+  double x[STARTS], v[STARTS];
+  pendres_outcome outcome[STARTS];
+  if (set == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "attractors and out");
+  const pendres_attractor *a = pendres_attractors_get(set, i);
+  if (a == NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "there is no attractor %zu", i);
+  if (a->label != PENDRES_LABEL_CHAOTIC) {
+    *out = (pendres_state){a->orbit.x, a->orbit.v};
+    return PENDRES_OK;
+  }
+  for (int k = 0; k < STARTS; k++) {
+    /* The two-dimensional golden ratio. */
+    x[k] = pi * (2.0 * fmod(0.5 + 0.7548776662466927 * k, 1.0) - 0.5);
+    v[k] = 4.0 * fmod(0.5 + 0.5698402909980532 * k, 1.0) - 2.0;
+  }
+  pendres_status status = attractors_settle(ctx, set, STARTS, x, v, outcome);
+  if (status != PENDRES_OK) return status;
+  for (int k = 0; k < STARTS; k++) {
+    double error;
+    if (outcome[k].attractor != (int)i) continue;
+    status = pendres_strobe_advance(ctx, 1, &set->catalogues[0].pendulum, &x[k], &v[k],
+                                    outcome[k].settling_periods, &error);
+    if (status == PENDRES_OK) *out = (pendres_state){x[k], v[k]};
+    return status;
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no start is found that leads to it");
+}
+
+pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attractors *set,
+                                        size_t i, pendres_state *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, attractors_point(ctx, set, i, out));
+}
+
+double pendres_attractors_weakest_multiplier(const pendres_attractors *set)
+{
+  double weakest = NAN;
+  for (size_t i = 0; i < pendres_attractors_count(set); i++)
+    weakest = fmax(weakest, pendres_attractor_multiplier(pendres_attractors_get(set, i)));
+  return weakest;
+}
+
 pendres_status pendres_attractors_extend(pendres_context *ctx, pendres_attractors *set, size_t n,
                                          const double *x, const double *v)
 {

@@ -106,17 +106,25 @@ static void errors_of(const pendres_orbit *o, const curve *coarse, const curve *
   error[1] = 0.5 * apart[1] + omega * tail * modes + 3.0 * fmax(1.0, omega) * fine->rounding;
 }
 
-static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
-                             double *x, double *v, double *error)
+/* Why such samples cannot be taken; NULL: they can. */
+static const char *refuses_samples(const pendres_orbit *orbit, int count)
 {
-  enum { MOST_TRIES = 5, MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
-  curve coarse = {.memory = NULL}, fine = {.memory = NULL};
-  if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
+  enum { MOST_STEPS = 1000000, MOST_SAMPLES = 100000000 };
   const char *why = pendres_orbit_refuses(orbit);
   if (why == NULL && (orbit->steps < 1 || orbit->steps > MOST_STEPS))
     why = "its number of steps must lie between 1 and 1000000, as orbits that were found have it";
   if (why == NULL && (count < 1 || count > MOST_SAMPLES / orbit->period))
     why = "there must be one a period at least, and 100 million in all at most";
+  return why;
+}
+
+static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, int count,
+                             double *x, double *v, double *error)
+{
+  enum { MOST_TRIES = 5 };
+  curve coarse = {.memory = NULL}, fine = {.memory = NULL};
+  if (orbit == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit");
+  const char *why = refuses_samples(orbit, count);
   if (why != NULL)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "samples of an orbit: %s", why);
   int steps = orbit->steps;
@@ -143,6 +151,59 @@ static pendres_status sample(pendres_context *ctx, const pendres_orbit *orbit, i
   free(coarse.memory);
   free(fine.memory);
   return status;
+}
+
+/* Why such a stretch cannot be recorded; NULL: it can. */
+static const char *refuses(const pendres_orbit_stretch *s)
+{
+  const long most = 1000000000000000; /* of turns and of samples: doubles tell them apart */
+  if (s->first < 0 || s->periods < 0) return "periods are counted from 0 on";
+  if (s->first > most / s->samples || s->periods > most / s->samples)
+    return "there may be 1e15 samples at most";
+  if (s->well < -most || s->well > most) return "the well must lie within 1e15 of 0";
+  return NULL;
+}
+
+static pendres_status record(pendres_context *ctx, const pendres_orbit *orbit,
+                             const pendres_orbit_stretch *stretch, const pendres_record *out)
+{
+  if (orbit == NULL || stretch == NULL || out == NULL || out->x == NULL || out->v == NULL ||
+      (out->x_error == NULL) != (out->v_error == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "orbit, stretch, and arrays of the record");
+  const char *why = refuses_samples(orbit, stretch->samples);
+  if (why == NULL) why = refuses(stretch);
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "record of an orbit: %s", why);
+  const size_t count = (size_t)stretch->samples, n = count * (size_t)orbit->period;
+  double *memory = malloc(4 * n * sizeof *memory);
+  if (memory == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu samples", n);
+  double *x = memory, *v = x + n, *finer_x = v + n, *finer_v = finer_x + n;
+  pendres_orbit finer = *orbit;
+  finer.steps = (7 * orbit->steps + 4) / 5;
+
+  pendres_status status = sample(ctx, &finer, stretch->samples, finer_x, finer_v, NULL);
+  if (status == PENDRES_OK && out->x_error != NULL)
+    status = sample(ctx, orbit, stretch->samples, x, v, NULL);
+  const double point = 2.0 * (orbit->x_error + orbit->v_error);
+  for (size_t i = 0; i < (size_t)stretch->periods * count && status == PENDRES_OK; i++) {
+    const size_t k = (size_t)stretch->first * count + i, at = k % n;
+    out->x[i] = finer_x[at] +
+                two_pi * ((double)stretch->well + (double)orbit->winding * (double)(k / n));
+    out->v[i] = finer_v[at];
+    if (out->x_error == NULL) continue;
+    out->x_error[i] = fabs(x[at] - finer_x[at]) + point + DBL_EPSILON * fabs(out->x[i]);
+    out->v_error[i] = fabs(v[at] - finer_v[at]) + point;
+  }
+  free(memory);
+  return status;
+}
+
+pendres_status pendres_orbit_record(pendres_context *ctx, const pendres_orbit *orbit,
+                                    const pendres_orbit_stretch *stretch,
+                                    const pendres_record *out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, record(ctx, orbit, stretch, out));
 }
 
 pendres_status pendres_orbit_sample_with_error(pendres_context *ctx, const pendres_orbit *orbit,

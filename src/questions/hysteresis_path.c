@@ -57,6 +57,7 @@ pendres_status pendres_path_note(pendres_path *w, const pendres_jump *j)
     h->jump_room = room;
   }
   h->jump[h->jumps] = *j;
+  h->jump[h->jumps].share_error = sqrt(j->share * (1.0 - j->share) / PENDRES_HYSTERESIS_TRIALS);
   h->jump_from[h->jumps] = h->stretches;
   h->jump_to[h->jumps++] = h->stretches + 1;
   return PENDRES_OK;

@@ -35,14 +35,11 @@ static void judge_ensemble(const pendres_small_end *end, const pendres_label_sta
   const double all = (double)e->members;
   const int names = distinct(end, known);
   const pendres_label_border border = pendres_small_end_from(end, &p->pendulum);
-  p->weakest_multiplier = NAN;
+  p->weakest_multiplier = pendres_response_weakest_multiplier(r);
   const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
   for (size_t i = 0; i < states; i++) {
     const pendres_attractor *a = &r->state[i];
     p->other |= other_of(a);
-    if (a->orbit.period > 0)
-      p->weakest_multiplier = fmax(p->weakest_multiplier, hypot(a->orbit.multiplier_re[0],
-                                                                a->orbit.multiplier_im[0]));
     if (a->label == PENDRES_LABEL_CHAOTIC || !pendres_label_named(&a->orbit))
       others += r->state_members[i];
     else if (pendres_label_of(known, &border, &a->orbit) == PENDRES_LABEL_SA)

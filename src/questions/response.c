@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "model/model.h"
+#include "orbits/attractor_internal.h"
 #include "orbits/orbit_measure.h"
 #include "questions/response_internal.h"
 #include "questions/response_loop.h"
@@ -37,6 +38,15 @@ typedef struct sums {
   double cosine_error, sine_error; /* of the first harmonic */
   double largest, least, most, widest; /* areas: of largest modulus, least, most; amplitude */
 } sums;
+
+double pendres_response_weakest_multiplier(const pendres_response *r)
+{
+  double weakest = NAN;
+  const size_t states = r == NULL ? 0 : r->states;
+  for (size_t i = 0; i < states && i < PENDRES_RESPONSE_STATES; i++)
+    weakest = fmax(weakest, pendres_attractor_multiplier(&r->state[i]));
+  return weakest;
+}
 
 int pendres_response_running(const pendres_attractor *a)
 {
