@@ -24,6 +24,7 @@ typedef struct section {
 static const section sections[] = {
   {"orbits", accuracy_orbits},
   {"branches", accuracy_branches},
+  {"models", accuracy_models},
   {"advance", accuracy_advance},
   {"resonance", accuracy_resonance},
   {"search", accuracy_search},

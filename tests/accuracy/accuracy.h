@@ -93,6 +93,7 @@ double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_referenc
 
 void accuracy_orbits(accuracy *a);
 void accuracy_branches(accuracy *a);
+void accuracy_models(accuracy *a);
 void accuracy_advance(accuracy *a);
 void accuracy_resonance(accuracy *a);
 void accuracy_search(accuracy *a);

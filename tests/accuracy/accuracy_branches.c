@@ -6,6 +6,9 @@
  * is true of a point is the reference's orbit at the point's parameter; of a fold or a period
  * doubling, where the reference's map has the multiplier, by Newton's method here; of a loss of
  * symmetry, where the reference has it (period one, along the drive frequency).
+ *
+ * The section `models` does the same with torques, parametric drives and polynomial forces, along
+ * any of their parameters.
  */
 #include "accuracy.h"
 
@@ -14,9 +17,8 @@
 #include <stdlib.h>
 
 static const double two_pi = 6.28318530717958647693;
-static const double half_pi = 1.57079632679489661923;
 
-enum { POINTS = 6, BIFURCATIONS = 6, HOW = 400 };
+enum { POINTS = 6, BIFURCATIONS = 6, HOW = 600 };
 
 /* A point, or a bifurcation, and what is true of it. */
 typedef struct place {
@@ -24,6 +26,7 @@ typedef struct place {
   pendres_branch_point point;
   pendres_bifurcation bifurcation;
   pendres_reference_cycle exact;
+  long double value; /* of the parameter at the bifurcation */
 } place;
 
 typedef struct item {
@@ -40,23 +43,59 @@ static pendres_context *context_with(double tolerance)
   return pendres_context_create(&options, &ctx) == PENDRES_OK ? ctx : NULL;
 }
 
-static int draw(accuracy_random *r, item *t)
+/* A torque, a parametric drive, or both; or a well of a polynomial force, hard, soft, double or
+   lopsided, with the torque or the parametric drive at times. */
+static pendres_pendulum model(accuracy_random *r)
 {
-  static const pendres_parameter along[] = {PENDRES_DRIVE_FREQUENCY, PENDRES_DRIVE_FREQUENCY,
-                                            PENDRES_DAMPING, PENDRES_DRIVE_AMPLITUDE};
+  pendres_pendulum p = accuracy_pendulum(r);
+  const int which = accuracy_choice(r, 8), more = accuracy_choice(r, 4);
+  const double sign = which == 5 ? -1.0 : 1.0;
+  if (which < 2 || more == 1) p.torque = accuracy_uniform(r, -0.8, 0.8);
+  if (which == 1 || which == 2 || which == 3 || more == 2)
+    p.parametric_amplitude = accuracy_uniform(r, -1.0, 1.0);
+  if (which < 4) return p;
+  p.force = PENDRES_FORCE_POLYNOMIAL;
+  p.force_coefficients[0] = sign * accuracy_uniform(r, 0.5, 1.5);
+  if (which == 7) p.force_coefficients[1] = accuracy_uniform(r, -1.0, 1.0);
+  p.force_coefficients[2] = accuracy_uniform(r, which == 6 ? -0.3 : 0.1, which == 6 ? 0.0 : 1.0);
+  return p;
+}
+
+static pendres_parameter direction(accuracy_random *r, const pendres_pendulum *p)
+{
+  static const pendres_parameter along[] = {
+    PENDRES_DRIVE_FREQUENCY, PENDRES_DRIVE_FREQUENCY, PENDRES_DAMPING, PENDRES_DRIVE_AMPLITUDE,
+    PENDRES_TORQUE, PENDRES_PARAMETRIC_AMPLITUDE,
+    PENDRES_FORCE_COEFFICIENT_1, PENDRES_FORCE_COEFFICIENT_3};
+  const int plain = p->torque == 0.0 && p->parametric_amplitude == 0.0;
+  const int all = p->force == PENDRES_FORCE_POLYNOMIAL ? 8 : plain ? 4 : 6;
+  pendres_parameter chosen;
+  do chosen = along[accuracy_choice(r, all)];
+  while (pendres_parameter_get(chosen, p) == 0.0);
+  return chosen;
+}
+
+static int draw(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r), item *t)
+{
   pendres_context *ctx = context_with(1e-6);
   int closes = 0;
   for (int attempt = 0; attempt < 20 && ctx != NULL && !closes; attempt++) {
-    t->guess.pendulum = accuracy_pendulum(r);
+    t->guess.pendulum = one(r);
     closes = accuracy_settled_guess(ctx, r, &t->guess);
   }
   pendres_context_free(ctx);
   t->tolerance = accuracy_tolerance(r);
-  t->parameter = along[accuracy_choice(r, 4)];
+  t->parameter = direction(r, &t->guess.pendulum);
   const double here = pendres_parameter_get(t->parameter, &t->guess.pendulum);
   t->low = here * accuracy_uniform(r, 0.6, 1.0);
   t->high = here * accuracy_uniform(r, 1.0, 1.6);
   return closes;
+}
+
+/* Where angles of the reference are counted from. */
+static double origin_of(const pendres_orbit *o)
+{
+  return pendres_model_of(o->pendulum.force)->origin;
 }
 
 /* ---- what is true ---- */
@@ -70,14 +109,16 @@ static long double product_at(const pendres_pendulum *p, long period)
 
 /*
  * y and v that do not come back, and the trace that is not that of the multiplier s, at a place
- * (y, v, parameter); with derivatives by the place, those of the trace by differences.
+ * (y, v, parameter); with derivatives by the place, those of the trace and by the parameter by
+ * differences.
  */
 static int equations(const pendres_bifurcation *b, double s, const long double u[3],
                      long double a[3][4])
 {
   static const long double aside = 1e-6L;
   const long q = b->orbit.period;
-  long double trace = 0.0L;
+  const long double apart = (long double)(double)(u[2] + aside) - u[2];
+  long double trace = 0.0L, moved[2] = {0.0L};
   for (int k = 3; k-- > -1;) { /* last the place itself */
     pendres_pendulum p = b->orbit.pendulum;
     pendres_reference_image i;
@@ -88,23 +129,23 @@ static int equations(const pendres_bifurcation *b, double s, const long double u
       return 0;
     const long double off =
       i.monodromy[0][0] + i.monodromy[1][1] - s * (1.0L + product_at(&p, q));
+    if (k == 2) {
+      moved[0] = i.y;
+      moved[1] = i.v;
+    }
     if (k >= 0) {
       a[2][k] = off;
       continue;
     }
     trace = off;
-    const long double *by = b->parameter == PENDRES_DAMPING           ? i.by_damping
-                            : b->parameter == PENDRES_DRIVE_AMPLITUDE ? i.by_amplitude
-                                                                      : i.by_frequency;
     for (int r = 0; r < 2; r++) {
       for (int c = 0; c < 2; c++) a[r][c] = i.monodromy[r][c] - (r == c);
-      a[r][2] = by[r];
+      a[r][2] = (moved[r] - (r == 0 ? i.y : i.v)) / apart;
     }
     a[0][3] = -remainderl(i.y - u[0], 6.28318530717958647692528676655900577L);
     a[1][3] = -(i.v - u[1]);
     a[2][3] = -trace;
   }
-  const long double apart = (long double)(double)(u[2] + aside) - u[2];
   a[2][0] = (a[2][0] - trace) / aside;
   a[2][1] = (a[2][1] - trace) / aside;
   a[2][2] = (a[2][2] - trace) / apart;
@@ -133,11 +174,12 @@ static int solve(long double a[3][4])
 
 /* The fold or doubling next to one that was found: what of it is noted. Places are doubles, and
    what is left of the last step is not. */
-static int exact_bifurcation(const pendres_bifurcation *b, pendres_reference_cycle *out)
+static int exact_bifurcation(const pendres_bifurcation *b, place *out)
 {
-  enum { STEPS = 5 };
+  enum { STEPS = 6 };
   const double s = b->kind == PENDRES_FOLD ? 1.0 : -1.0;
-  long double u[3] = {b->orbit.x - half_pi, b->orbit.v, b->value}, a[3][4], last = INFINITY;
+  long double u[3] = {b->orbit.x - origin_of(&b->orbit), b->orbit.v, b->value}, a[3][4];
+  long double last = INFINITY;
   for (int k = 0; k < STEPS; k++) {
     if (!equations(b, s, u, a) || !solve(a)) return 0;
     last = fmaxl(fmaxl(fabsl(a[0][3]), fabsl(a[1][3])), fabsl(a[2][3]));
@@ -147,21 +189,22 @@ static int exact_bifurcation(const pendres_bifurcation *b, pendres_reference_cyc
     u[2] = (double)(u[2] + a[2][3]);
   }
   if (!(last < 1e-14L)) return 0;
-  *out = (pendres_reference_cycle){.y = u[0] + a[0][3], .v = u[1] + a[1][3]};
-  const long double value = u[2] + a[2][3];
-  if (b->parameter == PENDRES_DRIVE_FREQUENCY) out->drive_frequency = value;
-  if (b->parameter == PENDRES_DAMPING) out->damping = value;
-  if (b->parameter == PENDRES_DRIVE_AMPLITUDE) out->drive_amplitude = value;
+  out->exact = (pendres_reference_cycle){.y = u[0] + a[0][3], .v = u[1] + a[1][3]};
+  out->value = u[2] + a[2][3];
   return 1;
 }
 
-static int exact_of(const pendres_bifurcation *b, pendres_reference_cycle *out)
+static int exact_of(place *at)
 {
+  const pendres_bifurcation *b = &at->bifurcation;
   const pendres_orbit *o = &b->orbit;
-  if (b->kind != PENDRES_SYMMETRY_BREAKING) return exact_bifurcation(b, out);
-  return b->parameter == PENDRES_DRIVE_FREQUENCY && o->period == 1 && o->winding == 0 &&
-         pendres_reference_symmetry_breaking(&o->pendulum, b->value, o->x - half_pi, o->v, out) ==
-           PENDRES_OK;
+  if (b->kind != PENDRES_SYMMETRY_BREAKING) return exact_bifurcation(b, at);
+  if (b->parameter != PENDRES_DRIVE_FREQUENCY || o->period != 1 || o->winding != 0 ||
+      pendres_reference_symmetry_breaking(&o->pendulum, b->value, o->x - origin_of(o), o->v,
+                                          &at->exact) != PENDRES_OK)
+    return 0;
+  at->value = at->exact.drive_frequency;
+  return 1;
 }
 
 /* ---- what is had ---- */
@@ -174,21 +217,19 @@ static void look(accuracy_random *r, const pendres_branch *b, item *t)
     at->point = *pendres_branch_get(b, (size_t)accuracy_choice(r, (int)n));
     const pendres_orbit *o = &at->point.orbit;
     at->there = at->point.bifurcation < 0 &&
-                pendres_reference_orbit(&o->pendulum, o->x - half_pi, o->v, o->period, o->winding,
-                                        &at->exact) == PENDRES_OK;
+                pendres_reference_orbit(&o->pendulum, o->x - origin_of(o), o->v, o->period,
+                                        o->winding, &at->exact) == PENDRES_OK;
   }
   for (size_t k = 0; k < met && k < BIFURCATIONS; k++) {
     place *at = &t->bifurcations[k];
     at->bifurcation = *pendres_branch_bifurcation(b, k);
-    at->there = exact_of(&at->bifurcation, &at->exact);
+    at->there = exact_of(at);
   }
 }
 
-static void compute(accuracy_random *r, void *of, long number)
+static void compute_one(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r), item *t)
 {
-  item *t = of;
-  (void)number;
-  if (!draw(r, t)) return;
+  if (!draw(r, one, t)) return;
   pendres_context *ctx = context_with(t->tolerance);
   pendres_status outcome = PENDRES_NOT_CONVERGED;
   pendres_orbit start;
@@ -205,12 +246,30 @@ static void compute(accuracy_random *r, void *of, long number)
   pendres_context_free(ctx);
 }
 
+static void compute(accuracy_random *r, void *of, long number)
+{
+  (void)number;
+  compute_one(r, accuracy_pendulum, of);
+}
+
+static void compute_model(accuracy_random *r, void *of, long number)
+{
+  (void)number;
+  compute_one(r, model, of);
+}
+
+/* How far an x is from where the reference has it, in whole turns. */
+static double turn_of(const pendres_orbit *o, const pendres_reference_cycle *e)
+{
+  const double apart = o->x - origin_of(o) - (double)e->y;
+  return o->pendulum.force == PENDRES_FORCE_POLYNOMIAL ? 0.0 : rint(apart / two_pi) * two_pi;
+}
+
 static void note_point(accuracy *a, const place *at, const char *how)
 {
   const pendres_orbit *o = &at->point.orbit;
   const pendres_reference_cycle *e = &at->exact;
-  const double turn = rint((double)((o->x - half_pi) - e->y) / two_pi) * two_pi;
-  accuracy_note(a, "x of a point", o->x - turn, o->x_error, e->y + half_pi, how);
+  accuracy_note(a, "x of a point", o->x - turn_of(o, e), o->x_error, e->y + origin_of(o), how);
   accuracy_note(a, "v of a point", o->v, o->v_error, e->v, how);
   accuracy_note(a, "loop area of a point", o->loop_area, o->loop_area_error, e->loop_area, how);
   accuracy_note(a, "amplitude of a point", o->amplitude, o->amplitude_error, e->amplitude, how);
@@ -229,15 +288,11 @@ static void note_bifurcation(accuracy *a, const place *at, const char *how)
   char kind[64];
   pendres_pendulum p = o->pendulum;
   pendres_reference_cycle e = at->exact;
-  const long double value = b->parameter == PENDRES_DAMPING           ? e.damping
-                            : b->parameter == PENDRES_DRIVE_AMPLITUDE ? e.drive_amplitude
-                                                                      : e.drive_frequency;
   snprintf(kind, sizeof kind, "%s", name);
-  accuracy_note(a, kind, b->value, b->value_error, value, how);
-  const double turn = rint((double)((o->x - half_pi) - e.y) / two_pi) * two_pi;
+  accuracy_note(a, kind, b->value, b->value_error, at->value, how);
   snprintf(kind, sizeof kind, "x of a %s", name);
-  accuracy_note(a, kind, o->x - turn, o->x_error, e.y + half_pi, how);
-  pendres_parameter_set(b->parameter, (double)value, &p);
+  accuracy_note(a, kind, o->x - turn_of(o, &e), o->x_error, e.y + origin_of(o), how);
+  pendres_parameter_set(b->parameter, (double)at->value, &p);
   const long double s = b->kind == PENDRES_PERIOD_DOUBLING ? -1.0L : 1.0L;
   e = (pendres_reference_cycle){
     .multiplier_re = {s, s * product_at(&p, o->period)}};
@@ -256,9 +311,12 @@ static void note(accuracy *a, const void *of, long number, void *tally)
     const pendres_orbit *o = k < POINTS ? &at->point.orbit : &at->bifurcation.orbit;
     if (!at->there) continue;
     snprintf(how, sizeof how,
-             "item %ld: F0 %.17g, damping %.17g, frequency %.17g, q %d, winding %d, along %s "
+             "item %ld: F0 %.17g, damping %.17g, frequency %.17g, torque %.17g, parametric %.17g, "
+             "force %d: %.17g, %.17g, %.17g, q %d, winding %d, along %s "
              "%.17g to %.17g, at x %.17g, v %.17g, %.17g, tolerance %.17g", number,
-             p->drive_amplitude, p->damping, p->drive_frequency, t->guess.period, t->guess.winding,
+             p->drive_amplitude, p->damping, p->drive_frequency, p->torque, p->parametric_amplitude,
+             (int)p->force, p->force_coefficients[0], p->force_coefficients[1],
+             p->force_coefficients[2], t->guess.period, t->guess.winding,
              pendres_parameter_name(t->parameter), t->low, t->high, o->x, o->v,
              pendres_parameter_get(t->parameter, &o->pendulum), t->tolerance);
     if (k < POINTS) note_point(a, at, how);
@@ -266,8 +324,18 @@ static void note(accuracy *a, const void *of, long number, void *tally)
   }
 }
 
-void accuracy_branches(accuracy *a)
+static void follow_all(accuracy *a, void (*how)(accuracy_random *r, void *item, long number))
 {
   accuracy_each(a, &(accuracy_work){.items = 2 * accuracy_get_options(a)->points, .at_once = 64,
-                                    .size = sizeof(item), .compute = compute, .note = note});
+                                    .size = sizeof(item), .compute = how, .note = note});
+}
+
+void accuracy_branches(accuracy *a)
+{
+  follow_all(a, compute);
+}
+
+void accuracy_models(accuracy *a)
+{
+  follow_all(a, compute_model);
 }
