@@ -5,7 +5,8 @@
  * Time is compared with a block's own: what a right-hand side costs within the job, searching,
  * judging and storing included, over what it costs in a block that does nothing else. Job and block
  * take turns, and the best time of each counts, since whatever else a machine does can only make
- * either slower. Decks are read from input/, as from the top of the tree.
+ * either slower. A job that comes to need fewer right-hand sides takes less time, but has a larger
+ * ratio, as the rest is as much as before. Decks are read from input/, as from the top of the tree.
  */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime, unlink */
 #include <math.h>

@@ -19,7 +19,8 @@ double pendres_accuracy_of_run(const pendres_context *ctx, double that_count)
 
 double pendres_accuracy_to_settle(const pendres_context *ctx)
 {
-  return fmin(10.0 * ctx->options.tolerance, 1e-5);
+  const double tolerance = ctx->options.tolerance;
+  return tolerance < PENDRES_ACCURACY_DEFAULT ? 10.0 * tolerance : 1e-5;
 }
 
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)

@@ -23,8 +23,10 @@ double pendres_accuracy_first(const pendres_context *ctx);
 /* Of a run over many periods, `that_count` of whose errors add up. */
 double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
 
-/* Of pendulums on their way to an attractor. An error as large as the tolerance moves a basin's
-   boundary by about as much, and with a loose tolerance most labels would be in doubt. */
+/* Of pendulums on their way to an attractor. Their errors are carried along, and the few whose
+   label an error of this size might change are run again more exactly (settle_certain.c), which
+   costs less than running all of them as these few need it. A tolerance below the default is kept,
+   since it was asked for; with a looser one most labels would be in doubt. */
 double pendres_accuracy_to_settle(const pendres_context *ctx);
 
 /* The same for a picture of basins whose nearest states are so far apart. A picture does not show
