@@ -183,10 +183,11 @@ static size_t first_points(const pendres_orbit *orbit)
   return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
 }
 
-/* The number of points that are affordable: each costs as many drive periods as the orbit has. */
+/* The number of points that are affordable: each costs as many drive periods as the orbit has. With
+   half as many, every other fold of a lock of some twenty periods was not reached. */
 static size_t most_points(const pendres_orbit *orbit)
 {
-  const size_t share = MOST_POINTS / (size_t)orbit->period;
+  const size_t share = 2 * MOST_POINTS / (size_t)orbit->period;
   if (!pendres_lyapunov_may_rotate(&orbit->pendulum)) return MOST_POINTS;
   return share > FEW_POINTS ? share : FEW_POINTS;
 }
