@@ -1,6 +1,7 @@
 #!/bin/sh
 # pages_files_check.sh -- every command of docs/files.md, in its order: the program's, Python's where
-# there is xarray, Octave's where there is Octave, R's where there is R with rhdf5.
+# there is xarray, Fortran's where there is netCDF for it, Octave's where there is Octave, R's where
+# there is R with rhdf5.
 # Run by make check, which sets BUILD and RESONANCE.
 set -u
 [ -n "${RESONANCE:-}" ] || exit 77
@@ -23,12 +24,15 @@ blocks()
 }
 
 cd "$scratch" || exit 1
-sed '/^```/,/^```/d' "$page" | sed -n 's/^    //p' >all.sh
+sed '/^```/,/^```/d' "$page" | sed -n 's/^    //p' | grep -v '^gfortran ' >all.sh
+sed -n 's/^    \(gfortran .*\)/\1/p' "$page" >fortran.sh
+blocks fortran >resonances.f90
 blocks python >page.py
 blocks octave >page.m
 blocks r >page.R
-[ "$(wc -l <all.sh)" -ge 5 ] && [ -s page.py ] && [ -s page.m ] && [ -s page.R ] ||
-  { : >log; fail "commands are missing"; }
+for file in fortran.sh resonances.f90 page.py page.m page.R; do
+  [ "$(wc -l <all.sh)" -ge 5 ] && [ -s $file ] || { : >log; fail "commands are missing"; }
+done
 e='ensemble.members=8'
 {
   ./resonance -q input/f02.nml sweep.damping=0.2,0.3 $e &&
@@ -44,6 +48,10 @@ for candidate in "${PYTHON:-python3}" /usr/bin/python3; do
   grep -q '^0\.94' printed || fail "not the resonance that the page asks for: $(cat printed)"
   break
 done
+if command -v gfortran >/dev/null && command -v nf-config >/dev/null; then
+  sh -e fortran.sh >log 2>&1 && ./a.out >printed 2>log || fail "Fortran's commands failed"
+  grep -q '0\.2000000000 *0\.9223' printed || fail "not the resonances: $(cat printed)"
+fi
 if command -v octave-cli >/dev/null; then
   octave-cli --norc page.m >printed 2>log || fail "Octave's commands failed"
   grep -q '0\.9223' printed && grep -q '^0\.8[0-9]*$' printed && ! grep -q warning log ||
