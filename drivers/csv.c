@@ -1,6 +1,7 @@
 /* csv.c -- results as text; see csv.h. */
 #define _POSIX_C_SOURCE 200809L /* fsync, fileno */
 #include "csv.h"
+#include "system/grow.h"
 
 #include <errno.h>
 #include <float.h>
@@ -73,14 +74,9 @@ static pendres_status describe(pendres_store *store, column *c)
 static void list_columns(tables *t)
 {
   for (uint64_t i = 0; t->status == PENDRES_OK; i++) {
-    if (t->count == t->room) {
-      column *more = realloc(t->list, (2 * t->room + 16) * sizeof *more);
-      if (more == NULL) {
-        t->status = PENDRES_OUT_OF_MEMORY;
-        return;
-      }
-      t->list = more;
-      t->room = 2 * t->room + 16;
+    if (!grow_to(&t->list, t->count + 1, &t->room, sizeof *t->list)) {
+      t->status = PENDRES_OUT_OF_MEMORY;
+      return;
     }
     column *c = &t->list[t->count];
     *c = (column){ 0 };

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "terminal/safe_text.h"
+#include "system/grow.h"
 
 /* What is shown of a long source line, and how much of it stands before the caret. */
 enum { WINDOW = 100, BEFORE = 60, MESSAGE = 600 };
@@ -76,18 +77,6 @@ static char *format_error(const namelist *nl, namelist_place at, const char *mes
   return text;
 }
 
-static int make_room(namelist_errors *errors)
-{
-  namelist_error *item = NULL;
-  const size_t capacity = errors->capacity == 0 ? 8 : 2 * errors->capacity;
-  if (errors->count < errors->capacity) return 1;
-  item = realloc(errors->item, capacity * sizeof *item);
-  if (item == NULL) return 0;
-  errors->item = item;
-  errors->capacity = capacity;
-  return 1;
-}
-
 const namelist_place namelist_whole = { 0, 0, 0 };
 
 void namelist_error_at(const namelist *nl, namelist_place at, namelist_errors *errors,
@@ -106,7 +95,8 @@ void namelist_error_at(const namelist *nl, namelist_place at, namelist_errors *e
   va_end(arguments);
   if (written < 0) snprintf(message, sizeof message, "(a message that cannot be shown)");
   text = format_error(nl, at, message);
-  if (text == NULL || !make_room(errors)) {
+  if (text == NULL || !grow_to(&errors->item, errors->count + 1, &errors->capacity,
+                               sizeof *errors->item)) {
     free(text);
     errors->out_of_memory = 1;
     return;

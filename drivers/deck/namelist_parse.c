@@ -8,6 +8,7 @@
  * so that nobody complains about the absence of what merely could not be read.
  */
 #include "deck/namelist_lex.h"
+#include "system/grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -32,32 +33,22 @@ static int stopped(const reader *r)
 
 /* ---- growing arrays ------------------------------------------------------------------------ */
 
-static int grow(reader *r, void **array, size_t count, size_t *capacity, size_t size)
+static int grow(reader *r, void *array, size_t count, size_t *capacity, size_t size)
 {
-  const size_t wanted = *capacity == 0 ? 16 : 2 * *capacity;
-  void *grown = NULL;
-  if (count < *capacity) return 1;
-  grown = realloc(*array, wanted * size);
-  if (grown == NULL) {
-    r->out_of_memory = 1;
-    return 0;
-  }
-  *array = grown;
-  *capacity = wanted;
-  return 1;
+  if (grow_to(array, count + 1, capacity, size)) return 1;
+  r->out_of_memory = 1;
+  return 0;
 }
 
 static void add_value(reader *r, namelist_assignment *a, namelist_value v)
 {
   namelist *nl = r->nl;
-  void *array = nl->value;
   r->total += v.repeat;
   if (r->total > NAMELIST_MAX_VALUES) {
     overflow(r, "more than a million values in one deck");
     return;
   }
-  if (!grow(r, &array, nl->values, &r->value_capacity, sizeof *nl->value)) return;
-  nl->value = array;
+  if (!grow(r, &nl->value, nl->values, &r->value_capacity, sizeof *nl->value)) return;
   nl->value[nl->values++] = v;
   a->count++;
 }
@@ -65,14 +56,13 @@ static void add_value(reader *r, namelist_assignment *a, namelist_value v)
 static namelist_assignment *add_assignment(reader *r, const namelist_assignment *a)
 {
   namelist *nl = r->nl;
-  void *array = nl->assignment;
   if (nl->assignments >= NAMELIST_MAX_ASSIGNMENTS) {
     overflow(r, "more than a thousand names in one deck");
     return NULL;
   }
-  if (!grow(r, &array, nl->assignments, &r->assignment_capacity, sizeof *nl->assignment))
+  if (!grow(r, &nl->assignment, nl->assignments, &r->assignment_capacity,
+            sizeof *nl->assignment))
     return NULL;
-  nl->assignment = array;
   nl->assignment[nl->assignments] = *a;
   r->group->count++;
   return &nl->assignment[nl->assignments++];
@@ -81,13 +71,11 @@ static namelist_assignment *add_assignment(reader *r, const namelist_assignment 
 static int add_group(reader *r, const namelist_group *g)
 {
   namelist *nl = r->nl;
-  void *array = nl->group;
   if (nl->groups >= NAMELIST_MAX_GROUPS) {
     overflow(r, "more than a hundred groups in one deck");
     return 0;
   }
-  if (!grow(r, &array, nl->groups, &r->group_capacity, sizeof *nl->group)) return 0;
-  nl->group = array;
+  if (!grow(r, &nl->group, nl->groups, &r->group_capacity, sizeof *nl->group)) return 0;
   nl->group[nl->groups] = *g;
   r->group = &nl->group[nl->groups++];
   return 1;

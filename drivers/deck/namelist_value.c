@@ -6,6 +6,7 @@
 #define _POSIX_C_SOURCE 200809L /* uselocale */
 #endif
 #include "deck/namelist.h"
+#include "system/grow.h"
 
 #include <errno.h>
 #include <locale.h>
@@ -248,19 +249,12 @@ typedef struct filling {
   long next; /* element, from 1 on */
 } filling;
 
-/* Make room for element n. */
+/* Make room for element n; those before it that are not given stay NULL. */
 static int reach(filling *f, size_t n)
 {
   namelist_array *array = f->array;
-  size_t wanted = f->capacity < 8 ? 8 : f->capacity;
-  while (wanted < n) wanted *= 2;
-  if (wanted > f->capacity) {
-    const namelist_value **item = realloc(array->item, wanted * sizeof *item);
-    if (item == NULL) return 0;
-    array->item = item;
-    f->capacity = wanted;
-  }
-  while (array->count < n) array->item[array->count++] = NULL;
+  if (!grow_to(&array->item, n, &f->capacity, sizeof *array->item)) return 0;
+  if (array->count < n) array->count = n;
   return 1;
 }
 

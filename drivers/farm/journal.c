@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "system/clock.h"
+#include "system/grow.h"
 
 /* At most the records of so many seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
@@ -35,7 +36,7 @@ struct journal {
   char *head;
   int *file;        /* the first is written to */
   char **added;     /* names of the files */
-  size_t files;
+  size_t files, file_room, added_room;
   off_t end;        /* of the first */
   stage *stage;
   size_t stages, count;
@@ -49,30 +50,15 @@ struct journal {
 
 /* ---- the index ----------------------------------------------------------------------------- */
 
-/* Room for number `index` of an array; new elements are zero. 0: no memory. */
-static int make_room(void **array, size_t *count, size_t index, size_t size)
-{
-  if (index < *count) return 1;
-  const size_t wanted = index + 1 + index / 2;
-  if (wanted < index || wanted > SIZE_MAX / size) return 0;
-  char *grown = realloc(*array, wanted * size);
-  if (grown == NULL) return 0;
-  memset(grown + *count * size, 0, (wanted - *count) * size);
-  *array = grown;
-  *count = wanted;
-  return 1;
-}
-
 /* A record may be there twice: both have the same bytes. */
 static pendres_status note(journal *j, size_t file, const journal_entry *e, off_t at)
 {
-  void *stages = j->stage;
-  if (!make_room(&stages, &j->stages, e->stage, sizeof *j->stage)) return PENDRES_OUT_OF_MEMORY;
-  j->stage = stages;
+  if (e->stage >= SIZE_MAX || e->task >= SIZE_MAX ||
+      !grow_to(&j->stage, (size_t)e->stage + 1, &j->stages, sizeof *j->stage))
+    return PENDRES_OUT_OF_MEMORY;
   stage *s = &j->stage[e->stage];
-  void *tasks = s->task;
-  if (!make_room(&tasks, &s->count, e->task, sizeof *s->task)) return PENDRES_OUT_OF_MEMORY;
-  s->task = tasks;
+  if (!grow_to(&s->task, (size_t)e->task + 1, &s->count, sizeof *s->task))
+    return PENDRES_OUT_OF_MEMORY;
   j->count += s->task[e->task].file == 0;
   s->task[e->task] = (slot){ (int)file + 1, at };
   return PENDRES_OK;
@@ -129,12 +115,9 @@ static pendres_status load(journal *j, size_t file, off_t *end)
 /* One more file; its number is files - 1. */
 static pendres_status take_file(journal *j, int fd, const char *name)
 {
-  int *grown = realloc(j->file, (j->files + 1) * sizeof *grown);
-  if (grown != NULL) j->file = grown;
-  char **names = realloc(j->added, (j->files + 1) * sizeof(char *));
-  if (names != NULL) j->added = names;
   char *copy = malloc(strlen(name) + 1);
-  if (grown == NULL || names == NULL || copy == NULL) {
+  if (copy == NULL || !grow_to(&j->file, j->files + 1, &j->file_room, sizeof *j->file) ||
+      !grow_to(&j->added, j->files + 1, &j->added_room, sizeof *j->added)) {
     free(copy);
     close(fd);
     return PENDRES_OUT_OF_MEMORY;

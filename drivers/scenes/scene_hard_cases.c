@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "validation/hard_cases.h"
+#include "system/grow.h"
 
 /* A row of a case, and whether its figure is within its bound. */
 typedef struct row {
@@ -32,7 +33,7 @@ typedef struct work {
   const hard_case **chosen;
   size_t count;  /* of these */
   row *row;      /* of all of them, in order */
-  size_t rows;
+  size_t rows, room;
 } work;
 
 /* ---- computing ----------------------------------------------------------------------------- */
@@ -67,14 +68,11 @@ static pendres_status collect(void *arg, size_t task, const farm_record *in)
   const hard_row *found = in->data;
   (void)task;
   if (n == 0) return PENDRES_OK;
-  row *all = realloc(w->row, (w->rows + n) * sizeof *all);
-  if (all == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (!grow_to(&w->row, w->rows + n, &w->room, sizeof *w->row)) return PENDRES_OUT_OF_MEMORY;
   for (size_t k = 0; k < n; k++)
-    all[w->rows + k] = (row){found[k], hard_row_holds(&found[k]),
-                             error_of(&found[k], found[k].figure),
-                             error_of(&found[k], found[k].naive)};
-  w->row = all;
-  w->rows += n;
+    w->row[w->rows++] = (row){found[k], hard_row_holds(&found[k]),
+                              error_of(&found[k], found[k].figure),
+                              error_of(&found[k], found[k].naive)};
   return PENDRES_OK;
 }
 

@@ -1,5 +1,6 @@
 /* hard_cases.c -- the table of cases and the sheet; see hard_cases.h. */
 #include "validation/hard_cases.h"
+#include "system/grow.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,13 +28,8 @@ const hard_case *hard_case_find(const char *name)
 pendres_status hard_sheet_add(hard_sheet *sheet, const char *name, const char *quantity,
                               double figure, double bound, double naive)
 {
-  if (sheet->count == sheet->capacity) {
-    const size_t capacity = 2 * sheet->capacity + 16;
-    hard_row *grown = realloc(sheet->row, capacity * sizeof *grown);
-    if (grown == NULL) return hard_failed(sheet, PENDRES_OUT_OF_MEMORY, NULL);
-    sheet->row = grown;
-    sheet->capacity = capacity;
-  }
+  if (!grow_to(&sheet->row, sheet->count + 1, &sheet->capacity, sizeof *sheet->row))
+    return hard_failed(sheet, PENDRES_OUT_OF_MEMORY, NULL);
   hard_row *row = &sheet->row[sheet->count++];
   *row = (hard_row){ .figure = figure, .bound = bound, .naive = naive };
   (void)snprintf(row->name, sizeof row->name, "%s", name);
