@@ -228,10 +228,16 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
   return rows;
 }
 
-scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path)
+pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
+                                       const char *what, size_t count,
+                                       const scene_column *columns)
 {
+  char words[60];
   scene_along_jump *rows = scene_rows(run, path->jumps, sizeof *rows);
-  for (size_t i = 0; i < path->jumps && rows != NULL; i++) {
+  const scene_table table = {.dimensions = {what}, .prefix = what, .n = path->jumps,
+                             .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < path->jumps; i++) {
     const pendres_jump *j = &path->jump[i];
     rows[i] = (scene_along_jump){
       .parameter = j->value, .parameter_error = j->value_error,
@@ -241,14 +247,17 @@ scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path
       .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
       .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
   }
-  return rows;
+  snprintf(words, sizeof words, "number of the %s", what);
+  pendres_status status = scene_numbering(run, what, table.n, words);
+  if (status == PENDRES_OK) status = scene_columns_write(run, &table, count, columns);
+  free(rows);
+  return status;
 }
 
 const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
   { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
     .value = offsetof(scene_along_row, of.attractor.label), .names = scene_motion_names },
-  { .name = "failed", .long_name = "why there is no attractor", .type = SCENE_FLAG,
-    .value = offsetof(scene_along_row, failed), .names = scene_failure_names },
+  SCENE_CODE(scene_along_row, failed, "why there is no attractor", scene_failure_names),
 };
 
 /* Of values that a path has left out; NULL: what is said of all. */

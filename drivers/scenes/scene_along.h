@@ -73,9 +73,16 @@ typedef struct scene_along_jump {
   int direction, kind, from, to, gradual, certain, to_period;
 } scene_along_jump;
 
-/* All points and jumps of a path as rows; see scene_rows(). */
+/* All points of a path as rows; see scene_rows(). */
 scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
-scene_along_jump *scene_along_jumps(scene_run *run, const scene_along_path *path);
+
+/* Write the jumps of a path as a table of scene_along_jump over a dimension `what`, which is before
+   all names, too. SCENE_ALONG_WRITE_JUMPS writes the columns of an array. */
+pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
+                                       const char *what, size_t count,
+                                       const scene_column *columns);
+#define SCENE_ALONG_WRITE_JUMPS(run, path, what, columns) \
+  scene_along_write_jumps(run, path, what, sizeof columns / sizeof *columns, columns)
 
 /* Columns of a table of scene_along_row: `label` and `failed`. */
 enum { SCENE_ALONG_VERDICTS = 2 };

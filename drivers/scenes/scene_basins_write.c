@@ -21,8 +21,7 @@ static const char *doubt_names(int value)
 }
 
 static const scene_column of_states[BASINS_VARIABLES] = {
-  {.name = "label", .long_name = "what the pendulum settles on", .type = SCENE_FLAG,
-   .value = offsetof(state_row, label), .names = scene_label_names},
+  SCENE_CODE(state_row, label, "what the pendulum settles on", scene_label_names),
   {.name = "attractor_index", .long_name = "number of the attractor that the pendulum settles on",
    .type = SCENE_NUMBER, .value = offsetof(state_row, attractor), .comment = "-1: unresolved"},
   {.name = "well", .long_name = "number of the well that the pendulum settles in",
@@ -31,8 +30,7 @@ static const scene_column of_states[BASINS_VARIABLES] = {
   {.name = "settling_periods", .type = SCENE_NUMBER, .value = offsetof(state_row, settling_periods),
    .long_name = "drive periods until the pendulum is inside its attractor's trapping region",
    .comment = "-1: unresolved; -2: filled in by refinement, not integrated; -3: ended by --budget"},
-  {.name = "failed", .long_name = "why there is no label for the state", .type = SCENE_FLAG,
-   .value = offsetof(state_row, failed), .names = scene_failure_names},
+  SCENE_CODE(state_row, failed, "why there is no label for the state", scene_failure_names),
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
    .names = doubt_names,
    .long_name = "whether the errors that the pendulum carried may change where it settles",

@@ -167,8 +167,7 @@ static const scene_column of_attractors = {
   .comment = "-1: not known"};
 
 static const scene_column of_bifurcations[] = {
-  {.name = "kind", .long_name = "what ends the motion there", .type = SCENE_FLAG,
-   .value = offsetof(scene_along_jump, kind), .names = scene_jump_names},
+  SCENE_CODE(scene_along_jump, kind, "what ends the motion there", scene_jump_names),
   SCENE_COLUMN(scene_along_jump, parameter, "value at which it is", "1"),
   SCENE_COLUMN(scene_along_jump, period,
                "drive periods of the orbit that the pendulum is on then", "1"),
@@ -225,18 +224,6 @@ static pendres_status write_values(scene_run *run, const work *w)
   return status;
 }
 
-static pendres_status write_bifurcations(scene_run *run, const work *w)
-{
-  scene_along_jump *rows = scene_along_jumps(run, &w->path);
-  const scene_table table = {.dimensions = {"bifurcation"}, .prefix = "bifurcation",
-                             .n = w->path.jumps, .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status = scene_numbering(run, "bifurcation", table.n, "number of the bifurcation");
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_bifurcations);
-  free(rows);
-  return status;
-}
-
 static pendres_status write_cascade(scene_run *run, const work *w)
 {
   const pendres_cascade *c = &w->cascade.cascade;
@@ -255,7 +242,8 @@ static pendres_status write_all(scene_run *run, const work *w)
   if (status == PENDRES_OK)
     status = scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
   if (status == PENDRES_OK) status = write_values(run, w);
-  if (status == PENDRES_OK) status = write_bifurcations(run, w);
+  if (status == PENDRES_OK)
+    status = SCENE_ALONG_WRITE_JUMPS(run, &w->path, "bifurcation", of_bifurcations);
   return status == PENDRES_OK ? write_cascade(run, w) : status;
 }
 

@@ -35,8 +35,8 @@ static const scene_column columns[] = {
                "share of the members on the small-amplitude state", "1"),
   SCENE_COLUMN(pendres_phase_point, la_fraction,
                "share of the members on the large-amplitude state", "1"),
-  {.name = "regime", .long_name = "states of motion that members settle on", .type = SCENE_FLAG,
-   .value = offsetof(pendres_phase_point, regime), .names = scene_regime_names},
+  SCENE_CODE(pendres_phase_point, regime, "states of motion that members settle on",
+             scene_regime_names),
 };
 
 /* ---- branches ------------------------------------------------------------------------------ */
@@ -72,8 +72,7 @@ static const scene_column of_points[] = {
    .value = offsetof(row, of.multiplier_im), .error = offsetof(row, multiplier_error)},
   {.name = "stable", .long_name = "whether the orbit attracts", .type = SCENE_FLAG,
    .value = offsetof(row, of.stable), .names = stabilities},
-  {.name = "kind", .long_name = "what happens at the point", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .names = scene_special_names},
+  SCENE_CODE(row, kind, "what happens at the point", scene_special_names),
   {.name = "doubt", .long_name = "what the bifurcations do not explain there: sum of the flags",
    .type = SCENE_FLAG, .value = offsetof(row, doubt), .names = doubts,
    .codes = doubt_bits},

@@ -44,6 +44,11 @@ typedef struct scene_column {
 #define SCENE_COLUMN_OF(kind, row, field, words) \
   {.name = #field, .long_name = words, .type = kind, .value = offsetof(row, field)}
 
+/* A column of an enum or a flag, with the names of its values. */
+#define SCENE_CODE(row, field, words, names_of)                   \
+  {.name = #field, .long_name = words, .type = SCENE_FLAG,        \
+   .value = offsetof(row, field), .names = names_of}
+
 /* The column that stands beside the means of an ensemble. */
 #define SCENE_UNCERTAIN(row, field)                                                             \
   {.name = "uncertain_members", .long_name = "members that may belong to another state",       \

@@ -33,24 +33,20 @@ static const scene_column columns[] = {
 static const scene_column of_folds[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
    .type = SCENE_NUMBER, .value = offsetof(row, curve)},
-  {.name = "branch", .long_name = "which branch ends there", .type = SCENE_FLAG,
-   .value = offsetof(row, branch), .names = endings},
+  SCENE_CODE(row, branch, "which branch ends there", endings),
 };
 
 static const scene_column of_flips[] = {
   {.name = "curve", .long_name = "number of the curve; its points are in order",
    .type = SCENE_NUMBER, .value = offsetof(row, curve)},
-  {.name = "kind", .long_name = "what happens there", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .names = scene_special_names},
+  SCENE_CODE(row, kind, "what happens there", scene_special_names),
 };
 
 static const scene_column of_bifurcations[] = {
   SCENE_COLUMN(row, curvature, "of a fold: second derivative of the frequency by arclength in "
                "(x, v); below 0: orbits exist below", "1"),
-  {.name = "kind", .long_name = "what happens there", .type = SCENE_FLAG,
-   .value = offsetof(row, kind), .names = scene_special_names},
-  {.name = "branch", .long_name = "which branch ends there", .type = SCENE_FLAG,
-   .value = offsetof(row, branch), .names = endings},
+  SCENE_CODE(row, kind, "what happens there", scene_special_names),
+  SCENE_CODE(row, branch, "which branch ends there", endings),
 };
 
 static row row_of(const scene_lines *l, const pendres_orbit *o, const double error[2],

@@ -76,19 +76,18 @@ static const char *certain_names(int value)
   return value == 0 ? "uncertain" : value == 1 ? "certain" : NULL;
 }
 
-#define CODE(label, code_names, words)                      \
-  {.name = #label, .long_name = words, .type = SCENE_FLAG, \
-   .value = offsetof(scene_along_jump, label), .names = code_names}
 static const scene_column of_jumps[] = {
   SCENE_COLUMN(scene_along_jump, parameter, "value at which the state ends", "1"),
   SCENE_COLUMN(scene_along_jump, period, "drive periods of the orbit jumped to", "1"),
   SCENE_COLUMN(scene_along_jump, share, "share of the trials that went to that state", "1"),
-  CODE(direction, direction_names, "way in which the parameter goes"),
-  CODE(kind, scene_jump_names, "bifurcation that ends the state"),
-  CODE(from, scene_motion_names, "state that ends"),
-  CODE(to, scene_motion_names, "state that the pendulum goes to"),
-  CODE(gradual, gradual_names, "whether the new state grows out of the old one"),
-  CODE(certain, certain_names, "whether all trials went to the same state"),
+  SCENE_CODE(scene_along_jump, direction, "way in which the parameter goes", direction_names),
+  SCENE_CODE(scene_along_jump, kind, "bifurcation that ends the state", scene_jump_names),
+  SCENE_CODE(scene_along_jump, from, "state that ends", scene_motion_names),
+  SCENE_CODE(scene_along_jump, to, "state that the pendulum goes to", scene_motion_names),
+  SCENE_CODE(scene_along_jump, gradual, "whether the new state grows out of the old one",
+             gradual_names),
+  SCENE_CODE(scene_along_jump, certain, "whether all trials went to the same state",
+             certain_names),
 };
 
 static pendres_status write_points(scene_run *run, const work *w)
@@ -104,18 +103,6 @@ static pendres_status write_points(scene_run *run, const work *w)
     status = scene_columns_write(run, &table, SCENE_ALONG_VERDICTS, scene_along_verdicts);
   free(rows);
   scene_along_tell(run, w->axis, &w->path, DIRECTIONS);
-  return status;
-}
-
-static pendres_status write_jumps(scene_run *run, const work *w)
-{
-  scene_along_jump *rows = scene_along_jumps(run, &w->path);
-  const scene_table table = {.dimensions = {"jump"}, .prefix = "jump", .n = w->path.jumps,
-                             .stride = sizeof *rows, .rows = rows};
-  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
-  pendres_status status = scene_numbering(run, "jump", table.n, "number of the jump");
-  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_jumps);
-  free(rows);
   return status;
 }
 
@@ -146,8 +133,7 @@ static pendres_status write_all(scene_run *run, const work *w)
   (void)scene_stored(run, status);
   if (status == PENDRES_OK) status = scene_dimension(run, NULL, w->axis);
   if (status == PENDRES_OK) status = write_points(run, w);
-  if (status == PENDRES_OK) status = write_jumps(run, w);
-  return status;
+  return status == PENDRES_OK ? SCENE_ALONG_WRITE_JUMPS(run, &w->path, "jump", of_jumps) : status;
 }
 
 static pendres_status run_scene(scene_run *run)

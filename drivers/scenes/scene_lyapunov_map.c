@@ -178,10 +178,8 @@ static const scene_column columns[] = {
   SCENE_COLUMN(row, rotation, "mean whole turns a drive period", "1"),
   SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),
-  {.name = "label", .long_name = "kind of motion", .type = SCENE_FLAG,
-   .value = offsetof(row, label), .names = scene_motion_names},
-  {.name = "failed", .long_name = "why there is no verdict", .type = SCENE_FLAG,
-   .value = offsetof(row, failed), .names = scene_failure_names},
+  SCENE_CODE(row, label, "kind of motion", scene_motion_names),
+  SCENE_CODE(row, failed, "why there is no verdict", scene_failure_names),
 };
 
 static pendres_status write_all(scene_run *run, const work *w)

@@ -102,8 +102,7 @@ typedef struct verdict {
 } verdict;
 
 static const scene_column of_failures[] = {
-  {.name = "failed", .long_name = "why there is no orbit", .type = SCENE_FLAG,
-   .value = offsetof(verdict, failed), .names = scene_failure_names},
+  SCENE_CODE(verdict, failed, "why there is no orbit", scene_failure_names),
 };
 
 static pendres_status put_label(scene_run *run, const orbit_work *w)

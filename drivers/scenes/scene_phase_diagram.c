@@ -27,9 +27,8 @@ static const char *others(int value)
 }
 
 static const scene_column columns[] = {
-  {.name = "regime", .long_name = "state of motion that the members of the ensemble settle on",
-   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, regime),
-   .names = scene_regime_names},
+  SCENE_CODE(pendres_phase_point, regime,
+             "state of motion that the members of the ensemble settle on", scene_regime_names),
   {.name = "regime_exact", .long_name = "states of motion that exist as attractors, by the "
                                         "branches, whether members reach them or not",
    .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, exact),
