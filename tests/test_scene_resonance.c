@@ -5,6 +5,7 @@
 #include "scene_fixture.h"
 
 #include "scenes/scene_failed.h"
+#include "scenes/scene_peak.h"
 
 /* Asked for the `limit`-th time, the farm is told to stop. */
 typedef struct stopper {
@@ -194,6 +195,25 @@ static void a_search_that_is_not_complete(void **state)
   pendres_store_free(store);
 }
 
+/*
+ * A loop whose amplitude may be that of a pendulum upside down or more: its free frequency may be
+ * anything from zero to that of the least amplitude, which is 1 for none. Both ends are exact.
+ */
+static void amplitudes_up_to_the_top(void **state)
+{
+  (void)state;
+  for (int k = 1; k < 31; k++) {
+    const double loop = 0.1 * k;
+    const pendres_resonance r = {
+      .frequency = 0.8, .response = {.mean_loop_amplitude = loop,
+                                     .mean_loop_amplitude_error = 3.2}};
+    const scene_peak p = scene_peak_of(0.01, PENDRES_OK, &r);
+    const double free = pendres_free_frequency(loop);
+    check_near(p.free_frequency, free, 0.0);
+    check_near(p.free_frequency_error, fmax(free, 1.0 - free), 1e-15);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -201,6 +221,7 @@ int main(void)
     cmocka_unit_test(points_without_a_peak),
     cmocka_unit_test(a_search_that_is_not_complete),
     cmocka_unit_test(drive_amplitudes), cmocka_unit_test(other_models),
+    cmocka_unit_test(amplitudes_up_to_the_top),
   };
   return cmocka_run_group_tests(tests, scene_enter, scene_leave);
 }

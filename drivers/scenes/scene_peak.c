@@ -3,6 +3,16 @@
 
 #include <math.h>
 
+/* The error of the free frequency of an amplitude. It falls ever faster to zero, where the pendulum
+   stands on its head: an amplitude that may be as large may have any frequency below. */
+static double free_error(double amplitude, double error)
+{
+  const double free = pendres_free_frequency(amplitude);
+  if (amplitude + error < PENDRES_PI)
+    return fabs(pendres_free_frequency(amplitude + error) - free) + 4e-16;
+  return fmax(free, pendres_free_frequency(fmax(0.0, amplitude - error)) - free);
+}
+
 scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resonance *r)
 {
   const pendres_response *a = &r->response;
@@ -10,7 +20,7 @@ scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resona
                   .kind = outcome == PENDRES_OK ? (int)r->peak : PENDRES_PEAK_COUNT};
   if (outcome != PENDRES_OK) return p;
   const double loop = a->mean_loop_amplitude, loop_error = a->mean_loop_amplitude_error;
-  const double period = 2.0 * PENDRES_PI / r->frequency, free = pendres_free_frequency(loop);
+  const double period = 2.0 * PENDRES_PI / r->frequency;
   p.resonance_frequency = r->frequency;
   p.resonance_frequency_error = r->frequency_error;
   p.resonance_period = period;
@@ -27,8 +37,8 @@ scene_peak scene_peak_of(double at, pendres_status outcome, const pendres_resona
   p.mean_power_error = a->mean_power_error;
   p.sa_fraction = a->sa_fraction;
   p.sa_fraction_error = a->sa_fraction_error;
-  p.free_frequency = free;
-  p.free_frequency_error = fabs(pendres_free_frequency(loop + loop_error) - free) + 4e-16;
+  p.free_frequency = pendres_free_frequency(loop);
+  p.free_frequency_error = free_error(loop, loop_error);
   p.fold_frequency = r->fold_frequency;
   p.fold_frequency_error = r->fold_frequency_error;
   return p;
