@@ -86,10 +86,11 @@ static pendres_status gather(pendres_context *ctx, const pendres_settle_labelled
 
 /* The error a period that should leave no doubt: a power of ten, so that many pendulums share it,
    and blocks stay full. How much more exact a run must be from which a pendulum's error grew beyond
-   all bounds is not known: the most exact one follows. */
+   all bounds is not known: the most exact one follows. A doubt that was not kept, as that of lanes
+   that were hunted for, is a NaN, which leaves at_least. */
 static double tighter(double accuracy, double doubt)
 {
-  if (!isfinite(doubt)) return most_exact;
+  if (isinf(doubt)) return most_exact;
   const double wanted = accuracy / fmax(at_least, to_spare * doubt);
   if (!(wanted > most_exact)) return most_exact;
   return fmax(most_exact, pow(10.0, floor(log10(wanted))));
