@@ -183,8 +183,8 @@ static size_t first_points(const pendres_orbit *orbit)
   return pendres_lyapunov_may_rotate(&orbit->pendulum) ? FEW_POINTS : MOST_POINTS;
 }
 
-/* The number of points that are affordable: each costs as many drive periods as the orbit has. With
-   half as many, every other fold of a lock of some twenty periods was not reached. */
+/* The number of points that are affordable: each costs as many drive periods as the orbit has.
+   With half as many, folds of locks of some twenty periods were not reached. */
 static size_t most_points(const pendres_orbit *orbit)
 {
   const size_t share = 2 * MOST_POINTS / (size_t)orbit->period;
