@@ -44,8 +44,8 @@ typedef struct lost_lanes {
   const pendres_strobe_lane **suspects;
   size_t *known;   /* attractors of each set when the hunt began */
   size_t *watched; /* covers of each set when the latest round began */
-  unsigned char *found; /* in each set: chaos was, after the latest round */
-  unsigned char *over;  /* each set's budget had been spent before the latest round */
+  unsigned char *found; /* of each set: whether chaos was found after the latest round */
+  unsigned char *over;  /* of each set: its budget had been spent before the latest round */
 } lost_lanes;
 
 static void free_lost(lost_lanes *l)
@@ -84,7 +84,7 @@ static pendres_status allocate_lost(pendres_context *ctx, lost_lanes *l, size_t 
   return PENDRES_OK;
 }
 
-/* Whether a lane is lost, and its set's budget not spent. */
+/* Whether a lane is lost while the budget of its set is not yet spent. */
 static int hunted(const lost_lanes *l, size_t i)
 {
   return !pendres_settle_ended(&l->outcome[i]) && !l->over[l->set[i]];

@@ -38,7 +38,8 @@ static const double widest_gap = 0.4;
 
 /* ---- trigonometric polynomials ------------------------------------------------------------- */
 
-void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonometric *out)
+/* Fit a polynomial through the values at n angles 2 pi i/n. */
+static void fit(size_t n, const double *value, pendres_trigonometric *out)
 {
   double z[MOST];
   memcpy(z, value, n * sizeof *z);
@@ -128,7 +129,8 @@ double pendres_trigonometric_size(const pendres_trigonometric *t)
   return sum;
 }
 
-double pendres_trigonometric_tail(const pendres_trigonometric *t)
+/* The largest of the last eighth of the coefficients: the truncation error is about as large. */
+static double tail_of(const pendres_trigonometric *t)
 {
   double largest = 0.0;
   for (size_t i = 7 * t->n / 8; i < t->n; i++) largest = fmax(largest, fabs(t->c[i]));
@@ -195,12 +197,12 @@ static pendres_status run(shape *r)
   return status;
 }
 
-/* After a period: the curves through the points, and how far they are from invariant. */
+/* Fit the curves through the points after a period, and find how far they are from invariant. */
 static void look(shape *r)
 {
   double image[MOST], there[MOST];
-  pendres_trigonometric_fit(r->n, r->w, &r->curve);
-  pendres_trigonometric_fit(r->n, r->move, &r->moved);
+  fit(r->n, r->w, &r->curve);
+  fit(r->n, r->move, &r->moved);
   for (size_t i = 0; i < r->n; i++) image[i] = grid(r->n, i) + r->move[i];
   values_at(&r->curve, r->n, image, there);
   r->worst = 0.0;
@@ -277,7 +279,7 @@ static void at_sources(shape *r, const double *value, double *out)
 {
   const size_t cells = FINER * r->n;
   pendres_trigonometric t;
-  pendres_trigonometric_fit(r->n, value, &t);
+  fit(r->n, value, &t);
   pendres_trigonometric_spread(&t, 0, cells, r->fine);
   memcpy(r->fine + cells, r->fine, TAPS * sizeof *r->fine);
   for (size_t i = 0; i < r->n; i++) {
@@ -326,7 +328,7 @@ static pendres_status converge(shape *r, int *found)
 
 static double tail(const shape *r)
 {
-  return fmax(pendres_trigonometric_tail(&r->curve), pendres_trigonometric_tail(&r->moved));
+  return fmax(tail_of(&r->curve), tail_of(&r->moved));
 }
 
 pendres_status pendres_circle_refine(pendres_context *ctx, const pendres_circle_way *way,
@@ -380,7 +382,7 @@ static int connect(pendres_place at[POINTS], pendres_trigonometric *out)
     const double part = to > from ? (grid(N, i) - from) / (to - from) : 0.0;
     w[i] = left->w + part * (right->w - left->w);
   }
-  pendres_trigonometric_fit(N, w, out);
+  fit(N, w, out);
   return 1;
 }
 

@@ -29,8 +29,6 @@ typedef struct pendres_trigonometric {
   double c[PENDRES_CIRCLE_MOST];
 } pendres_trigonometric;
 
-/* Fit a polynomial through the values at n angles 2 pi i/n. */
-void pendres_trigonometric_fit(size_t n, const double *value, pendres_trigonometric *out);
 /* Its value at an angle; *slope receives the derivative there. */
 double pendres_trigonometric_at(const pendres_trigonometric *t, double y, double *slope);
 /* Its values or derivatives, of order 1 or 2, at angles 2 pi i/cells; cells, a power of two, are n
@@ -39,8 +37,6 @@ void pendres_trigonometric_spread(const pendres_trigonometric *t, int order, siz
                                   double *out);
 /* An upper bound on its modulus. */
 double pendres_trigonometric_size(const pendres_trigonometric *t);
-/* The largest of the last eighth of its coefficients: the truncation error is about as large. */
-double pendres_trigonometric_tail(const pendres_trigonometric *t);
 /* Reduce n as far as the coefficients that are left out are below the tolerance. */
 void pendres_trigonometric_trim(pendres_trigonometric *t, double tolerance);
 

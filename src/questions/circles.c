@@ -154,8 +154,9 @@ static long nearest_end(const pendres_circles *c, double value, int *direction)
   return best;
 }
 
-pendres_status pendres_circles_seek(pendres_circles *c, double value,
-                                    const pendres_circle_band **out)
+/* The band that holds a value. If there is none yet, bands are added from the nearest one on; *out
+   is NULL if the circle cannot be followed as far as that. It is valid until the next call. */
+static pendres_status seek(pendres_circles *c, double value, const pendres_circle_band **out)
 {
   pendres_status status = PENDRES_OK;
   *out = NULL;
@@ -233,7 +234,7 @@ pendres_status pendres_circles_tell(pendres_circles *c, double value,
   if (status != PENDRES_OK) return status;
   pendres_circles_verdict *known = &c->verdict[place_of(c->verdict, c->places, value)];
   if (!known->found) {
-    status = pendres_circles_seek(c, value, &b);
+    status = seek(c, value, &b);
     if (status != PENDRES_OK || b == NULL) return status;
     judge(c, b, value, known);
     c->told++;
@@ -247,7 +248,7 @@ static pendres_status edge_at(pendres_circles *c, const pendres_circle_turn *loc
                               int sign, double *g, double *error)
 {
   const pendres_circle_band *b = NULL;
-  const pendres_status status = pendres_circles_seek(c, value, &b);
+  const pendres_status status = seek(c, value, &b);
   double worth = 0.0;
   *g = NAN;
   if (status != PENDRES_OK || b == NULL) return status;
@@ -303,7 +304,7 @@ pendres_status pendres_circles_distance(pendres_circles *c, double value, double
                                         double *distance)
 {
   const pendres_circle_band *b = NULL;
-  const pendres_status status = pendres_circles_seek(c, value, &b);
+  const pendres_status status = seek(c, value, &b);
   *distance = INFINITY;
   if (status != PENDRES_OK || b == NULL) return status;
   pendres_circle at;

@@ -40,11 +40,6 @@ void pendres_circles_free(pendres_circles *c);
 /* Make a band that begins at a value, at which a pendulum in state (x, v) is on the circle. */
 pendres_status pendres_circles_begin(pendres_circles *c, double value, double x, double v);
 
-/* The band that holds a value. If there is none yet, bands are added from the nearest one on; *out
-   is NULL if the circle cannot be followed as far as that. It is valid until the next call. */
-pendres_status pendres_circles_seek(pendres_circles *c, double value,
-                                    const pendres_circle_band **out);
-
 /* How a pendulum on the circle moves at a value; computed once for each value, and kept. */
 pendres_status pendres_circles_tell(pendres_circles *c, double value,
                                     pendres_circles_verdict *out);
