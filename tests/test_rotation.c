@@ -56,6 +56,29 @@ static void least_torque(void **state)
   }
 }
 
+/* Values in extended precision, by power series of both manifolds of the upper equilibrium and of
+   what leads from one to the other; the last one is the worst of 420 random dampings. */
+static void least_torque_to_the_last_place(void **state)
+{
+  static const struct {
+    double damping;
+    long double torque;
+  } known[] = {
+    {0.0018061691197629919, 0.002299684090907694685846L},
+    {0.056906679195430653, 0.07239776155548746227887L},
+    {0.21679630119311022, 0.2728246693051324163351L},
+    {0.96106154561374935, 0.9489454241426123874974L},
+    {0.6247810130010959, 0.7191397683365223973228L},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    pendres_rotation_onset o;
+    check_ok(pendres_rotation_least_torque(known[i].damping, &o));
+    assert_true(fabsl(o.torque - known[i].torque) <= o.torque_error);
+    assert_true(o.torque_error < 3e-15); /* no more than some ten units of the last place of 1 */
+  }
+}
+
 /* Melnikov: the work of the torque over the separatrix, 2 pi I, makes up for its friction, 8 gamma;
    the next term goes with the square of the damping, and the share of its coefficient with both. */
 static void small_damping(void **state)
@@ -357,7 +380,9 @@ static void starts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(least_torque), cmocka_unit_test(small_damping), cmocka_unit_test(most_damping),
+    cmocka_unit_test(least_torque),
+    cmocka_unit_test(least_torque_to_the_last_place), cmocka_unit_test(small_damping),
+    cmocka_unit_test(most_damping),
     cmocka_unit_test(rotations),    cmocka_unit_test(strong_friction),
     cmocka_unit_test(next_to_connections),    cmocka_unit_test(no_rotations),
     cmocka_unit_test_setup_teardown(current_and_voltage, setup, teardown),

@@ -25,8 +25,9 @@ double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
 
 /* Of pendulums on their way to an attractor. Their errors are carried along, and the few whose
    label an error of this size might change are run again more exactly (settle_certain.c), which
-   costs less than running all of them as these few need it. A tolerance below the default is kept,
-   since it was asked for; with a looser one most labels would be in doubt. */
+   costs less than running all of them as these few need it. But a millionth from a fold, 1e-5 at
+   the default tolerance makes some pass the orbit that they should settle on. A tolerance below the
+   default was asked for, and counts for more; with a looser one most labels would be in doubt. */
 double pendres_accuracy_to_settle(const pendres_context *ctx);
 
 /* The same for a picture of basins whose nearest states are so far apart. A picture does not show

@@ -155,13 +155,14 @@ done:
 
 /*
  * Whether the fold makes the ensemble's mean jump, that is, whether the state that is born there
- * has members at once. Members that are on it a thousandth from the fold are followed to a
+ * has members at once. Members that are on it a thousandth from the fold are asked again at a
  * millionth: one that is still on it was inside its basin when that was born. Mostly a few members
  * tell. If they have all left, since the basin is torn to shreds, the others are asked.
  */
 static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble *e,
                                    const pendres_fold *fold, double side, int *decides)
 {
+  static const double off[2] = {1e-3, 1e-6};
   const size_t most[2] = {DECIDERS, e->members};
   const double rate = pendres_model_units_of(&fold->orbit.pendulum).rate;
   starts s = {.x = malloc(e->members * sizeof *s.x), .v = malloc(e->members * sizeof *s.v)};
@@ -172,9 +173,9 @@ static pendres_status fold_decides(pendres_context *ctx, const pendres_ensemble 
   for (int pass = 0; pass < 2 && !*decides && status == PENDRES_OK; pass++) {
     s.n = e->members;
     for (size_t k = 1; k <= s.n; k++) pendres_ensemble_start(e, k, &s.x[k - 1], &s.v[k - 1]);
-    for (double off = 1e-3; off > 5e-7 && s.n > 0 && status == PENDRES_OK; off *= 0.1) {
+    for (int near = 0; near < 2 && s.n > 0 && status == PENDRES_OK; near++) {
       pendres_pendulum p = fold->orbit.pendulum;
-      p.drive_frequency = fold->value + side * off * rate;
+      p.drive_frequency = fold->value + side * off[near] * rate;
       status = keep_those_on(ctx, &p, fold->orbit.amplitude, most[pass], &s);
     }
     *decides = s.n > 0;
