@@ -41,6 +41,8 @@ static int kill_and_resume(const char *deck, double takes)
     wait_seconds(1.1 * takes * some_share());
     (void)kill(pid, SIGKILL);
     code = finish(pid);
+    if (code != 1000 + SIGKILL && code != DONE && code != 3)
+      print_error("%s: code %d: %s\n", deck, code, err);
     assert_true(code == 1000 + SIGKILL || code == DONE || code == 3);
     went_on += strstr(err, "going on from") != NULL;
   }
