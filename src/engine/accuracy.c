@@ -19,8 +19,7 @@ double pendres_accuracy_of_run(const pendres_context *ctx, double that_count)
 
 double pendres_accuracy_to_settle(const pendres_context *ctx)
 {
-  const double tolerance = ctx->options.tolerance;
-  return fmin((tolerance < PENDRES_ACCURACY_DEFAULT ? 10.0 : 100.0) * tolerance, 1e-5);
+  return fmin(10.0 * ctx->options.tolerance, 1e-5);
 }
 
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)

@@ -23,11 +23,11 @@ double pendres_accuracy_first(const pendres_context *ctx);
 /* Of a run over many periods, `that_count` of whose errors add up. */
 double pendres_accuracy_of_run(const pendres_context *ctx, double that_count);
 
-/* Of pendulums on their way to an attractor. Their errors are carried along, and the few whose
-   label an error of this size might change are run again more exactly (settle_certain.c), which
-   costs less than running all of them as these few need it. But a millionth from a fold, 1e-5 at
-   the default tolerance makes some pass the orbit that they should settle on. A tolerance below the
-   default was asked for, and counts for more; with a looser one most labels would be in doubt. */
+/* Of pendulums on their way to an attractor. An error as large as the tolerance moves a basin's
+   boundary by about as much, and with a loose tolerance most labels would be in doubt. Ten times
+   this saves a tenth of a phase diagram's time, a hundred times a sixth; but then a pendulum a
+   millionth from a fold passes the orbit that it should settle on, and one that passes the upright
+   state is taken for chaotic, which more exact runs do not always mend. */
 double pendres_accuracy_to_settle(const pendres_context *ctx);
 
 /* The same for a picture of basins whose nearest states are so far apart. A picture does not show
