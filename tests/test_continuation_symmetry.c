@@ -8,6 +8,7 @@
  */
 #include <stdlib.h>
 
+#include <pendres/attractor.h>
 #include <pendres/continuation.h>
 #include <pendres/reference.h>
 
@@ -281,6 +282,57 @@ static void what_cancels_by_right(void **state)
   assert_true(error[0] < 30.0 * fabs(value[0] - value[1]));
 }
 
+/*
+ * Outlines are the same branches: their bifurcations are those that whole branches have, and their
+ * points, from Newton's method once more, are orbits of the same multipliers. Along a branch of
+ * symmetric orbits, whose map goes half a period, through the loss of symmetry; and along one of
+ * the pair, through a doubling. Points of an outline are as exact as its steps, some 1e-5.
+ */
+static void outlines(void **state)
+{
+  static const double amplitude[] = {0.95, 1.05};
+  static const size_t met[] = {1, 3}; /* the pair's branch has both of its orbits */
+  pendres_context *ctx = NULL;
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-8}, &ctx));
+  for (int k = 0; k < 2; k++) {
+    const pendres_pendulum p = {
+      .damping = 0.5, .drive_amplitude = amplitude[k], .drive_frequency = 2.0 / 3.0};
+    const pendres_branch_options options = {
+      .parameter = PENDRES_DRIVE_AMPLITUDE, .low = 0.9, .high = 1.09};
+    pendres_attractors *set = NULL;
+    pendres_branch *whole = NULL, *outline = NULL;
+    check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+    const pendres_orbit *start = &pendres_attractors_get(set, 0)->orbit;
+    assert_int_equal(start->symmetric, k == 0);
+    check_ok(pendres_branch_follow(ctx, 1, start, &options, &whole));
+    check_ok(pendres_branch_outline(ctx, start, &options, &outline));
+    assert_int_equal(pendres_branch_bifurcations(whole), met[k]);
+    assert_int_equal(pendres_branch_bifurcations(outline), met[k]);
+    for (size_t i = 0; i < pendres_branch_bifurcations(whole); i++) {
+      const pendres_bifurcation *a = pendres_branch_bifurcation(whole, i);
+      const pendres_bifurcation *b = pendres_branch_bifurcation(outline, i);
+      assert_int_equal(a->kind, b->kind);
+      check_near(a->value, b->value, a->value_error + b->value_error);
+    }
+    assert_true(pendres_branch_count(outline) > 5);
+    for (size_t i = 0; i < pendres_branch_count(outline); i++) {
+      const pendres_branch_point *at = pendres_branch_get(outline, i);
+      if (at->bifurcation >= 0) continue;
+      const pendres_orbit *o = &at->orbit, is = refined(ctx, (pendres_orbit_guess){
+        o->pendulum, o->x, o->v, o->period, o->winding});
+      check_near(o->x, is.x, 1e-5);
+      check_near(o->v, is.v, 1e-5);
+      check_near(o->multiplier_re[0], is.multiplier_re[0], 1e-4);
+      assert_int_equal(o->stable, is.stable);
+    }
+    pendres_branch_free(whole);
+    pendres_branch_free(outline);
+    pendres_attractors_free(set);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -290,6 +342,7 @@ int main(void)
     cmocka_unit_test(orbits_next_to_a_fold_know_their_errors),
     cmocka_unit_test(what_is_missing_is_doubted),
     cmocka_unit_test(what_cancels_by_right),
+    cmocka_unit_test(outlines),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
