@@ -309,7 +309,7 @@ static void current_and_voltage(void **state)
     const pendres_jump *up = pendres_hysteresis_jump(h, 0), *down = pendres_hysteresis_jump(h, 1);
     assert_true(up->kind == PENDRES_JUMP_FOLD && up->certain && up->to == PENDRES_LABEL_RUNNING);
     check_near(up->value, way, up->value_error);
-    assert_true(down->kind == PENDRES_JUMP_OTHER && down->to == PENDRES_LABEL_PERIODIC);
+    assert_true(down->kind == PENDRES_JUMP_HOMOCLINIC && down->to == PENDRES_LABEL_PERIODIC);
     check_near(down->value, way * o.torque, down->value_error);
     for (size_t i = 0; i < 2 * N; i++) {
       const pendres_hysteresis_point *point = pendres_hysteresis_get(h, i);

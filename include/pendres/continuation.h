@@ -72,13 +72,15 @@ void pendres_parameter_set(pendres_parameter parameter, double value, pendres_pe
   X(REGULAR, "regular")              \
   X(FOLD, "fold")                    \
   X(PERIOD_DOUBLING, "period_doubling") \
-  X(SYMMETRY_BREAKING, "symmetry_breaking")
+  X(SYMMETRY_BREAKING, "symmetry_breaking") \
+  X(BRANCH_POINT, "branch_point")
 
 /**
  * Where a branch changes its character. PENDRES_REGULAR: nowhere there; PENDRES_FOLD: two orbits
  * meet and vanish, a multiplier is +1; PENDRES_PERIOD_DOUBLING: a multiplier is -1;
  * PENDRES_SYMMETRY_BREAKING: an orbit that is its own mirror image meets a pair that are each
- * other's, a multiplier is +1. PENDRES_SPECIAL_COUNT: how many there are.
+ * other's, a multiplier is +1; PENDRES_BRANCH_POINT: two branches cross and exchange their
+ * stability (transcritical), a multiplier is +1. PENDRES_SPECIAL_COUNT: how many there are.
  */
 typedef enum pendres_special {
 #define PENDRES_SPECIAL_CODE(code, name) PENDRES_##code,
@@ -87,13 +89,13 @@ typedef enum pendres_special {
   PENDRES_SPECIAL_COUNT /**< how many there are; not a character */
 } pendres_special;
 
-/** "regular", "fold", "period_doubling", "symmetry_breaking"; NULL if out of range. The string is
-    static. Thread safe. */
+/** "regular", "fold", "period_doubling", "symmetry_breaking", "branch_point"; NULL if out of range.
+    The string is static. Thread safe. */
 const char *pendres_special_name(pendres_special special);
 
-/** A fold, period doubling or symmetry breaking. Plain data. */
+/** A fold, period doubling, symmetry breaking or branch point. Plain data. */
 typedef struct pendres_bifurcation {
-  pendres_special kind;        /**< which of the three */
+  pendres_special kind;        /**< which of these */
   pendres_parameter parameter; /**< what was varied to find it */
   double value;                /**< of that parameter; all others are as given */
   double value_error;          /**< its error */

@@ -50,7 +50,7 @@
  * of the error. A pendulum comes to it from the fold at a torque of 1, beyond which there is no
  * equilibrium, or from a start that passes the upper equilibrium. It ends at the least torque, or
  * at the damping for which the pendulum's torque is the least one, by a homoclinic connection
- * (PENDRES_JUMP_OTHER) or a fold.
+ * or a fold.
  *
  * Sources: Calleja, Celletti and de la Llave, Journal of Differential Equations 255 (2013) 978;
  * Hirsch, Pugh and Shub, Invariant Manifolds (Springer, 1977), for circles. Kuznetsov, Elements of
@@ -92,17 +92,37 @@ typedef struct pendres_hysteresis_point {
                                     too much work); or did not reach it: PENDRES_INTERRUPTED */
 } pendres_hysteresis_point;
 
-/** How a state ends. */
+/** One list makes the codes and their names: X(code, name). Codes stay: files have them. */
+#define PENDRES_JUMP_LIST(X)      \
+  X(FOLD, "fold")                 \
+  X(FLIP, "flip")                 \
+  X(SYMMETRY, "symmetry")         \
+  X(OTHER, "other")               \
+  X(BRANCH_POINT, "branch_point") \
+  X(CRISIS, "crisis")             \
+  X(HOMOCLINIC, "homoclinic")
+
+/**
+ * How a state ends. PENDRES_JUMP_FOLD: the orbit meets an unstable one, and both vanish;
+ * PENDRES_JUMP_FLIP: period doubling; PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;
+ * PENDRES_JUMP_OTHER: it ends within the error of the value, by what is not known;
+ * PENDRES_JUMP_BRANCH_POINT: the orbit meets another branch and exchanges its stability with that
+ * (transcritical); PENDRES_JUMP_CRISIS: a chaotic attractor meets an unstable orbit, or its stable
+ * manifold; PENDRES_JUMP_HOMOCLINIC: a rotation without a drive meets the upper equilibrium.
+ * PENDRES_JUMP_COUNT: how many there are.
+ *
+ * All of these are ends of states: a state is never said to end because a computation did. Where
+ * that could not go on, points are marked by their outcome, and there is no jump.
+ */
 typedef enum pendres_jump_kind {
-  PENDRES_JUMP_FOLD = 0, /**< the orbit meets an unstable one, and both vanish */
-  PENDRES_JUMP_FLIP,     /**< period doubling */
-  PENDRES_JUMP_SYMMETRY, /**< loss of mirror symmetry */
-  PENDRES_JUMP_OTHER,    /**< chaos that ends, a homoclinic connection of a rotation without a
-                              drive, or a branch that could not be followed */
-  PENDRES_JUMP_COUNT     /**< how many there are; not a kind */
+#define PENDRES_JUMP_CODE(code, name) PENDRES_JUMP_##code,
+  PENDRES_JUMP_LIST(PENDRES_JUMP_CODE)
+#undef PENDRES_JUMP_CODE
+  PENDRES_JUMP_COUNT /**< how many there are; not a kind */
 } pendres_jump_kind;
 
-/** "fold", "flip", "symmetry", "other"; NULL if out of range. */
+/** "fold", "flip", "symmetry", "other", "branch_point", "crisis", "homoclinic"; NULL if out of
+    range. The string is static. Thread safe. */
 const char *pendres_jump_kind_name(pendres_jump_kind kind);
 
 /** The end of a state. */

@@ -26,7 +26,11 @@ static const double in_sight = 100.0;
 
 const char *pendres_jump_kind_name(pendres_jump_kind kind)
 {
-  static const char *const names[PENDRES_JUMP_COUNT] = {"fold", "flip", "symmetry", "other"};
+  static const char *const names[PENDRES_JUMP_COUNT] = {
+#define NAME(code, name) name,
+    PENDRES_JUMP_LIST(NAME)
+#undef NAME
+  };
   return (unsigned)kind < PENDRES_JUMP_COUNT ? names[kind] : NULL;
 }
 
@@ -98,7 +102,8 @@ static pendres_status end_stretch(path *w, size_t step, double limit)
   static const pendres_jump_kind kinds[] = {
     [PENDRES_REGULAR] = PENDRES_JUMP_OTHER, [PENDRES_FOLD] = PENDRES_JUMP_FOLD,
     [PENDRES_PERIOD_DOUBLING] = PENDRES_JUMP_FLIP,
-    [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY};
+    [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY,
+    [PENDRES_BRANCH_POINT] = PENDRES_JUMP_BRANCH_POINT};
   const pendres_stretch *s = &w->stretch;
   pendres_bifurcation end = s->bifurcation;
   if (s->end == PENDRES_STRETCH_LOST)

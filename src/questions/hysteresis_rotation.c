@@ -34,22 +34,23 @@ static pendres_status end_rotation(pendres_path *w, size_t i)
 {
   pendres_rotation_limit limit;
   pendres_jump j = {.step = i, .direction = w->value[i] > w->at ? 1 : -1,
-                    .from = w->state.attractor.label, .share = 1.0, .certain = 1};
+                    .kind = PENDRES_JUMP_OTHER, .from = w->state.attractor.label, .share = 1.0,
+                    .certain = 1};
   pendres_status status = pendres_rotation_limit_between(&w->pendulum, w->parameter, w->at,
                                                          w->value[i], &limit);
   double at = w->value[i];
   if (status == PENDRES_NOT_FOUND) { /* it ends somewhere in between */
     limit.value = 0.5 * (w->at + w->value[i]);
     limit.error = 0.5 * fabs(w->value[i] - w->at);
-    limit.end = PENDRES_ROTATION_HOMOCLINIC;
     status = PENDRES_OK;
   } else if (status == PENDRES_OK) {
+    j.kind = limit.end == PENDRES_ROTATION_SADDLE_NODE ? PENDRES_JUMP_FOLD
+                                                       : PENDRES_JUMP_HOMOCLINIC;
     const double next = limit.value + j.direction * beyond * pendres_parameter_scale(w->parameter);
     if ((at - next) * j.direction > 0.0) at = next;
   }
   if (status == PENDRES_OK) status = stand_still(w, at, &w->state);
   w->at = at;
-  j.kind = limit.end == PENDRES_ROTATION_SADDLE_NODE ? PENDRES_JUMP_FOLD : PENDRES_JUMP_OTHER;
   j.value = limit.value;
   j.value_error = limit.error;
   j.to = w->state.attractor.label;
