@@ -214,6 +214,18 @@ endif
 endif
 $(BUILD)/flags: ;
 
+# What the program was made of, whatever the compiler and the folder: a journal of other sources is
+# refused.
+ifneq ($(BUILDING),)
+SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] drivers/*.[ch] drivers/*/*.[ch])) | cksum)
+ifneq ($(SOURCES_SUM),$(strip $(file <$(BUILD)/sources)))
+$(file >$(BUILD)/sources,$(SOURCES_SUM))
+endif
+endif
+$(BUILD)/sources: ;
+$(OBJ)/drivers/resume.o: $(BUILD)/sources
+$(OBJ)/drivers/resume.o: ALL_CPPFLAGS += '-DSOURCES_SUM="$(SOURCES_SUM)"'
+
 COMPILE = @mkdir -p $(@D); echo "  CC  $(@:$(OBJ)/%=%)"; \
           $(CC) $(ALL_CPPFLAGS) $(1) $(ALL_CFLAGS) $(2) -MMD -MP -c -o $@ $<
 
@@ -311,7 +323,7 @@ $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 
 # Of the library and the program what reads, and no more: the rest would take minutes to compile.
-FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/store/% src/questions/sweep.o \
+FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/questions/sweep.o \
   drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
   drivers/apart.o drivers/ending.o drivers/options.o drivers/shard.o drivers/verify.o), \
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
@@ -334,10 +346,11 @@ $(FUZZ_NAMES:%=fuzz/%): fuzz/%: $(BUILD)/fuzz_%
 	  tests/fuzz/corpus/$*
 
 # What is found of new ways through the code is kept in build/fuzz/corpus, and gone on from.
+CLANG ?= $(firstword $(shell command -v clang clang-19 clang-17 clang-16 clang-15 clang-14))
 fuzz:
-	@clang --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer (Debian:' \
-	  'apt-get install clang libclang-rt-dev)' >&2; exit 1; }
-	+@$(MAKE) --no-print-directory -k CC=clang BUILD=build/fuzz \
+	@$(or $(CLANG),clang) --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer' \
+	  '(Debian: apt-get install clang libclang-rt-dev)' >&2; exit 1; }
+	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
 
 FIGURES := $(BUILD)/bench/figures.txt
@@ -435,7 +448,7 @@ style:
 
 # A build directory of another name is kept if it holds anything else.
 clean:
-	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags) \
+	rm -rf $(addprefix $(BUILD)/,obj tests bench results doc flags sources) \
 	  $(BUILD)/libpendres.* $(BUILD)/libdriver.a $(PROGRAM)
 ifeq ($(BUILD),build)
 	rm -rf build

@@ -95,7 +95,7 @@ static int take_budget(const char *value, const char *name, options *out)
 /* --shard; 0, or 2 after a message. */
 static int take_shard(const char *value, const char *name, options *out)
 {
-  char why[200];
+  char why[300];
   if (shard_parse(value, &out->shard, &out->shards, why, sizeof why)) return 0;
   fprintf(stderr, "%s: --shard: %s\n", name, why);
   return complain(name);

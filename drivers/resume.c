@@ -76,9 +76,11 @@ static char *head_of(const deck *d)
   same.output[0] = same.title[0] = '\0';
   if (deck_resolved(&same, &text) != PENDRES_OK) return NULL;
   const char *version = pendres_version(), *build = pendres_build_info();
-  const size_t size = strlen(version) + strlen(build) + strlen(text) + 32;
+  static const char sources[] = SOURCES_SUM; /* the Makefile's checksum of all that is compiled */
+  const size_t size = strlen(version) + sizeof sources + strlen(build) + strlen(text) + 48;
   head = malloc(size);
-  if (head != NULL) snprintf(head, size, "libpendres %s\n%s\n%s", version, build, text);
+  if (head != NULL)
+    snprintf(head, size, "libpendres %s, sources %s\n%s\n%s", version, sources, build, text);
   free(text);
   return head;
 }

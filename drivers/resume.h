@@ -2,7 +2,8 @@
  * resume.h -- a run that goes on where an earlier one was stopped.
  *
  * Owns: where the journal of a run stands (beside the output, or in a folder of the user's choice),
- * what its head holds (the code's version and the resolved deck), and what the user is told of it.
+ * what its head holds (version and sources of the code, the resolved deck), and what the user is
+ * told of it.
  */
 #ifndef RESUME_H
 #define RESUME_H

@@ -34,21 +34,25 @@ static int place_of(size_t id, size_t first, size_t last, size_t step, size_t *s
   return 1;
 }
 
-/* The variables of Slurm and of Grid Engine say which job of which array this is. */
-static int ask_scheduler(size_t *shard, size_t *shards)
+/* The variables of Slurm and of Grid Engine say which job of which array this is. 0: there is none,
+   or *gaps is its last job: which jobs there are before that is not told. */
+static int ask_scheduler(size_t *shard, size_t *shards, size_t *gaps)
 {
-  static const char *const variables[][4] = {
+  static const char *const variables[][5] = {
     { "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX",
-      "SLURM_ARRAY_TASK_STEP" },
-    { "SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE" },
+      "SLURM_ARRAY_TASK_STEP", "SLURM_ARRAY_TASK_COUNT" },
+    { "SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE", "" /* no gaps */ },
   };
+  *gaps = 0;
   for (size_t k = 0; k < sizeof variables / sizeof *variables; k++) {
-    size_t id, first, last, step = 1;
+    size_t id, first, last, step = 1, count;
     if (!from_environment(variables[k][0], &id) || !from_environment(variables[k][1], &first) ||
         !from_environment(variables[k][2], &last))
       continue;
     (void)from_environment(variables[k][3], &step);
-    if (place_of(id, first, last, step, shard, shards)) return 1;
+    const int placed = place_of(id, first, last, step, shard, shards);
+    if (from_environment(variables[k][4], &count) && (!placed || count != *shards)) *gaps = last;
+    else if (placed) return 1;
   }
   return 0;
 }
@@ -66,10 +70,16 @@ static int ask_for_number(size_t *shard)
 int shard_parse(const char *text, size_t *shard, size_t *shards, char *words, size_t size)
 {
   const char *rest = NULL;
+  size_t gaps;
   if (strcmp(text, "auto") == 0) {
-    if (ask_scheduler(shard, shards)) return 1;
-    snprintf(words, size, "auto finds no array of jobs of Slurm or Grid Engine; PBS tells only the "
-             "number of a job: give auto/N, where N is the number of parts");
+    if (ask_scheduler(shard, shards, &gaps)) return 1;
+    if (gaps > 0)
+      snprintf(words, size, "auto cannot tell parts in an array of jobs with gaps, as Slurm does "
+               "not say which there are: number the jobs from 1 to N, or give auto/%zu if the job "
+               "with the number I is to compute part I of %zu", gaps, gaps);
+    else
+      snprintf(words, size, "auto finds no array of jobs of Slurm or Grid Engine; PBS tells only "
+               "the number of a job: give auto/N, where N is the number of parts");
     return 0;
   }
   if (strncmp(text, "auto/", 5) == 0 && number_of(text + 5, '\0', 1, shards, NULL)) {

@@ -6,6 +6,7 @@
 #include "kinds_fixture.h"
 #include "same_results.h"
 
+#include "farm/journal.h"
 #include "shard.h"
 
 static const char diagram[] =
@@ -17,8 +18,8 @@ static void forget_array(void)
 {
   static const char *const names[] = {
     "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX", "SLURM_ARRAY_TASK_STEP",
-    "SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "PBS_ARRAY_INDEX", "PBS_ARRAYID",
-    "LSB_JOBINDEX" };
+    "SLURM_ARRAY_TASK_COUNT", "SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "PBS_ARRAY_INDEX",
+    "PBS_ARRAYID", "LSB_JOBINDEX" };
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_int_equal(unsetenv(names[i]), 0);
 }
 
@@ -36,6 +37,23 @@ static void check_parse(const char *text, size_t shard, size_t shards)
   assert_int_equal(n, shards);
 }
 
+/* sbatch --array=1,3,7: three jobs, of which Slurm tells the first, the last and how many. Which
+   part is the job number 3 cannot be known, and none of 7 parts would be whole. */
+static void jobs_with_gaps(void)
+{
+  char words[300];
+  size_t i, n;
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "3", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_MIN", "1", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_MAX", "7", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_STEP", "1", 1), 0);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_COUNT", "3", 1), 0);
+  assert_false(shard_parse("auto", &i, &n, words, sizeof words));
+  assert_non_null(strstr(words, "with gaps"));
+  check_parse("auto/7", 3, 7); /* the parts of an earlier array again */
+  forget_array();
+}
+
 static void what_is_meant(void **state)
 {
   static const char *const bad[] = { "", "3", "0/4", "5/4", "1/0", "-1/4", " 1/4", "1/4x", "1//4",
@@ -51,9 +69,12 @@ static void what_is_meant(void **state)
   check_parse("auto", 3, 7);
   assert_int_equal(setenv("SLURM_ARRAY_TASK_STEP", "2", 1), 0);
   check_parse("auto", 2, 4);
+  assert_int_equal(setenv("SLURM_ARRAY_TASK_COUNT", "4", 1), 0);
+  check_parse("auto", 2, 4);
   assert_int_equal(setenv("SLURM_ARRAY_TASK_ID", "4", 1), 0); /* not one of them */
   check_parse("auto", 0, 0);
   forget_array();
+  jobs_with_gaps();
   assert_int_equal(setenv("PBS_ARRAY_INDEX", "2", 1), 0);
   check_parse("auto", 0, 0);
   check_parse("auto/8", 2, 8);
@@ -119,6 +140,29 @@ static void same_bytes(void **state)
   }
 }
 
+/* The journal of another build, of which the text at the head of a journal differs: the checksum of
+   the sources is changed in it. */
+static void write_others(const char *journal_of_this, const char *name)
+{
+  enum { BEFORE_TEXT = 24 };
+  char bytes[TEXT_ROOM], words[JOURNAL_WORDS];
+  journal *j = NULL;
+  FILE *f = fopen(journal_of_this, "rb");
+  assert_non_null(f);
+  const size_t n = fread(bytes, 1, sizeof bytes - 1, f);
+  assert_int_equal(fclose(f), 0);
+  uint64_t length;
+  memcpy(&length, bytes + 8, sizeof length);
+  assert_true(n >= BEFORE_TEXT + length);
+  bytes[BEFORE_TEXT + length] = '\0';
+  char *sum = strstr(bytes + BEFORE_TEXT, ", sources ");
+  assert_non_null(sum);
+  sum[10] = sum[10] == '7' ? '8' : '7';
+  check_ok(journal_open(name, bytes + BEFORE_TEXT, 0, &j, words));
+  journal_stay(j);
+  journal_close(j);
+}
+
 static void not_all_there(void **state)
 {
   (void)state;
@@ -129,6 +173,12 @@ static void not_all_there(void **state)
   check_code(RUN("-o", "parts.h5", "--merge", "deck.nml"), 1);
   check_says(err, "some shard has not finished");
   assert_true(exists("parts.h5.2-of-3.journal") && !exists("parts.h5"));
+  /* Of another build. */
+  write_others("parts.h5.2-of-3.journal", "parts.h5.1-of-3.journal");
+  check_code(RUN("-o", "parts.h5", "--merge", "deck.nml"), 2);
+  check_says(err, "1-of-3.journal");
+  check_says(err, ", sources ");
+  assert_int_equal(remove("parts.h5.1-of-3.journal"), 0);
   /* Of another deck. */
   check_code(RUN("-o", "parts.h5", "--merge", "deck.nml", "ensemble.members=9"), 2);
   check_says(err, "'members = 8'");

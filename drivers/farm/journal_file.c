@@ -43,7 +43,7 @@ static void name_difference(const char *theirs, const char *ours, char *words)
   }
   theirs += strspn(theirs, " ");
   ours += strspn(ours, " ");
-  snprintf(words, JOURNAL_WORDS, "the journal is of another deck or version: it has '%.*s', and "
+  snprintf(words, JOURNAL_WORDS, "the journal is of another deck or build: it has '%.*s', and "
            "this run '%.*s'", (int)strcspn(theirs, "\n"), theirs, (int)strcspn(ours, "\n"), ours);
 }
 

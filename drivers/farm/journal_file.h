@@ -28,7 +28,7 @@ typedef struct journal_entry {
 
 typedef enum journal_head {
   JOURNAL_SAME,
-  JOURNAL_OTHER,    /* of another deck or version; or no journal */
+  JOURNAL_OTHER,    /* of another deck or build; or no journal */
   JOURNAL_TORN,     /* killed while it was made, or empty */
   JOURNAL_NO_MEMORY
 } journal_head;
