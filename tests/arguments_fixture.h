@@ -23,6 +23,13 @@ static const pendres_pendulum bad_pendulums[] = {
   { 0.1, 0.2, INFINITY, 0.0 }, { 0.1, 0.2, 0.0, 0.0 },      { 0.1, 0.2, -0.8, 0.0 },
   { 0.1, 0.2, 0.8, NAN },      { 0.1, 0.2, 0.8, -1.0 },     { DBL_MAX, 0.2, 0.8, 0.0 },
   { 0.1, DBL_MAX, 0.8, 0.0 },  { 0.1, 0.2, DBL_MIN, 0.0 },
+  { 0.1, 0.2, 0.8, .torque = NAN },
+  { 0.1, 0.2, 0.8, .parametric_amplitude = INFINITY },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_COUNT },
+  { 0.1, 0.2, 0.8, .force = (pendres_force)INT_MIN },
+  { 0.1, 0.2, 0.8, .force = (pendres_force)INT_MAX },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_POLYNOMIAL },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = { NAN } },
 };
 
 static const double bad_numbers[] = { NAN, INFINITY, -INFINITY, DBL_MAX, -1e50 };
@@ -32,7 +39,7 @@ typedef struct fixture {
   pendres_context *ctx;
   pendres_attractors *set;
   pendres_branches *branches;
-  pendres_orbit orbit, bad_orbits[24];
+  pendres_orbit orbit, bad_orbits[32];
   size_t bad, wrong;
   pendres_bifurcation fold;
 } fixture;

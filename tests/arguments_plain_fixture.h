@@ -25,6 +25,13 @@ static const pendres_pendulum good = {
 static const pendres_pendulum bad_pendulums[] = {
   { NAN, 0.2, 0.8, 0.0 }, { -0.1, 0.2, 0.8, 0.0 }, { 0.1, INFINITY, 0.8, 0.0 },
   { 0.1, 0.2, 0.0, 0.0 }, { 0.1, 0.2, NAN, 0.0 },  { 0.1, 0.2, 0.8, NAN }, { 0.1, 0.2, 0.8, -1.0 },
+  { 0.1, 0.2, 0.8, .torque = NAN },
+  { 0.1, 0.2, 0.8, .parametric_amplitude = INFINITY },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_COUNT },
+  { 0.1, 0.2, 0.8, .force = (pendres_force)INT_MIN },
+  { 0.1, 0.2, 0.8, .force = (pendres_force)INT_MAX },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_POLYNOMIAL },
+  { 0.1, 0.2, 0.8, .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = { NAN } },
 };
 static const double bad_numbers[] = { NAN, INFINITY, -INFINITY, DBL_MAX, -1e100 };
 

@@ -159,6 +159,7 @@ static void models(void **state)
   INVALID(pendres_reference_map(&good, y, w, 1, NULL));
   INVALID(pendres_reference_orbit(NULL, y, w, 1, 0, &cycle));
   INVALID(pendres_reference_orbit(&good, y, w, 0, 0, &cycle));
+  assert_int_not_equal(pendres_reference_orbit(&good, y, w, 1, LONG_MIN, &cycle), PENDRES_OK);
   INVALID(pendres_reference_orbit(&good, y, w, 1, 0, NULL));
   INVALID(pendres_reference_resonance(NULL, 0.8L, y, w, &cycle));
   INVALID(pendres_reference_resonance(&good, 0.8L, y, w, NULL));
@@ -219,8 +220,18 @@ static void sweeps(void **state)
   INVALID(pendres_sweep_count(NULL, &count));
   INVALID(pendres_sweep_count(&sweep, &count));
   INVALID(pendres_sweep_count(&sweep, NULL));
-  (void)pendres_sweep_pendulum(NULL, 0, &x, &v);
+  assert_true(isnan(pendres_sweep_pendulum(NULL, 0, &x, &v).damping) && isnan(x) && isnan(v));
+  assert_true(isnan(pendres_sweep_pendulum(&sweep, 0, NULL, NULL).damping));
   sweep.axes = 1;
+  const pendres_axis no_axes[] = {
+    { .quantity = PENDRES_QUANTITY_X, .count = 0, .value = list },
+    { .quantity = PENDRES_QUANTITY_X, .count = 1, .value = NULL },
+    { .quantity = (pendres_quantity)-1, .count = 1, .value = list },
+    { .quantity = PENDRES_QUANTITY_X, .count = 1, .value = list } }; /* but one value */
+  for (size_t i = 0; i < COUNT(no_axes); i++) {
+    sweep.axis[0] = no_axes[i];
+    assert_true(isnan(pendres_sweep_pendulum(&sweep, 1, &x, &v).damping) && isnan(x) && isnan(v));
+  }
   sweep.axis[0] = (pendres_axis){ .quantity = PENDRES_QUANTITY_COUNT, .count = 1, .value = list };
   INVALID(pendres_sweep_count(&sweep, &count));
   sweep.axis[0] = (pendres_axis){ .quantity = PENDRES_QUANTITY_X, .count = 1, .value = NULL };

@@ -279,6 +279,30 @@ static void refined(void **state)
   release(&p);
 }
 
+/* Wells that 32 bits number are those of pendres_outcome; beyond them nothing is told. */
+static void distant_wells(void **state)
+{
+  pendres_context *ctx = *state;
+  enum { N = 4 };
+  const double x[N] = {-3e10, -1e10, 1e10, 3e10}, v[1] = {0.0}, still[N] = {0.0};
+  const size_t index[N] = {0, 1, 2, 3};
+  const pendres_basin_grid grid = {.nx = N, .nv = 1, .x = x, .v = v};
+  pendres_attractors *set = NULL;
+  pendres_outcome outcome[N];
+  pendres_basin_state s[N];
+  check_ok(pendres_attractors_find(ctx, &fig7, 0, NULL, NULL, &set));
+  check_ok(pendres_attractors_settle(ctx, set, N, x, still, outcome));
+  check_ok(pendres_basin_states(ctx, set, &grid, N, index, s));
+  for (size_t i = 0; i < N; i++) {
+    assert_true(outcome[i].attractor >= 0);
+    const int near = fabs(x[i]) < 2e10;
+    assert_int_equal(s[i].attractor, near ? outcome[i].attractor : PENDRES_ATTRACTOR_UNKNOWN);
+    assert_int_equal(s[i].label, near ? outcome[i].label : PENDRES_LABEL_UNRESOLVED);
+    assert_true(near ? s[i].well == outcome[i].well : s[i].settling_periods == -1);
+  }
+  pendres_attractors_free(set);
+}
+
 /* ---- mistakes ---- */
 
 static void mistakes(void **state)
@@ -326,6 +350,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(accuracy, setup, teardown),
     cmocka_unit_test_setup_teardown(certain_after_long_transients, setup, teardown),
     cmocka_unit_test_setup_teardown(refined, setup, teardown),
+    cmocka_unit_test_setup_teardown(distant_wells, setup, teardown),
     cmocka_unit_test_setup_teardown(mistakes, setup, teardown),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -65,7 +65,8 @@ const char *pendres_basin_how_name(pendres_basin_how how);
 
 /** What became of a state; compact, since there are many. */
 typedef struct pendres_basin_state {
-  int32_t well;             /**< as in pendres_outcome */
+  int32_t well;             /**< as in pendres_outcome; a state that settles in a well beyond those
+                                 that 32 bits number is unresolved */
   int32_t settling_periods; /**< -1: unresolved; -2: filled */
   int16_t attractor;        /**< index in the set; PENDRES_ATTRACTOR_UNKNOWN (deferred, too) or
                                  PENDRES_ATTRACTOR_ESCAPED */

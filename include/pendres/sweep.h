@@ -89,7 +89,8 @@ typedef struct pendres_sweep {
  */
 pendres_status pendres_sweep_count(const pendres_sweep *sweep, size_t *count);
 
-/** Pendulum number `index` below that count, and its start; x and v may be NULL. */
+/** Pendulum number `index` below that count, and its start; x and v may be NULL. All are NaN where
+    there is no such pendulum, or that function refuses the sweep. */
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v);
 

@@ -1,6 +1,7 @@
 /* steps.c -- how many fixed steps a drive period needs; see steps.h. */
 #include "engine/steps.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,7 @@ int pendres_steps_rung(int n)
 static int lattice(double value, double least, double ratio)
 {
   if (!(value > least)) return 0;
-  return 1 + (int)floor(log(value / least) / log(ratio));
+  return 1 + (int)floor(log(fmin(value / least, DBL_MAX)) / log(ratio));
 }
 
 static double lattice_upper(int index, double least, double ratio)

@@ -29,6 +29,9 @@ static const double FEWEST = 10.0;
 
 static const double DEFAULT_CORE = 0.5;
 
+/* Positions beyond this are in no ellipse: double precision does not know where in a turn. */
+static const double farthest = 1e15;
+
 /* The shrunken ellipse around the strobe point of an attractor. */
 typedef struct core_set {
   int attractor;
@@ -69,11 +72,12 @@ static void make_cores(const pendres_attractors *set, double shrink, cores *out)
 /* The core that holds a state, and the well that it is in; NULL if no core does. */
 static inline const core_set *locate(const cores *c, double x, double v, long *well)
 {
+  if (!(fabs(x) <= farthest)) return NULL;
   for (size_t i = 0; i < c->count; i++) {
     const core_set *s = &c->core[i];
     const double turns = rint((x - s->x) / s->turn);
     const double dx = x - s->x - s->turn * turns, dv = v - s->v;
-    if (s->xx * dx * dx + 2.0 * s->xv * dx * dv + s->vv * dv * dv > 1.0) continue;
+    if (!(s->xx * dx * dx + 2.0 * s->xv * dx * dv + s->vv * dv * dv <= 1.0)) continue;
     *well = s->running ? NO_WELL : (long)turns;
     return s;
   }
@@ -351,7 +355,9 @@ void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
 {
   const pendres_switching_home *h = home;
   cores c;
-  if (h == NULL || strobe == NULL || left == NULL) return;
+  if (h == NULL || strobe == NULL || strobe->x == NULL || strobe->v == NULL ||
+      left == NULL)
+    return;
   make_cores(h->set, h->core, &c);
   for (size_t i = 0; i < strobe->count; i++) {
     long well = NO_WELL;

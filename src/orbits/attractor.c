@@ -96,6 +96,9 @@ static pendres_status attractors_find(pendres_context *ctx, const pendres_pendul
   if (p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
   *out = NULL;
+  const char *why = NULL;
+  if (pendres_pendulum_check(p, &why) != PENDRES_OK)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (n == 0) {
     n = default_scouts(p, default_x, default_v);
     x = default_x;

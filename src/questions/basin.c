@@ -51,8 +51,13 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
   return PENDRES_OK;
 }
 
+/* A state whose well is beyond those that 32 bits can number is as good as unresolved. */
 static void compact(const pendres_outcome *from, pendres_basin_state *to)
 {
+  static const pendres_outcome beyond = {.label = PENDRES_LABEL_UNRESOLVED,
+                                         .attractor = PENDRES_ATTRACTOR_UNKNOWN,
+                                         .settling_periods = -1};
+  if (from->well != (int32_t)from->well || from->settling_periods > INT32_MAX) from = &beyond;
   *to = (pendres_basin_state){.well = (int32_t)from->well,
                               .settling_periods = (int32_t)from->settling_periods,
                               .attractor = (int16_t)from->attractor,

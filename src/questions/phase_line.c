@@ -447,6 +447,10 @@ static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
   if (options == NULL || (n > 0 && (points == NULL || branches == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "options, points and branches");
   if (n == 0) return PENDRES_OK;
+  for (size_t i = 0; i < n; i++) {
+    const char *why = refused(1, &points[i].pendulum, options);
+    if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
+  }
   line *l = malloc(sizeof *l);
   if (l == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");

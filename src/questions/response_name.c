@@ -96,6 +96,9 @@ static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response
   if (n > 0 && responses == NULL) return PENDRES_CONTEXT_NULL(ctx, "responses");
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &responses[i].pendulum, *first = &responses[0].pendulum;
+    const char *why = NULL;
+    if (pendres_pendulum_check(p, &why) != PENDRES_OK)
+      return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "response %zu: %s", i, why);
     drives += p->drive_frequency != first->drive_frequency;
     amplitudes += p->drive_amplitude != first->drive_amplitude;
     if (p->damping != first->damping || (drives > 0 && amplitudes > 0))

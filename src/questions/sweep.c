@@ -154,12 +154,17 @@ static void set(pendres_quantity quantity, double value, pendres_pendulum *p, do
 pendres_pendulum pendres_sweep_pendulum(const pendres_sweep *sweep, size_t index, double *x,
                                         double *v)
 {
-  if (sweep == NULL)
-    return (pendres_pendulum){.damping = NAN, .drive_amplitude = NAN, .drive_frequency = NAN,
-                              .temperature = NAN};
-  pendres_pendulum p = sweep->pendulum;
-  double position = sweep->x, velocity = sweep->v;
-  for (size_t i = sweep->axes; i-- > 0;) {
+  size_t count = 0;
+  pendres_pendulum p = {.damping = NAN, .drive_amplitude = NAN, .drive_frequency = NAN,
+                        .temperature = NAN};
+  double position = NAN, velocity = NAN;
+  const int there = pendres_sweep_count(sweep, &count) == PENDRES_OK && index < count;
+  if (there) {
+    p = sweep->pendulum;
+    position = sweep->x;
+    velocity = sweep->v;
+  }
+  for (size_t i = there ? sweep->axes : 0; i-- > 0;) {
     const pendres_axis *a = &sweep->axis[i];
     set(a->quantity, a->value[index % a->count], &p, &position, &velocity);
     index /= a->count;

@@ -75,7 +75,7 @@ pendres_status pendres_reference_orbit_defect(const pendres_reference_target *ta
   if (target->mirror) return mirror_defect(run, target->v, defect);
   const pendres_status status = pendres_reference_taylor_advance(run, target->period);
   if (status != PENDRES_OK) return status;
-  const long double off = (long double)(run->turns - target->winding);
+  const long double off = (long double)run->turns - (long double)target->winding;
   defect[0] = (run->y.hi - start) + off * two_pi.hi;
   defect[0] += run->y.lo + off * two_pi.lo;
   defect[1] = (run->v.hi - target->v) + run->v.lo;
