@@ -93,10 +93,12 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
     map.mirror = PENDRES_MIRROR_HALF;
   else if (map.reflects && is_own_reflection(o))
     map.mirror = PENDRES_MIRROR_WHOLE;
-  /* About the bottom of the well, or about the top of a barrier. */
+  /* About the bottom of the well, or about the top of a barrier. A caller's orbit may have any
+     number there. */
   if (map.mirror != PENDRES_MIRROR_NONE)
-    map.winding =
-      pendres_model_of(map.force)->period > 0.0 ? (int)rint(o->mean_angle / pi) : 0;
+    map.winding = pendres_model_of(map.force)->period > 0.0
+                    ? (int)rint(fmin(fmax(o->mean_angle / pi, -1.0), 1.0))
+                    : 0;
   return map;
 }
 
