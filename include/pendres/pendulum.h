@@ -24,7 +24,8 @@
  * frequency of small oscillations, energies and torques in units of m g l (mass, gravity, length).
  * The potential is V(x) = -sin x. Wells lie at x = pi/2 + 2 pi n (n is the well number), the
  * barrier tops, 2 above them, at x = -pi/2 + 2 pi n. The pendulum's angle is y = x - pi/2.
- * The mirror symmetry is y -> -y together with half a drive period's delay.
+ * The mirror symmetry is y -> -y together with half a drive period's delay; that of other forces
+ * may be about another place (pendres_model).
  *
  * Thread safety: all functions are pure. Only pendres_pendulum_check() tells whether parameters are
  * valid; the others give NaN or 0 where there is no such force.
@@ -69,6 +70,13 @@ enum { PENDRES_FORCE_COEFFICIENTS = 5 /**< most coefficients that a force may ha
  */
 typedef double pendres_force_outward(const double *coefficients, double side, double need);
 
+/**
+ * Where a force less a torque is odd: the c of y = c + z for which f(c + z) - torque changes its
+ * sign with z; of several the one nearest to `near`. NaN if there is none. Coefficients that were
+ * rounded to doubles count as those that they stand for.
+ */
+typedef double pendres_force_centre(const double *coefficients, double torque, double near);
+
 /** What all pendulums with the same force have in common. Constant data, owned by the library. */
 typedef struct pendres_model {
   const char *name;  /**< in decks and messages: "pendulum", "polynomial", ... */
@@ -80,6 +88,7 @@ typedef struct pendres_model {
   const char *coefficient_names[PENDRES_FORCE_COEFFICIENTS]; /**< "a1", ...; NULL beyond */
   pendres_force_outward *outward; /**< tells where pendulums begin to escape to infinity; NULL: none
                                        escape, or it is not known where */
+  pendres_force_centre *centre;   /**< tells where it is odd; NULL: nowhere */
 } pendres_model;
 
 /** The parameters of one pendulum. Where all fields after temperature are zero it is the plain
@@ -108,8 +117,10 @@ typedef struct pendres_state {
 /** What all pendulums with this force have in common; NULL if force is out of range. */
 const pendres_model *pendres_model_of(pendres_force force);
 
-/** 1 if p has the mirror symmetry, y -> -y half a drive period later: no torque, no parametric
-    drive, and an odd force f(-y) = -f(y); 0 if it has not, or p is NULL. */
+/** 1 if p has the mirror symmetry, y -> 2 c - y half a drive period later: no parametric drive, and
+    a force that less the torque is odd about c. Of the pendulum c = 0 without a torque, of a
+    polynomial it may be anywhere: a Duffing oscillator keeps its symmetry if its coordinate is
+    shifted. 0 if p has not, or is NULL. */
 int pendres_pendulum_symmetric(const pendres_pendulum *p);
 
 /** 1 if the force of p drives it to infinity from some position on, whatever the drives do: noise
@@ -145,9 +156,9 @@ double pendres_pendulum_potential(const pendres_pendulum *p, double x);
 long pendres_pendulum_well(double x);
 
 /**
- * Replace a state of a pendulum (of angle y = x - pi/2) by its mirror image, y -> -y and v -> -v. A
- * trajectory and its mirror image obey the same equation half a drive period apart. x and v may be
- * NULL.
+ * Replace a state of the plain pendulum (of angle y = x - pi/2) by its mirror image, y -> -y and
+ * v -> -v. A trajectory and its mirror image obey the same equation half a drive period
+ * apart. x and v may be NULL.
  */
 void pendres_pendulum_mirror(double *x, double *v);
 

@@ -137,8 +137,9 @@ pendres_status pendres_reference_fold(const pendres_pendulum *p, long double fre
 
 /**
  * The symmetry breaking near the guess: the drive frequency at which a period-1 orbit that is its
- * own mirror image (y(t + half a period) = -y(t)) has a multiplier +1 without a fold. It continues
- * as an unstable orbit, and two orbits branch off that are mirror images of each other.
+ * own mirror image (y(t + half a period) = 2 c - y(t), with the centre c as a double has it) has a
+ * multiplier +1 without a fold. It continues as an unstable orbit, and two orbits branch off that
+ * are mirror images of each other.
  * Large-amplitude orbits at small damping become unstable in this way. p's drive_frequency is not
  * read. Errors are those of pendres_reference_orbit(); the slopes in *out are set to NaN.
  * Source: Swift and Wiesenfeld, Physical Review Letters 52 (1984) 705.

@@ -170,7 +170,8 @@ static int same_block(const candidate *a, const candidate *b)
          a->arc->map.force == b->arc->map.force &&
          a->arc->map.mirror == b->arc->map.mirror &&
          a->arc->map.period == b->arc->map.period &&
-         a->arc->map.winding == b->arc->map.winding && a->arc->unknowns == b->arc->unknowns &&
+         a->arc->map.winding == b->arc->map.winding &&
+         a->arc->map.centre == b->arc->map.centre && a->arc->unknowns == b->arc->unknowns &&
          memcmp(a->arc->unknown, b->arc->unknown,
                 (size_t)a->arc->unknowns * sizeof *a->arc->unknown) == 0;
 }

@@ -9,6 +9,7 @@
 #include "engine/context_internal.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
+#include "model/model.h"
 
 pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
                                                    const double u[PENDRES_U_COUNT])
@@ -36,11 +37,12 @@ void pendres_continuation_map_point(const pendres_pendulum *p, double y, double 
   memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
 }
 
-/* Whether pendulums lose every mirror symmetry when an unknown changes. */
-static int breaks_symmetry(int place)
+/* Whether pendulums lose a mirror symmetry about a centre when an unknown changes: a power that is
+   not odd about it is added to the force. */
+static int breaks_symmetry(int place, double centre)
 {
-  return place == PENDRES_U_TORQUE || place == PENDRES_U_POWERS + 1 ||
-         place == PENDRES_U_POWERS + 3;
+  return place == PENDRES_U_TORQUE ||
+         (place >= PENDRES_U_POWERS && (centre != 0.0 || (place - PENDRES_U_POWERS) % 2 != 0));
 }
 
 static int is_among(int place, int unknowns, const int *unknown)
@@ -50,12 +52,11 @@ static int is_among(int place, int unknowns, const int *unknown)
   return 0;
 }
 
-/* Whether a pendulum has a parametric drive alone, or may have one on the way, and a mirror. */
+/* Whether a pendulum has a parametric drive alone, or may have one on the way, and a mirror: the
+   drive leaves the symmetry only to a force that is odd without a torque. */
 static int is_reflected(const pendres_pendulum *p, int unknowns, const int *unknown)
 {
-  pendres_pendulum still = *p;
-  still.parametric_amplitude = 0.0;
-  return p->drive_amplitude == 0.0 && pendres_pendulum_symmetric(&still) &&
+  return p->drive_amplitude == 0.0 && p->torque == 0.0 &&
          !is_among(PENDRES_U_DRIVE, unknowns, unknown) &&
          (p->parametric_amplitude != 0.0 || is_among(PENDRES_U_MODULATION, unknowns, unknown));
 }
@@ -66,10 +67,14 @@ static int reflected_after(int period)
   return period == 1 ? 1 : period % 2 == 0 ? period / 2 : 0;
 }
 
-/* Whether an orbit is its own mirror image in this way: averaged over its drive cycles it is 0. */
-static int is_own_reflection(const pendres_orbit *o)
+/* Whether an orbit is its own mirror image in this way: averaged over its drive cycles it rests at
+   the centre; of a pendulum at one of them. */
+static int is_own_reflection(const pendres_orbit *o, double centre)
 {
   const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;
+  if (pendres_model_of(o->pendulum.force)->period == 0.0 &&
+      !(fabs(o->mean_angle - centre) <= nothing + o->x_error))
+    return 0;
   for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++)
     if (!(hypot(o->cosine[m], o->sine[m]) <= nothing)) return 0;
   return reflected_after(o->period) > 0 && o->winding == 0;
@@ -79,19 +84,24 @@ pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int
                                                      const int *unknown,
                                                      double u[PENDRES_U_COUNT])
 {
-  pendres_continuation_map map = {.force = o->pendulum.force,
-                                  .symmetric = pendres_pendulum_symmetric(&o->pendulum),
-                                  .period = o->period,
-                                  .winding = o->winding};
+  pendres_continuation_map map = {
+    .force = o->pendulum.force, .period = o->period, .winding = o->winding};
   const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  pendres_pendulum still = o->pendulum;
+  still.parametric_amplitude = 0.0;
+  const double centre =
+    pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
+  int kept = isfinite(centre);
   pendres_continuation_map_point(&o->pendulum, s.y, s.w, u);
+  for (int k = 0; k < unknowns && kept; k++) kept = !breaks_symmetry(unknown[k], centre);
+  if (!kept) return map;
   map.reflects = is_reflected(&o->pendulum, unknowns, unknown);
-  if (is_among(PENDRES_U_MODULATION, unknowns, unknown)) map.symmetric = 0;
-  for (int k = 0; k < unknowns; k++)
-    if (breaks_symmetry(unknown[k])) map.symmetric = map.reflects = 0;
+  map.symmetric = o->pendulum.parametric_amplitude == 0.0 &&
+                  !is_among(PENDRES_U_MODULATION, unknowns, unknown);
+  if (map.symmetric || map.reflects) map.centre = centre;
   if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0)
     map.mirror = PENDRES_MIRROR_HALF;
-  else if (map.reflects && is_own_reflection(o))
+  else if (map.reflects && is_own_reflection(o, centre))
     map.mirror = PENDRES_MIRROR_WHOLE;
   /* About the bottom of the well, or about the top of a barrier. A caller's orbit may have any
      number there. */
@@ -158,7 +168,8 @@ static void read_image(const pendres_rows *rows, size_t lane,
                        int columns, pendres_continuation_image *out)
 {
   const double sign = map->mirror ? -1.0 : 1.0;
-  const double turns = two_pi * (map->mirror ? map->winding : -map->winding);
+  const double turns = map->mirror ? two_pi * map->winding + 2.0 * map->centre
+                                   : -two_pi * map->winding;
   const double time = map->mirror == PENDRES_MIRROR_HALF
                         ? pi * map->period / u[PENDRES_U_OMEGA]
                         : two_pi * whole_periods(map) / u[PENDRES_U_OMEGA];
@@ -292,9 +303,11 @@ pendres_status pendres_continuation_map_closes(pendres_context *ctx,
   if (image == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu images", n);
   const pendres_status status = pendres_continuation_map_states(ctx, half, steps, n, u, image);
+  const double period = pendres_model_of(half->force)->period;
+  const double turn = period > 0.0 ? period : INFINITY;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
-    /* The reflection may be about any multiple of pi. */
-    const double turns = half->mirror ? -rint(image[i].f[0] / two_pi) : 0.0;
+    /* The reflection of an angle may be about any multiple of pi. */
+    const double turns = half->mirror ? -rint(image[i].f[0] / turn) : 0.0;
     miss[i] = (pendres_continuation_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
                                           half->winding + (int)turns};
   }

@@ -9,7 +9,8 @@
  *
  *   the q-th iterate of the strobe map, less 2 pi p (winding p), or
  *   for an orbit that is its own mirror image, which has an odd q, q half periods followed by the
- *   reflection (y, w) -> (2 pi p - y, -w), whose second iterate is the former.
+ *   reflection (y, w) -> (2 c + 2 pi p - y, -w), whose second iterate is the former: c is the
+ *   centre of the symmetry.
  *
  * With a parametric drive alone the mirror image of a trajectory is one at the same phase. Orbits
  * that are their own are rest (q = 1), and those of even q that are so q/2 periods later, as of
@@ -57,6 +58,7 @@ typedef struct pendres_continuation_map {
   } mirror;
   int period;    /* q */
   int winding;   /* p */
+  double centre; /* c, where there is a mirror symmetry of either kind; otherwise 0 */
 } pendres_continuation_map;
 
 /* What one evaluation of the map finds. */

@@ -24,10 +24,22 @@ static inline double pendres_force_squid_outward(const double *a, double side, d
   return a[0] < 0.0 ? (1.0 + fmax(need, 0.0)) / -a[0] : INFINITY;
 }
 
+/*
+ * sin y is odd about all multiples of pi, and about that one of them where the spring balances the
+ * torque the whole is: the flux is a multiple of half a quantum. The torque is off by the roundings
+ * of a1, of pi and of their product, and by its own; the bound is twice these.
+ */
+static inline double pendres_force_squid_centre(const double *a, double torque, double near)
+{
+  const double there = a[0] != 0.0 ? torque / a[0] : near;
+  const double centre = rint(there / PENDRES_PI) * PENDRES_PI;
+  return fabs(a[0] * centre - torque) <= 0x1p-50 * fabs(torque) ? centre + 0.0 : NAN;
+}
+
 /* The ring's spring pulls y back however often it has turned over: y has no period. */
 static const pendres_model pendres_force_squid_model = {
   .name = "squid", .angle = 1, .coefficients = 1, .coefficient_names = {"a1"},
-  .outward = pendres_force_squid_outward};
+  .outward = pendres_force_squid_outward, .centre = pendres_force_squid_centre};
 
 PENDRES_FORCE_INLINE void pendres_force_squid(const double *a, double y, double *force,
                                               double *slope)
@@ -47,12 +59,6 @@ PENDRES_FORCE_INLINE double pendres_force_squid_by(const double *a, double y, in
 static inline double pendres_force_squid_potential(const double *a, double y)
 {
   return 0.5 * a[0] * y * y - cos(y);
-}
-
-static inline int pendres_force_squid_odd(const double *a)
-{
-  (void)a;
-  return 1;
 }
 
 #endif

@@ -13,11 +13,11 @@
  *                                 are not the same, 0), origin, whether y is an angle (in rad),
  *                                 coefficients and their names, and, if pendulums may escape to
  *                                 infinity, `outward`, which tells from where on they do for
- *                                 certain (pendulum.h); without it they are unresolved
+ *                                 certain (pendulum.h); without it they are unresolved; `centre`
+ *                                 tells where f less a torque is odd, if it may be
  *   pendres_force_NAME            f and df/dy; f(0) need not be 0
  *   pendres_force_NAME_by         df/da_k, k from 0 on
  *   pendres_force_NAME_potential  V, dV/dy = f, up to a constant
- *   pendres_force_NAME_odd        whether f(-y) = -f(y) with these coefficients
  *
  * The first two functions are loops' innards: no branches on y, and every operation one IEEE
  * operation (+ - * /, __builtin_fma, the sine of base/sine.h), or results depend on the instruction

@@ -7,8 +7,20 @@
 #include "base/angles.h"
 #include "model/forces.h"
 
-static const pendres_model pendulum = {
-  .name = "pendulum", .period = 2.0 * PENDRES_PI, .origin = 0.5 * PENDRES_PI, .angle = 1};
+/* Of the bottoms and the tops, which all are centres: y is an angle, and the bottom stands for
+   all of them. */
+static double pendulum_centre(const double *a, double torque, double near)
+{
+  (void)a;
+  (void)near;
+  return torque == 0.0 ? 0.0 : NAN;
+}
+
+static const pendres_model pendulum = {.name = "pendulum",
+                                       .period = 2.0 * PENDRES_PI,
+                                       .origin = 0.5 * PENDRES_PI,
+                                       .angle = 1,
+                                       .centre = pendulum_centre};
 
 /*
  * With z the distance, c_k the coefficients of -side f(side z) - need and n its degree, all zeros
@@ -28,10 +40,39 @@ static double polynomial_outward(const double *a, double side, double need)
   return 2.0 * most;
 }
 
+/*
+ * In z = y - c the powers n and n - 1 of a polynomial of degree n have the coefficients a_n and
+ * a_(n-1) + n a_n c: the latter is 0 at one c alone, where all other even powers must be 0, too.
+ * Of each term c brings up to four roundings a power, of which there are five or fewer, and they
+ * mostly cancel; its coefficient was rounded from decimals, and each product and sum is. Sixteen
+ * roundings of the sum of their sizes are allowed.
+ */
+static double polynomial_centre(const double *a, double torque, double near)
+{
+  static const double rounding = 16.0 * 0x1p-53;
+  double taylor[PENDRES_FORCE_COEFFICIENTS + 1] = {-torque};
+  int n = PENDRES_FORCE_COEFFICIENTS;
+  (void)near;
+  for (int j = 1; j <= n; j++) taylor[j] = a[j - 1];
+  while (n > 0 && taylor[n] == 0.0) n--;
+  if (n % 2 == 0) return NAN;
+  const double c = -taylor[n - 1] / (n * taylor[n]);
+  for (int k = 0; k < n; k += 2) {
+    double sum = 0.0, size = 0.0, term = 1.0; /* c^(j - k), times the binomial coefficient */
+    for (int j = k; j <= n; term *= c * (j + 1) / (j + 1 - k), j++) {
+      sum += taylor[j] * term;
+      size += fabs(taylor[j] * term);
+    }
+    if (!(fabs(sum) <= rounding * size)) return NAN;
+  }
+  return c + 0.0;
+}
+
 static const pendres_model polynomial = {.name = "polynomial",
                                          .coefficients = PENDRES_FORCE_COEFFICIENTS,
                                          .coefficient_names = {"a1", "a2", "a3", "a4", "a5"},
-                                         .outward = polynomial_outward};
+                                         .outward = polynomial_outward,
+                                         .centre = polynomial_centre};
 
 static const pendres_model *const models[PENDRES_FORCE_COUNT] = {
   [PENDRES_FORCE_PENDULUM] = &pendulum, [PENDRES_FORCE_POLYNOMIAL] = &polynomial,
@@ -72,18 +113,16 @@ const char *pendres_model_check(const pendres_pendulum *p)
   return NULL;
 }
 
+double pendres_model_centre(const pendres_pendulum *p, double near)
+{
+  if (p->parametric_amplitude != 0.0 || models[p->force]->centre == NULL) return NAN;
+  return models[p->force]->centre(p->force_coefficients, p->torque, isfinite(near) ? near : 0.0);
+}
+
 int pendres_pendulum_symmetric(const pendres_pendulum *p)
 {
-  if (p == NULL || p->torque != 0.0 || p->parametric_amplitude != 0.0) return 0;
-  const double *a = p->force_coefficients;
-  switch (p->force) {
-  case PENDRES_FORCE_PENDULUM: return 1;
-  case PENDRES_FORCE_POLYNOMIAL: return a[1] == 0.0 && a[3] == 0.0;
-#define ODD_OF(code, name) case PENDRES_FORCE_##code: return pendres_force_##name##_odd(a);
-    PENDRES_FORCE_LIST(ODD_OF)
-#undef ODD_OF
-  default: return 0;
-  }
+  return p != NULL && (unsigned)p->force < PENDRES_FORCE_COUNT &&
+         isfinite(pendres_model_centre(p, 0.0));
 }
 
 void pendres_model_force(const pendres_pendulum *p, double y, double *force, double *slope)

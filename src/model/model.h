@@ -38,6 +38,13 @@ void pendres_model_force(const pendres_pendulum *p, double y, double *force, dou
  */
 double pendres_model_turn(const pendres_pendulum *p);
 
+/*
+ * The centre c of the mirror symmetry y -> 2 c - y, half a drive period later; of several the one
+ * nearest to `near`, which may be NaN: it is then 0. That of the pendulum is the bottom: whole and
+ * half turns away there are others. NaN if p has no such symmetry.
+ */
+double pendres_model_centre(const pendres_pendulum *p, double near);
+
 /* Where y is counted from. */
 double pendres_model_origin(const pendres_pendulum *p);
 

@@ -375,7 +375,8 @@ static pendres_status mirror_guess(pendres_context *ctx, size_t set, const pendr
   const pendres_status status = pendres_orbit_sample(ctx, o, 2, x, v);
   if (status == PENDRES_OK)
     *out = (pendres_scout){.set = set,
-                           .y = pendres_model_origin(&o->pendulum) - x[1],
+                           .y = 2.0 * pendres_model_centre(&o->pendulum, 0.0) -
+                                (x[1] - pendres_model_origin(&o->pendulum)),
                            .w = -v[1] / o->pendulum.drive_frequency,
                            .period = o->period,
                            .winding = -o->winding};

@@ -6,17 +6,23 @@
 
 #include <math.h>
 
+#include "model/model.h"
 #include "orbits/orbit_table.h"
 
 /* Harmonics of mirror images agree to this, and those of two other orbits of a pendulum do not. */
 static const double same_harmonics = 1e-6;
 enum { HARMONICS = 5 /* so many are compared */ };
 
-/* y(t) -> -y(t + half a drive period) changes the sign of the mean and of even harmonics. */
+/* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
+   to the other side of the centre; of an angle there are centres everywhere. */
 static int are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;
   if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
+  const double middle = 0.5 * (a->mean_angle + b->mean_angle);
+  if (pendres_model_of(a->pendulum.force)->period == 0.0 &&
+      !(fabs(middle - pendres_model_centre(&a->pendulum, middle)) <= same_harmonics))
+    return 0;
   for (int m = 1; m <= HARMONICS; m++) {
     const double sign = m % 2 == 0 ? -1.0 : 1.0;
     if (!(hypot(a->cosine[m - 1] - sign * b->cosine[m - 1],

@@ -7,6 +7,7 @@
 
 #include "base/angles.h"
 #include "engine/passage.h"
+#include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "orbits/orbit_table.h"
 
@@ -51,6 +52,23 @@ static void set_rows(const pendres_orbit_measures *a, const pendres_orbit_measur
   }
 }
 
+/*
+ * Whether an orbit is its own mirror image: harmonics that the symmetry forbids are missing, and
+ * the mean is at the centre. Of a pendulum the former is enough: what swings to both sides alike
+ * swings about a bottom or a top, which all are centres.
+ */
+static int is_symmetric(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
+                        const pendres_orbit_doubt *doubt, const pendres_orbit *o)
+{
+  const double nothing = 1e-7 * fmax(1.0, b->amplitude);
+  if (o->winding != 0 || !pendres_pendulum_symmetric(&o->pendulum)) return 0;
+  if (!(b->symmetry_defect <= nothing)) return 0;
+  if (pendres_model_of(o->pendulum.force)->period > 0.0) return 1;
+  const double centre = pendres_model_centre(&o->pendulum, b->mean_angle);
+  return fabs(b->mean_angle - centre) <=
+         nothing + pendres_orbit_error(a->mean_angle, b->mean_angle, 1.0, doubt);
+}
+
 /* Everything but the point, the multipliers and the slopes. Returns the whole turns by which the
    orbit's mean lies outside of well 0. */
 static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_measures *b,
@@ -75,8 +93,7 @@ static long set_measures(const pendres_orbit_measures *a, const pendres_orbit_me
   memcpy(o->cosine, b->cosine, sizeof o->cosine);
   memcpy(o->sine, b->sine, sizeof o->sine);
   o->harmonics_rest = b->harmonics_rest;
-  o->symmetric = o->winding == 0 && pendres_pendulum_symmetric(p) &&
-                 b->symmetry_defect <= 1e-7 * fmax(1.0, b->amplitude);
+  o->symmetric = is_symmetric(a, b, doubt, o);
   return turns;
 }
 

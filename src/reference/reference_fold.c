@@ -184,6 +184,7 @@ pendres_status pendres_reference_symmetry_breaking(const pendres_pendulum *p,
       !pendres_pendulum_symmetric(p))
     return PENDRES_INVALID_ARGUMENT;
   target.mirror = 1;
+  target.centre = pendres_model_of(p->force)->centre(p->force_coefficients, p->torque, (double)y);
   return solve(&target, 3, out);
 }
 

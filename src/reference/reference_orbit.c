@@ -50,8 +50,8 @@ static void shifted_monodromy(const pendres_reference_run *run, long double a[][
   a[1][1] = run->w[1].hi - 1.0L + run->w[1].lo;
 }
 
-static pendres_status mirror_defect(pendres_reference_run *run, long double start_v,
-                                    long double defect[2])
+static pendres_status mirror_defect(const pendres_reference_target *target,
+                                    pendres_reference_run *run, long double defect[2])
 {
   const pendres_reference_pair two_pi = pendres_reference_taylor_two_pi();
   const long double start_y = run->y.hi;
@@ -59,8 +59,9 @@ static pendres_status mirror_defect(pendres_reference_run *run, long double star
   if (status != PENDRES_OK) return status;
   const long double off =
     run->model.turns ? -rintl((start_y + run->y.hi) / two_pi.hi) : 0.0L;
-  defect[0] = (run->y.hi + (start_y + off * two_pi.hi)) + run->y.lo + off * two_pi.lo;
-  defect[1] = (run->v.hi + start_v) + run->v.lo;
+  defect[0] = (run->y.hi + (start_y + off * two_pi.hi)) + run->y.lo + off * two_pi.lo -
+              2.0L * target->centre;
+  defect[1] = (run->v.hi + target->v) + run->v.lo;
   return PENDRES_OK;
 }
 
@@ -72,7 +73,7 @@ pendres_status pendres_reference_orbit_defect(const pendres_reference_target *ta
   pendres_reference_taylor_init(run, &target->model, target->y, target->v);
   const long double start = run->y.hi; /* target->y, wrapped */
   run->columns = columns;
-  if (target->mirror) return mirror_defect(run, target->v, defect);
+  if (target->mirror) return mirror_defect(target, run, defect);
   const pendres_status status = pendres_reference_taylor_advance(run, target->period);
   if (status != PENDRES_OK) return status;
   const long double off = (long double)run->turns - (long double)target->winding;
@@ -249,7 +250,7 @@ static pendres_status move_to(const pendres_reference_model *model,
   const long double change = frequency - here->drive_frequency;
   pendres_reference_target target = {
     *model, here->y + change * here->state_slope[0], here->v + change * here->state_slope[1],
-    here->period, here->winding, 0 };
+    here->period, here->winding, 0, 0.0L };
   target.model.drive_frequency = frequency;
   return close_and_measure(&target, out);
 }

@@ -13,7 +13,8 @@ typedef struct pendres_reference_target {
   pendres_reference_model model;
   long double y, v;     /* guess, then solution */
   long period, winding;
-  int mirror;           /* nonzero: one that is its own mirror image half a period later */
+  int mirror;           /* nonzero: one that is its own mirror image half a period later, */
+  long double centre;   /* about this y */
 } pendres_reference_target;
 
 /* The defect of an orbit: its end minus its start over the period or, for a mirror orbit (whose
