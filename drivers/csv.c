@@ -1,13 +1,15 @@
 /* csv.c -- results as text; see csv.h. */
-#define _POSIX_C_SOURCE 200809L /* fsync, fileno */
+#define _POSIX_C_SOURCE 200809L /* fsync, fdopen */
 #include "csv.h"
 #include "system/grow.h"
+#include "system/own_file.h"
 
 #include <errno.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <pendres/store.h>
@@ -296,14 +298,19 @@ static void name_file(const deck *d, const column *other, char path[ROOM])
 }
 
 /* Is there nothing at path that is another one's? */
-static int may_replace(const char *path, progress *p)
+static int is_free(const char *path)
 {
   char start[sizeof sign] = "";
   FILE *f = fopen(path, "rb");
-  if (f == NULL && errno == ENOENT) return 1;
-  const size_t n = f != NULL ? fread(start, 1, sizeof sign - 1, f) : 1;
-  if (f != NULL) (void)fclose(f);
-  if (n == 0 || memcmp(start, sign, sizeof sign - 1) == 0) return 1;
+  if (f == NULL) return errno == ENOENT;
+  const size_t n = fread(start, 1, sizeof sign - 1, f);
+  (void)fclose(f);
+  return n == 0 || memcmp(start, sign, sizeof sign - 1) == 0;
+}
+
+static int may_replace(const char *path, progress *p)
+{
+  if (is_free(path)) return 1;
   progress_error(p, "%s is there and is no table of this program: it is left as it is; --force "
                  "replaces it", path);
   return 0;
@@ -316,26 +323,60 @@ int csv_check(const deck *d, progress *p)
   return may_replace(path, p) ? 0 : 2;
 }
 
-/* One table, whole or not at all. 0, or 1 after an error; t->status tells of reading. */
-static int write_file(tables *t, const column *first, const char *path)
+/* The part file of a table, which replaces none but one that a killed run has left. */
+static int open_part(const char *part, const char *path)
 {
-  char part[ROOM + 8];
-  column **wanted = calloc(t->count + 2, sizeof(column *));
-  snprintf(part, sizeof part, "%s.part", path);
-  FILE *out = wanted != NULL ? fopen(part, "w") : NULL;
+  struct stat there;
+  int fd = own_file_create(part, path);
+  if (fd >= 0 || errno != EEXIST) return fd;
+  if (lstat(part, &there) == 0 && S_ISREG(there.st_mode) && is_free(part) && unlink(part) == 0)
+    fd = own_file_create(part, path);
+  else errno = EEXIST;
+  return fd;
+}
+
+/* The table into the part file, and that to its name; nonzero on failure, see errno. */
+static int put_file(tables *t, const column *first, column **wanted, int fd, const char *part,
+                    const char *path)
+{
+  FILE *out = fdopen(fd, "w");
   int failed = out == NULL;
   if (out != NULL) {
     put_table(t, first, wanted, out);
-    failed = fflush(out) != 0 || ferror(out) || fsync(fileno(out)) != 0;
-    failed = fclose(out) != 0 || failed || t->status != PENDRES_OK || rename(part, path) != 0;
-    const int why = errno;
-    if (failed) (void)remove(part);
-    errno = why;
+    failed = fflush(out) != 0 || ferror(out) || fsync(fd) != 0 || t->status != PENDRES_OK ||
+             !own_file_is(fd, part) || rename(part, path) != 0;
   }
+  const int why = errno;
+  if (failed) own_file_remove(fd, part);
+  if (out != NULL) (void)fclose(out);
+  else (void)close(fd);
+  errno = why;
+  return failed;
+}
+
+/* One table, whole or not at all. 0, or 1 after an error; t->status tells of reading. */
+static int write_file(tables *t, const column *first, const char *path)
+{
+  char part[ROOM + 8], why[ROOM + 64] = "";
+  char *target = NULL;
+  int fd = -1;
+  column **wanted = calloc(t->count + 2, sizeof(column *));
+  int failed = wanted == NULL || pendres_store_target(path, &target, why, sizeof why) != PENDRES_OK;
+  if (!failed) {
+    if (strlen(target) < ROOM) {
+      snprintf(part, sizeof part, "%s.part", target);
+      fd = open_part(part, target);
+    } else {
+      errno = ENAMETOOLONG;
+    }
+    failed = fd < 0 || put_file(t, first, wanted, fd, part, target) != 0;
+    if (failed) snprintf(why, sizeof why, "%s%s: %s", path, fd < 0 ? ".part" : "", strerror(errno));
+  }
+  free(target);
   free(wanted);
   if (failed && t->status == PENDRES_OK)
-    progress_error(t->progress, "%s: %s; the results are whole in the HDF5 file", path,
-                   strerror(errno));
+    progress_error(t->progress, "%s; the results are whole in the HDF5 file",
+                   why[0] != '\0' ? why : pendres_status_message(PENDRES_OUT_OF_MEMORY));
   return failed;
 }
 

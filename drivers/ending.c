@@ -19,13 +19,19 @@ static const int faults[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
 static struct sigaction before[LENGTH(faults)];
 
 static pendres_store *const *_Atomic watched;
-static atomic_int result = RUNNING, done;
+static atomic_int result = RUNNING, done, whole;
 
 /* Only what a signal handler may do, here and below. */
 static void say(const char *words)
 {
   const ssize_t written = write(STDERR_FILENO, words, strlen(words));
   (void)written; /* there is nobody left to tell */
+}
+
+static void say_what_stands(void)
+{
+  say(atomic_load(&whole) ? "; the results are whole in the HDF5 file\n"
+                          : "; nothing was written\n");
 }
 
 static void drop_part(void)
@@ -38,9 +44,10 @@ static void at_exit(void)
 {
   const int code = atomic_load(&result);
   if (atomic_load(&done)) return;
-  if (code == RUNNING)
-    say("resonance: error: a library has ended the program, as HDF5 does when it gets no memory; "
-        "nothing was written\n");
+  if (code == RUNNING) {
+    say("resonance: error: a library has ended the program, as HDF5 does when it gets no memory");
+    say_what_stands();
+  }
   drop_part();
   _exit(code == RUNNING ? FAILED : code);
 }
@@ -53,7 +60,8 @@ static void at_fault(int number, siginfo_t *info, void *context)
   drop_part();
   if (code != RUNNING) _exit(code);
   say("resonance: error: the program or one of its libraries has crashed, as some do when they get "
-      "no memory; nothing was written\n");
+      "no memory");
+  say_what_stands();
   for (size_t i = 0; i < LENGTH(faults); i++)
     if (faults[i] == number) (void)sigaction(number, &before[i], NULL);
   if (info->si_code <= 0) (void)raise(number); /* sent, not met: taken when this returns */
@@ -63,7 +71,8 @@ int ending_watch(pendres_store *const *store)
 {
   struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO };
   int bad = sigemptyset(&action.sa_mask);
-  atomic_store(&watched, store);
+  atomic_store(&whole, 0);
+  if (atomic_exchange(&watched, store) != NULL) return 0;
   (void)gsl_set_error_handler_off(); /* which ends the program where GSL gets no memory */
   for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
   bad |= atexit(at_exit);
@@ -71,6 +80,11 @@ int ending_watch(pendres_store *const *store)
   pendres_store_hdf5_version(NULL, NULL, NULL);
   bad |= atexit(at_exit);
   return bad ? -1 : 0;
+}
+
+void ending_whole(void)
+{
+  atomic_store(&whole, 1);
 }
 
 void ending_told(int code)

@@ -17,9 +17,13 @@
 
 #include <pendres/store.h>
 
-/* From now on; *store, when it is not NULL, is being written. Once in a program, on any thread;
-   *store must live until the end. 0, or -1 if the system refuses. */
+/* From now on; *store, when it is not NULL, is being written. Before each deck, with the
+   same place, on any thread; *store must live until the end. 0, or -1 if the system refuses. */
 int ending_watch(pendres_store *const *store);
+
+/* The file of results is whole, in its place, as will be said of such an end; until the next call
+   of ending_watch(). */
+void ending_whole(void);
 
 /* The exit code is known, and all has been said. */
 void ending_told(int code);

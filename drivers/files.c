@@ -11,6 +11,7 @@
 #include <pendres/store.h>
 
 #include "apart.h"
+#include "system/own_file.h"
 
 enum { ROOM = DECK_PATH + 16 };
 
@@ -118,18 +119,10 @@ static int same_deck(const char *path, off_t bytes, const deck *d)
   return same;
 }
 
-/* A second name for the file; not over another one. */
-static int name_again(const char *path, const char *name)
-{
-  if (link(path, name) == 0) return 0;
-  if (errno == EEXIST || access(name, F_OK) == 0) return EEXIST;
-  return rename(path, name) == 0 ? 0 : errno; /* a file system without links */
-}
-
 int files_keep(const deck *d, files_kept *kept, progress *p)
 {
   struct stat info;
-  int why = ENOMEM;
+  int why = 0;
   *kept = (files_kept){ 0 };
   if (pendres_store_target(d->output, &kept->target, NULL, 0) != PENDRES_OK)
     return 0; /* the store tells */
@@ -138,16 +131,8 @@ int files_keep(const deck *d, files_kept *kept, progress *p)
     files_keep_end(kept, 1, p);
     return 0;
   }
-  const size_t size = strlen(kept->target) + 16;
-  kept->name = malloc(size);
-  for (int n = 1; n < 1000 && kept->name != NULL; n++) {
-    snprintf(kept->name, size, "%s.~%d~", kept->target, n);
-    why = name_again(kept->target, kept->name);
-    if (why != EEXIST) break;
-  }
-  if (why == 0) return 0;
-  free(kept->name);
-  kept->name = NULL;
+  kept->name = own_file_keep(kept->target, &why);
+  if (kept->name != NULL) return 0;
   files_keep_end(kept, 1, p);
   progress_error(p, "%s cannot be kept under another name: %s; --force replaces it", d->output,
                  strerror(why));

@@ -36,7 +36,6 @@ typedef struct job {
   progress progress;
   deck *decks;     /* as many as there are names; those that had their turn are empty */
   size_t turn;     /* of decks */
-  int watched;     /* nonzero: ending_watch() was called */
 
   /* Of the deck whose turn it is. */
   provenance provenance;
@@ -177,12 +176,9 @@ static int dump(job *j)
 /* What a library does when it ends the program is known from here on. */
 static int watch(job *j)
 {
-  if (!j->watched && ending_watch(&j->run.store) != 0) {
-    progress_error(&j->progress, "the system refuses handlers of exits and faults");
-    return FAILED;
-  }
-  j->watched = 1;
-  return DONE;
+  if (ending_watch(&j->run.store) == 0) return DONE;
+  progress_error(&j->progress, "the system refuses handlers of exits and faults");
+  return FAILED;
 }
 
 static int look_ahead(job *j)
@@ -229,14 +225,14 @@ static int open_output(job *j)
            slash != NULL ? slash + 1 : d->name, d->settings[0] != '\0' ? " " : "", d->settings);
   snprintf(source, sizeof source, "resonance, libpendres %s", pendres_version());
   const pendres_store_options options = { .title = title, .history = history, .source = source,
-                                          .references = j->scene->references };
+                                          .references = j->scene->references,
+                                          .alone = journal_alone(j->journal) };
   j->run = (scene_run){ .deck = d, .farm = j->farm };
   if (watch(j) != DONE) return FAILED;
   char output[DECK_PATH + SHARD_NAME], suffix[SHARD_NAME] = "";
   if (j->options.shards > 0) shard_suffix(j->options.shard, j->options.shards, suffix);
   snprintf(output, sizeof output, "%s%s", d->output, suffix);
   if (together_helping()) together_output(output, sizeof output);
-  if (!together_helping()) estimate_check_space(d, output, &j->progress);
   if (pendres_store_create(output, &options, &j->run.store) != PENDRES_OK) {
     const char *why = pendres_store_message(j->run.store);
     progress_error(&j->progress, "%s", *why != '\0' ? why : "out of memory for the output");
@@ -252,7 +248,9 @@ static int open_output(job *j)
 static int open_journal(job *j)
 {
   const options *o = &j->options;
-  const int code = resume_open(&j->deck, o, &j->progress, &j->journal);
+  int code = files_writable(&j->deck, &j->progress);
+  if (code == DONE) estimate_check_space(&j->deck, j->deck.output, &j->progress);
+  if (code == DONE) code = resume_open(&j->deck, o, &j->progress, &j->journal);
   farm_set_journal(j->farm, j->journal);
   if (o->shards > 0)
     farm_set_share(j->farm, (farm_share){ .shard = o->shard - 1, .shards = o->shards });
@@ -338,6 +336,7 @@ static int finish_output(job *j)
     progress_error(&j->progress, "%s", pendres_store_message(store));
     return FAILED;
   }
+  ending_whole();
   resume_leave(j->journal, farm_points_lost(j->farm), &j->progress);
   j->journal = NULL;
   return DONE;
@@ -421,8 +420,8 @@ static int run_deck(job *j)
   if (code == DONE && signals_install() != 0) code = FAILED;         /* 5 signals */
   if (j->options.action == OPTIONS_DRY_RUN) return code == DONE ? look_ahead(j) : code;
   if (code == DONE && !together_helping()) code = open_log(j);       /* 6 the log */
-  if (code == DONE) code = open_output(j);                           /* 7 the file */
-  if (code == DONE && !together_helping()) code = open_journal(j);   /* 8 what is done already */
+  if (code == DONE && !together_helping()) code = open_journal(j);   /* 7 what is done already */
+  if (code == DONE) code = open_output(j);                           /* 8 the file */
   code = agree(j, code);
   if (code == DONE) code = compute(j);                               /* 9 all the work */
   if (together_helping()) return DONE;

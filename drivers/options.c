@@ -61,8 +61,8 @@ static const char help[] =
   "FILE.~1~, FILE.~2~ and so on.\n"
   "Finished tasks are kept in FILE.journal, which is removed when FILE is whole. After a signal,\n"
   "a crash or a loss of power the same command with --resume goes on from there and ends in the\n"
-  "same results; --resume may be given always. Without it an older journal is set aside, as\n"
-  "FILE.journal~.\n"
+  "same results; --resume may be given always. Without it an older journal is kept, as\n"
+  "FILE.journal.~1~.\n"
   "\n"
   "Examples: resonance input/f02.nml\n"
   "          resonance input/f02.nml pendulum.drive_amplitude=0.15 sweep.damping=0.2,0.3\n";

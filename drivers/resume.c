@@ -129,8 +129,8 @@ static int open_at(const place *at, const char *path, const char *head, const op
   int code = 0;
   const pendres_status status = journal_open(path, head, o->resume || o->merge, out, words);
   if (status != PENDRES_OK)
-    return complain(p, status, words, " (without --resume all is computed, and that journal set "
-                    "aside)");
+    return complain(p, status, words, " (without --resume all is computed, and that journal "
+                    "kept under another name)");
   if (words[0] != '\0') progress_error(p, "%s", words);
   const size_t own = journal_count(*out);
   if (own > 0) progress_note(p, "going on from %zu finished tasks in %s", own, path);

@@ -13,10 +13,12 @@ unset DESTDIR PREFIX
 shared=$(cd "$BUILD" && pwd)/libpendres.so
 
 # A tree like this one, and a place for the files that are written. What is installed by folders is
-# copied, the rest linked.
+# copied, the rest linked: folders and files by name, and no results that somebody keeps at the top,
+# since a run writes to where a link leads.
 cp -r examples input plots docs python "$scratch"
-for entry in .ci *; do
-  [ -e "$scratch/$entry" ] || [ "$entry" = resonance ] || ln -s "$PWD/$entry" "$scratch/$entry"
+for entry in .ci */ Makefile Doxyfile LICENSE CITATION.cff ./*.md ./*.map ./*.in; do
+  entry=${entry%/}
+  [ -e "$scratch/$entry" ] || ln -s "$PWD/$entry" "$scratch/$entry"
 done
 ln -s "$RESONANCE" "$scratch/resonance"
 cd "$scratch" || exit 1

@@ -25,7 +25,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   noise/langevin_moving.h noise/noise_common.h continuation/continuation_equations.h continuation/continuation_parameter.h
   continuation/continuation_arc.h continuation/continuation_branch.h
   continuation/continuation_families.h'
-drivers_doors='system/bytes.h system/clock.h system/grow.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
+drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h
   validation/hard_cases.h'
 

@@ -162,6 +162,38 @@ static double cell(const char *path, const char *header, int row, int column)
   return strtod(at, NULL);
 }
 
+/* A name that the table is written under first, and that leads to somebody's file, is not written
+   to, nor a file there that is no table; what a killed run has left there is replaced. A link in
+   the place of the table is followed, as that of the HDF5 file is, and its permissions stay. */
+static void test_text_beside_others(void **state)
+{
+  char text[100];
+  struct stat info;
+  (void)state;
+  write_text("theirs", "precious");
+  assert_int_equal(symlink("theirs", "small.csv.part"), 0);
+  check_code(RUN("--csv", "-q", "-o", "small.h5", "small.nml"), 1);
+  check_says(err, "small.csv.part: ");
+  check_says(err, "whole in the HDF5 file");
+  read_text("theirs", text, sizeof text);
+  assert_string_equal(text, "precious");
+  assert_true(exists("small.h5") && !exists("small.csv") && exists("small.csv.part"));
+  assert_int_equal(rename("theirs", "small.csv.part"), 0);
+  check_code(RUN("--csv", "-q", "-f", "-o", "small.h5", "small.nml"), 1);
+  read_text("small.csv.part", text, sizeof text);
+  assert_string_equal(text, "precious");
+  write_text("small.csv.part", "# resonance: results as te");
+  write_text("meant.csv", "");
+  assert_int_equal(chmod("meant.csv", 0600), 0);
+  assert_int_equal(symlink("meant.csv", "small.csv"), 0);
+  check_code(RUN("--csv", "-q", "-f", "-o", "small.h5", "small.nml"), DONE);
+  assert_int_equal(stat("meant.csv", &info), 0);
+  assert_true(info.st_size > 1000 && (info.st_mode & 0777) == 0600);
+  assert_int_equal(unlink("small.csv"), 0);
+  check_code(RUN("--csv", "-q", "-f", "-o", "small.h5", "small.nml"), DONE);
+  assert_true(exists("small.csv") && !exists("small.csv.part"));
+}
+
 /* Text gives back the very doubles of the HDF5 file, with their coordinates and errors beside
    them, for any number of threads; what is not ours is kept. */
 static void test_text(void **state)
@@ -377,6 +409,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     TEST(test_settings),       TEST(test_bad_settings),     TEST(test_several_decks),
     TEST(test_standard_input), TEST(test_results_are_kept), TEST(test_csv_is_no_hdf5),
+    TEST(test_text_beside_others),
     TEST(test_text), TEST(test_text_of_failures),
     TEST(test_measures_are_defined), TEST(test_units), TEST(test_verify),
   };

@@ -27,6 +27,13 @@ static void leave(void)
   exit(255);
 }
 
+/* As while the results are read again, to be written as text. */
+static void leave_later(void)
+{
+  ending_whole();
+  exit(255);
+}
+
 static void fault(void)
 {
   (void)raise(SIGSEGV);
@@ -79,6 +86,9 @@ static void an_exit_is_a_failure_that_is_told(void **state)
   const int status = broken(leave, RUNNING, text, sizeof text);
   assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 1);
   assert_non_null(strstr(text, "a library has ended the program"));
+  assert_non_null(strstr(text, "; nothing was written\n"));
+  (void)broken(leave_later, RUNNING, text, sizeof text);
+  assert_non_null(strstr(text, "; the results are whole in the HDF5 file\n"));
 }
 
 static void a_fault_stays_one_and_leaves_nothing(void **state)

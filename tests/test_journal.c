@@ -34,7 +34,7 @@ static int leave(void **state)
 {
   (void)state;
   (void)unlink("run.journal");
-  (void)unlink("run.journal~");
+  (void)unlink("run.journal.~1~");
   (void)unlink("other.journal");
   return chdir("/") == 0 ? rmdir(folder) : -1;
 }
@@ -58,6 +58,7 @@ static void write_all(const char *name)
 {
   char words[JOURNAL_WORDS];
   journal *j = NULL;
+  (void)unlink(name);
   check_ok(journal_open(name, head, 0, &j, words));
   for (size_t i = 0; i < RECORDS; i++) {
     farm_record r = make(i);
@@ -124,17 +125,63 @@ static void comes_back(void **state)
   assert_int_equal(journal_open(path, head, 1, &again, words), PENDRES_BUSY);
   assert_null(again);
   journal_close(j);
-  /* Without resume it begins anew, and the older one is set aside; one without records leaves
-     nothing. */
+  /* Without resume it begins anew, and the older one is kept, and told, whatever becomes of the
+     new one; so is a user's file. One without records leaves nothing. */
+  save("run.journal.~1~", (const unsigned char *)"my poems", 8);
   check_ok(journal_open(path, head, 0, &j, words));
+  assert_non_null(strstr(words, "is kept as 'run.journal.~2~'"));
   assert_int_equal(journal_count(j), 0);
-  assert_int_equal(access("run.journal~", F_OK), 0);
-  journal_close(j);
+  journal_remove(j);
   assert_int_equal(access(path, F_OK), -1);
-  check_ok(journal_open("run.journal~", head, 1, &j, words));
+  assert_int_equal(unlink("run.journal.~1~"), 0);
+  check_ok(journal_open("run.journal.~2~", head, 1, &j, words));
   assert_int_equal(check_records(j), RECORDS);
   journal_remove(j);
-  assert_int_equal(access("run.journal~", F_OK), -1);
+  assert_int_equal(access("run.journal.~2~", F_OK), -1);
+  save(path, (const unsigned char *)"poem", 4); /* shorter than any journal */
+  check_ok(journal_open(path, head, 0, &j, words));
+  assert_non_null(strstr(words, "is kept as 'run.journal.~1~'"));
+  journal_stay(j);
+  journal_close(j);
+  /* A head alone is worth nothing. */
+  check_ok(journal_open(path, "another\n", 0, &j, words));
+  assert_string_equal(words, "");
+  journal_close(j);
+  assert_int_equal(access(path, F_OK), -1);
+  unsigned char bytes[ROOM];
+  assert_int_equal(load("run.journal.~1~", bytes), 4);
+  assert_int_equal(unlink("run.journal.~1~"), 0);
+}
+
+/* The name is somebody else's by now: it is neither removed nor taken for the own file. */
+static void replaced_meanwhile(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  unsigned char bytes[ROOM];
+  (void)state;
+  (void)unlink(path);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_int_equal(unlink(path), 0);
+  save(path, (const unsigned char *)"my poems", 8);
+  journal_remove(j);
+  assert_int_equal(load(path, bytes), 8);
+  /* Journals that others are writing are theirs. */
+  journal *others = NULL;
+  write_all("other.journal");
+  check_ok(journal_open("other.journal", head, 1, &others, words));
+  assert_true(journal_alone(others) && !journal_alone(NULL));
+  assert_int_equal(unlink(path), 0);
+  check_ok(journal_open(path, head, 1, &j, words));
+  check_ok(journal_add(j, "other.journal", words));
+  journal_remove(j);
+  assert_int_equal(access("other.journal", F_OK), 0);
+  journal_close(others);
+  assert_int_equal(mkdir("folder", 0700), 0);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_int_equal(journal_add(j, "folder", words), PENDRES_INVALID_ARGUMENT);
+  journal_close(j);
+  assert_int_equal(rmdir("folder"), 0);
 }
 
 static void another_head(void **state)
@@ -207,6 +254,9 @@ static void flipped_bits(void **state)
     else check_ok(status);
     if (status == PENDRES_OK) assert_true(check_records(j) < RECORDS);
     journal_close(j);
+    /* A head that cannot be read is kept with all that stands behind it. */
+    const int kept = strstr(words, "is kept as") != NULL;
+    assert_true((unlink("run.journal.~1~") == 0) == (at >= 8 && kept));
   }
 }
 
@@ -270,7 +320,8 @@ static void no_room(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(comes_back), cmocka_unit_test(another_head), cmocka_unit_test(cut_anywhere),
+    cmocka_unit_test(comes_back), cmocka_unit_test(replaced_meanwhile),
+    cmocka_unit_test(another_head), cmocka_unit_test(cut_anywhere),
     cmocka_unit_test(flipped_bits), cmocka_unit_test(several), cmocka_unit_test(no_room),
   };
   return cmocka_run_group_tests(tests, enter, leave);

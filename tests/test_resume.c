@@ -102,6 +102,59 @@ static void stopped_by_signal(void **state)
   assert_true(exists("deck.h5.journal"));
 }
 
+/* What a killed run has left, where HDF5's own variable switches its locks off: that nobody writes
+   the part is known from the journal's lock. Without a journal nobody knows, and it is refused. */
+static void killed_without_locks(void **state)
+{
+  const char *const arguments[] = { "-o", "one.h5", "long.nml", NULL };
+  (void)state;
+  assert_int_equal(setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1), 0);
+  const pid_t pid = start("stdout.txt", 0, arguments);
+  for (int k = 0; k < 1000 && !exists("one.h5.part"); k++) wait_seconds(0.01);
+  assert_int_equal(kill(pid, SIGKILL), 0);
+  check_code(finish(pid), 1000 + SIGKILL);
+  assert_true(exists("one.h5.part"));
+  check_code(RUN("-o", "one.h5", "--no-journal", "small.nml"), 1);
+  check_says(err, "one.h5.part");
+  check_code(RUN("-o", "one.h5", "--resume", "long.nml", "orbit.periods=2"), 2); /* another deck */
+  if (exists("one.h5.journal")) assert_int_equal(remove("one.h5.journal"), 0);
+  check_code(RUN("-o", "one.h5", "--resume", "small.nml"), DONE);
+  assert_true(exists("one.h5") && !exists("one.h5.part"));
+  assert_int_equal(unsetenv("HDF5_USE_FILE_LOCKING"), 0);
+}
+
+/* A run of another deck, and the same command without --resume, leave what a stopped run has
+   computed, and say so. A run that nobody else may read stays so. */
+static void kept_for_others(void **state)
+{
+  struct stat info;
+  (void)state;
+  write_text("deck.nml", "&scene kind = 'phase_diagram' /\n&pendulum drive_amplitude = 0.2 /\n"
+                         "&sweep damping = 0.1, 0.2, drive_frequency_range = 0.7, 0.9, 3 /\n"
+                         "&ensemble members = 4 /\n");
+  check_code(RUN("-o", "run.h5", "--shard=1/2", "deck.nml"), DONE);
+  assert_int_equal(rename("run.h5.1-of-2.journal", "run.h5.journal"), 0);
+  const long long whole = bytes("run.h5.journal");
+  check_code(RUN("-o", "run.h5", "orbit.nml"), DONE);
+  check_says(err, "the journal of another deck or build is kept as 'run.h5.journal.~1~'");
+  assert_int_equal(bytes("run.h5.journal.~1~"), whole);
+  assert_int_equal(rename("run.h5.journal.~1~", "run.h5.journal"), 0);
+  write_text("run.h5.journal~", "poems");
+  assert_int_equal(chmod("run.h5", 0600), 0);
+  check_code(RUN("-q", "-f", "-o", "run.h5", "deck.nml"), DONE);
+  check_says(err, "is kept as 'run.h5.journal.~1~'");
+  check_says(err, "--resume");
+  assert_int_equal(bytes("run.h5.journal.~1~"), whole);
+  assert_int_equal(bytes("run.h5.journal~"), 5);
+  assert_int_equal(stat("run.h5", &info), 0);
+  assert_int_equal(info.st_mode & 0777, 0600);
+  /* And it is of use: the same bytes come from it. */
+  assert_int_equal(rename("run.h5.journal.~1~", "again.h5.journal"), 0);
+  check_code(RUN("-o", "again.h5", "--resume", "deck.nml"), DONE);
+  check_says(err, "going on from ");
+  check_same_results("run.h5", "again.h5");
+}
+
 /* In a folder of the user's choice, or not at all. */
 static void place_of_journal(void **state)
 {
@@ -117,7 +170,8 @@ static void place_of_journal(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = { TEST(killed_at_any_moment), TEST(stopped_by_signal),
-                                      TEST(place_of_journal) };
+                                      TEST(place_of_journal), TEST(killed_without_locks),
+                                      TEST(kept_for_others) };
   if (!find_program()) return 77;
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

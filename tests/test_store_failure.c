@@ -77,7 +77,12 @@ static void abandoned_run_leaves_the_old_file(void **state)
   (void)state;
   write_file(in_folder(path, "old.h5"), "old");
   in_folder(part, "old.h5.part");
-  write_file(part, "left by a run that was killed");
+  write_file(part, "poems, not left by a run that was killed");
+  assert_int_equal(pendres_store_create(path, NULL, &store), PENDRES_IO);
+  assert_non_null(strstr(pendres_store_message(store), "was not left by a run"));
+  pendres_store_free(store);
+  check_contents(part, "poems, not left by a run that was killed");
+  write_file(part, "\211HDF\r\n\032\nleft by a run that was killed");
 
   OK(pendres_store_create(path, NULL, &store));
   OK(pendres_store_put(store, &spec, &value, 1));
@@ -318,7 +323,7 @@ static void refused_bytes_are_kept(void **state)
 
   (void)state;
   assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
-  assert_int_equal(pendres_store_file_create(&file, in_folder(path, "refused")), PENDRES_OK);
+  assert_int_equal(pendres_store_file_create(&file, in_folder(path, "refused"), 0), PENDRES_OK);
   limit = before;
   limit.rlim_cur = 6;
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);

@@ -1,11 +1,12 @@
 /* journal.c -- records of finished tasks on disk; see journal.h. */
-#define _POSIX_C_SOURCE 200809L /* fdatasync */
-#define _DEFAULT_SOURCE         /* flock */
+#define _XOPEN_SOURCE 700 /* fdatasync, tsearch */
+#define _DEFAULT_SOURCE   /* flock */
 #include "farm/journal.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <search.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,31 +17,33 @@
 
 #include "system/clock.h"
 #include "system/grow.h"
+#include "system/own_file.h"
 
 /* At most the records of so many seconds are lost when the machine fails. */
 static const double sync_after = 10.0;
 
+/* How often the journal may be removed or replaced between two looks at it. */
+enum { ATTEMPTS = 100 };
+
 /* Where a record stands. */
 typedef struct slot {
-  int file;   /* 1 + the number of the file that holds the record; 0: there is none */
-  off_t at;   /* of its head */
+  uint64_t stage, task;
+  size_t file; /* number of the file that holds the record */
+  off_t at;    /* of its head */
 } slot;
 
-typedef struct stage {
-  slot *task;
-  size_t count;
-} stage;
-
 struct journal {
-  char *path, *aside;
+  char *path;
   char *head;
   int *file;        /* the first is written to */
   char **added;     /* names of the files */
   size_t files, file_room, added_room;
   off_t end;        /* of the first */
-  stage *stage;
-  size_t stages, count;
+  void *index;      /* a tree of slots, which takes no more memory than there are records, whatever
+                       their numbers are */
+  size_t count;
   size_t own;       /* records in the first file */
+  int locked;       /* the first, by this process */
   int broken;       /* it takes no more */
   int stays;        /* even if it holds nothing */
   int dirty;        /* some of it may not be on disk yet */
@@ -50,30 +53,53 @@ struct journal {
 
 /* ---- the index ----------------------------------------------------------------------------- */
 
+static int compare(const void *one, const void *other)
+{
+  const slot *a = one, *b = other;
+  if (a->stage != b->stage) return a->stage < b->stage ? -1 : 1;
+  return (a->task > b->task) - (a->task < b->task);
+}
+
 /* A record may be there twice: both have the same bytes. */
 static pendres_status note(journal *j, size_t file, const journal_entry *e, off_t at)
 {
-  if (e->stage >= SIZE_MAX || e->task >= SIZE_MAX ||
-      !grow_to(&j->stage, (size_t)e->stage + 1, &j->stages, sizeof *j->stage))
+  slot *s = malloc(sizeof *s);
+  if (s == NULL) return PENDRES_OUT_OF_MEMORY;
+  *s = (slot){ e->stage, e->task, file, at };
+  slot **found = tsearch(s, &j->index, compare);
+  if (found == NULL) {
+    free(s);
     return PENDRES_OUT_OF_MEMORY;
-  stage *s = &j->stage[e->stage];
-  if (!grow_to(&s->task, (size_t)e->task + 1, &s->count, sizeof *s->task))
-    return PENDRES_OUT_OF_MEMORY;
-  j->count += s->task[e->task].file == 0;
-  s->task[e->task] = (slot){ (int)file + 1, at };
+  }
+  if (*found == s) {
+    j->count++;
+    return PENDRES_OK;
+  }
+  **found = *s;
+  free(s);
   return PENDRES_OK;
 }
 
-static const slot *find(const journal *j, size_t number, size_t task)
+static void drop_index(journal *j)
 {
-  if (j == NULL || number >= j->stages || task >= j->stage[number].count) return NULL;
-  const slot *s = &j->stage[number].task[task];
-  return s->file > 0 ? s : NULL;
+  while (j->index != NULL) {
+    slot *s = *(slot **)j->index; /* of the root */
+    (void)tdelete(s, &j->index, compare);
+    free(s);
+  }
 }
 
-int journal_has(const journal *j, size_t number, size_t task)
+static const slot *find(const journal *j, uint64_t stage, uint64_t task)
 {
-  return find(j, number, task) != NULL;
+  const slot wanted = { .stage = stage, .task = task };
+  if (j == NULL) return NULL;
+  slot *const *found = tfind(&wanted, &j->index, compare);
+  return found != NULL ? *found : NULL;
+}
+
+int journal_has(const journal *j, uint64_t stage, size_t task)
+{
+  return find(j, stage, task) != NULL;
 }
 
 size_t journal_count(const journal *j)
@@ -91,6 +117,11 @@ const char *journal_path(const journal *j)
   return j->path;
 }
 
+int journal_alone(const journal *j)
+{
+  return j != NULL && j->locked;
+}
+
 /* ---- opening ------------------------------------------------------------------------------- */
 
 static pendres_status complain(char *words, pendres_status status, const char *what,
@@ -98,6 +129,12 @@ static pendres_status complain(char *words, pendres_status status, const char *w
 {
   snprintf(words, JOURNAL_WORDS, "%s '%s': %s", what, path, why);
   return status;
+}
+
+static off_t size_of(int fd)
+{
+  struct stat s;
+  return fstat(fd, &s) == 0 ? s.st_size : 0;
 }
 
 /* All records of a file into the index; *end is where what is whole ends. */
@@ -135,44 +172,78 @@ static void drop_own(journal *j)
   j->files = 0;
 }
 
-/* Refuse a journal that the run cannot go on from. */
-static pendres_status set_aside(const journal *j, char *words)
-{
-  if (rename(j->path, j->aside) == 0 || errno == ENOENT) return PENDRES_OK;
-  return complain(words, PENDRES_IO, "cannot set aside the journal", j->path, strerror(errno));
-}
-
 /* Open the own file, locked; it may be empty. */
 static pendres_status open_own(journal *j, char *words)
 {
-  const int fd = open(j->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  struct stat status;
-  if (fd < 0)
-    return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
-  if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
+  for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+    const int fd = open(j->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    struct stat status;
+    if (fd < 0)
+      return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
+    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
+      close(fd);
+      return complain(words, PENDRES_IO, "cannot write the journal", j->path, "not a regular file");
+    }
+    /* Where a file system knows no locks the output's own lock has to do. */
+    j->locked = flock(fd, LOCK_EX | LOCK_NB) == 0;
+    if (!j->locked && errno == EWOULDBLOCK) {
+      close(fd);
+      return complain(words, PENDRES_BUSY, "the journal", j->path, "another run is writing it");
+    }
+    /* The run that had it may have removed it at its end, before it was locked. */
+    if (own_file_is(fd, j->path)) return take_file(j, fd, j->path);
     close(fd);
-    return complain(words, PENDRES_IO, "cannot write the journal", j->path, "not a regular file");
   }
-  /* Where a file system knows no locks the output's own lock has to do. */
-  if (flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(fd);
-    return complain(words, PENDRES_BUSY, "the journal", j->path, "another run is writing it");
-  }
-  return take_file(j, fd, j->path);
+  return complain(words, PENDRES_BUSY, "the journal", j->path,
+                  "it is replaced all the time by other runs");
 }
 
-/* Set the own file aside and begin another. */
-static pendres_status begin_anew(journal *j, char *words)
+/* Keep the own file under another name, for what it holds is not this run's to remove, and begin
+   another. */
+static pendres_status begin_anew(journal *j, const char *what, const char *more, char *words)
 {
+  int why = 0;
+  char *name = own_file_keep(j->path, &why);
+  if (name == NULL)
+    return complain(words, PENDRES_IO, "cannot set aside the journal", j->path, strerror(why));
+  own_file_remove(j->file[0], j->path);
   drop_own(j);
-  const pendres_status status = set_aside(j, words);
-  return status == PENDRES_OK ? open_own(j, words) : status;
+  const pendres_status status = open_own(j, words);
+  if (status == PENDRES_OK)
+    snprintf(words, JOURNAL_WORDS, "%s is kept as '%.300s'%s", what, name, more);
+  free(name);
+  return status;
 }
 
-static off_t size_of(int fd)
+/* Is the own file a journal without records, or the beginning of one? */
+static int is_bare(const journal *j, journal_head found, off_t end)
 {
-  struct stat s;
-  return fstat(fd, &s) == 0 ? s.st_size : 0;
+  journal_entry e;
+  const off_t size = size_of(j->file[0]);
+  if (found == JOURNAL_TORN) return size <= (off_t)(JOURNAL_HEAD + strlen(j->head));
+  return found != JOURNAL_NONE && size == end && !journal_file_next(j->file[0], end, &e);
+}
+
+static pendres_status empty_own(const journal *j, char *words)
+{
+  if (ftruncate(j->file[0], 0) == 0) return PENDRES_OK;
+  return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
+}
+
+/* The own file of a run that does not go on from it is kept, unless it holds nothing. */
+static pendres_status clear_own(journal *j, char *words)
+{
+  static const char *const what[] = {
+    [JOURNAL_SAME] = "the journal of a stopped run of this deck, from which --resume goes on,",
+    [JOURNAL_OTHER] = "the journal of another deck or build",
+    [JOURNAL_NONE] = "what stood in the place of the journal",
+    [JOURNAL_TORN] = "a journal with a damaged head",
+  };
+  off_t end = 0;
+  const journal_head found = journal_file_head(j->file[0], j->head, &end, words);
+  words[0] = '\0';
+  if (found == JOURNAL_NO_MEMORY) return PENDRES_OUT_OF_MEMORY;
+  return is_bare(j, found, end) ? empty_own(j, words) : begin_anew(j, what[found], "", words);
 }
 
 /* The head of the own file: compared, or written where there is none or it is damaged. Sets
@@ -182,16 +253,16 @@ static pendres_status settle_head(journal *j, char *words)
   pendres_status status = PENDRES_OK;
   switch (journal_file_head(j->file[0], j->head, &j->end, words)) {
   case JOURNAL_SAME: return PENDRES_OK;
-  case JOURNAL_OTHER: return PENDRES_INVALID_ARGUMENT;
+  case JOURNAL_OTHER:
+  case JOURNAL_NONE: return PENDRES_INVALID_ARGUMENT;
   case JOURNAL_NO_MEMORY: return PENDRES_OUT_OF_MEMORY;
   case JOURNAL_TORN: break;
   }
-  if (size_of(j->file[0]) > 0) {
-    status = begin_anew(j, words);
-    if (status != PENDRES_OK) return status;
-    snprintf(words, JOURNAL_WORDS, "the head of the journal '%s' is damaged: it is set aside, and "
-             "all is computed again", j->path);
-  }
+  if (is_bare(j, JOURNAL_TORN, 0)) status = empty_own(j, words);
+  else
+    status = begin_anew(j, "the head of the journal is damaged: it", ", and all is computed again",
+                        words);
+  if (status != PENDRES_OK) return status;
   if (journal_file_begin(j->file[0], j->head, &j->end)) return PENDRES_OK;
   return complain(words, PENDRES_IO, "cannot write the journal", j->path, strerror(errno));
 }
@@ -216,15 +287,13 @@ static pendres_status build(journal *j, const char *path, const char *head, int 
 {
   const size_t length = strlen(path);
   j->path = malloc(length + 1);
-  j->aside = malloc(length + 2);
   j->head = malloc(strlen(head) + 1);
-  if (j->path == NULL || j->aside == NULL || j->head == NULL) return PENDRES_OUT_OF_MEMORY;
+  if (j->path == NULL || j->head == NULL) return PENDRES_OUT_OF_MEMORY;
   strcpy(j->path, path);
-  snprintf(j->aside, length + 2, "%s~", path);
   strcpy(j->head, head);
   pendres_status status = open_own(j, words);
   /* Only now it is known that no other run uses it. */
-  if (status == PENDRES_OK && !resume && size_of(j->file[0]) > 0) status = begin_anew(j, words);
+  if (status == PENDRES_OK && !resume && size_of(j->file[0]) > 0) status = clear_own(j, words);
   if (status == PENDRES_OK) status = settle_head(j, words);
   if (status == PENDRES_OK) status = load_own(j, words);
   return status;
@@ -237,12 +306,10 @@ static void let_go(journal *j)
     free(j->added[i]);
   }
   free(j->added);
-  for (size_t i = 0; i < j->stages; i++) free(j->stage[i].task);
-  free(j->stage);
+  drop_index(j);
   free(j->file);
   free(j->head);
   free(j->path);
-  free(j->aside);
   (void)pthread_mutex_destroy(&j->lock);
   free(j);
 }
@@ -274,15 +341,21 @@ pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORD
 {
   off_t end = 0;
   words[0] = '\0';
-  const int fd = open(path, O_RDONLY | O_CLOEXEC);
+  struct stat info;
+  const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0)
     return complain(words, errno == ENOENT ? PENDRES_NOT_FOUND : PENDRES_IO,
                     "cannot read the journal", path, strerror(errno));
+  if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
+    close(fd);
+    return complain(words, PENDRES_INVALID_ARGUMENT, "the journal", path, "not a regular file");
+  }
   pendres_status status = take_file(j, fd, path);
   if (status != PENDRES_OK) return status;
   switch (journal_file_head(fd, j->head, &end, words)) {
   case JOURNAL_SAME: return load(j, j->files - 1, &end);
-  case JOURNAL_OTHER: return PENDRES_INVALID_ARGUMENT;
+  case JOURNAL_OTHER:
+  case JOURNAL_NONE: return PENDRES_INVALID_ARGUMENT;
   case JOURNAL_NO_MEMORY: return PENDRES_OUT_OF_MEMORY;
   case JOURNAL_TORN: break; /* nothing is there yet */
   }
@@ -291,14 +364,14 @@ pendres_status journal_add(journal *j, const char *path, char words[JOURNAL_WORD
 
 /* ---- records ------------------------------------------------------------------------------- */
 
-pendres_status journal_read(journal *j, size_t number, size_t task, farm_record *record)
+pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record *record)
 {
   journal_entry e;
   pthread_mutex_lock(&j->lock);
-  const slot *found = find(j, number, task), s = found != NULL ? *found : (slot){ 0 };
+  const slot *found = find(j, stage, task), s = found != NULL ? *found : (slot){ 0 };
   pthread_mutex_unlock(&j->lock);
-  if (s.file == 0) return PENDRES_NOT_FOUND;
-  const int fd = j->file[s.file - 1];
+  if (found == NULL) return PENDRES_NOT_FOUND;
+  const int fd = j->file[s.file];
   if (!journal_file_entry(fd, s.at, &e) || e.size > SIZE_MAX / 2) return PENDRES_IO;
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, (size_t)e.size) == NULL) return PENDRES_OUT_OF_MEMORY;
@@ -310,11 +383,11 @@ pendres_status journal_read(journal *j, size_t number, size_t task, farm_record 
 }
 
 /* Under the lock. */
-static pendres_status append(journal *j, size_t number, size_t task, const farm_record *r,
+static pendres_status append(journal *j, uint64_t stage, size_t task, const farm_record *r,
                              char *words)
 {
   const pendres_cost *c = &r->cost;
-  journal_entry e = { .stage = number, .task = task, .size = r->size,
+  journal_entry e = { .stage = stage, .task = task, .size = r->size,
                       .cost = { c->pendulum_periods, c->rhs_evaluations, c->steps, c->newton_steps,
                                 c->settled_pendulums } };
   if (!journal_file_append(j->file[0], j->end, &e, r->data)) {
@@ -334,13 +407,13 @@ static pendres_status append(journal *j, size_t number, size_t task, const farm_
   return note(j, 0, &e, at);
 }
 
-pendres_status journal_append(journal *j, size_t number, size_t task, const farm_record *record,
+pendres_status journal_append(journal *j, uint64_t stage, size_t task, const farm_record *record,
                               char words[JOURNAL_WORDS])
 {
   pendres_status status = PENDRES_IO;
   words[0] = '\0';
   pthread_mutex_lock(&j->lock);
-  if (!j->broken) status = append(j, number, task, record, words);
+  if (!j->broken) status = append(j, stage, task, record, words);
   pthread_mutex_unlock(&j->lock);
   return status;
 }
@@ -355,7 +428,7 @@ void journal_stay(journal *j)
 void journal_close(journal *j)
 {
   if (j == NULL) return;
-  if (j->own == 0 && !j->stays) (void)unlink(j->path);
+  if (j->own == 0 && !j->stays) own_file_remove(j->file[0], j->path);
   else if (j->dirty) (void)fsync(j->file[0]);
   let_go(j);
 }
@@ -363,7 +436,9 @@ void journal_close(journal *j)
 void journal_remove(journal *j)
 {
   if (j == NULL) return;
-  for (size_t i = 0; i < j->files; i++) (void)unlink(j->added[i]);
-  (void)unlink(j->aside);
+  /* One that another run is still writing is that run's. */
+  for (size_t i = 0; i < j->files; i++)
+    if (i == 0 || flock(j->file[i], LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+      own_file_remove(j->file[i], j->added[i]);
   let_go(j);
 }

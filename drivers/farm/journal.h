@@ -17,8 +17,10 @@ typedef struct journal journal;
  * Open the journal at `path`, with a head of lines of text, and lock it for this process.
  *
  * resume: the records that are there are taken over, if the heads are the same; else `words` names
- * the first line that differs. Without resume a journal that is there is set aside, as `path~`.
- * words[JOURNAL_WORDS] says why it failed, or what was found damaged and dropped; "" if neither.
+ * the first line that differs. Without resume a journal that holds records, and any other file, is
+ * kept under another name, `path.~1~` or the next one that is free, and stays there.
+ * words[JOURNAL_WORDS] says why it failed, what was kept, or what was found damaged and dropped; ""
+ * if none of these.
  * Errors: PENDRES_INVALID_ARGUMENT (another head, or no journal at all), PENDRES_BUSY (another
  * process has it), PENDRES_IO, PENDRES_OUT_OF_MEMORY. On failure *out is NULL.
  */
@@ -34,18 +36,22 @@ size_t journal_count(const journal *j);
 size_t journal_own(const journal *j);
 const char *journal_path(const journal *j);
 
+/* Is it locked, so that no other process writes it? Some file systems know no locks: then nobody
+   can tell. NULL: no. */
+int journal_alone(const journal *j);
+
 /* Is the record of a task there? j may be NULL: no. */
-int journal_has(const journal *j, size_t stage, size_t task);
+int journal_has(const journal *j, uint64_t stage, size_t task);
 
 /* Read it; record->data is to be freed. PENDRES_IO if it cannot be read or is not what it was. */
-pendres_status journal_read(journal *j, size_t stage, size_t task, farm_record *record);
+pendres_status journal_read(journal *j, uint64_t stage, size_t task, farm_record *record);
 
 /*
  * Append a record; any thread may. What is written survives the process at once, and the machine
  * after a few seconds. On failure (PENDRES_IO: the disk is full, say) the file is cut back to whole
  * records and takes no more: words[JOURNAL_WORDS] says why the first time and is "" from then on.
  */
-pendres_status journal_append(journal *j, size_t stage, size_t task, const farm_record *record,
+pendres_status journal_append(journal *j, uint64_t stage, size_t task, const farm_record *record,
                               char words[JOURNAL_WORDS]);
 
 /* From now on the file stays though it may hold no record: a part of a run has nothing to do. NULL
@@ -56,8 +62,8 @@ void journal_stay(journal *j);
    allowed. */
 void journal_close(journal *j);
 
-/* The results stand whole: the file is removed, what was set aside, and the journals that were
-   added; j is let go of. */
+/* The results stand whole: the file is removed, and the journals that were added, unless another
+   process is writing them; j is let go of. */
 void journal_remove(journal *j);
 
 #endif

@@ -20,7 +20,12 @@ typedef struct file_head {
   uint32_t text_sum, sum;
 } file_head;
 
-enum { PIECE = 1 << 20 /* bytes summed up at a time */ };
+_Static_assert(sizeof(file_head) == JOURNAL_HEAD, "the head of a journal has no gaps");
+
+enum {
+  PIECE = 1 << 20,     /* bytes summed up at a time */
+  MOST_ZEROS = 1 << 20 /* bytes of a record that are left out */
+};
 
 static uint32_t sum_of(const void *data, size_t size)
 {
@@ -53,11 +58,13 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
   journal_head found = JOURNAL_TORN;
   struct stat s;
   char begin[sizeof magic] = "";
-  if (fstat(fd, &s) != 0 || !bytes_read(fd, 0, begin, sizeof begin)) return JOURNAL_TORN;
-  if (memcmp(begin, magic, sizeof magic) != 0) {
+  if (fstat(fd, &s) != 0) return JOURNAL_TORN;
+  const size_t some = (size_t)s.st_size < sizeof begin ? (size_t)s.st_size : sizeof begin;
+  if (!bytes_read(fd, 0, begin, some)) return JOURNAL_TORN;
+  if (memcmp(begin, magic, some) != 0) {
     snprintf(words, JOURNAL_WORDS, "what stands in the place of the journal is none: it is left "
              "alone");
-    return JOURNAL_OTHER;
+    return JOURNAL_NONE;
   }
   if (!bytes_read(fd, 0, &h, sizeof h) || h.sum != sum_of(&h, offsetof(file_head, sum)) ||
       h.length > (uint64_t)s.st_size)
@@ -91,7 +98,7 @@ int journal_file_entry(int fd, off_t at, journal_entry *e)
   struct stat s;
   return fstat(fd, &s) == 0 && bytes_read(fd, at, e, sizeof *e) && e->mark == mark &&
          e->sum == sum_of(e, offsetof(journal_entry, sum)) && e->stored <= e->size &&
-         e->stored <= (uint64_t)s.st_size;
+         e->stored <= (uint64_t)s.st_size && e->size - e->stored <= MOST_ZEROS;
 }
 
 int journal_file_data(int fd, off_t at, const journal_entry *e, void *data)
@@ -126,7 +133,8 @@ int journal_file_append(int fd, off_t at, journal_entry *e, const void *data)
 {
   const char *bytes = data;
   e->stored = e->size;
-  while (e->stored > 0 && bytes[e->stored - 1] == 0) e->stored--;
+  while (e->stored > 0 && e->size - e->stored < MOST_ZEROS && bytes[e->stored - 1] == 0)
+    e->stored--;
   e->mark = mark;
   e->data_sum = sum_of(data, (size_t)e->stored);
   e->sum = sum_of(e, offsetof(journal_entry, sum));

@@ -6,7 +6,8 @@
  *   head     "PENDRESJ", length of the text and two checksums, of the text and of all before it;
  *            the text
  *   record   a journal_entry, with a checksum of itself and one of the data; the data, without the
- *            zeros at its end
+ *            zeros at its end, of which a megabyte at most is left out: so that a file makes nobody
+ *            ask for much more memory than it has bytes
  *
  * Numbers have the byte order of the machine: a journal goes on where it began.
  */
@@ -16,7 +17,10 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-enum { JOURNAL_WORDS = 512 /* room for what is said of a journal */ };
+enum {
+  JOURNAL_WORDS = 512, /* room for what is said of a journal */
+  JOURNAL_HEAD = 24    /* bytes before the text of a head */
+};
 
 typedef struct journal_entry {
   uint64_t mark;         /* filled in by journal_file_append, as are stored and the checksums */
@@ -28,7 +32,8 @@ typedef struct journal_entry {
 
 typedef enum journal_head {
   JOURNAL_SAME,
-  JOURNAL_OTHER,    /* of another deck or build; or no journal */
+  JOURNAL_OTHER,    /* of another deck or build */
+  JOURNAL_NONE,     /* no journal at all */
   JOURNAL_TORN,     /* killed while it was made, or empty */
   JOURNAL_NO_MEMORY
 } journal_head;

@@ -74,14 +74,18 @@ typedef enum pendres_store_type {
     Thread safe. */
 const char *pendres_store_type_name(pendres_store_type type);
 
-/** Attributes of the root group. NULL leaves one out. Here only the history may tell the
- *  date, as the CF conventions ask; whatever else changes from run to run (hosts, times taken)
- *  belongs into the provenance, so that what is left of equal results is equal. */
+/** Attributes of the root group, of which NULL leaves one out, and how the file is made. Here only
+ *  the history may tell the date, as the CF conventions ask; whatever else changes from run to run
+ *  (hosts, times taken) belongs into the provenance, so that what is left of equal results is
+ *  equal. */
 typedef struct pendres_store_options {
   const char *title;      /**< what the file holds, in a line (CF conventions, 2.6.2) */
   const char *history;    /**< what was done to the data, and when */
   const char *source;     /**< how the data were made: the program and its version */
   const char *references; /**< publications that describe them */
+  int alone; /**< 1: the caller knows that no other process writes this file, as by a lock of its
+                  own: a part file that is there was left, even where HDF5_USE_FILE_LOCKING has
+                  switched the locks off that would tell */
 } pendres_store_options;
 
 /** What a variable is. Zero in any field means its default; nothing is kept after the call. */

@@ -213,7 +213,7 @@ pendres_status pendres_store_create(const char *path, const pendres_store_option
       pendres_store_fail(store, PENDRES_INVALID_ARGUMENT, "a store needs the path of its file");
     goto leave;
   }
-  status = pendres_store_file_create(&store->file, path);
+  status = pendres_store_file_create(&store->file, path, options && options->alone);
   if (status == PENDRES_IO) pendres_store_fail(store, status, "%s", store->file.why);
   if (!status) status = create_h5(store);
   if (!status) status = set_root(store, options);

@@ -92,16 +92,27 @@ static pendres_status close_again(pendres_store_file *file, pendres_status statu
   return status;
 }
 
+/* Can it be what a run has left: nothing, a beginning without its head, or an HDF5 file? */
+static int is_leftover(int fd)
+{
+  static const char signature[8] = { '\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n' };
+  static const char nothing[8];
+  char begin[8] = { 0 };
+  const ssize_t n = pread(fd, begin, sizeof begin, 0);
+
+  return n == 0 || (n > 0 && (!memcmp(begin, signature, 8) || !memcmp(begin, nothing, 8)));
+}
+
 /*
  * Take over a part file that is there already: one that a killed run has left is no longer locked.
  * *again: it has gone meanwhile, and the name is free.
  */
-static pendres_status take_over(pendres_store_file *file, int *again)
+static pendres_status take_over(pendres_store_file *file, int alone, int *again)
 {
   struct stat info;
 
   *again = 0;
-  if (!locks_count())
+  if (!alone && !locks_count())
     return file_fail(file, "'%s' exists: another process is writing it, or one was killed; without "
                      "file locks (HDF5_USE_FILE_LOCKING) nobody can tell. Remove it if no run is "
                      "writing it", file->part);
@@ -114,14 +125,18 @@ static pendres_status take_over(pendres_store_file *file, int *again)
     return close_again(file, file_fail(file, "'%s' exists and is not a regular file", file->part));
   if (flock(file->fd, LOCK_EX | LOCK_NB)) {
     if (errno == EWOULDBLOCK) return close_again(file, busy(file));
-    return close_again(file, file_fail(file, "'%s' exists, and cannot be locked to see whether it "
-                                       "is being written: %s. Remove it if no run is writing it",
-                                       file->part, strerror(errno)));
+    if (!alone)
+      return close_again(file, file_fail(file, "'%s' exists, and cannot be locked to see whether "
+                                         "it is being written: %s. Remove it if no run is writing "
+                                         "it", file->part, strerror(errno)));
   }
   if (!is_same_file(file->fd, file->part)) {
     *again = 1;
     return close_again(file, PENDRES_IO);
   }
+  if (!is_leftover(file->fd))
+    return close_again(file, file_fail(file, "'%s' exists, and was not left by a run that was "
+                                       "killed: move it elsewhere", file->part));
   if (ftruncate(file->fd, 0))
     return close_again(file, file_failed(file, "empty", file->part, errno));
   return PENDRES_OK;
@@ -132,7 +147,7 @@ static pendres_status take_over(pendres_store_file *file, int *again)
  * is refused at once, with or without locks. Where there are locks one is held, which tells others
  * that the file is in use.
  */
-static pendres_status open_own(pendres_store_file *file)
+static pendres_status open_own(pendres_store_file *file, int alone)
 {
   for (int attempt = 0; attempt < OPEN_ATTEMPTS; attempt++) {
     int again = 0;
@@ -146,14 +161,15 @@ static pendres_status open_own(pendres_store_file *file)
       return PENDRES_OK;
     }
     if (errno != EEXIST) return file_failed(file, "write", file->part, errno);
-    status = take_over(file, &again);
+    status = take_over(file, alone, &again);
     if (!again) return status;
   }
   return file_fail(file, "'%s' is replaced all the time by other processes", file->part);
 }
 
-pendres_status pendres_store_file_create(pendres_store_file *file, const char *path)
+pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone)
 {
+  struct stat before;
   pendres_status status;
 
   memset(file, 0, sizeof *file);
@@ -162,7 +178,11 @@ pendres_status pendres_store_file_create(pendres_store_file *file, const char *p
   status = pendres_store_target(path, &file->path, file->why, sizeof file->why);
   if (status) return status;
   file->part = joined(file->path, strlen(file->path), ".part");
-  return file->part ? open_own(file) : PENDRES_OUT_OF_MEMORY;
+  if (!file->part) return PENDRES_OUT_OF_MEMORY;
+  status = open_own(file, alone);
+  /* Results that were kept from others stay so; a disk without permissions has none to keep. */
+  if (!status && !stat(file->path, &before)) (void)fchmod(file->fd, before.st_mode & 0777);
+  return status;
 }
 
 int pendres_store_file_unlockable(const char *path, char *why)

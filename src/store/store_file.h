@@ -30,9 +30,10 @@ typedef struct pendres_store_file {
   char why[PENDRES_STORE_WHY]; /* the sentence on the last failure */
 } pendres_store_file;
 
-/* Make and lock the part file, or take over one that a killed run has left. file is zeroed first;
- * destroy it in any case. */
-pendres_status pendres_store_file_create(pendres_store_file *file, const char *path);
+/* Make and lock the part file, or take over one that a killed run has left, which may be in use
+ * where locks are switched off, unless the caller says that it is `alone`. It has the permissions
+ * of the file that it is to replace. file is zeroed first; destroy it in any case. */
+pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone);
 
 /* Can the file not be locked for reading, as HDF5 locks it? 1: why[PENDRES_STORE_WHY] tells. */
 int pendres_store_file_unlockable(const char *path, char *why);
