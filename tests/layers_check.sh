@@ -18,7 +18,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   model/forces.h model/model.h
   engine/accuracy.h engine/context_internal.h engine/passage.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
-  orbits/attractor_internal.h orbits/catalogue.h orbits/escape.h orbits/label.h orbits/orbit_error.h
+  orbits/attractor_internal.h orbits/catalogue.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_sample.h
   orbits/settle.h

@@ -114,7 +114,7 @@ static void inverted(void **state)
   check_ok(pendres_settle(ctx, SIDE, many, x, v, o, NULL));
   for (int i = 0; i < SIDE; i++) {
     assert_int_equal(o[i].label, PENDRES_LABEL_ESCAPE);
-    assert_true(o[i].settling_periods > 0 && o[i].settling_periods < 10);
+    assert_int_equal(o[i].settling_periods, 0); /* the force is linear: known from the start */
   }
   pendres_context_free(ctx);
 }

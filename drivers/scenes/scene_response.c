@@ -147,8 +147,13 @@ static pendres_status compute_points(const grid *g, size_t first, size_t n,
 static void judge_point(const grid *g, const pendres_response *p, scene_verdict *verdict)
 {
   if (verdict->reason != SCENE_FAILURE_NONE) return;
-  if (p->unresolved > 0) {
-    char words[SCENE_TOLD];
+  char words[SCENE_TOLD];
+  if (p->escaped > 0 && p->escaped == p->unresolved) {
+    const int all = p->escaped == g->ensemble.members;
+    snprintf(words, sizeof words, "%zu of %zu members escape to infinity%s", p->escaped,
+             g->ensemble.members, all ? "" : ": means are those of the others");
+    scene_verdict_mark(verdict, all ? SCENE_FAILURE_NO_MEAN : SCENE_FAILURE_UNRESOLVED, words);
+  } else if (p->unresolved > 0) {
     scene_failure_unsettled(g->d, p->unresolved, g->ensemble.members, "members",
                             pendres_response_weakest_multiplier(p), words);
     scene_verdict_mark(verdict, SCENE_FAILURE_UNRESOLVED, words);

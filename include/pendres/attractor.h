@@ -58,7 +58,8 @@ typedef enum pendres_label {
   PENDRES_LABEL_CHAOTIC = 4,    /**< positive largest Lyapunov exponent */
   PENDRES_LABEL_UNRESOLVED = 5, /**< did not settle within its budget of drive periods */
   PENDRES_LABEL_ESCAPE = 6,     /**< on its way to infinity, from where a force that drives
-                                     outwards does not let it return: no attractor */
+                                     outwards does not let it return, or growing for ever under a
+                                     linear force: no attractor */
   PENDRES_LABEL_QUASI_PERIODIC = 7, /**< a rotation under a drive that is not locked to it; told by
                                          lyapunov.h and hysteresis.h alone */
   PENDRES_LABEL_COUNT           /**< how many there are; not a label */
@@ -113,6 +114,10 @@ enum {
  * fall below 0 again, since at v = 0 the acceleration is positive, and x goes to infinity. X is
  * what the force's model says (pendres_model, `outward`): of a polynomial Fujiwara's bound of the
  * zeros of both, of a force of one's own what its header has; a force without it has no escapes.
+ * Under a linear force, a polynomial of a1 alone, all motions have the same Floquet multipliers. If
+ * one of these is larger than 1 by more than its error, as in a tongue of parametric resonance, all
+ * pendulums have escaped before their first period, but for those on the unstable orbit exactly,
+ * which are not told apart.
  */
 typedef struct pendres_outcome {
   pendres_label label;   /**< that of its attractor; ESCAPE or UNRESOLVED if there is none */

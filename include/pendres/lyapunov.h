@@ -44,6 +44,11 @@
  * 5e7 steps; a point that needs more is unresolved, and so is chaos after a transient that was too
  * short to forget the start.
  *
+ * Under a linear force all motions have the same multipliers, by Floquet's theory: those of the
+ * pendulum's orbit, whether it is stable or not. Nothing is followed or averaged. Where one exceeds
+ * 1 by more than its error the motion grows without bound, and is an ESCAPE with that exponent;
+ * where it is some 1e14 or more the point is unresolved.
+ *
  * Chaos that ends later than it is followed is not distinguished from chaos that lasts.
  */
 #ifndef PENDRES_LYAPUNOV_H
@@ -66,7 +71,8 @@ typedef struct pendres_lyapunov_options {
 /** What a pendulum does in the long run. Plain data. */
 typedef struct pendres_lyapunov {
   pendres_label label;   /**< PERIODIC, RUNNING, QUASI_PERIODIC, CHAOTIC, ESCAPE (as in
-                              attractor.h; all its numbers are NaN) or UNRESOLVED; SA and LA are
+                              attractor.h; its numbers are NaN, but
+                              for the exponent under a linear force) or UNRESOLVED; SA and LA are
                               not told apart */
   double exponent;       /**< largest Lyapunov exponent a unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,

@@ -76,6 +76,8 @@ typedef struct pendres_response {
                                          standard errors: of counts for random starts, from the
                                          scatter between rows for a rectangle. In all errors of
                                          shares and means; 0 for a line */
+  size_t escaped;                   /**< members among the unresolved that are on their way to
+                                         infinity: nothing is left open of them */
 } pendres_response;
 
 /**

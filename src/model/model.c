@@ -314,6 +314,11 @@ int pendres_model_escapes(const pendres_pendulum *p, double y, double w)
   return side * y > far_out(p, side);
 }
 
+int pendres_model_is_linear(const pendres_pendulum *p)
+{
+  return p->force == PENDRES_FORCE_POLYNOMIAL && p->force_coefficients[0] != 0.0 && powers(p) == 1;
+}
+
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b)
 {
   int same = a->damping == b->damping && a->drive_amplitude == b->drive_amplitude &&

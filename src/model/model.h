@@ -76,6 +76,9 @@ double pendres_model_distance(const pendres_pendulum *p, double x, double v);
    when. */
 int pendres_model_escapes(const pendres_pendulum *p, double y, double w);
 
+/* Whether the force is linear, so that all motions under it have the same Floquet multipliers. */
+int pendres_model_is_linear(const pendres_pendulum *p);
+
 /* Whether two pendulums have the same parameters, but for the temperature. */
 int pendres_model_same(const pendres_pendulum *a, const pendres_pendulum *b);
 

@@ -28,6 +28,7 @@ typedef struct pendres_catalogue {
   int *owner; /* attractor of each trap */
   size_t covers;
   pendres_cover *cover[PENDRES_MOST_COVERS]; /* of chaotic attractors; owned */
+  int grows;        /* the force is linear, and all motions grow without bound */
   double transient; /* drive periods that chaos which ends has lasted on average; 0: none met */
 } pendres_catalogue;
 

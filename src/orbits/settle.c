@@ -9,6 +9,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "orbits/linear.h"
 #include "orbits/settle_certain.h"
 #include "orbits/settle_hunt.h"
 #include "orbits/settle_lanes.h"
@@ -29,6 +30,7 @@ static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_cat
   for (size_t first = 0, last; first < n; first = last) {
     last = first;
     while (last < n && set[last] == set[first]) last++;
+    if (catalogues[set[first]].grows) continue;
     const size_t members = last - first, wanted = members < SCOUTS ? members : SCOUTS;
     for (size_t k = 0; k < wanted; k++) {
       const pendres_strobe_lane *l = &lanes[first + k * members / wanted];
@@ -37,6 +39,24 @@ static pendres_status send_scouts(pendres_context *ctx, size_t sets, pendres_cat
   }
   const pendres_status status = pendres_catalogue_explore(ctx, sets, catalogues, count, scouts);
   free(scouts);
+  return status;
+}
+
+/* Tell the sets whose force is linear and lets all motions grow without bound. */
+static pendres_status tell_growing(pendres_context *ctx, size_t sets, pendres_catalogue *catalogues)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_pendulum *p = malloc((sets + 1) * sizeof *p);
+  pendres_linear *linear = malloc((sets + 1) * sizeof *linear);
+  for (size_t s = 0; s < sets && p != NULL; s++) p[s] = catalogues[s].pendulum;
+  if (p == NULL || linear == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu parameter sets", sets);
+  else
+    status = pendres_linear_find(ctx, sets, p, linear);
+  for (size_t s = 0; s < sets && status == PENDRES_OK; s++)
+    catalogues[s].grows = linear[s].fate == PENDRES_LINEAR_GROWS;
+  free(p);
+  free(linear);
   return status;
 }
 
@@ -95,6 +115,7 @@ pendres_status pendres_settle_batch(pendres_context *ctx, size_t sets,
     const long first = pendres_settle_first_budget(&catalogues[s].pendulum);
     if (first < budget[s]) budget[s] = first;
   }
+  if (status == PENDRES_OK) status = tell_growing(ctx, sets, catalogues);
   if (status == PENDRES_OK) status = send_scouts(ctx, sets, catalogues, n, set, lanes);
   pendres_settle_labelling l = {
     .catalogues = catalogues, .set = set, .budget = budget, .outcome = outcome, .doubt = doubt};

@@ -253,6 +253,11 @@ static size_t list_unsettled(size_t n, const pendres_strobe_lane *lanes,
     const size_t i = l->order != NULL ? l->order[k] : k, set = set_of(l, i);
     const pendres_catalogue *c = &l->catalogues[set];
     if (pendres_settle_ended(&l->outcome[i])) continue;
+    if (c->grows) {
+      note_escape(l, i, &lanes[i], 0.0);
+      judge(l, i, 0.0);
+      continue;
+    }
     if (trapped(l, i, c, &lanes[i]) || spent(l, set, &lanes[i])) continue;
     *covers |= c->covers > 0;
     *open |= pendres_escape_possible(&c->pendulum);

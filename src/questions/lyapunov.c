@@ -15,6 +15,7 @@
 #include "model/model.h"
 #include "orbits/catalogue.h"
 #include "orbits/escape.h"
+#include "orbits/linear.h"
 #include "orbits/orbit_prime.h"
 #include "questions/lyapunov_move.h"
 #include "questions/lyapunov_runner.h"
@@ -218,6 +219,40 @@ static pendres_status tell_away(pendres_context *ctx, const job *j, pendres_lyap
   return status;
 }
 
+/* ---- linear forces ---- */
+
+/* All motions of a linear oscillator grow, or decay to one orbit, as Floquet's theory says. */
+static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyapunov *out)
+{
+  r->state = PENDRES_RUNNER_DONE;
+  if (l->fate == PENDRES_LINEAR_DECAYS) {
+    r->lane = pendres_strobe_lane_at(r->lane.pendulum, l->orbit.x, l->orbit.v);
+    take_orbit(&l->orbit, out);
+    return;
+  }
+  *out = (pendres_lyapunov){
+    .label = l->fate == PENDRES_LINEAR_GROWS ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED,
+    .exponent = l->exponent, .exponent_error = l->error, .rotation = NAN, .rotation_error = NAN};
+}
+
+static pendres_status tell_linear(pendres_context *ctx, const job *j, const pendres_pendulum *p,
+                                  pendres_lyapunov *out)
+{
+  pendres_linear *linear = malloc((j->n + 1) * sizeof *linear);
+  if (linear == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums",
+                                j->n);
+  const pendres_status status = pendres_linear_find(ctx, j->n, p, linear);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    if (linear[i].fate == PENDRES_LINEAR_NOT) continue;
+    take_linear(&linear[i], &j->runner[i], &out[i]);
+    if (j->orbit != NULL && linear[i].fate == PENDRES_LINEAR_DECAYS)
+      j->orbit[i] = linear[i].orbit;
+  }
+  free(linear);
+  return status;
+}
+
 /* ---- averages ------------------------------------------------------------------------------ */
 
 /* The mean of the batches' sums a period, and its standard error. */
@@ -345,13 +380,21 @@ static pendres_status start(pendres_context *ctx, const job *j, const pendres_pe
 /* Run all lanes until they come back or their transient is over. */
 static pendres_status run_transient(pendres_context *ctx, job *j)
 {
+  size_t moving = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
   pendres_strobe_lane *lanes = malloc((j->n + 1) * sizeof *lanes);
-  if (lanes == NULL)
-    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
-  for (size_t i = 0; i < j->n; i++) lanes[i] = j->runner[i].lane;
-  const pendres_status status = pendres_strobe_run(ctx, j->n, lanes, visit, j);
-  for (size_t i = 0; i < j->n; i++) j->runner[i].lane = lanes[i];
+  size_t *which = malloc((j->n + 1) * sizeof *which);
+  for (size_t i = 0; i < j->n && lanes != NULL && which != NULL; i++) {
+    lanes[i] = j->runner[i].lane;
+    if (j->runner[i].state == PENDRES_RUNNER_MOVING) which[moving++] = i;
+  }
+  if (lanes == NULL || which == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu lanes", j->n);
+  else
+    status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, j);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) j->runner[i].lane = lanes[i];
   free(lanes);
+  free(which);
   return status;
 }
 
@@ -360,6 +403,7 @@ static pendres_status find_all(pendres_context *ctx, job *j, const pendres_pendu
 {
   long batch = (j->periods + BATCHES - 1) / BATCHES;
   pendres_status status = start(ctx, j, p, x, v);
+  if (status == PENDRES_OK) status = tell_linear(ctx, j, p, out);
   if (status == PENDRES_OK) status = run_transient(ctx, j);
   if (status == PENDRES_OK) status = tell_away(ctx, j, out);
   if (status == PENDRES_OK) status = settle_caught(ctx, j, out);

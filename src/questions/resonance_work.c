@@ -62,12 +62,13 @@ static double certain_area(const pendres_scan_point *p)
   return p->response.mean_loop_area - p->response.mean_loop_area_error;
 }
 
-/* The point whose area is certain to be largest. */
+/* The point whose area is certain to be largest. Where all members escape there is none. */
 static const pendres_scan_point *best_point(const pendres_search *s)
 {
   const pendres_scan_point *best = &s->points[0];
   for (size_t i = 1; i < s->count; i++)
-    if (!(certain_area(best) >= certain_area(&s->points[i]))) best = &s->points[i];
+    if (certain_area(&s->points[i]) > certain_area(best) || isnan(certain_area(best)))
+      best = &s->points[i];
   return best;
 }
 

@@ -219,6 +219,7 @@ static void count_states(const pendres_catalogue *c, size_t n, const pendres_out
   for (size_t i = 0; i < n; i++) {
     if (outcome[i].attractor < 0) {
       r->unresolved++;
+      r->escaped += outcome[i].attractor == PENDRES_ATTRACTOR_ESCAPED;
       continue;
     }
     members[outcome[i].attractor]++;

@@ -1,0 +1,188 @@
+/*
+ * test_linear.c -- oscillators under a linear force, whose motion grows without bound in the
+ * tongues of parametric resonance: against characteristic values of Mathieu's equation, and against
+ * an integration that shares nothing with the library.
+ */
+#include "check.h"
+
+#include <float.h>
+
+#include <gsl/gsl_sf_mathieu.h>
+
+#include <pendres/pendres.h>
+
+static pendres_pendulum oscillator(double damping, double frequency, double amplitude)
+{
+  return (pendres_pendulum){.damping = damping, .drive_frequency = frequency,
+                            .parametric_amplitude = amplitude, .force = PENDRES_FORCE_POLYNOMIAL,
+                            .force_coefficients = {1.0}};
+}
+
+static pendres_context *context(void)
+{
+  pendres_context *ctx = NULL;
+  check_ok(pendres_context_create(NULL, &ctx));
+  return ctx;
+}
+
+/*
+ * The largest Floquet exponent by the classical method of Runge and Kutta, whose local errors of
+ * fifth order add up to some 1e-12 with these steps: from the trace, and from Liouville's theorem
+ * for the determinant.
+ */
+static double floquet(const pendres_pendulum *p)
+{
+  enum { STEPS = 20000 };
+  const double period = 2.0 * PENDRES_PI / p->drive_frequency, h = period / STEPS;
+  double s[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
+  for (int n = 0; n < STEPS; n++)
+    for (int k = 0; k < 2; k++) {
+      double a[4], u[4];
+      for (int i = 0; i < 4; i++) {
+        const double c = i == 0 ? 0.0 : i == 3 ? 1.0 : 0.5;
+        const double x = i == 0 ? s[k][0] : s[k][0] + c * h * u[i - 1];
+        const double drive = cos(p->drive_frequency * (n + c) * h);
+        u[i] = i == 0 ? s[k][1] : s[k][1] + c * h * a[i - 1];
+        a[i] = -p->damping * u[i] -
+               p->force_coefficients[0] * x * (1.0 + p->parametric_amplitude * drive);
+      }
+      s[k][0] += h / 6.0 * (u[0] + 2.0 * u[1] + 2.0 * u[2] + u[3]);
+      s[k][1] += h / 6.0 * (a[0] + 2.0 * a[1] + 2.0 * a[2] + a[3]);
+    }
+  const double half = 0.5 * (s[0][0] + s[1][1]), determinant = exp(-p->damping * period);
+  const double root = half * half - determinant;
+  const double modulus = root > 0.0 ? fabs(half) + sqrt(root) : sqrt(determinant);
+  return log(modulus) / period;
+}
+
+/* Every point of a map of tongues has its exponent: where it is above 0 all motions escape, and
+   elsewhere there is an orbit. */
+static void map(void **state)
+{
+  enum { FREQUENCIES = 21, AMPLITUDES = 16, N = FREQUENCIES * AMPLITUDES };
+  pendres_pendulum p[N];
+  pendres_lyapunov found[N];
+  double x[N], v[N];
+  int growing = 0;
+  pendres_context *ctx = context();
+  (void)state;
+  for (int i = 0; i < N; i++) {
+    p[i] = oscillator(0.1, 0.5 + 0.1 * (i / AMPLITUDES), 0.1 * (i % AMPLITUDES));
+    /* Neither a drive nor a torque is of any account to a linear oscillator's multipliers. */
+    if (i % 3 == 1) p[i].drive_amplitude = 0.3;
+    if (i % 3 == 2) p[i].torque = 0.2;
+    x[i] = 0.1;
+    v[i] = 0.0;
+  }
+  check_ok(pendres_lyapunov_find(ctx, N, p, x, v, NULL, found));
+  for (int i = 0; i < N; i++) {
+    const double exact = floquet(&p[i]);
+    /* Next to where two multipliers meet their difference is a root, and errors of the test's own
+       integration, 1e-13, count for up to their root, too. */
+    const double own = 1e-12 + 1e-13 / fmax(fabs(exact + 0.05), 1e-6);
+    check_near(found[i].exponent, exact, found[i].exponent_error + own);
+    assert_true(found[i].exponent_error < 1e-6);
+    assert_int_equal(found[i].label, exact > 0.0 ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_PERIODIC);
+    assert_int_equal(found[i].period, exact > 0.0 ? 0 : 1);
+    growing += exact > 0.0;
+  }
+  assert_int_equal(growing, 134);
+  pendres_context_free(ctx);
+}
+
+/*
+ * With x = u exp(-damping t / 2) and time t = 2 s / omega the equation is Mathieu's, u'' + (a - 2 q
+ * cos 2s) u = 0. u grows exactly where a lies between characteristic values, a_n and b_n of q.
+ */
+static void mathieu(void **state)
+{
+  static const double amplitudes[] = {0.1, 0.4, 0.8}, damping = 1e-3, off = 1e-3;
+  pendres_context *ctx = context();
+  (void)state;
+  for (int k = 0; k < 3; k++)
+    for (int n = 1; n <= 3; n++)
+      for (int side = 0; side < 2; side++) {
+        /* Of all a and q with a fixed ratio that belong to this oscillator, those with a = a_n(q)
+           or b_n(q): by halving. */
+        const double own = 1.0 - 0.25 * damping * damping;
+        double low = 1.0 / n, high = 4.0 / n;
+        for (int i = 0; i < 60; i++) {
+          const double omega = 0.5 * (low + high), q = 2.0 * amplitudes[k] / (omega * omega);
+          gsl_sf_result value;
+          assert_int_equal(side == 0 ? gsl_sf_mathieu_a_e(n, q, &value)
+                                     : gsl_sf_mathieu_b_e(n, q, &value), 0);
+          if (4.0 * own / (omega * omega) > value.val) low = omega;
+          else high = omega;
+        }
+        /* a falls with omega: tongues lie between a_n, on their lower edge in omega, and b_n. */
+        const double inwards = side == 0 ? 1.0 : -1.0;
+        for (int way = -1; way <= 1; way += 2) {
+          const pendres_pendulum p =
+            oscillator(damping, low * (1.0 + way * inwards * off * (n < 3 ? 1.0 : 0.01)),
+                       amplitudes[k]);
+          const double x = 0.1, v = 0.0;
+          pendres_lyapunov found;
+          check_ok(pendres_lyapunov_find(ctx, 1, &p, &x, &v, NULL, &found));
+          if (way < 0) check_near(found.exponent, -0.5 * damping, found.exponent_error + 1e-12);
+          else assert_true(found.exponent > -0.5 * damping + 10.0 * found.exponent_error);
+        }
+      }
+  pendres_context_free(ctx);
+}
+
+/* In a tongue every start escapes, at once and for certain; outside none does. */
+static void all_escape(void **state)
+{
+  enum { N = 50 };
+  pendres_context *ctx = context();
+  (void)state;
+  for (int grows = 0; grows < 2; grows++) {
+    pendres_pendulum p[N];
+    pendres_outcome outcome[N];
+    pendres_attractors *set = NULL;
+    double x[N], v[N];
+    for (int i = 0; i < N; i++) {
+      p[i] = oscillator(0.1, 2.0, grows ? 0.21 : 0.19);
+      p[i].drive_amplitude = 0.1;
+      x[i] = -1.0 + 0.04 * i;
+      v[i] = 0.3;
+    }
+    assert_int_equal(floquet(&p[0]) > 0.0, grows);
+    check_ok(pendres_settle(ctx, N, p, x, v, outcome, &set));
+    assert_int_equal(pendres_attractors_count(set), !grows);
+    for (int i = 0; i < N; i++) {
+      assert_int_equal(outcome[i].label == PENDRES_LABEL_ESCAPE, grows);
+      assert_int_equal(outcome[i].attractor, grows ? PENDRES_ATTRACTOR_ESCAPED : 0);
+      assert_true(outcome[i].certain);
+    }
+    pendres_attractors_free(set);
+  }
+  pendres_context_free(ctx);
+}
+
+/* Members that escape are counted apart from those of which nothing is known. */
+static void response(void **state)
+{
+  const pendres_ensemble e = pendres_ensemble_default();
+  pendres_pendulum p = oscillator(0.1, 2.0, 1.0);
+  pendres_response r;
+  pendres_context *ctx = context();
+  (void)state;
+  p.drive_amplitude = 0.1;
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  assert_int_equal(r.unresolved, e.members);
+  assert_int_equal(r.escaped, e.members);
+  p.parametric_amplitude = 0.1;
+  check_ok(pendres_response_compute(ctx, 1, &p, &e, &r));
+  assert_int_equal(r.unresolved, 0);
+  assert_int_equal(r.escaped, 0);
+  pendres_context_free(ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(map), cmocka_unit_test(mathieu), cmocka_unit_test(all_escape),
+    cmocka_unit_test(response)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
