@@ -185,7 +185,7 @@ typedef struct pendres_branch_point {
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
   double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are,
                                the drive frequency in units of 0.3, other parameters of
-                               0.1 */
+                               0.1, but none in less than a twentieth of its value */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
   int doubt;              /**< bits of pendres_doubt */

@@ -23,6 +23,10 @@
  * times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum that
  * has escaped to infinity does not return on the rest of the path.
  *
+ * An orbit whose computation stops, after so many points or in too short steps, is followed anew
+ * from where that was, or, where this leads no further, settled at the next value. If that is
+ * another orbit, the interval is halved as below.
+ *
  * A value that cannot be computed is left out, and the path goes on as if it had never been there.
  * This happens where too many steps are needed, an iteration fails, or the value would take more
  * than 2e9 evaluations of the slope, some ten seconds to a minute. Values that are far apart cost

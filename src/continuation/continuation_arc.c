@@ -8,14 +8,24 @@
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 
-const double pendres_arc_scale[PENDRES_U_COUNT] = {1.0, 1.0, 0.3, 0.1, 0.1, 0.1,
-                                                   0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+double pendres_arc_least_scale(int i)
+{
+  if (i < PENDRES_U_OMEGA) return 1.0;
+  return i == PENDRES_U_OMEGA ? 0.3 : 0.1;
+}
+
+double pendres_arc_scale(int i, double value)
+{
+  static const double logarithmic = 20.0;
+  const double least = pendres_arc_least_scale(i);
+  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / logarithmic);
+}
 
 double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
 {
   double sum = 0.0;
   for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale[i]);
+    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale(i, 0.5 * (a[i] + b[i])));
   return sum;
 }
 
@@ -52,15 +62,21 @@ static const int widest_gap = 3; /* how many steps lie between one point and the
    of its orbits that does not close by half comes as near only within half of this distance. */
 static const double too_close = 1e-6;
 
-/* The curve's tangent at a point of it: the null vector of the equations, along `along`. */
+/* The scale of unknown number k at a place. */
+static double scale_at(const pendres_arc *w, int k, const double u[PENDRES_U_COUNT])
+{
+  return pendres_arc_scale(w->unknown[k], u[w->unknown[k]]);
+}
+
+/* The curve's tangent at its point u: the null vector of the equations, along `along`. */
 static int tangent_of(const pendres_arc *w, const pendres_continuation_equations *e,
-                      const double *along, double *tangent)
+                      const double u[PENDRES_U_COUNT], const double *along, double *tangent)
 {
   const int n = w->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   for (int k = 0; k < n; k++) {
     for (int r = 0; r < n - 1; r++)
-      a[r][k] = e->j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]];
+      a[r][k] = e->j[r][w->unknown[k]] * scale_at(w, k, u);
     a[n - 1][k] = along[k];
   }
   t[n - 1] = 1.0;
@@ -79,7 +95,7 @@ static void describe(const pendres_arc *w, const pendres_continuation_equations 
   point->image = e->image;
   for (int r = 2; r < e->equations; r++)
     for (int k = 0; k < w->unknowns; k++)
-      slope = hypot(slope, e->j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]]);
+      slope = hypot(slope, e->j[r][w->unknown[k]] * scale_at(w, k, point->u));
   /* The determinant has two factors that grow as errors do, and its derivative three or more. */
   point->growth = fmax(pendres_continuation_map_growth(&e->image), sqrt(slope));
   if (w->condition != PENDRES_CONDITION_FOLD) return;
@@ -111,7 +127,7 @@ static void predict(candidate *c)
   memcpy(c->u, w->here.u, sizeof c->u);
   for (int k = 0; k < w->unknowns; k++)
     c->u[w->unknown[k]] +=
-      pendres_arc_scale[w->unknown[k]] * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
+      scale_at(w, k, w->here.u) * s * (w->here.tangent[k] + 0.5 * s * w->bend[k]);
   memcpy(c->predicted, c->u, sizeof c->u);
   const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   c->state = pendres_pendulum_check(&p, NULL) == PENDRES_OK ? ACTIVE : FAILED;
@@ -124,7 +140,7 @@ static void linearise(const candidate *c, double a[][PENDRES_U_COUNT])
   const int n = w->unknowns;
   for (int k = 0; k < n; k++) {
     for (int r = 0; r < n - 1; r++)
-      a[r][k] = c->at.j[r][w->unknown[k]] * pendres_arc_scale[w->unknown[k]];
+      a[r][k] = c->at.j[r][w->unknown[k]] * scale_at(w, k, c->u);
     a[n - 1][k] = c->tangent[k];
   }
 }
@@ -141,7 +157,7 @@ static void correct(candidate *c)
   if (!pendres_continuation_equations_linear(n, a, d)) return;
   for (int k = 0; k < n; k++) length = hypot(length, d[k]);
   if (!(length < 1.0)) return;
-  for (int k = 0; k < n; k++) c->u[w->unknown[k]] += pendres_arc_scale[w->unknown[k]] * d[k];
+  for (int k = 0; k < n; k++) c->u[w->unknown[k]] += scale_at(w, k, c->u) * d[k];
   const pendres_pendulum p = pendres_continuation_map_pendulum(w->map.force, c->u);
   if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return;
   c->state = length < last_step ? CONVERGED : ACTIVE;
@@ -252,7 +268,8 @@ static double off_chord(const pendres_arc *w, const pendres_arc_point *last, con
   double off = 0.0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
-    const double chord = (c->u[i] - last->u[i]) / (pendres_arc_scale[i] * way);
+    const double scale = pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i]));
+    const double chord = (c->u[i] - last->u[i]) / (scale * way);
     off = hypot(off, chord - 0.5 * (last->tangent[k] + point->tangent[k]));
   }
   return off;
@@ -264,11 +281,12 @@ static int follows(const pendres_arc *w, const pendres_arc_point *last, int gap,
 {
   double way = 0.0, miss = 0.0, turn = 0.0;
   if (c->state != CONVERGED) return 0;
-  if (!tangent_of(w, &c->at, last->tangent, point->tangent)) return 0;
+  if (!tangent_of(w, &c->at, c->u, last->tangent, point->tangent)) return 0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
-    way = hypot(way, (c->u[i] - last->u[i]) / pendres_arc_scale[i]);
-    miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_arc_scale[i]);
+    way = hypot(way, (c->u[i] - last->u[i]) /
+                       pendres_arc_scale(i, 0.5 * (c->u[i] + last->u[i])));
+    miss = hypot(miss, (c->u[i] - c->predicted[i]) / pendres_arc_scale(i, c->u[i]));
     turn += last->tangent[k] * point->tangent[k];
   }
   if (turn < sharpest_turn || way > 2.0 * gap * w->step ||
@@ -334,14 +352,15 @@ pendres_status pendres_arc_correct(pendres_context *ctx, const pendres_arc *kind
  * tried as the one that goes on: near a fold the last one hardly changes.
  */
 static int first_tangent(const pendres_arc *w, const pendres_continuation_equations *e,
-                         double direction, double *tangent)
+                         const double u[PENDRES_U_COUNT], double direction, double *tangent)
 {
   const int n = w->unknowns, last = n - 1;
   int best = -1;
   for (int k = 0; k < n; k++) {
     double along[PENDRES_ARC_UNKNOWNS] = {0.0}, t[PENDRES_ARC_UNKNOWNS];
     along[k] = 1.0;
-    if (!tangent_of(w, e, along, t) || (best >= 0 && fabs(t[k]) <= fabs(tangent[best]))) continue;
+    if (!tangent_of(w, e, u, along, t)) continue;
+    if (best >= 0 && fabs(t[k]) <= fabs(tangent[best])) continue;
     memcpy(tangent, t, (size_t)n * sizeof *t);
     best = k;
   }
@@ -381,7 +400,7 @@ pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
     pendres_continuation_map_steps(ctx, w->map.force, u, w->tolerance, &place.steps);
   if (status == PENDRES_OK) status = equations_at(ctx, w, place.steps, u, &e);
   if (status != PENDRES_OK) return status;
-  if (!first_tangent(w, &e, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
+  if (!first_tangent(w, &e, u, direction, w->here.tangent)) return PENDRES_NOT_CONVERGED;
   memcpy(place.tangent, w->here.tangent, sizeof place.tangent);
   status = pendres_arc_correct(ctx, w, 1, &place);
   if (status == PENDRES_OK && isnan(place.rounding)) status = PENDRES_NOT_CONVERGED;
@@ -397,7 +416,8 @@ pendres_status pendres_arc_begin(pendres_context *ctx, pendres_arc *w,
   if (status != PENDRES_OK) return status;
   memcpy(w->here.u, place.u, sizeof w->here.u);
   describe(w, &e, NULL, &w->here);
-  return first_tangent(w, &e, direction, w->here.tangent) ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+  return first_tangent(w, &e, place.u, direction, w->here.tangent) ? PENDRES_OK
+                                                                   : PENDRES_NOT_CONVERGED;
 }
 
 pendres_status pendres_arc_describe(pendres_context *ctx, const pendres_arc *w, int steps,
@@ -408,7 +428,8 @@ pendres_status pendres_arc_describe(pendres_context *ctx, const pendres_arc *w, 
   const pendres_status status = equations_at(ctx, w, steps, point->u, &e);
   if (status != PENDRES_OK) return status;
   describe(w, &e, null, point);
-  if (tangent_of(w, &e, point->tangent, tangent)) memcpy(point->tangent, tangent, sizeof tangent);
+  if (tangent_of(w, &e, point->u, point->tangent, tangent))
+    memcpy(point->tangent, tangent, sizeof tangent);
   return status;
 }
 

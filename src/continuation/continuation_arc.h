@@ -52,8 +52,13 @@ typedef struct pendres_arc {
 /* The equations of an arc at so many steps a period. */
 pendres_continuation_system pendres_arc_system(const pendres_arc *arc, int steps);
 
-/* The lengths that count as one in arclength, in the order of u. */
-extern const double pendres_arc_scale[PENDRES_U_COUNT];
+/* The length that counts as one in arclength, of entry `i` of u where it has this value. Of
+   parameters it is a constant at first, but never less than a twentieth of the value: beyond twenty
+   of the constant they count by their logarithms, and a curve over decades is not a long one. */
+double pendres_arc_scale(int i, double value);
+
+/* The constant. */
+double pendres_arc_least_scale(int i);
 
 /* Distance in the scale of arclength. What is the same in both points does not count. */
 double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);

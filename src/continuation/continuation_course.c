@@ -39,11 +39,19 @@ void pendres_course_free(pendres_course *c)
 
 /* ---- special points ---- */
 
-static int same_place(const pendres_arc *w, const pendres_course_special *a,
+/* A trail is back at a place only after at least this arclength. */
+static const double another_pass = 1.0;
+
+/* Whether two special points of a trail are one. A trail that passes a place twice, as the two ways
+   of a start on a closed curve may, has a special point there each time. */
+static int same_place(const pendres_trail *t, const pendres_course_special *a,
                       const pendres_course_special *b)
 {
-  double sum = 0.0;
-  if (a->condition != b->condition) return 0;
+  const pendres_arc *w = &t->kind;
+  const double round = t->point[t->count - 1].arclength;
+  double sum = 0.0, between = fabs(t->point[a->at.i].arclength - t->point[b->at.i].arclength);
+  if (t->closed) between = fmin(between, round - between);
+  if (a->condition != b->condition || between > another_pass) return 0;
   for (int k = 0; k < w->unknowns; k++)
     sum = hypot(sum, a->located.pair.fine[w->unknown[k]] - b->located.pair.fine[w->unknown[k]]);
   return sum < 1e-8;
@@ -62,7 +70,7 @@ pendres_status pendres_course_locate(pendres_context *ctx, pendres_course_locato
     if (!pendres_located_found(status)) return status;
     int known = 0;
     for (size_t k = 0; k < c->specials && !known; k++)
-      known = same_place(&c->trail->kind, &c->special[k], s);
+      known = same_place(c->trail, &c->special[k], s);
     if (!known) c->specials++;
   }
   return PENDRES_OK;

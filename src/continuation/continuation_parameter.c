@@ -52,7 +52,7 @@ pendres_pendulum pendres_parameter_with(const pendres_pendulum *p, pendres_param
 
 double pendres_parameter_scale(pendres_parameter parameter)
 {
-  return pendres_arc_scale[PENDRES_U_OMEGA + (int)parameter];
+  return pendres_arc_least_scale(PENDRES_U_OMEGA + (int)parameter);
 }
 
 double pendres_parameter_beyond(pendres_parameter parameter, double value, double distance)

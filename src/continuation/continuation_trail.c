@@ -112,8 +112,8 @@ static int passes(const pendres_arc *w, const pendres_arc_point *start,
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
     const double t = start->tangent[k];
-    before += t * (a->u[i] - here[i]) / pendres_arc_scale[i];
-    behind += t * (b->u[i] - here[i]) / pendres_arc_scale[i];
+    before += t * (a->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
+    behind += t * (b->u[i] - here[i]) / pendres_arc_scale(i, here[i]);
     along += t * b->tangent[k];
   }
   const double chord = pendres_arc_distance(a->u, b->u);
@@ -296,14 +296,15 @@ static void to_one_parameter(const pendres_arc *w, const pendres_arc_point *at,
 {
   const int place = w->unknown[2];
   const double along = at->tangent[2];
-  const double off = (pair->fine[place] - pair->coarse[place]) / pendres_arc_scale[place];
+  const double scale = pendres_arc_scale(place, pair->fine[place]);
+  const double off = (pair->fine[place] - pair->coarse[place]) / scale;
   if (!(fabs(off) < 0.05 * along * along)) {
     pair->rounding += fabs(off) / fmax(fabs(along), sqrt(fabs(off)));
     return;
   }
   for (int k = 0; k < w->unknowns; k++)
     pair->coarse[w->unknown[k]] +=
-      pendres_arc_scale[w->unknown[k]] * at->tangent[k] * off / along;
+      pendres_arc_scale(w->unknown[k], pair->fine[w->unknown[k]]) * at->tangent[k] * off / along;
   pair->coarse[place] = pair->fine[place];
   pair->rounding /= fmax(fabs(along), 1e-3);
 }
@@ -394,7 +395,7 @@ static double errors_at(const pendres_trail *t, size_t i, const pendres_continua
     /* Two values of a parameter may agree by chance: it is not known better than the point is. */
     const double e = pendres_continuation_orbit_error(
       p->coarse[place], p->fine[place],
-      pendres_arc_scale[place] * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
+      pendres_arc_scale(place, p->fine[place]) * p->rounding + (k >= 2 ? 0.005 * point : 0.0));
     if (k >= 2) error[k - 2] = e;
     worst = fmax(worst, k == 2 && w->unknowns == 3 && turning < 1.0 ? 10.0 * e / turning : e);
   }

@@ -12,6 +12,12 @@ pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value)
   return pendres_parameter_with(&w->pendulum, w->parameter, value);
 }
 
+int pendres_path_direction(const pendres_path *w, size_t i)
+{
+  const double from = i > 0 ? w->value[i - 1] : w->at;
+  return w->value[i] >= from ? 1 : -1;
+}
+
 void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
 {
   pendres_hysteresis_point *p = &w->h->point[i];

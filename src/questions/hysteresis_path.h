@@ -35,6 +35,9 @@ typedef struct pendres_path {
 
 pendres_pendulum pendres_path_pendulum(const pendres_path *w, double value);
 
+/* Whether the path goes up (1) or down (-1) to value number i. */
+int pendres_path_direction(const pendres_path *w, size_t i);
+
 /* Put the attractor at value number i into the results; without a closed orbit, the pendulum's
    state. */
 void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a);

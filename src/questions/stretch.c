@@ -26,6 +26,9 @@ enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
 
 /* Values that differ by less, in the parameter's scale, are those of one place. */
 static const double same_value = 1e-8;
+/* A point this close to a bifurcation does not tell what follows upon that: it may be on either of
+   two branches that meet there. */
+static const double next_to = 1e-4;
 
 void pendres_stretch_free(pendres_stretch *s)
 {
@@ -86,6 +89,12 @@ static double ahead(const pendres_stretch *s, double value, double of)
   return (double)s->direction * (value - of);
 }
 
+/* How the branch ends in the direction of the stretch. */
+static pendres_branch_end branch_end(const pendres_stretch *s)
+{
+  return pendres_branch_end_of(s->branch, s->step > 0);
+}
+
 /* Take points from the place on as long as orbits are stable; sets points and the end, and returns
    the number of the point that told the end. */
 static size_t take_stable(pendres_stretch *s, double limit)
@@ -95,7 +104,6 @@ static size_t take_stable(pendres_stretch *s, double limit)
   const double same = same_value * pendres_parameter_scale(s->parameter);
   size_t met_at = 0, k = 1;
   int turned = 0;
-  s->end = PENDRES_STRETCH_LOST;
   s->points = 1;
   for (; (p = point_of(s, k)) != NULL; k++) {
     if (p->bifurcation >= 0) {
@@ -107,6 +115,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
     /* Next to a bifurcation, at the beginning or on the way, stability is a matter of rounding. */
     const double before = met != NULL ? met->value : value_of(s, s->points - 1);
     if ((s->points == 1 || met != NULL) && fabs(value_of(s, k) - before) <= same) continue;
+    if (met != NULL && distance(p, s->parameter, met->value, &met->orbit) < next_to) continue;
     turned = ahead(s, value_of(s, k), before) < -same;
     if (!p->orbit.stable || turned) break;
     met = NULL;
@@ -122,7 +131,12 @@ static size_t take_stable(pendres_stretch *s, double limit)
   }
   s->end_value = value_of(s, s->points - 1);
   s->end_error = margin * pendres_parameter_scale(s->parameter);
-  if (met == NULL) return k;
+  s->end = p != NULL                            ? PENDRES_STRETCH_UNLOCATED
+           : branch_end(s) == PENDRES_END_RANGE ? PENDRES_STRETCH_LIMIT
+                                                : PENDRES_STRETCH_STOPPED;
+  if (p != NULL) s->end_error = fmax(s->end_error, fabs(value_of(s, k) - s->end_value));
+  /* What happens at a bifurcation right before the computation stopped is told by what follows. */
+  if (met == NULL || (p == NULL && branch_end(s) == PENDRES_END_POINTS)) return k;
   s->end = turned ? PENDRES_STRETCH_BIRTH : PENDRES_STRETCH_BIFURCATION;
   s->bifurcation = *met;
   s->end_value = met->value;
@@ -134,24 +148,30 @@ static size_t take_stable(pendres_stretch *s, double limit)
 /* Whether the branch goes on for long enough beyond a point of it, or ends by itself. */
 static int is_enough(const pendres_stretch *s, size_t k)
 {
-  const pendres_branch_end end = pendres_branch_end_of(s->branch, s->step > 0);
-  return s->end == PENDRES_STRETCH_LIMIT || end != PENDRES_END_POINTS ||
+  return s->end == PENDRES_STRETCH_LIMIT || branch_end(s) != PENDRES_END_POINTS ||
          point_of(s, k + ENOUGH) != NULL;
 }
 
 /* Find which way along the branch the parameter goes in the direction of the stretch, from the
-   first point to the next that is not at the same place: sets the step, and returns 0 if neither
-   way does. */
+   first point to the next that is not at the same place: sets the step. Where neither way does,
+   sets the end, and returns 0: where both ways lead back the place is right at the end of the
+   state, else nothing could be followed. */
 static int choose_way(pendres_stretch *s)
 {
   const double same = same_value * pendres_parameter_scale(s->parameter);
+  int back = 0;
   for (s->step = 1; s->step >= -1; s->step -= 2)
     for (size_t k = 1; point_of(s, k) != NULL; k++) {
       const double beyond = ahead(s, value_of(s, k), value_of(s, 0));
       if (fabs(beyond) <= same) continue;
       if (beyond > 0.0) return 1;
+      back++;
       break;
     }
+  s->points = 1;
+  s->end = back == 2 ? PENDRES_STRETCH_UNLOCATED : PENDRES_STRETCH_STOPPED;
+  s->end_value = value_of(s, 0);
+  s->end_error = margin * pendres_parameter_scale(s->parameter);
   return 0;
 }
 
@@ -213,16 +233,7 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
     const pendres_status status = follow(ctx, orbit, &way, points, &s.branch);
     if (status != PENDRES_OK) return status;
     s.first = nearest(s.branch, parameter, from, orbit, 0, &off);
-    if (choose_way(&s)) {
-      if (is_enough(&s, take_stable(&s, limit)) || points == most) break;
-    } else {
-      /* The place is right at the end of the stretch, or nothing could be followed. */
-      s.points = 1;
-      s.end = PENDRES_STRETCH_LOST;
-      s.end_value = from;
-      s.end_error = margin * pendres_parameter_scale(parameter);
-      break;
-    }
+    if (!choose_way(&s) || is_enough(&s, take_stable(&s, limit)) || points == most) break;
     pendres_branch_free(s.branch);
   }
   *out = s;
@@ -260,6 +271,22 @@ pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcat
   }
   *out = s;
   return PENDRES_OK;
+}
+
+pendres_status pendres_stretch_resume(pendres_context *ctx, const pendres_stretch *s, double limit,
+                                      pendres_stretch *out, pendres_orbit *orbit)
+{
+  const double same = same_value * pendres_parameter_scale(s->parameter);
+  *out = pendres_stretch_none;
+  if (s->points < 2) return PENDRES_NOT_FOUND;
+  pendres_status status = pendres_stretch_arrive(ctx, s, orbit);
+  if (status == PENDRES_OK) status = pendres_stretch_from(ctx, orbit, s->parameter, limit, out);
+  if (status == PENDRES_NOT_CONVERGED) status = PENDRES_NOT_FOUND;
+  if (status != PENDRES_OK) return status;
+  const double further = ahead(s, out->end_value, s->end_value);
+  if (out->end != PENDRES_STRETCH_STOPPED || further > same) return PENDRES_OK;
+  pendres_stretch_free(out);
+  return PENDRES_NOT_FOUND;
 }
 
 const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s)

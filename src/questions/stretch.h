@@ -8,12 +8,16 @@
 
 #include <pendres/continuation.h>
 
+/* How a stretch ends: the state ends in all but the first and the last. */
 typedef enum pendres_stretch_end {
   PENDRES_STRETCH_LIMIT,       /* goes on to the limit, or beyond it */
   PENDRES_STRETCH_BIFURCATION, /* loses its stability at a bifurcation */
   PENDRES_STRETCH_BIRTH,       /* shrinks into the orbit that it was born from, by doubling its
                                   period or losing its symmetry */
-  PENDRES_STRETCH_LOST         /* could not be followed further */
+  PENDRES_STRETCH_UNLOCATED,   /* turns back or loses its stability between two points, between
+                                  which no bifurcation was found */
+  PENDRES_STRETCH_STOPPED      /* the computation ended, not the state: it is to be resumed from the
+                                  last point, see pendres_stretch_resume() */
 } pendres_stretch_end;
 
 typedef struct pendres_stretch {
@@ -44,6 +48,13 @@ pendres_status pendres_stretch_from(pendres_context *ctx, const pendres_orbit *o
  */
 pendres_status pendres_stretch_born(pendres_context *ctx, const pendres_bifurcation *at,
                                     double limit, pendres_stretch *out);
+
+/*
+ * Go on with a stretch that stopped, from its last point: *out is the next part, and *orbit its
+ * first orbit, with measures. PENDRES_NOT_FOUND if it gets no further.
+ */
+pendres_status pendres_stretch_resume(pendres_context *ctx, const pendres_stretch *s, double limit,
+                                      pendres_stretch *out, pendres_orbit *orbit);
 
 /* The last regular point of it: a state, period, winding and stability, without measures. */
 const pendres_branch_point *pendres_stretch_last(const pendres_stretch *s);

@@ -1,0 +1,143 @@
+/*
+ * test_stretch.c -- a computation that ends is no state that ends: sweeps over wide ranges, along
+ * curves of thousands of points, have the jumps of their states alone.
+ *
+ * What is true is exact (the linear oscillator; a pendulum at rest), or the reference's orbit at
+ * the place of a bifurcation, integrated in extended precision by another code.
+ */
+#include <stdlib.h>
+
+#include <pendres/hysteresis.h>
+#include <pendres/reference.h>
+
+#include "context_fixture.h"
+
+/* Up and down over n values between two; the caller frees. No point is left out. */
+static pendres_hysteresis *sweep(pendres_context *ctx, const pendres_pendulum *p,
+                                 const pendres_branch_options *range, size_t n, double x)
+{
+  pendres_hysteresis *h = NULL;
+  double *value = malloc(2 * n * sizeof *value);
+  assert_non_null(value);
+  for (size_t i = 0; i < n; i++)
+    value[i] = value[2 * n - 1 - i] =
+      range->low + (range->high - range->low) * (double)i / (double)(n - 1);
+  check_ok(pendres_hysteresis_follow(ctx, p, &(pendres_state){x, 0.0},
+                                     &(pendres_hysteresis_path){range->parameter, 2 * n, value},
+                                     &h));
+  for (size_t i = 0; i < 2 * n; i++)
+    assert_int_equal(pendres_hysteresis_get(h, i)->outcome, PENDRES_OK);
+  free(value);
+  return h;
+}
+
+/* The same orbit on both ways, without a jump. The pendulum's amplitude is that of the linear
+   oscillator but for a relative error of some amplitude^2 / 8. */
+static void no_end_of_the_drive_frequency(void **state)
+{
+  enum { N = 7 };
+  const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.5};
+  /* The second range is one of several thousand points between two values: it is resumed. */
+  static const double highest[] = {60.0, 2e4};
+  for (int k = 0; k < 2; k++) {
+    const pendres_branch_options range = {PENDRES_DRIVE_FREQUENCY, 2.0, highest[k], 0, 0, 0};
+    pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
+    assert_int_equal(pendres_hysteresis_jumps(h), 0);
+    for (size_t i = 0; i < N; i++) {
+      const pendres_orbit *up = &pendres_hysteresis_get(h, i)->attractor.orbit;
+      const pendres_orbit *down = &pendres_hysteresis_get(h, 2 * N - 1 - i)->attractor.orbit;
+      const double w = up->pendulum.drive_frequency;
+      const double linear = 0.5 / hypot(1.0 - w * w, 0.2 * w);
+      check_near(up->amplitude, down->amplitude, up->amplitude_error + down->amplitude_error);
+      check_near(up->amplitude, linear, linear * linear * linear / 8.0 + 1e-8);
+    }
+    pendres_hysteresis_free(h);
+  }
+}
+
+/* The linear oscillator swings by F0 / damping at resonance, about the torque. */
+static void no_end_of_the_torque(void **state)
+{
+  enum { N = 4 };
+  const pendres_pendulum p = {.damping = 0.5, .drive_amplitude = 0.1, .drive_frequency = 1.0,
+                              .force = PENDRES_FORCE_POLYNOMIAL, .force_coefficients = {1.0}};
+  const pendres_branch_options range = {PENDRES_TORQUE, 0.0, 12.0, 0, 0, 0};
+  pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
+  assert_int_equal(pendres_hysteresis_jumps(h), 0);
+  for (size_t i = 0; i < 2 * N; i++) {
+    const pendres_orbit *o = &pendres_hysteresis_get(h, i)->attractor.orbit;
+    check_near(o->amplitude, 0.2, o->amplitude_error);
+    /* x = torque + 0.2 cos(t - pi/2) */
+    check_near(o->x, o->pendulum.torque, o->x_error);
+  }
+  pendres_hysteresis_free(h);
+}
+
+/* A pendulum hangs at rest under a parametric drive too weak to shake it. */
+static void no_end_of_rest(void **state)
+{
+  enum { N = 6 };
+  const pendres_pendulum p = {.damping = 0.2, .drive_frequency = 10.0};
+  const pendres_branch_options range = {PENDRES_PARAMETRIC_AMPLITUDE, -30.0, -5.0, 0, 0, 0};
+  pendres_hysteresis *h = sweep(*state, &p, &range, N, 1.6);
+  assert_int_equal(pendres_hysteresis_jumps(h), 0);
+  for (size_t i = 0; i < 2 * N; i++)
+    check_near(pendres_hysteresis_get(h, i)->attractor.orbit.amplitude, 0.0, 1e-12);
+  pendres_hysteresis_free(h);
+}
+
+/* The larger of the reference's multipliers. */
+static double multiplier_at(const pendres_jump *j, const pendres_orbit *near)
+{
+  pendres_reference_cycle c;
+  pendres_pendulum p = near->pendulum;
+  p.drive_amplitude = j->value;
+  check_ok(pendres_reference_orbit(&p, (long double)near->x, (long double)near->v, 1, 0, &c));
+  return (double)c.multiplier_re[0];
+}
+
+/*
+ * Ueda's oscillator, F0 from 0.5 to 30, where points of the orbit move by several units: folds and
+ * losses of symmetry, and nothing else. Where two orbits that are mirror images grow together, the
+ * pendulum goes over to the orbit that is its own image, at the value at which that loses its
+ * symmetry on the way back.
+ */
+static void only_bifurcations(void **state)
+{
+  static const pendres_jump_kind kinds[] = {
+    PENDRES_JUMP_FOLD, PENDRES_JUMP_SYMMETRY, PENDRES_JUMP_SYMMETRY, PENDRES_JUMP_FOLD,
+    PENDRES_JUMP_SYMMETRY, PENDRES_JUMP_SYMMETRY, PENDRES_JUMP_FOLD, PENDRES_JUMP_SYMMETRY,
+    PENDRES_JUMP_SYMMETRY, PENDRES_JUMP_FOLD};
+  enum { N = 60, JUMPS = sizeof kinds / sizeof *kinds };
+  const pendres_pendulum p = {.damping = 0.5, .drive_frequency = 1.0,
+                              .force = PENDRES_FORCE_POLYNOMIAL,
+                              .force_coefficients = {0.0, 0.0, 1.0}};
+  const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 0.5, 30.0, 0, 0, 0};
+  pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.1);
+  assert_int_equal(pendres_hysteresis_jumps(h), JUMPS);
+  for (size_t k = 0; k < JUMPS; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    assert_int_equal(j->kind, kinds[k]);
+    assert_int_equal(j->gradual, kinds[k] == PENDRES_JUMP_SYMMETRY);
+    assert_true(j->value_error < 1e-8);
+  }
+  const pendres_jump *lost = pendres_hysteresis_jump(h, 2), *back = pendres_hysteresis_jump(h, 7);
+  check_near(lost->value, back->value, lost->value_error + back->value_error);
+  /* The orbit of its own image at the next value leads there. The multiplier passes 1 at a rate of
+     order one, so that it is off by some errors of the value (2e-10); 1e-7 is a wide margin. */
+  const pendres_orbit *o = &pendres_hysteresis_get(h, lost->step)->attractor.orbit;
+  assert_true(o->symmetric);
+  check_near(multiplier_at(lost, o), 1.0, 1e-7);
+  pendres_hysteresis_free(h);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(no_end_of_the_drive_frequency),
+    cmocka_unit_test(no_end_of_the_torque),
+    cmocka_unit_test(no_end_of_rest),
+    cmocka_unit_test(only_bifurcations),
+  };
+  return cmocka_run_group_tests(tests, setup, teardown);
+}
