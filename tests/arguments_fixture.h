@@ -89,6 +89,9 @@ static inline int make(void **state)
     pendres_orbit o = f.orbit;
     o.period = period;
     add_bad(&f, o);
+    o = f.orbit;
+    o.winding = period == 0 ? INT_MIN : INT_MAX;
+    add_bad(&f, o);
   }
   *state = &f;
   return 0;

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 
 import numpy as np
 
@@ -157,6 +158,85 @@ def test_errors():
     raised(TypeError, pendres.resonance, 0.24)
     assert {e.status for e in pendres.Error.__subclasses__()} == set(pendres.Status) - {0}
     assert pendres.Label.SA == 0 and pendres.Peak.EDGE == 1 and pendres.Status.OK == 0
+
+
+def test_wrong_types():
+    """Arguments of a wrong kind, each in the place of a good one, are refused in words of this
+    package or of the library: by none of the errors that tell of its own insides."""
+    p = pendres.pendulum(damping=0.13, drive_amplitude=0.2, drive_frequency=0.8)
+    hot = pendres.pendulum(**{**{n: p[n] for n in p.dtype.names}, "temperature": 0.04})
+    found = pendres.attractors(p)
+    orbit, request = found.table.orbit[0], pendres.cloud_request(hot, 1.0, 0.0, trajectories=8)
+    fold, branch = pendres.fold(orbit), pendres.branches(orbit, 0.7, 0.9)[0]
+    tally = pendres.switching(hot, found, 0, trajectories=8, periods=9)
+    rate = pendres.rate(tally, 0, 1)
+    two = np.array([0.7, 0.8])
+    good = {
+        pendres.strobe_advance: (p, 1.0, 0.0, 1), pendres.strobe_record: (p, 1.0, 0.0, 1, 8),
+        pendres.orbits: (p, orbit.x, orbit.v), pendres.orbit_sample: (orbit, 8),
+        pendres.free_frequency: (1.0,), pendres.free_frequency_integrate: (1.0,),
+        pendres.attractors: (p, 1.0, 0.0), pendres.settle: (p, 1.0, 0.0),
+        found.settle: (1.0, 0.0), pendres.response: (p, pendres.ensemble(members=2)),
+        pendres.resonance: (p, 0.5, 1.2, pendres.ensemble(members=2)),
+        pendres.phase_line: (p, pendres.ensemble(members=2)), pendres.basins: (p, two, two),
+        pendres.branches: (orbit, 0.7, 0.9), pendres.fold: (orbit,), branch.at: (0.8,),
+        pendres.curves: (fold, "damping", two, two), pendres.cusp: (fold, "damping"),
+        pendres.backbone: (p,), pendres.hysteresis: (p, two, 1.0, 0.0),
+        pendres.saddle: (orbit,), pendres.boundary: (orbit,),
+        pendres.langevin_advance: (hot, 1.0, 0.0, 1), pendres.cloud_request: (p, 1.0, 0.0),
+        pendres.cloud_steps: (request,), pendres.cloud: (request,),
+        pendres.switching: (hot, found, 0), pendres.linear_noise: (hot, orbit.x, orbit.v),
+        pendres.rate: (tally, 0, 1), pendres.activation: (two, [rate, rate]),
+        pendres.words: (), pendres.array: ("pendres_orbit", 3), pendres.dtype: ("pendres_orbit",),
+        pendres.c.strobe_advance: (pendres.Context(), 0, None, None, None, 1, None),
+        pendres.c.context_cost: (None, None), pendres.Context: (), pendres.pendulum: (),
+        pendres.ensemble: ()}
+    named = {pendres.switching: {"trajectories": 8, "periods": 9}, pendres.words: {"variable": 1},
+             pendres.Context: {"tolerance": 0, "method": 0, "seed": 0, "stop": None},
+             pendres.pendulum: {"damping": 0, "force": 0, "force_coefficients": [1]},
+             pendres.ensemble: {"members": 2, "shape": "line"}, pendres.phase_line: {"spacing": 0},
+             pendres.hysteresis: {"parameter": "damping"}, pendres.branches: {"parameter": 0}}
+    wrong = (3, 1.5, -1, "x", [], {}, object(), None, p, orbit, found, two, np.nan, 2**70)
+    since, refused = [0.0], 0
+    with pendres.Context(stop=lambda: time.process_time() > since[0] + 0.05):
+        for function, arguments in good.items():
+            for place in (*range(len(arguments)), *named.get(function, {})):
+                for bad in wrong:
+                    tried, more = list(arguments), dict(named.get(function, {}))
+                    (more if isinstance(place, str) else tried)[place] = bad
+                    since[0] = time.process_time()
+                    try:
+                        function(*tried, **more)
+                    except (TypeError, ValueError, OverflowError, pendres.Error) as why:
+                        assert len(str(why)) > 12, (function, place, bad, why)
+                        refused += 1
+    assert refused > 700, refused
+
+
+def test_choices():
+    """Names of forces and shapes; coefficients belong to one pendulum; results whose error exceeds
+    the tolerance come with a warning."""
+    one = pendres.pendulum(force="polynomial", force_coefficients=[1, 0, 0.5], drive_frequency=1)
+    assert one.shape == () and one.force == pendres.Force.POLYNOMIAL
+    assert list(one.force_coefficients) == [1, 0, 0.5, 0, 0]
+    several = pendres.pendulum(force="polynomial", drive_frequency=1, damping=[0.1, 0.2],
+                               force_coefficients=[[1, 0, 0.5], [1, 0, 0.25]])
+    assert several.shape == (2,) and list(several.force_coefficients[:, 2]) == [0.5, 0.25]
+    assert pendres.ensemble(shape="random")["shape"] == pendres.EnsembleShape.RANDOM
+    assert "squid" in raised(ValueError, pendres.pendulum, force="spring")
+    raised(TypeError, pendres.pendulum, force_coefficients=np.zeros(6))
+    p = pendres.pendulum(damping=0.13, drive_amplitude=0.2, drive_frequency=0.8)
+    orbit = pendres.attractors(p).table.orbit[0]
+    best = pendres.fold(orbit)
+    with pendres.Context(tolerance=1e-10, steps_per_period=8), \
+            warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        fold, cusp = pendres.fold(orbit), pendres.cusp(best)
+    assert [w.category for w in said] == [RuntimeWarning] * 2 and "known to" in str(said[0].message)
+    # The error is estimated from two runs: the truth, known to rounding, is within it.
+    assert fold.value_error > 1e-10 and abs(fold.value - best.value) < fold.value_error
+    assert all(cusp.value_error > 1e-10)
+    assert all(abs(cusp.value - pendres.cusp(best).value) < cusp.value_error)
 
 
 def test_stops():

@@ -341,6 +341,8 @@ static void ensembles(void **state)
     point = (pendres_phase_point){ .pendulum = bad_pendulums[i] };
     if (pendres_pendulum_check(&bad_pendulums[i], NULL) == PENDRES_OK) continue; /* but huge */
     REFUSED(pendres_response_name(f->ctx, 1, &r));
+    r = (pendres_response){ .pendulum = good, .states = SIZE_MAX };
+    REFUSED(pendres_response_name(f->ctx, 1, &r));
     REFUSED(pendres_phase_line_complete(f->ctx, 1, NULL, &line, &point, f->branches));
   }
   assert_null(all);

@@ -1,8 +1,11 @@
 """Branches of orbits, their bifurcations, curves of these, and boundaries of basins."""
+import warnings
+
 import numpy as np
 
-from ._handles import as_pendulums, default_context, named, one_pendulum, options, record
-from ._library import Handle, array, c, ffi, make, stacked, viewed
+from ._handles import as_numbers, as_pendulums, default_context, filled, one, one_pendulum, record
+from ._library import (Handle, array, c, enumerations, errors, ffi, lib, make, member, stacked,
+                       structures, viewed)
 
 
 class Branch:
@@ -69,44 +72,54 @@ def _crossed(name, function, context, pointer, value):
         room = found[0]
 
 
-def _several(values):
-    return np.ascontiguousarray(np.atleast_1d(values))
+def _several(name, values):
+    return np.ascontiguousarray(np.atleast_1d(structures(name, values)))
+
+
+def _located(name, function, context, *arguments):
+    """What a function finds and locates: with a warning, where its error exceeds the tolerance."""
+    out = array(name)
+    try:
+        function(default_context(context), *arguments, out)
+    except errors[lib.PENDRES_TOLERANCE_UNREACHABLE] as why:
+        if not out["orbit"]["period"]:  # not found at all
+            raise
+        warnings.warn(str(why), RuntimeWarning, stacklevel=3)
+    return record(out)
 
 
 def branches(orbits, low, high, *, parameter="drive_frequency", context=None, **more):
     """The branches that orbits lie on, each once, stable and unstable parts, while `parameter`
     ("drive_frequency", "damping", "drive_amplitude", ...) is between low and high: a list of
     Branch. Further choices: spacing, wildest, most_points."""
-    several = _several(orbits)
-    choice = options("pendres_branch_options", dict(parameter=parameter, low=low, high=high,
-                                                    **more))
+    several = _several("pendres_orbit", orbits)
+    choice = filled("pendres_branch_options", dict(parameter=parameter, low=low, high=high, **more))
     return make(Branches, c.branches_find, default_context(context), several.size, several,
                 choice).list()
 
 
 def fold(orbit, *, context=None):
     """The fold in drive frequency at the end of the branch that an orbit lies on: value,
-    value_error, curvature, orbit."""
-    out = array("pendres_bifurcation")
-    c.fold_find(default_context(context), _several(orbit), out)
-    return record(out)
+    value_error, curvature, orbit. A RuntimeWarning tells if value_error exceeds the tolerance."""
+    return _located("pendres_bifurcation", c.fold_find, context, one("pendres_orbit", orbit))
 
 
 def curves(bifurcations, second, low, high, *, context=None, **more):
     """The curves that bifurcations lie on, each once, as the parameter in which they were found
     and a second one ("damping", ...) change between low[2] and high[2]: a list of Curve."""
-    several = _several(bifurcations)
-    choice = options("pendres_curve_options", dict(second=second, low=low, high=high, **more))
+    several = _several("pendres_bifurcation", bifurcations)
+    choice = filled("pendres_curve_options", dict(second=second, low=low, high=high, **more))
     return make(Curves, c.curves_find, default_context(context), several.size, several,
                 choice).list()
 
 
 def cusp(near, second="damping", *, context=None):
     """The cusp that the curve of folds through `near` leads to, as its parameter and a second one
-    change: value[2], value_error[2], orbit."""
-    out = array("pendres_cusp")
-    c.cusp_find(default_context(context), _several(near), named(second), out)
-    return record(out)
+    change: value[2], value_error[2], orbit. A RuntimeWarning tells where an error exceeds the
+    tolerance."""
+    if isinstance(second, str):
+        second = member(enumerations["pendres_parameter"], "second", second)
+    return _located("pendres_cusp", c.cusp_find, context, one("pendres_bifurcation", near), second)
 
 
 def backbone(p, *, context=None):
@@ -152,10 +165,10 @@ def hysteresis(p, values, x=np.pi / 2, v=0.0, *, parameter="drive_frequency", co
     """The state that a pendulum from (x, v) settles on, followed along the values of a parameter,
     slowly and in their order: a Hysteresis. A sweep up and down is a list that ascends and then
     descends."""
-    along = np.ascontiguousarray(values, float)
-    start, path = array("pendres_state", 1), array("pendres_hysteresis_path", 1)
-    start["x"], start["v"] = x, v
-    path["parameter"], path["n"], path["value"] = named(parameter), along.size, along.ctypes.data
+    along = np.ascontiguousarray(as_numbers(values))
+    start = filled("pendres_state", {"x": x, "v": v})
+    path = filled("pendres_hysteresis_path", {"parameter": parameter, "n": along.size,
+                                              "value": along.ctypes.data})
     return make(Hysteresis, c.hysteresis_follow, default_context(context), one_pendulum(p), start,
                 path)
 
@@ -164,7 +177,7 @@ def saddle(attractor, *, context=None):
     """The unstable orbit that separates the basin of an orbit (period one, stable) from its
     neighbour's."""
     out = array("pendres_orbit")
-    c.saddle_find(default_context(context), _several(attractor), out)
+    c.saddle_find(default_context(context), one("pendres_orbit", attractor), out)
     return record(out)
 
 
@@ -172,5 +185,5 @@ def boundary(saddle_orbit, *, context=None, **more):
     """The boundary between two basins: the stable manifold of the saddle between them, in a window
     of initial states. Choices: x_low, x_high (rad), v_low, v_high, spacing, deviation,
     most_points."""
-    return make(Boundary, c.boundary_find, default_context(context), _several(saddle_orbit),
-                options("pendres_boundary_options", more))
+    return make(Boundary, c.boundary_find, default_context(context),
+                one("pendres_orbit", saddle_orbit), filled("pendres_boundary_options", more))

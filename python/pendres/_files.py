@@ -17,6 +17,9 @@ def open(path, group=None):  # pylint: disable=redefined-builtin
 
 def words(variable):
     """Labels as words: an array of the flag_meanings of a variable's values, "" for others."""
+    if "flag_values" not in getattr(variable, "attrs", {}):
+        raise TypeError("a variable of a file that has labels (flag_values) is wanted, not "
+                        f"{variable!r:.40}")
     values = np.ravel(variable.attrs["flag_values"])
     meanings = dict(zip(values.tolist(), variable.attrs["flag_meanings"].split()))
     return variable.copy(data=np.vectorize(lambda value: meanings.get(value, ""), otypes=[object])(

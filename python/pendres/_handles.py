@@ -1,32 +1,23 @@
 """Contexts, and how pendulums and numbers get into the library."""
+import operator
 import threading
 
 import numpy as np
 
-from ._library import Handle, Record, array, c, copied, dtype, enumerations, errors, ffi, lib
+from ._library import Handle, Record, array, assign, c, copied, dtype, errors, ffi, lib, structures
 
 PENDULUM = dtype("pendres_pendulum")
 
 
-def options(name, given):
-    """A structure of choices: zero in a field means the library's default."""
-    chosen = array(name)
+def filled(name, given, made=None):
+    """A structure of the library's with these fields. Zero in a field of choices means the
+    library's default."""
+    made = array(name) if made is None else made
     for key, value in given.items():
-        if key not in chosen.dtype.names:
-            raise TypeError(f"there is no option '{key}', only {', '.join(chosen.dtype.names)}")
-        chosen[key] = named(value)
-    return chosen
-
-
-def named(value):
-    """The number of a method or table that is given by its name."""
-    if not isinstance(value, str):
-        return value
-    for kind in ("pendres_method", "pendres_table", "pendres_parameter"):
-        for member in enumerations[kind]:
-            if member.name.lower() == value.lower():
-                return int(member)
-    raise ValueError(f"'{value}' is not the name of a method, a table or a parameter")
+        if key not in made.dtype.names:
+            raise TypeError(f"there is no '{key}' in {name}, only {', '.join(made.dtype.names)}")
+        assign(name, made, key, value)
+    return made
 
 
 class Context(Handle):
@@ -47,7 +38,9 @@ class Context(Handle):
 
     def __init__(self, stop=None, **chosen):
         out = ffi.new("pendres_context **")
-        choice = options("pendres_options", chosen)
+        choice = filled("pendres_options", chosen)
+        if stop is not None and not callable(stop):
+            raise TypeError(f"stop: a function without arguments is wanted, not {stop!r:.40}")
         wrong = c.options_check(choice)
         if wrong != ffi.NULL:
             raise errors[lib.PENDRES_INVALID_ARGUMENT](ffi.string(wrong).decode())
@@ -83,6 +76,8 @@ _thread = threading.local()
 def default_context(context=None):
     """The context given, or this thread's own one."""
     if context is not None:
+        if not isinstance(context, Context):
+            raise TypeError(f"context: a pendres.Context is wanted, not {context!r:.40}")
         return context
     if getattr(_thread, "context", None) is None:
         _thread.context = Context()
@@ -92,20 +87,29 @@ def default_context(context=None):
 def pendulum(**fields):
     """Pendulums by their parameters, dimensionless: damping (1/Q), drive_amplitude (torque over
     m g l), drive_frequency (over that of small oscillations), temperature (kT over m g l), and
-    whatever else the library's pendres_pendulum has.
+    whatever else the library's pendres_pendulum has. force="polynomial" has force_coefficients=[a1,
+    a2, ...], five at most.
 
     Arrays are broadcast: pendulum(damping=[0.1, 0.2], drive_amplitude=0.2, drive_frequency=1)
-    makes two. The result is a numpy array with the parameters as fields and attributes.
+    makes two; so are those of force_coefficients along all but their last dimension. The result is
+    a numpy array with the parameters as fields and attributes.
     """
-    unknown = set(fields) - set(PENDULUM.names)
-    if unknown:
-        raise TypeError(f"a pendulum has no '{sorted(unknown)[0]}', only "
-                        f"{', '.join(PENDULUM.names)}")
-    values = {key: np.asarray(value) for key, value in fields.items()}
-    made = array("pendres_pendulum", np.broadcast_shapes(*(v.shape for v in values.values())))
-    for key, value in values.items():
-        made[key] = value
-    return made
+    values = dict(fields)
+    if "force_coefficients" in values:
+        values["force_coefficients"] = _padded(values["force_coefficients"])
+    shapes = [np.shape(value)[:-1] if key == "force_coefficients" else np.shape(value)
+              for key, value in values.items()]
+    return filled("pendres_pendulum", values, array("pendres_pendulum",
+                                                    np.broadcast_shapes(*shapes)))
+
+
+def _padded(coefficients):
+    """Coefficients of forces, those that are left out as zeros."""
+    given, most = np.atleast_1d(coefficients), lib.PENDRES_FORCE_COEFFICIENTS
+    if given.dtype.kind not in "biuf" or given.shape[-1] > most:
+        raise TypeError(f"force_coefficients: {most} numbers at most are wanted, not "
+                        f"{coefficients!r:.40}")
+    return np.pad(given, [(0, 0)] * (given.ndim - 1) + [(0, most - given.shape[-1])])
 
 
 def as_pendulums(p):
@@ -120,16 +124,46 @@ def as_pendulums(p):
 
 def one_pendulum(p):
     """The same, of a single pendulum."""
-    given = as_pendulums(p)
+    return one("pendres_pendulum", as_pendulums(p))
+
+
+def one(name, value):
+    """One of the library's structures, as an array of one."""
+    given = structures(name, value)
     if given.size != 1:
-        raise ValueError(f"a single pendulum is wanted, not {given.size}")
+        raise ValueError(f"a single {name} is wanted, not {given.size}")
     return np.ascontiguousarray(given.reshape(1))
+
+
+def as_ensemble(given=None):
+    """An ensemble of the caller's, or the paper's."""
+    return ensemble() if given is None else one("pendres_ensemble", given)
+
+
+def as_numbers(value):
+    """An array of doubles."""
+    try:
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise TypeError(f"numbers are wanted, not {value!r:.40}") from None
+
+
+def whole(what, number, least=0):
+    """A count, as an int."""
+    wrong = f"{what}: a whole number of {least} or more is wanted, not {number!r:.40}"
+    try:
+        count = operator.index(number)
+    except TypeError:
+        raise TypeError(wrong) from None
+    if count < least:
+        raise ValueError(wrong)
+    return count
 
 
 def spread(p, *values):
     """Pendulums and numbers of one shape, contiguous; copies only of what is not so already."""
     pendulums = as_pendulums(p)
-    numbers = [np.asarray(value, dtype=float) for value in values]
+    numbers = [as_numbers(value) for value in values]
     arrays, shape = (pendulums, *numbers), pendulums.shape
     for a in arrays:
         if a.shape != shape or not shape or not a.flags.c_contiguous:
@@ -148,10 +182,7 @@ def ensemble(**fields):
     pendres_ensemble tells how). Without fields the paper's 200 at rest over -pi/2 < x <= 3 pi/2."""
     chosen = np.asarray(copied("pendres_ensemble", ffi.new("pendres_ensemble *",
                                                            c.ensemble_default())))
-    for key, value in fields.items():
-        if key not in chosen.dtype.names:
-            raise TypeError(f"an ensemble has no '{key}', only {', '.join(chosen.dtype.names)}")
-        chosen[key] = value
+    filled("pendres_ensemble", fields, chosen)
     return chosen.view(np.recarray)
 
 

@@ -151,7 +151,16 @@ _dtypes = {}
 
 def dtype(name):
     """The numpy type of one of the library's: `dtype("pendres_pendulum")` has its fields."""
-    ctype = ffi.typeof(name) if isinstance(name, str) else name
+    ctype = name
+    if isinstance(name, str):
+        try:
+            ctype = ffi.typeof(name)
+        except cffi.CDefError:
+            raise TypeError(f"the library has no type '{name}'") from None
+        if ctype.kind == "struct" and ctype.fields is None:
+            raise TypeError(f"{name} has no fields for others: functions give pointers to it")
+    if not isinstance(ctype, ffi.CType):
+        raise TypeError(f"the name of a type of the library is wanted, not {name!r:.40}")
     if ctype not in _dtypes:
         _dtypes[ctype] = _dtype_of(ctype)
     return _dtypes[ctype]
@@ -173,6 +182,51 @@ def _dtype_of(ctype):
                           "offsets": [f.offset for f in fields], "itemsize": ffi.sizeof(ctype)})
         return np.dtype((Record, plain))
     return np.dtype(np.uintp)
+
+
+def called(kind):
+    """What a type of numpy's is called: by the library's name, if it is one of its structures."""
+    known = (ctype.cname for ctype, its in _dtypes.items() if kind.names and its == kind)
+    return next(known, str(kind))
+
+
+def structures(name, values):
+    """An array of one of the library's structures, as a caller gives it: also one of them, or a
+    list."""
+    given = np.asarray(values)
+    if given.dtype != dtype(name):
+        raise TypeError(f"{name} is wanted, not {called(given.dtype)} as of {values!r:.40}")
+    return given
+
+
+def assign(name, made, key, value):
+    """Set a field of a structure by a number, an array, or the name of an enum's value. What the
+    field cannot hold is refused."""
+    kind = enumerations.get(dict(ffi.typeof(name).fields)[key].type.cname)
+    if isinstance(value, str) and kind is not None:
+        value = member(kind, key, value)
+    given, wanted = np.asarray(value), made.dtype[key].base
+    if given.dtype != wanted and (wanted.names or given.dtype.kind not in "biuf"):
+        raise TypeError(f"{key}: {called(wanted) if wanted.names else 'a number'} is wanted, "
+                        f"not {value!r:.40}")
+    if wanted.kind in "iu" and given.size and not _fits(given, np.iinfo(wanted)):
+        raise ValueError(f"{key}: a whole number from {np.iinfo(wanted).min} to "
+                         f"{np.iinfo(wanted).max} is wanted, not {value!r:.40}")
+    made[key] = given
+
+
+def _fits(given, bounds):
+    if given.dtype.kind == "f" and not np.all(np.isfinite(given) & (given == np.floor(given))):
+        return False
+    return bounds.min <= int(given.min()) and int(given.max()) <= bounds.max
+
+
+def member(kind, key, name):
+    """The value of an enumeration that a name, in letters of any size, stands for."""
+    if name.upper() not in kind.__members__:
+        raise ValueError(f"{key} is one of {', '.join(m.lower() for m in kind.__members__)}, "
+                         f"not '{name}'")
+    return int(kind[name.upper()])
 
 
 def array(name, shape=()):
@@ -212,6 +266,9 @@ class Handle:
     ctype = None  # such as "pendres_attractors"
 
     def __init__(self, pointer):
+        if not isinstance(pointer, ffi.CData):
+            raise TypeError(f"{type(self).__name__} is made by the functions of this package, not "
+                            f"from {pointer!r:.40}")
         self.pointer = ffi.gc(pointer, getattr(lib, self.ctype + "_free"))
         self.interrupt = None
         if self.ctype + "_set_interrupt" in declared.functions:
@@ -296,10 +353,18 @@ class Function:
         if item.kind == "primitive" and item.cname == "char" and constant:
             return _text
         if item.kind == "void":
-            return lambda a: ffi.from_buffer(a) if isinstance(a, np.ndarray) else _pointer(a)
+            return lambda a: ffi.from_buffer(a) if isinstance(a, np.ndarray) else self._pointer(a)
         if item.kind in ("primitive", "enum") or (item.kind == "struct" and item.fields):
             return self._array_converter(item, dtype(item), constant)
-        return _pointer
+        return lambda a: self._pointer(a, item.cname)
+
+    def _pointer(self, a, wanted="an array"):
+        if a is None:
+            return ffi.NULL
+        pointer = a.pointer if isinstance(a, Handle) else a
+        if not isinstance(pointer, ffi.CData):
+            raise TypeError(f"{self.__name__}: {wanted} is wanted, not {a!r:.40}")
+        return pointer
 
     def _array_converter(self, item, wanted, constant):
         many = ffi.typeof(ffi.getctype(item, "[]"))
@@ -308,21 +373,18 @@ class Function:
             if isinstance(a, np.generic):
                 a = np.asarray(a)
             elif not isinstance(a, np.ndarray):
-                return _pointer(a)
+                return self._pointer(a, f"an array of {item.cname}")
             if a.dtype != wanted:
                 raise TypeError(f"{self.__name__}: an array of {item.cname} is wanted, not of "
-                                f"{a.dtype}")
+                                f"{called(a.dtype)}")
             return ffi.from_buffer(many, a, not constant)
         return convert
 
 
 def _text(a):
-    return ffi.NULL if a is None else ffi.new("char[]", os.fspath(a).encode()) \
-        if isinstance(a, (str, os.PathLike)) else a
-
-
-def _pointer(a):
-    return ffi.NULL if a is None else a.pointer if isinstance(a, Handle) else a
+    if a is None or isinstance(a, ffi.CData):
+        return ffi.NULL if a is None else a
+    return ffi.new("char[]", os.fsencode(a))
 
 
 class Functions:

@@ -1,7 +1,8 @@
 """Pendulums that move: strobes, trajectories, orbits, free oscillations."""
 import numpy as np
 
-from ._handles import default_context, one_pendulum, record, spread
+from ._handles import (as_numbers, default_context, filled, one, one_pendulum, record, spread,
+                       whole)
 from ._library import array, c
 
 
@@ -16,12 +17,15 @@ def strobe_advance(p, x, v, periods, *, error=False, out=None, context=None):
     shape, (pendulums, xs, vs) = spread(p, x, v)
     if out is None:
         out = np.array(xs), np.array(vs)
-    elif out[0] is not xs or out[1] is not vs:
-        if not all(a.dtype == float and a.shape == xs.shape and a.flags.c_contiguous for a in out):
+    elif not isinstance(out, (tuple, list)) or out[0] is not xs or out[1] is not vs:
+        if not (isinstance(out, (tuple, list)) and len(out) == 2 and all(
+                isinstance(a, np.ndarray) and a.dtype == float and a.shape == xs.shape and
+                a.flags.c_contiguous for a in out)):
             raise ValueError(f"out must be two contiguous arrays of doubles, of shape {xs.shape}")
         out[0][...], out[1][...] = xs, vs
     errors = np.empty(xs.shape) if error else None
-    c.strobe_advance(default_context(context), xs.size, pendulums, *out, periods, errors)
+    c.strobe_advance(default_context(context), xs.size, pendulums, *out,
+                     whole("periods", periods), errors)
     found = (*out, errors) if error else out
     return tuple(found) if shape == xs.shape else tuple(a.reshape(shape)[()] for a in found)
 
@@ -29,11 +33,11 @@ def strobe_advance(p, x, v, periods, *, error=False, out=None, context=None):
 def strobe_record(p, x0, v0, periods, samples, *, error=False, context=None):
     """One pendulum from (x0, v0) at drive phase 0 on, `samples` points a drive period: (x, v), or
     (x, v, x_error, v_error), of periods * samples + 1 points, at drive phases 2 pi k / samples."""
-    arrays = [np.empty(periods * samples + 1) for _ in range(4 if error else 2)]
-    start, out = array("pendres_state", 1), array("pendres_record", 1)
-    start["x"], start["v"] = x0, v0
-    for name, values in zip(("x", "v", "x_error", "v_error"), arrays):
-        out[name] = values.ctypes.data
+    count = whole("periods", periods) * whole("samples", samples, 1) + 1
+    arrays = [np.empty(count) for _ in range(4 if error else 2)]
+    start = filled("pendres_state", {"x": x0, "v": v0})
+    out = filled("pendres_record", {name: values.ctypes.data for name, values in
+                                    zip(("x", "v", "x_error", "v_error"), arrays)})
     c.strobe_record(default_context(context), one_pendulum(p), start, periods, samples, out)
     return tuple(arrays)
 
@@ -48,10 +52,9 @@ def orbits(p, x, v, *, period=1, winding=0, slopes=False, context=None):
     slopes=True computes derivatives by the drive frequency, too.
     """
     shape, (pendulums, xs, vs, periods, turns) = spread(p, x, v, period, winding)
-    guess = array("pendres_orbit_guess", xs.shape)
-    for name, values in (("pendulum", pendulums), ("x", xs), ("v", vs), ("period", periods),
-                         ("winding", turns)):
-        guess[name] = values
+    guess = filled("pendres_orbit_guess", {"pendulum": pendulums, "x": xs, "v": vs,
+                                           "period": periods, "winding": turns},
+                   array("pendres_orbit_guess", xs.shape))
     found, outcome = array("pendres_orbit", xs.shape), array("pendres_status", xs.shape)
     c.orbit_refine(default_context(context), xs.size, guess, 1 if slopes else 0, found, outcome)
     return record(found.reshape(shape)), outcome.reshape(shape)[()]
@@ -60,25 +63,26 @@ def orbits(p, x, v, *, period=1, winding=0, slopes=False, context=None):
 def orbit_sample(orbit, count, *, error=False, context=None):
     """Points of an orbit, `count` a drive period, from drive phase 0 on: (x, v); error=True adds
     estimates of the largest error of any x and of any v."""
-    one = np.asarray(orbit).reshape(1)
-    x, v = (np.empty(count * int(one["period"][0])) for _ in range(2))
+    given = one("pendres_orbit", orbit)
+    size = whole("count", count, 1) * max(0, int(given["period"][0]))
+    x, v = (np.empty(size) for _ in range(2))
     if not error:
-        c.orbit_sample(default_context(context), one, count, x, v)
+        c.orbit_sample(default_context(context), given, count, x, v)
         return x, v
     errors = np.empty(2)
-    c.orbit_sample_with_error(default_context(context), one, count, x, v, errors)
+    c.orbit_sample_with_error(default_context(context), given, count, x, v, errors)
     return x, v, *errors
 
 
 def free_frequency(amplitude):
     """Exact frequency of the free, undamped pendulum of an amplitude (rad, from 0 to pi), in units
     of that of small oscillations; NaN outside."""
-    return np.vectorize(c.free_frequency, otypes=[float])(amplitude)[()]
+    return np.vectorize(c.free_frequency, otypes=[float])(as_numbers(amplitude))[()]
 
 
 def free_frequency_integrate(amplitude, *, context=None):
     """The same by integration: (frequency, error)."""
-    given = np.asarray(amplitude, dtype=float)
+    given = as_numbers(amplitude)
     values = np.ascontiguousarray(given)
     frequency, error = np.empty(values.shape), np.empty(values.shape)
     c.free_frequency_integrate(default_context(context), values.size, values, frequency, error)

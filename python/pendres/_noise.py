@@ -2,18 +2,16 @@
 random numbers is the context's: Context(seed=7). Equal seeds, ids and periods have equal noise."""
 import numpy as np
 
-from ._handles import default_context, one_pendulum, spread
-from ._library import array, c, ffi, lib
+from ._handles import as_numbers, default_context, filled, one, one_pendulum, spread
+from ._library import array, c, ffi, lib, structures
+from ._states import Attractors
 
 
-def _filled(name, **fields):
-    """One structure with these fields; arrays and handles by their addresses."""
-    made = array(name, 1)
-    for key, value in fields.items():
-        if made.dtype[key] == np.uintp and isinstance(value, np.ndarray):
-            value = value.ctypes.data
-        made[key] = value
-    return made
+def _ids(given):
+    ids = np.asarray(given)
+    if ids.dtype.kind not in "iu" or (ids.size and ids.min() < 0):
+        raise TypeError(f"ids: whole numbers that are not negative are wanted, not {given!r:.40}")
+    return ids.astype(np.uint64)
 
 
 def langevin_advance(p, x, v, periods, *, first_period=0, ids=None, steps_per_period=0,
@@ -23,10 +21,11 @@ def langevin_advance(p, x, v, periods, *, first_period=0, ids=None, steps_per_pe
     ids are 0, 1, ... unless given."""
     shape, (pendulums, xs, vs) = spread(p, x, v)
     names = np.arange(xs.size, dtype=np.uint64) if ids is None else np.ascontiguousarray(
-        np.broadcast_to(np.asarray(ids, np.uint64), shape))
+        np.broadcast_to(_ids(ids), shape))
     out = np.array(xs), np.array(vs)
-    run = _filled("pendres_langevin_run", n=xs.size, pendulums=pendulums, ids=names,
-                  first_period=first_period, periods=periods, steps_per_period=steps_per_period)
+    run = filled("pendres_langevin_run", {
+        "n": xs.size, "pendulums": pendulums.ctypes.data, "ids": names.ctypes.data,
+        "first_period": first_period, "periods": periods, "steps_per_period": steps_per_period})
     c.langevin_advance(default_context(context), run, *out)
     return tuple(a.reshape(shape)[()] for a in out)
 
@@ -34,13 +33,15 @@ def langevin_advance(p, x, v, periods, *, first_period=0, ids=None, steps_per_pe
 def cloud_request(p, x, v, *, trajectories=200, settle=20, record=50, **more):
     """What to make a cloud of: independent trajectories from (x, v), the strobe point of the
     attractor, with `record` strobes of each after `settle` drive periods."""
-    return _filled("pendres_langevin_request", pendulum=one_pendulum(p), x=x, v=v, settle=settle,
-                   trajectories=trajectories, record=record, **more)
+    return filled("pendres_langevin_request", dict(
+        pendulum=one_pendulum(p)[0], x=x, v=v, settle=settle, trajectories=trajectories,
+        record=record, **more), array("pendres_langevin_request", 1))
 
 
 def cloud_steps(request, *, tolerance=0.05, context=None):
     """The steps a period with which a cloud's biases stay below `tolerance` of its widths, with
     these biases: a pendres_langevin_bias."""
+    request = one("pendres_langevin_request", request)
     bias = array("pendres_langevin_bias")
     c.langevin_choose_steps(default_context(context), request, lib.PENDRES_LANGEVIN_CLOUD,
                             tolerance, bias)
@@ -51,8 +52,9 @@ def cloud(request, *, points=False, context=None):
     """The cloud that trajectories make at their strobes: its statistics (value, error; indexed by
     pendres.LangevinStatistic), phase_lag, ... With points=True also the points: (cloud, x, v), of
     shape (trajectories, record)."""
-    found, shape = array("pendres_langevin_cloud"), (int(request.trajectories[0]),
-                                                     int(request.record[0]))
+    request = one("pendres_langevin_request", request)
+    found, shape = array("pendres_langevin_cloud"), (int(request["trajectories"][0]),
+                                                     int(request["record"][0]))
     xs, vs = (np.empty(shape) for _ in range(2)) if points else (None, None)
     c.langevin_measure(default_context(context), request, found, xs, vs)
     return (found[()], xs, vs) if points else found[()]
@@ -61,9 +63,11 @@ def cloud(request, *, points=False, context=None):
 def switching(p, attractors, start, *, trajectories, periods, context=None, **more):
     """Count how noisy trajectories that start on attractor number `start` go to others, in
     `periods` drive periods each: a pendres_switching_tally for rate()."""
-    request = _filled("pendres_switching_request", pendulum=one_pendulum(p),
-                      set=int(ffi.cast("uintptr_t", attractors.pointer)), trajectories=trajectories,
-                      periods=periods, **{"from": start}, **more)
+    if not isinstance(attractors, Attractors):
+        raise TypeError(f"attractors() of the pendulum are wanted, not {attractors!r:.40}")
+    request = filled("pendres_switching_request", dict(
+        pendulum=one_pendulum(p)[0], set=int(ffi.cast("uintptr_t", attractors.pointer)),
+        trajectories=trajectories, periods=periods, **{"from": start}, **more))
     tally = array("pendres_switching_tally")
     c.switching_count(default_context(context), request, tally)
     return tally
@@ -82,17 +86,18 @@ def rate(tally, start, end, *, level=0.95):
     """The rate, a unit time, of switching from one attractor to another (end =
     pendres.SWITCHING_WELL: any other well): value, error, lower, upper, events, exposure, ..."""
     out = array("pendres_switching_rate")
-    c.switching_rate_of(tally, start, end, level, out)
+    c.switching_rate_of(one("pendres_switching_tally", tally), start, end, level, out)
     return out[()]
 
 
 def activation(temperature, rates, *, fewest=0.0):
     """Activation energy from rates at several temperatures: energy, energy_error (of m g l),
     log_prefactor, ... (see pendres_switching_activation)."""
-    temperatures = np.ascontiguousarray(temperature, float)
-    several = array("pendres_switching_rate", temperatures.shape)
-    for i, one in enumerate(rates):
-        several[i] = one
+    temperatures = np.ascontiguousarray(as_numbers(temperature))
+    several = np.ascontiguousarray(structures("pendres_switching_rate", rates))
+    if several.size != temperatures.size:
+        raise ValueError(f"a rate at each of {temperatures.size} temperatures is wanted, not "
+                         f"{several.size}")
     out = array("pendres_switching_activation")
     c.switching_fit(temperatures.size, temperatures, several, fewest, out)
     return out[()]

@@ -1,8 +1,8 @@
 """What pendulums settle on: attractors, responses, resonances, phase diagrams, basins."""
 import numpy as np
 
-from ._handles import (as_pendulums, default_context, ensemble as make_ensemble, one_pendulum,
-                       options, record, spread)
+from ._handles import (as_ensemble, as_numbers, as_pendulums, default_context, filled, one_pendulum,
+                       record, spread)
 from ._library import Handle, array, c, dtype, ffi, make, stacked
 
 
@@ -23,7 +23,7 @@ class Attractors(Handle):
     def settle(self, x, v, *, context=None):
         """What pendulums at x (rad), v settle on, of these attractors alone: an array of
         label, attractor (its row, -1: unresolved), well, settling_periods, certain."""
-        xs, vs = np.broadcast_arrays(np.asarray(x, float), np.asarray(v, float))
+        xs, vs = np.broadcast_arrays(as_numbers(x), as_numbers(v))
         outcome = array("pendres_outcome", xs.shape)
         c.attractors_settle(default_context(context), self, xs.size, np.ascontiguousarray(xs),
                             np.ascontiguousarray(vs), outcome)
@@ -33,8 +33,8 @@ class Attractors(Handle):
 def attractors(p, x=None, v=None, *, context=None):
     """The attractors of one pendulum's parameters that scouts x (rad), v at drive phase 0 lead to;
     without scouts, those that a built-in set of them finds."""
-    xs, vs = (None, None) if x is None else (np.ascontiguousarray(a, float) for a in
-                                             np.broadcast_arrays(x, 0.0 if v is None else v))
+    xs, vs = (None, None) if x is None else (np.ascontiguousarray(a) for a in np.broadcast_arrays(
+        as_numbers(x), as_numbers(0.0 if v is None else v)))
     return make(Attractors, c.attractors_find, default_context(context), one_pendulum(p),
                 0 if xs is None else xs.size, xs, vs)
 
@@ -60,7 +60,7 @@ def response(p, ensemble=None, *, context=None):
     pendulums = as_pendulums(p)
     out = array("pendres_response", pendulums.shape)
     c.response_compute(default_context(context), pendulums.size, np.ascontiguousarray(pendulums),
-                       make_ensemble() if ensemble is None else ensemble, out)
+                       as_ensemble(ensemble), out)
     return record(out)
 
 
@@ -74,7 +74,7 @@ def resonance(p, lowest=0.5, highest=1.2, ensemble=None, *, context=None):
     """
     out = array("pendres_resonance")
     c.resonance_find_ensemble(default_context(context), one_pendulum(p), lowest, highest,
-                              make_ensemble() if ensemble is None else ensemble, out)
+                              as_ensemble(ensemble), out)
     return record(out)
 
 
@@ -84,8 +84,8 @@ def phase_line(p, ensemble=None, *, parameter="drive_frequency", spacing=0.0, co
     ensemble), exact (by the branches), sa_fraction, ...; branches as of branches()."""
     from ._curves import Branches
     pendulums = np.ascontiguousarray(as_pendulums(p))
-    how = options("pendres_phase_options", {"parameter": parameter, "spacing": spacing})
-    how["ensemble"] = make_ensemble() if ensemble is None else ensemble
+    how = filled("pendres_phase_options", {"parameter": parameter, "spacing": spacing,
+                                           "ensemble": as_ensemble(ensemble)[()]})
     out = array("pendres_phase_point", pendulums.shape)
     found = make(Branches, c.phase_line, default_context(context), pendulums.size, pendulums,
                  how, out)
@@ -118,7 +118,7 @@ def _grid(x, v):
 def basins(p, x, v, *, context=None):
     """What each state (x[i], v[j]) of a grid settles on, x in rad, both ascending: a Basins."""
     ctx, one = default_context(context), one_pendulum(p)
-    xs, vs = np.ascontiguousarray(x, float), np.ascontiguousarray(v, float)
+    xs, vs = (np.ascontiguousarray(as_numbers(a)) for a in (x, v))
     grid = _grid(xs, vs)
     found = make(Attractors, c.basin_attractors, ctx, one, grid)
     state = array("pendres_basin_state", (xs.size, vs.size))

@@ -300,13 +300,11 @@ static pendres_status start(pendres_context *ctx, size_t n, const pendres_orbit_
 {
   for (size_t i = 0; i < n; i++) {
     const pendres_orbit_guess *g = &guess[i];
-    const char *why = NULL;
-    if (pendres_pendulum_check(&g->pendulum, &why) == PENDRES_OK) {
-      why = pendres_passage_refuses(&g->pendulum, g->x, g->v);
-      if (g->period < 1) why = "a guess needs a period of at least 1";
-      if (g->winding != 0 && pendres_model_of(g->pendulum.force)->period == 0.0)
-        why = "a coordinate without a period has no winding orbits";
-    }
+    const pendres_orbit wanted = {.pendulum = g->pendulum, .x = g->x, .v = g->v,
+                                  .period = g->period, .winding = g->winding};
+    const char *why = pendres_orbit_refuses(&wanted);
+    if (why == NULL && g->winding != 0 && pendres_model_of(g->pendulum.force)->period == 0.0)
+      why = "a coordinate without a period has no winding orbits";
     if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "guess %zu: %s", i, why);
     const double speed = pendres_steps_speed(&g->pendulum, g->x, g->v);

@@ -13,7 +13,7 @@
 
 enum { MOST_ITERATIONS = 20 };
 
-static const int longest_period = 1000000;
+static const int longest_period = 1000000, most_turns = 1000000000;
 
 /* A step longer than this is cut to this length, so that it does not leave the guess's well. */
 static const double longest_step = 0.6;
@@ -25,6 +25,8 @@ const char *pendres_orbit_refuses(const pendres_orbit *o)
   const char *why = NULL;
   if (pendres_pendulum_check(&o->pendulum, &why) != PENDRES_OK) return why;
   if (o->period < 1 || o->period > longest_period) return "an orbit has a period of 1 to 1000000";
+  if (o->winding < -most_turns || o->winding > most_turns)
+    return "an orbit turns over 1000000000 times at most";
   return pendres_passage_refuses(&o->pendulum, o->x, o->v);
 }
 

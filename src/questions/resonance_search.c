@@ -264,8 +264,9 @@ static void find_cuts(pendres_search *s)
     count_widths(&s->pendulum, s->wish[i], s->wish[i + 1], widths);
     all += widths[PARTS];
   }
-  /* Below a damping of some thousandths not all widths can be looked at. */
-  s->coarse = all / share > MOST;
+  /* Below a damping of some thousandths not all widths can be looked at; of a range beyond all
+     numbers none. */
+  s->coarse = !(all / share <= MOST);
   if (s->coarse) share = all / MOST;
   for (int i = 0; i + 1 < PENDRES_SEARCH_COARSE; i++)
     s->cuts += cut(&s->pendulum, s->wish[i], s->wish[i + 1], share, s->cut + s->cuts);

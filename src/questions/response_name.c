@@ -97,7 +97,10 @@ static pendres_status name_line(pendres_context *ctx, size_t n, pendres_response
   for (size_t i = 0; i < n; i++) {
     const pendres_pendulum *p = &responses[i].pendulum, *first = &responses[0].pendulum;
     const char *why = NULL;
-    if (pendres_pendulum_check(p, &why) != PENDRES_OK)
+    if (pendres_pendulum_check(p, &why) == PENDRES_OK &&
+        responses[i].states > PENDRES_RESPONSE_STATES)
+      why = "it lists more states than there is room for";
+    if (why != NULL)
       return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "response %zu: %s", i, why);
     drives += p->drive_frequency != first->drive_frequency;
     amplitudes += p->drive_amplitude != first->drive_amplitude;
