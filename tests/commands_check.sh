@@ -5,7 +5,7 @@
 # long, or needs what is not there, is looked at as far as it goes. A command that is not known here
 # is a failure: add how it can be tried. Run by make check, which sets BUILD, CC, MAKE and RESONANCE.
 set -u
-[ -n "${RESONANCE:-}" ] || exit 77
+[ -n "${RESONANCE:-}" ] || { echo "no program resonance"; exit 77; }
 MAKE=${MAKE:-make}
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT

@@ -3,7 +3,7 @@
 # public headers has a comment of its own, and so has every value of an enum, or that of the enum
 # names it. Skipped where there is no doxygen.
 set -u
-command -v doxygen >/dev/null || exit 77
+command -v doxygen >/dev/null || { echo "no doxygen: apt-get install doxygen"; exit 77; }
 export LC_ALL=C
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT

@@ -6,12 +6,13 @@
 # then ends well.
 # Run by make check, which sets BUILD, CC and RESONANCE.
 set -u
-[ -n "${RESONANCE:-}" ] || exit 77
+[ -n "${RESONANCE:-}" ] || { echo "no program resonance"; exit 77; }
 scratch=$(mktemp -d) || exit 1
 trap 'umount "$scratch/small" 2>/dev/null; rm -rf "$scratch"' EXIT
 preload=$scratch/faults.so
 # Names of glibc's own: elsewhere there is nothing to be preloaded.
-"${CC:-gcc}" -shared -fPIC -o "$preload" tests/faults_preload.c -ldl 2>/dev/null || exit 77
+"${CC:-gcc}" -shared -fPIC -o "$preload" tests/faults_preload.c -ldl 2>/dev/null ||
+  { echo "no C library of GNU, which can be preloaded"; exit 77; }
 cd "$scratch" || exit 1
 
 cat >d.nml <<'DECK'

@@ -3,7 +3,7 @@
 # page tells. Python's where there is cffi, pictures where there is matplotlib.
 # Run by make check, which sets BUILD and RESONANCE.
 set -u
-[ -n "${RESONANCE:-}" ] || exit 77
+[ -n "${RESONANCE:-}" ] || { echo "no program resonance"; exit 77; }
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 page=$PWD/docs/your_pendulum.md

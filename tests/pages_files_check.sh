@@ -4,7 +4,7 @@
 # there is R with rhdf5.
 # Run by make check, which sets BUILD and RESONANCE.
 set -u
-[ -n "${RESONANCE:-}" ] || exit 77
+[ -n "${RESONANCE:-}" ] || { echo "no program resonance"; exit 77; }
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 page=$PWD/docs/files.md

@@ -4,7 +4,8 @@
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 python=${PYTHON:-/usr/bin/python3}
-"$python" -c 'import h5py, matplotlib' 2>/dev/null || exit 77
+"$python" -c 'import h5py, matplotlib' 2>/dev/null ||
+  { echo "no Python with h5py and matplotlib: make deps-plots"; exit 77; }
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1

@@ -12,7 +12,7 @@ for python in "${PYTHON:-python3}" /usr/bin/python3 none; do
   "$python" -c 'import cffi, numpy' 2>/dev/null && break
 done
 [ "$python" != none ] || {
-  echo "skipped: no Python with cffi and numpy (Debian: python3-cffi python3-numpy)"
+  echo "no Python with cffi and numpy: make deps-python"
   exit 77
 }
 

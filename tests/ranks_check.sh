@@ -5,9 +5,11 @@
 # without memory holds nobody up, and a program without MPI refuses to be started several times.
 # Skipped where there is no MPI, or no h5py to compare with.
 set -u
-mpirun=$(command -v mpirun) && command -v mpicc >/dev/null || { echo "no MPI here"; exit 77; }
+mpirun=$(command -v mpirun) && command -v mpicc >/dev/null ||
+  { echo "no MPI: make deps-mpi"; exit 77; }
 python=${PYTHON:-/usr/bin/python3}
-"$python" -c 'import h5py' 2>/dev/null || { echo "no h5py here"; exit 77; }
+"$python" -c 'import h5py' 2>/dev/null ||
+  { echo "no Python with h5py: make deps-plots"; exit 77; }
 ${MAKE:-make} -s "$BUILD/resonance-mpi" || exit 1
 program=$PWD/$BUILD/resonance-mpi
 case $BUILD in /*) program=$BUILD/resonance-mpi ;; esac

@@ -3,7 +3,7 @@
 # judged: valgrind rounds long doubles, and so the reference, to 53 bits; values may fail, and a
 # test that cmocka has broken off keeps what it held. Valgrind hides AVX-512: AVX2 is looked at.
 set -u
-command -v valgrind >/dev/null 2>&1 || { echo "no valgrind"; exit 77; }
+command -v valgrind >/dev/null 2>&1 || { echo "no valgrind: apt-get install valgrind"; exit 77; }
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 # Threads of tests that spin while they wait would take the time of the one that runs.
