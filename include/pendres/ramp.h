@@ -11,13 +11,20 @@
  * the parameter is a linear function of this time.
  *
  * The time at which a pendulum leaves a state is measured as with a lock-in amplifier, by the first
- * harmonic a + i b of its angle over each drive period. The pendulum has left when the distance of
- * its harmonic from that of the old state exceeds half the distance between the old state and the
- * new one, and does not return below within the time 2/damping in which transients decay. The old
- * state is taken at the same value of the parameter or, beyond its end, at its last value. If the
- * mean velocities of the two states differ by half a radian a period or more, the mean velocity is
- * used instead. Within a period the time is interpolated. Another definition would shift a delay by
- * some drive periods, while the delay of a slow ramp past a fold grows as rate^(-1/3).
+ * harmonic a + i b of its angle over each drive period, or as many as the two states need to close.
+ * The pendulum has left when its harmonic is nearer to that of the new state than to that of the
+ * old one, or farther from the old one than the new one is, and does not return within the time
+ * 2/damping in which transients decay. Both are taken at the parameter's present value; the old
+ * state, beyond its end, at its last value, the new one, before its begin, at its first. If the
+ * states' x advance differently by half a radian or more in that time, the mean velocity is used
+ * instead, over the time of a turn at least. Between two windows the time is interpolated. Another
+ * definition would shift a delay by some drive periods, while the delay of a slow ramp past a fold
+ * grows as rate^(-1/3).
+ *
+ * Without a drive the drive's frequency is a unit of time and nothing else. Windows are then the
+ * time of a turn of states that rotate, and the time in which motions about them decay of states at
+ * rest, which are told apart by the position. A pendulum must not return within 2/damping and two
+ * windows.
  *
  * Integrator and random numbers are those of langevin.h, of order four at temperature zero as well.
  * Parameters are held constant within a step, at their value in its middle.
@@ -59,8 +66,8 @@ typedef struct pendres_ramp {
 typedef struct pendres_ramp_jump {
   double time;        /**< in drive periods since the ramp's start; NaN where the pendulum is not in
                            that state, does not leave it before the parameter turns round, or the
-                           path's jump is gradual or from or to chaos, so that no first harmonics
-                           tell the states apart */
+                           path's jump is gradual or from or to chaos, so that nothing tells the
+                           states apart */
   double value;       /**< of the parameter then */
   double value_error; /**< its error, from two runs of different steps */
   double delay;       /**< how far beyond the path's jump this is, in the direction of the ramp */

@@ -37,19 +37,27 @@ double pendres_ramp_value(const pendres_ramp *ramp, double time)
   return ramp->value[low] + part * (ramp->value[high] - ramp->value[low]);
 }
 
-/* What moves, and at which temperature. */
+/* What moves, at which temperature, and in how many parts drive periods are divided: one each is
+   a period of a pendulum that has so many times the frequency of a drive that is none. */
 typedef struct motion {
   const pendres_ramp *ramp;
   double temperature;
+  long clock;
 } motion;
+
+static pendres_pendulum pendulum_with(const motion *m, double value)
+{
+  pendres_pendulum p = m->ramp->pendulum;
+  p.temperature = m->temperature;
+  pendres_parameter_set(m->ramp->parameter, value, &p);
+  p.drive_frequency *= (double)m->clock;
+  return p;
+}
 
 static pendres_pendulum pendulum_at(void *arg, double time)
 {
   const motion *m = arg;
-  pendres_pendulum p = m->ramp->pendulum;
-  p.temperature = m->temperature;
-  pendres_parameter_set(m->ramp->parameter, pendres_ramp_value(m->ramp, time), &p);
-  return p;
+  return pendulum_with(m, pendres_ramp_value(m->ramp, time / (double)m->clock));
 }
 
 static const char *refuses(const pendres_ramp *r)
@@ -77,7 +85,7 @@ static pendres_status check(pendres_context *ctx, const pendres_ramp *r)
     return PENDRES_CONTEXT_NULL(ctx, "period, value, point and jump");
   const char *why = refuses(r);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
-  motion m = {.ramp = r, .temperature = r->pendulum.temperature};
+  motion m = {.ramp = r, .temperature = r->pendulum.temperature, .clock = 1};
   const pendres_langevin_moving run = {.motion = pendulum_at, .arg = &m, .steps = MOST_STEPS,
                                        .x = r->point[0].x, .v = r->point[0].v};
   for (size_t i = 0; i < r->corners; i++) {
@@ -109,12 +117,11 @@ static pendres_langevin_answer take_end(void *arg, const pendres_langevin_strobe
 
 /* The error of a period of a state with this many steps, from a run with twice as many. Errors of
    later periods add to it until it has died away. */
-static pendres_status probe(pendres_context *ctx, const pendres_ramp *r,
+static pendres_status probe(pendres_context *ctx, const motion *m,
                             const pendres_hysteresis_point *point, int steps, double *off)
 {
-  pendres_pendulum p = r->pendulum;
+  pendres_pendulum p = pendulum_with(m, point->value);
   p.temperature = 0.0;
-  pendres_parameter_set(r->parameter, point->value, &p);
   const double lost = -expm1(-0.5 * p.damping * two_pi / p.drive_frequency);
   double end[2][2];
   pendres_status status = PENDRES_OK;
@@ -132,10 +139,12 @@ static pendres_status probe(pendres_context *ctx, const pendres_ramp *r,
 
 /* Choose steps whose strobe points meet a tolerance in the states of the path; the error falls with
    order four. */
-static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, double tolerance,
+static pendres_status choose_steps(pendres_context *ctx, const motion *m, double tolerance,
                                    int *steps)
 {
-  *steps = ctx->options.steps_per_period;
+  const pendres_ramp *r = m->ramp;
+  const int asked = ctx->options.steps_per_period;
+  *steps = asked > 0 ? (int)fmax(2.0, ceil(asked / (double)m->clock)) : 0;
   if (*steps > 0) return PENDRES_OK;
   *steps = FEWEST_STEPS;
   const size_t apart = (r->points + PROBES - 1) / PROBES;
@@ -144,7 +153,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, 
     if (r->point[i].attractor.label == PENDRES_LABEL_ESCAPE) continue; /* no state to stay in */
     for (;;) {
       double off = 0.0;
-      const pendres_status status = probe(ctx, r, &r->point[i], *steps, &off);
+      const pendres_status status = probe(ctx, m, &r->point[i], *steps, &off);
       if (status != PENDRES_OK) return status;
       if (off <= tolerance || *steps >= MOST_STEPS) break;
       *steps *= 2;
@@ -157,7 +166,7 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_ramp *r, 
 
 /* Trajectories that are followed, and where points of the first go. */
 typedef struct course {
-  int steps;         /* a period */
+  int steps;         /* a part of a drive period */
   size_t n;          /* trajectories, ... */
   uint64_t first_id; /* ... and the number of the first */
   long every;        /* drive periods from one point to the next */
@@ -175,9 +184,10 @@ static pendres_langevin_answer see(void *arg, const pendres_langevin_strobe *s)
   run *r = arg;
   pendres_ramp_watch_see(&r->watch, s);
   const course *c = r->course;
-  if (c->x != NULL && s->period % c->every == 0) {
-    c->x[s->period / c->every] = s->x[0];
-    c->v[s->period / c->every] = s->v[0];
+  const long every = c->every * r->watch.clock;
+  if (c->x != NULL && s->period % every == 0) {
+    c->x[s->period / every] = s->x[0];
+    c->v[s->period / every] = s->v[0];
   }
   return PENDRES_LANGEVIN_GO_ON;
 }
@@ -190,7 +200,7 @@ static pendres_status follow(pendres_context *ctx, motion *m, const course *c, d
   const pendres_langevin_observer observer = {.see = see, .arg = &r, .harmonics = 1};
   const pendres_langevin_moving moving = {
     .motion = pendulum_at, .arg = m, .n = c->n, .first_id = c->first_id,
-    .periods = pendres_ramp_periods(ramp), .steps = c->steps, .x = ramp->point[0].x,
+    .periods = m->clock * pendres_ramp_periods(ramp), .steps = c->steps, .x = ramp->point[0].x,
     .v = ramp->point[0].v, .may_leave = pendres_escape_possible(&ramp->pendulum),
     .observer = &observer};
   if (c->x != NULL) {
@@ -218,13 +228,13 @@ static double error_of(double distance)
 /* The largest share of an error that can be left after some periods. */
 static double left_after(const pendres_ramp *r, double time, double periods)
 {
-  motion m = {.ramp = r};
+  motion m = {.ramp = r, .clock = 1};
   const pendres_pendulum p = pendulum_at(&m, time);
   return exp(-0.5 * p.damping * two_pi / p.drive_frequency * periods);
 }
 
 /* The rounding errors of the steps that have not died away yet. */
-static double rounding_of(const pendres_ramp *r, int steps)
+static double rounding_of(const pendres_ramp *r, double steps)
 {
   return 4.4e-16 * sqrt(steps) / (1.0 - left_after(r, 0.0, 1.0));
 }
@@ -308,14 +318,15 @@ static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp
   double *fine = time + ramp->jumps;
   motion m = {.ramp = ramp, .temperature = 0.0};
   int steps = 0;
-  status = choose_steps(ctx, ramp, ctx->options.tolerance, &steps);
+  status = pendres_ramp_watch_clock(ctx, ramp, &m.clock);
+  if (status == PENDRES_OK) status = choose_steps(ctx, &m, ctx->options.tolerance, &steps);
   const int half = (steps + 1) / 2;
   const course coarser = {
     .steps = half, .n = 1, .every = to->every, .x = to->x_error, .v = to->v_error};
   const course finer = {.steps = 2 * half, .n = 1, .every = to->every, .x = to->x, .v = to->v};
   if (status == PENDRES_OK) status = follow(ctx, &m, &coarser, time);
   if (status == PENDRES_OK) status = follow(ctx, &m, &finer, fine);
-  const double rounding = rounding_of(ramp, 2 * half);
+  const double rounding = rounding_of(ramp, 2 * half * (double)m.clock);
   if (status == PENDRES_OK && jump != NULL) judge(ramp, time, fine, rounding, jump);
   if (status == PENDRES_OK && record != NULL) {
     const size_t n = (size_t)(pendres_ramp_periods(ramp) / to->every) + 1;
@@ -343,7 +354,9 @@ static pendres_status ramp_scatter(pendres_context *ctx, const pendres_ramp *ram
   if (time == NULL && n > 0 && ramp->jumps > 0) return PENDRES_CONTEXT_NULL(ctx, "time");
   motion m = {.ramp = ramp, .temperature = ramp->pendulum.temperature};
   course c = {.n = n, .first_id = first_id};
-  status = choose_steps(ctx, ramp, pendres_accuracy_with_noise(ctx), &c.steps);
+  status = pendres_ramp_watch_clock(ctx, ramp, &m.clock);
+  if (status == PENDRES_OK)
+    status = choose_steps(ctx, &m, pendres_accuracy_with_noise(ctx), &c.steps);
   if (status == PENDRES_OK) status = follow(ctx, &m, &c, time);
   for (size_t i = 0; i < ramp->jumps * n && status == PENDRES_OK && value != NULL; i++)
     value[i] = pendres_ramp_value(ramp, time[i]);
