@@ -6,6 +6,7 @@
 
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "model/model.h"
 #include "questions/hysteresis_circle.h"
 #include "questions/hysteresis_left.h"
 #include "questions/hysteresis_rotation.h"
@@ -45,6 +46,19 @@ static pendres_status go_over(pendres_path *w, const pendres_bifurcation *end, d
   return PENDRES_NOT_FOUND;
 }
 
+/* Whether two orbits swing about one place, or about places that are mirror images: states of rest
+   have no amplitude that would tell them apart. */
+static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
+{
+  const double turn = pendres_model_turn(&a->pendulum);
+  const double middle = 0.5 * (a->mean_angle + b->mean_angle);
+  const double bound = same_orbit + a->amplitude_error + b->amplitude_error;
+  if (fabs(remainder(a->mean_angle - b->mean_angle, turn)) < bound) return 1;
+  if (!pendres_pendulum_symmetric(&a->pendulum)) return 0;
+  const double aside = middle - pendres_model_centre(&a->pendulum, middle);
+  return fabs(remainder(2.0 * aside, turn)) < bound;
+}
+
 /*
  * Whether the state that a pendulum has gone to is the one that it came from: followed back to
  * where that was last, it is the same orbit there, or its mirror image. It did not end then,
@@ -66,7 +80,8 @@ static pendres_status same_state(const pendres_path *w, const pendres_attractor 
   pendres_stretch_free(&back);
   if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
   *same = found && fabs(there.amplitude - old->orbit.amplitude) <
-                     same_orbit + there.amplitude_error + old->orbit.amplitude_error;
+                     same_orbit + there.amplitude_error + old->orbit.amplitude_error &&
+          about_one_place(&there, &old->orbit);
   return status;
 }
 
