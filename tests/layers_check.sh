@@ -15,8 +15,8 @@ drivers_layers='system terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
 src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h base/sine.h base/student.h base/turns.h
-  model/forces.h model/model.h
-  engine/accuracy.h engine/context_internal.h engine/passage.h engine/rank.h
+  model/forces.h model/model.h model/units.h
+  engine/accuracy.h engine/context_internal.h engine/door.h engine/passage.h engine/rank.h
   engine/steps.h engine/strobe_run.h engine/tables.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
@@ -24,7 +24,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   orbits/settle.h
   noise/langevin_moving.h noise/noise_common.h continuation/continuation_equations.h continuation/continuation_parameter.h
   continuation/continuation_arc.h continuation/continuation_branch.h
-  continuation/continuation_families.h'
+  continuation/continuation_families.h continuation/continuation_units.h'
 drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
   farm/trial.h deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h
   validation/hard_cases.h'

@@ -147,6 +147,7 @@ static void models(void **state)
   pendres_pendulum_jacobian(&good, 0.0, 0.0, NULL, NULL);
   assert_null(pendres_model_of((pendres_force)77));
   assert_false(pendres_pendulum_symmetric(NULL));
+  assert_true(pendres_units_of(NULL).length == 1.0 && pendres_units_of(NULL).time == 1.0);
   assert_false(pendres_pendulum_leaves(NULL));
   assert_true(isnan(pendres_pendulum_potential(NULL, 0.0)));
   pendres_pendulum_mirror(NULL, NULL);

@@ -31,13 +31,15 @@ extern "C" {
 /** What is wanted. Zero in a field means the default. */
 typedef struct pendres_boundary_options {
   double x_low;         /**< window in which points are kept, rad; where x_low and x_high are 0: one
-                             turn around well 0, of a polynomial pi times its length (the largest at
-                             which two of its terms are alike, or 1) to both sides of 0 */
+                             turn around well 0, of a polynomial pi times its unit of length
+                             (pendres_units_of) to both sides of 0 */
   double x_high;        /**< its other side */
-  double v_low;         /**< the same in v; where v_low and v_high are 0: -2.5 to 2.5 */
+  double v_low;         /**< the same in v; where v_low and v_high are 0: -2.5 to 2.5 units */
   double v_high;        /**< its other side */
-  double spacing;       /**< neighbours on a piece are no further apart in x or v; default 0.05 */
-  double deviation;     /**< of the polyline from the curve between its points; default 1e-5 */
+  double spacing;       /**< neighbours on a piece are no further apart in x, or in v times the unit
+                             of time; default 0.05 units of length */
+  double deviation;     /**< of the polyline from the curve between its points, likewise; default
+                             1e-5 */
   size_t most_points;   /**< grown before giving up; default 400000 */
 } pendres_boundary_options;
 
@@ -79,7 +81,7 @@ const double *pendres_boundary_v(const pendres_boundary *boundary);
 const int *pendres_boundary_piece(const pendres_boundary *boundary);
 /**
  * Error of each point: how far the true curve may be from the point and from the lines to its
- * neighbours, in the (x, v) plane.
+ * neighbours, in the plane of x and v times the unit of time.
  */
 const double *pendres_boundary_error(const pendres_boundary *boundary);
 /** The largest of these; 0 without points. */

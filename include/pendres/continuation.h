@@ -101,8 +101,9 @@ typedef struct pendres_bifurcation {
   double value_error;          /**< its error */
   /**
    * For a fold: second derivative of the parameter by arclength of the Poincaré point in
-   * the (x, v) plane along the branch. Negative: the two orbits exist below `value`, positive:
-   * above. 0 at a cusp. NaN for the other kinds.
+   * the plane of x and v times the pendulum's unit of time (pendres_units_of), along the
+   * branch. Negative: the two orbits exist below `value`, positive: above. 0 at a cusp. NaN for
+   * the other kinds.
    */
   double curvature;
   double curvature_error;      /**< its error */
@@ -183,9 +184,10 @@ const char *pendres_doubt_name(pendres_doubt bit);
 typedef struct pendres_branch_point {
   pendres_special kind;   /**< what happens there; PENDRES_REGULAR: nothing */
   int bifurcation;        /**< its number in the branch's list, -1 for a regular point */
-  double arclength;       /**< from the first point; y = x - pi/2 and v/omega count as they are,
-                               the drive frequency in units of 0.3, other parameters of
-                               0.1, but none in less than a twentieth of its value */
+  double arclength;       /**< from the first point, in the pendulum's units (pendres_units_of):
+                               y = x - pi/2 and v/omega count as they are, the drive frequency in
+                               units of 0.3, other parameters of 0.1, but none in less than a
+                               twentieth of its value */
   double parameter_error; /**< across the branch */
   pendres_orbit orbit;    /**< its pendulum has the parameter; slopes are NaN */
   int doubt;              /**< bits of pendres_doubt */

@@ -283,9 +283,10 @@ typedef struct pendres_langevin_linear {
                                                order in the temperature */
   pendres_langevin_covariance injected;   /**< Q: what the noise of `cycle` drive periods adds */
   double monodromy[4]; /**< M of `cycle` drive periods, row by row (xx, xv, vx, vv) */
-  double closure;      /**< distance by which the orbit fails to close: rounding errors, if (x, v)
-                            is on the orbit */
-  double error;        /**< largest error of the covariance's three numbers, by step doubling */
+  double closure;      /**< distance by which the orbit fails to close, v counted in units of time
+                            (pendres_units_of): rounding errors, if (x, v) is on the orbit */
+  double error;        /**< largest error of the covariance's three numbers, by step doubling;
+                            likewise */
 } pendres_langevin_linear;
 
 /**

@@ -114,6 +114,26 @@ typedef struct pendres_state {
   double v; /**< velocity, in rad a unit time */
 } pendres_state;
 
+/** What one canonical unit is in the units of a pendulum's parameters: both are powers of two. */
+typedef struct pendres_units {
+  double length; /**< of x */
+  double time;   /**< of 1 / drive_frequency */
+} pendres_units;
+
+/**
+ * The units in which a pendulum is computed, whatever those of its parameters are. A pendulum and a
+ * force with a sine have 1 and 1. A polynomial has the power of two below the length at which its
+ * lowest term equals its highest, and that next to the time 1/sqrt(f'(x)) at that length. A single
+ * power, which has no such length, has that at which it equals the larger of drive and torque or,
+ * without these, that at which its rate equals the damping; a linear force then 1. {1, 1} if p is
+ * NULL, or its force is none.
+ *
+ * Lengths of order one in this library's words are lengths of this unit: context.h tells how
+ * tolerances depend on it. Multiplying a problem's units by powers of two multiplies all of its
+ * results by powers of two, and changes no digit of them.
+ */
+pendres_units pendres_units_of(const pendres_pendulum *p);
+
 /** What all pendulums with this force have in common; NULL if force is out of range. */
 const pendres_model *pendres_model_of(pendres_force force);
 

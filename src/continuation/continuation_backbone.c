@@ -13,6 +13,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 
 enum { MOST_ITERATIONS = 30 };
 
@@ -172,5 +173,16 @@ pendres_status pendres_backbone_find(pendres_context *ctx, size_t n,
                                      const pendres_pendulum *pendulums, pendres_orbit *out,
                                      double *frequency_error, pendres_status *outcome)
 {
-  return PENDRES_CONTEXT_CALL(ctx, backbone_find(ctx, n, pendulums, out, frequency_error, outcome));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  while (pendres_door_next(&d)) {
+    const size_t i = d.first, m = d.count;
+    const pendres_pendulum *p =
+      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
+    pendres_orbit *o = pendres_door_out(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(out, i));
+    double *e =
+      pendres_door_out(&d, &pendres_dim_frequency, m, PENDRES_DOOR_AT(frequency_error, i));
+    PENDRES_DOOR_CALL(&d, backbone_find(ctx, m, p, o, e, PENDRES_DOOR_AT(outcome, i)));
+  }
+  return pendres_door_close(&d);
 }

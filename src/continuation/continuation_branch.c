@@ -6,6 +6,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_course.h"
 #include "continuation/continuation_parameter.h"
 
@@ -298,5 +299,22 @@ pendres_status pendres_branch_outline(pendres_context *ctx, const pendres_orbit 
 pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendres_orbit *starts,
                                      const pendres_branch_options *options, pendres_branch **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, branch_follow(ctx, n, starts, options, out));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, starts, sizeof *starts);
+  for (size_t i = 0; d.status == PENDRES_OK && out != NULL && i < n; i++) out[i] = NULL;
+  while (pendres_door_next(&d)) {
+    const size_t i = d.first, m = d.count;
+    pendres_branch **mine = PENDRES_DOOR_AT(out, i);
+    const pendres_orbit *from =
+      pendres_door_in(&d, &pendres_dim_orbit, m, PENDRES_DOOR_AT(starts, i));
+    if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
+    const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
+    PENDRES_DOOR_CALL(&d, branch_follow(ctx, m, from, o, mine));
+    for (size_t k = 0; d.status == PENDRES_OK && k < m; k++) pendres_branch_leave(&d, mine[k]);
+  }
+  for (size_t i = 0; d.begun && d.status != PENDRES_OK && out != NULL && i < n; i++) {
+    pendres_branch_free(out[i]);
+    out[i] = NULL;
+  }
+  return pendres_door_close(&d);
 }

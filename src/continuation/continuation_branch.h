@@ -1,28 +1,15 @@
 /*
  * continuation_branch.h -- what the parts of continuation share of a branch.
  *
- * Owns: the layout of pendres_branch; branches without measures.
+ * Owns: branches without measures.
  */
 #ifndef PENDRES_CONTINUATION_BRANCH_H
 #define PENDRES_CONTINUATION_BRANCH_H
 
 #include <pendres/continuation.h>
 
+#include "continuation/continuation_layout.h"
 #include "continuation/continuation_trail.h"
-
-struct pendres_branch {
-  pendres_parameter parameter;
-  pendres_continuation_map map;
-  size_t count, bifurcations;
-  pendres_branch_point *point;
-  pendres_bifurcation *bifurcation;
-  pendres_branch_end end[2];
-};
-
-struct pendres_branches {
-  size_t count, capacity, skipped;
-  pendres_branch **branch;
-};
 
 /* What is wrong with options and starts, a static sentence; NULL if nothing is. */
 const char *pendres_branch_refuses(const pendres_branch_options *options, size_t n,

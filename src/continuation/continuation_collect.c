@@ -6,6 +6,7 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_alike.h"
 #include "continuation/continuation_branch.h"
 
@@ -143,7 +144,14 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, branches_find(ctx, n, orbits, options, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, n, orbits);
+  if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
+  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
+  PENDRES_DOOR_CALL(&d, branches_find(ctx, n, from, o, out));
+  if (d.status == PENDRES_OK) pendres_branches_leave(&d, *out);
+  return pendres_door_close(&d);
 }
 
 /* Two locations of one bifurcation, mirror images included. Two that lie as close and differ are of
@@ -186,5 +194,14 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        const pendres_branch_options *options,
                                        pendres_branches *branches)
 {
-  return PENDRES_CONTEXT_CALL(ctx, branches_extend(ctx, n, bifurcations, options, branches));
+  pendres_door d;
+  pendres_door_open(&d, ctx,
+                    n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
+  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
+  if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
+  const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
+  pendres_branches_enter(&d, branches);
+  PENDRES_DOOR_CALL(&d, branches_extend(ctx, n, from, o, branches));
+  pendres_branches_leave(&d, branches);
+  return pendres_door_close(&d);
 }

@@ -11,6 +11,7 @@
 #include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_parameter.h"
 #include "model/model.h"
 
@@ -79,7 +80,13 @@ done:
 pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *b, double value,
                                     size_t room, pendres_orbit *out, size_t *found)
 {
-  return PENDRES_CONTEXT_CALL(ctx, branch_cross(ctx, b, value, room, out, found));
+  pendres_door d;
+  pendres_door_open(&d, ctx, b != NULL && b->count > 0 ? &b->point[0].orbit.pendulum : NULL);
+  if (b != NULL) pendres_door_move(&d, b->parameter, b->parameter);
+  const pendres_branch *inside = pendres_branch_inside(&d, b);
+  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, room, out);
+  PENDRES_DOOR_CALL(&d, branch_cross(ctx, inside, value / d.scales.first, room, orbit, found));
+  return pendres_door_close(&d);
 }
 
 /* ---- branches that cross ---- */
@@ -147,5 +154,10 @@ static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcat
 pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                      pendres_orbit *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, branch_switch(ctx, at, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, at != NULL ? &at->orbit.pendulum : NULL);
+  const pendres_bifurcation *inside = pendres_bifurcations_inside(&d, 1, at);
+  pendres_orbit *orbit = pendres_door_out(&d, &pendres_dim_orbit, 1, out);
+  PENDRES_DOOR_CALL(&d, branch_switch(ctx, inside, orbit));
+  return pendres_door_close(&d);
 }

@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_course.h"
-#include "continuation/continuation_curve.h"
+#include "continuation/continuation_layout.h"
 #include "continuation/continuation_parameter.h"
 #include "continuation/continuation_stencil.h"
 
@@ -262,7 +263,13 @@ pendres_status pendres_curve_follow(pendres_context *ctx, size_t n,
                                     const pendres_bifurcation *starts,
                                     const pendres_curve_options *options, pendres_curve **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, curve_follow(ctx, n, starts, options, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, n > 0 && starts != NULL ? &starts[0].orbit.pendulum : NULL);
+  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, starts);
+  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, starts, options);
+  PENDRES_DOOR_CALL(&d, curve_follow(ctx, n, from, o, out));
+  for (size_t i = 0; d.status == PENDRES_OK && i < n; i++) pendres_curve_leave(&d, out[i]);
+  return pendres_door_close(&d);
 }
 
 /* ---- one value of the second parameter ---- */
@@ -322,7 +329,13 @@ static pendres_status curve_cross(pendres_context *ctx, const pendres_curve *c, 
 pendres_status pendres_curve_cross(pendres_context *ctx, const pendres_curve *c, double value,
                                    size_t room, pendres_bifurcation *out, size_t *found)
 {
-  return PENDRES_CONTEXT_CALL(ctx, curve_cross(ctx, c, value, room, out, found));
+  pendres_door d;
+  pendres_door_open(&d, ctx, c != NULL && c->count > 0 ? &c->point[0].orbit.pendulum : NULL);
+  if (c != NULL) pendres_door_move(&d, c->parameter[0], c->parameter[1]);
+  const pendres_curve *inside = pendres_curve_inside(&d, c);
+  pendres_bifurcation *b = pendres_door_out(&d, &pendres_dim_bifurcation, room, out);
+  PENDRES_DOOR_CALL(&d, curve_cross(ctx, inside, value / d.scales.second, room, b, found));
+  return pendres_door_close(&d);
 }
 
 /* ---- the cusp next to a fold ---- */
@@ -403,5 +416,11 @@ static pendres_status cusp_find(pendres_context *ctx, const pendres_fold *near,
 pendres_status pendres_cusp_find(pendres_context *ctx, const pendres_fold *near,
                                  pendres_parameter second, pendres_cusp *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, cusp_find(ctx, near, second, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, near != NULL ? &near->orbit.pendulum : NULL);
+  const pendres_fold *inside = pendres_bifurcations_inside(&d, 1, near);
+  if (near != NULL) pendres_door_move(&d, near->parameter, second);
+  pendres_cusp *cusp = pendres_door_out(&d, &pendres_dim_cusp, 1, out);
+  PENDRES_DOOR_CALL(&d, cusp_find(ctx, inside, second, cusp));
+  return pendres_door_close(&d);
 }

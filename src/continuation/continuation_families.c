@@ -6,8 +6,9 @@
 
 #include "base/grow.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_alike.h"
-#include "continuation/continuation_curve.h"
+#include "continuation/continuation_layout.h"
 
 pendres_curves *pendres_curves_create(void)
 {
@@ -123,7 +124,15 @@ pendres_status pendres_curves_extend(pendres_context *ctx, size_t n,
                                      const pendres_bifurcation *bifurcations,
                                      const pendres_curve_options *options, pendres_curves *curves)
 {
-  return PENDRES_CONTEXT_CALL(ctx, curves_extend(ctx, n, bifurcations, options, curves));
+  pendres_door d;
+  pendres_door_open(&d, ctx,
+                    n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
+  const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
+  const pendres_curve_options *o = pendres_curve_options_inside(&d, n, bifurcations, options);
+  pendres_curves_enter(&d, curves);
+  PENDRES_DOOR_CALL(&d, curves_extend(ctx, n, from, o, curves));
+  pendres_curves_leave(&d, curves);
+  return pendres_door_close(&d);
 }
 
 static pendres_status curves_find(pendres_context *ctx, size_t n,

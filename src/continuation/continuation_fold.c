@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_locate.h"
 #include "continuation/continuation_parameter.h"
 #include "continuation/continuation_arc.h"
@@ -109,10 +110,16 @@ static pendres_status fold_find(pendres_context *ctx, const pendres_orbit *near,
 pendres_status pendres_fold_find_along(pendres_context *ctx, const pendres_orbit *near,
                                        pendres_parameter parameter, pendres_fold *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, parameter, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, near != NULL ? &near->pendulum : NULL);
+  pendres_door_move(&d, parameter, parameter);
+  const pendres_orbit *o = pendres_door_in(&d, &pendres_dim_orbit, 1, near);
+  pendres_fold *fold = pendres_door_out(&d, &pendres_dim_bifurcation, 1, out);
+  PENDRES_DOOR_CALL(&d, fold_find(ctx, o, parameter, fold));
+  return pendres_door_close(&d);
 }
 
 pendres_status pendres_fold_find(pendres_context *ctx, const pendres_orbit *near, pendres_fold *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, fold_find(ctx, near, PENDRES_DRIVE_FREQUENCY, out));
+  return pendres_fold_find_along(ctx, near, PENDRES_DRIVE_FREQUENCY, out);
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "continuation/continuation_branch.h"
-#include "continuation/continuation_curve.h"
+#include "continuation/continuation_layout.h"
 #include "continuation/continuation_families.h"
 
 typedef struct set_head {

@@ -9,9 +9,11 @@
 
 #include <pendres/context.h>
 
-/* The tolerance that 0 stands for in options, and the smallest that can be asked for. */
+/* The tolerance that 0 stands for in options, and the smallest and the largest that can be asked
+   for: lengths in canonical units (engine/door.h). */
 #define PENDRES_ACCURACY_DEFAULT 1e-8
 #define PENDRES_ACCURACY_TIGHTEST 1e-13
+#define PENDRES_ACCURACY_LOOSEST 1e-2
 
 /* ---- errors of a drive period, which choose its steps (steps.h) ---- */
 

@@ -27,7 +27,9 @@ typedef struct pendres_flow pendres_flow; /* flow.h */
 
 struct pendres_context {
   pendres_guard guard;
-  pendres_options options; /* defaults resolved */
+  pendres_options options; /* defaults resolved; the tolerance is canonical while a door is open */
+  int tolerance_given; /* the tolerance is the caller's, not the default of canonical units */
+  int canonical;       /* a door (door.h) is open: all is in canonical units */
   void *sun; /* a SUNContext, for the flows */
   pendres_flow *flows[PENDRES_FLOW_KINDS];
   struct pendres_steps_memo *steps;

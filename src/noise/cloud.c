@@ -8,6 +8,8 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
+#include "orbits/attractor_internal.h"
 #include "noise/noise_common.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = 192 /* trajectories, at most */ };
@@ -61,6 +63,28 @@ static const char *refuse(const pendres_cloud_request *q)
   if (q->trajectories > SIZE_MAX / sizeof(double) / (size_t)q->record)
     return "there are more strobe points than memory has room for";
   return pendres_noise_refuses(&pendres_attractors_get(q->set, q->attractor)->orbit.pendulum);
+}
+
+/* Open the door to a request; returns it as it is behind, in *inside. */
+static const pendres_cloud_request *open_request(pendres_door *d, pendres_context *ctx,
+                                                 const pendres_cloud_request *request,
+                                                 pendres_cloud_request *inside)
+{
+  pendres_attractors_open(d, ctx, request != NULL ? request->set : NULL);
+  if (request == NULL || !pendres_door_changes(d)) return request;
+  *inside = *request;
+  inside->set = pendres_attractors_inside(d, request->set);
+  inside->temperature /= pendres_units_factor(&d->scales, 2, -2);
+  return inside;
+}
+
+/* Announce the strobe points of so many trajectories of a request, if it is one. */
+static void announce(pendres_door *d, size_t trajectories, const pendres_cloud_request *request,
+                     double *x, double *v)
+{
+  if (request == NULL || d->status != PENDRES_OK || refuse(request) != NULL) return;
+  (void)pendres_door_out(d, &pendres_dim_length, trajectories * (size_t)request->record, x);
+  (void)pendres_door_out(d, &pendres_dim_speed, trajectories * (size_t)request->record, v);
 }
 
 /* The same for trajectories; `home` must live as long as the request. */
@@ -260,7 +284,13 @@ static pendres_status prepare(pendres_context *ctx, const pendres_cloud_request 
 pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_request *request,
                                      pendres_cloud *cloud, double *x, double *v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, prepare(ctx, request, cloud, x, v));
+  pendres_door d;
+  pendres_cloud_request inside;
+  request = open_request(&d, ctx, request, &inside);
+  announce(&d, request != NULL ? request->trajectories : 0, request, x, v);
+  cloud = pendres_door_out(&d, &pendres_dim_whole_cloud, 1, cloud);
+  PENDRES_DOOR_CALL(&d, prepare(ctx, request, cloud, x, v));
+  return pendres_door_close(&d);
 }
 
 size_t pendres_cloud_parts(const pendres_cloud_request *request)
@@ -299,7 +329,13 @@ pendres_status pendres_cloud_follow(pendres_context *ctx, const pendres_cloud_re
                                     size_t part, pendres_langevin_cloud *out, double *x,
                                     double *v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, follow(ctx, request, part, out, x, v));
+  pendres_door d;
+  pendres_cloud_request inside;
+  request = open_request(&d, ctx, request, &inside);
+  announce(&d, pendres_cloud_part(request, part, NULL), request, x, v);
+  out = pendres_door_out(&d, &pendres_dim_cloud, 1, out);
+  PENDRES_DOOR_CALL(&d, follow(ctx, request, part, out, x, v));
+  return pendres_door_close(&d);
 }
 
 pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size_t parts,
@@ -311,7 +347,10 @@ pendres_status pendres_cloud_conclude(const pendres_cloud_request *request, size
   if (status != PENDRES_OK) return status;
   const double period = two_pi / orbit_of(request)->pendulum.drive_frequency;
   cloud->escape_exposure = cloud->measured.exposure * period;
-  cloud->verdict = verdict_on(cloud);
+  const pendres_scales scales = {request->set->units[0], 1.0, 1.0};
+  pendres_cloud inside = *cloud;
+  pendres_units_in(&scales, &pendres_dim_whole_cloud, 1, &inside);
+  cloud->verdict = verdict_on(&inside);
   if (!(cloud->escape_exposure > 0.0)) return PENDRES_OK;
   return pendres_langevin_rate((double)cloud->measured.left, cloud->escape_exposure, level,
                                &cloud->escape_rate);
@@ -343,5 +382,11 @@ static pendres_status measure(pendres_context *ctx, const pendres_cloud_request 
 pendres_status pendres_cloud_measure(pendres_context *ctx, const pendres_cloud_request *request,
                                      pendres_cloud *cloud, double *x, double *v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, measure(ctx, request, cloud, x, v));
+  pendres_door d;
+  pendres_cloud_request inside;
+  request = open_request(&d, ctx, request, &inside);
+  announce(&d, request != NULL ? request->trajectories : 0, request, x, v);
+  cloud = pendres_door_out(&d, &pendres_dim_whole_cloud, 1, cloud);
+  PENDRES_DOOR_CALL(&d, measure(ctx, request, cloud, x, v));
+  return pendres_door_close(&d);
 }

@@ -7,6 +7,7 @@
 
 #include "engine/passage.h"
 #include "model/model.h"
+#include "noise/langevin_window.h"
 
 const char *pendres_langevin_answer_name(pendres_langevin_answer answer)
 {
@@ -184,8 +185,35 @@ static pendres_status advance(pendres_context *ctx, const pendres_langevin_run *
   return status;
 }
 
+/* The ids of trajectories from the number `first` on that have none. */
+static const uint64_t *count_up(pendres_door *d, size_t first, size_t n)
+{
+  uint64_t *ids = pendres_door_memory(d, n * sizeof *ids);
+  for (size_t i = 0; i < n && ids != NULL; i++) ids[i] = first + i;
+  return ids;
+}
+
 pendres_status pendres_langevin_advance(pendres_context *ctx, const pendres_langevin_run *run,
                                         double *x, double *v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, advance(ctx, run, x, v));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, run != NULL ? run->n : 0, run != NULL ? run->pendulums : NULL,
+                         sizeof *run->pendulums);
+  while (pendres_door_next(&d)) {
+    const size_t i = d.first, m = d.count;
+    pendres_langevin_run part = {.n = 0};
+    pendres_noise_window window;
+    double *x_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
+    double *v_out = pendres_door_out(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
+    if (run != NULL) {
+      part = *run;
+      part.n = m;
+      part.pendulums =
+        pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(run->pendulums, i));
+      part.ids = i > 0 && run->ids == NULL ? count_up(&d, i, m) : PENDRES_DOOR_AT(run->ids, i);
+      part.observer = pendres_noise_observer(&d, run->observer, &window);
+    }
+    PENDRES_DOOR_CALL(&d, advance(ctx, run != NULL ? &part : NULL, x_out, v_out));
+  }
+  return pendres_door_close(&d);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/angles.h"
+#include "noise/langevin_window.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, GROWTH = 64, TRIALS = 12, ORDER = 4 };
 
@@ -67,7 +68,14 @@ pendres_status pendres_langevin_measure_bias(pendres_context *ctx,
                                              const pendres_langevin_request *request,
                                              pendres_langevin_bias *bias)
 {
-  return PENDRES_CONTEXT_CALL(ctx, bias_of(ctx, request, bias));
+  pendres_door d;
+  pendres_noise_window window;
+  pendres_langevin_request inside;
+  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  request = pendres_noise_request(&d, request, &window, &inside);
+  bias = pendres_door_out(&d, &pendres_dim_bias, 1, bias);
+  PENDRES_DOOR_CALL(&d, bias_of(ctx, request, bias));
+  return pendres_door_close(&d);
 }
 
 /* Raise *most to a number in units of its scale. NaN is kept: an unknown bias may be large. */
@@ -136,5 +144,12 @@ pendres_status pendres_langevin_choose_steps(pendres_context *ctx,
                                              unsigned statistics, double tolerance,
                                              pendres_langevin_bias *bias)
 {
-  return PENDRES_CONTEXT_CALL(ctx, choose_steps(ctx, request, statistics, tolerance, bias));
+  pendres_door d;
+  pendres_noise_window window;
+  pendres_langevin_request inside;
+  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  request = pendres_noise_request(&d, request, &window, &inside);
+  bias = pendres_door_out(&d, &pendres_dim_bias, 1, bias);
+  PENDRES_DOOR_CALL(&d, choose_steps(ctx, request, statistics, tolerance, bias));
+  return pendres_door_close(&d);
 }

@@ -6,6 +6,7 @@
 
 #include "base/angles.h"
 #include "base/student.h"
+#include "noise/langevin_window.h"
 
 const char *pendres_langevin_statistic_name(pendres_langevin_statistic statistic)
 {
@@ -300,5 +301,18 @@ pendres_status pendres_langevin_measure(pendres_context *ctx,
                                         pendres_langevin_cloud *cloud, double *strobe_x,
                                         double *strobe_v)
 {
-  return PENDRES_CONTEXT_CALL(ctx, measure(ctx, request, cloud, strobe_x, strobe_v));
+  pendres_door d;
+  pendres_noise_window window;
+  pendres_langevin_request inside;
+  pendres_door_open(&d, ctx, request != NULL ? &request->pendulum : NULL);
+  request = pendres_noise_request(&d, request, &window, &inside);
+  cloud = pendres_door_out(&d, &pendres_dim_cloud, 1, cloud);
+  if (request != NULL && d.status == PENDRES_OK && pendres_door_changes(&d) &&
+      pendres_sums_accept(ctx, request, 2) == PENDRES_OK) {
+    const size_t n = request->trajectories * (size_t)request->record;
+    (void)pendres_door_out(&d, &pendres_dim_length, n, strobe_x);
+    (void)pendres_door_out(&d, &pendres_dim_speed, n, strobe_v);
+  }
+  PENDRES_DOOR_CALL(&d, measure(ctx, request, cloud, strobe_x, strobe_v));
+  return pendres_door_close(&d);
 }

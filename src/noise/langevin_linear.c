@@ -15,6 +15,7 @@
 #include "base/angles.h"
 #include "engine/passage.h"
 #include "model/model.h"
+#include "model/units.h"
 
 /* What is integrated: the orbit, its variation row by row, and the covariance. */
 enum { X, V, MXX, MXV, MVX, MVV, CXX, CXV, CVV, SIZE };
@@ -107,8 +108,8 @@ static int is_resolved(const pendres_pendulum *p, int cycle, const pendres_lange
   return fabs(ad - bc - want) <= 1e-6 * (1.0 + fabs(ad) + fabs(bc));
 }
 
-pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, double x,
-                                              double v, int cycle, pendres_langevin_linear *out)
+static pendres_status linear_theory(const pendres_pendulum *pendulum, double x, double v,
+                                    int cycle, pendres_langevin_linear *out)
 {
   const double most = 1e8; /* steps in all */
   pendres_langevin_linear coarse;
@@ -133,4 +134,19 @@ pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, 
   out->error =
     fmax(fabs(a->xx - b->xx), fmax(fabs(a->xv - b->xv), fabs(a->vv - b->vv))) / 15.0;
   return PENDRES_OK;
+}
+
+/* Without a context there is no door: the pendulum is brought into its units here. */
+pendres_status pendres_langevin_linear_theory(const pendres_pendulum *pendulum, double x,
+                                              double v, int cycle, pendres_langevin_linear *out)
+{
+  const pendres_scales s = {pendres_units_of(pendulum), 1.0, 1.0};
+  pendres_pendulum p = {.damping = 0.0};
+  if (pendulum == NULL || out == NULL) return PENDRES_INVALID_ARGUMENT;
+  p = *pendulum;
+  pendres_units_in(&s, &pendres_dim_pendulum, 1, &p);
+  const pendres_status status =
+    linear_theory(&p, x / s.unit.length, v / pendres_units_factor(&s, 1, -1), cycle, out);
+  if (status == PENDRES_OK) pendres_units_out(&s, &pendres_dim_linear, 1, out);
+  return status;
 }

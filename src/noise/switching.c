@@ -9,6 +9,8 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
+#include "orbits/attractor_internal.h"
 #include "model/model.h"
 #include "noise/noise_common.h"
 
@@ -286,7 +288,18 @@ pendres_status pendres_switching_count(pendres_context *ctx,
                                        const pendres_switching_request *request,
                                        pendres_switching_tally *tally)
 {
-  return PENDRES_CONTEXT_CALL(ctx, count(ctx, request, tally));
+  pendres_door d;
+  pendres_switching_request inside;
+  pendres_attractors_open(&d, ctx, request != NULL ? request->set : NULL);
+  if (request != NULL && pendres_door_changes(&d)) {
+    inside = *request;
+    inside.set = pendres_attractors_inside(&d, request->set);
+    pendres_units_in(&d.scales, &pendres_dim_pendulum, 1, &inside.pendulum);
+    request = &inside;
+  }
+  tally = pendres_door_out(&d, &pendres_dim_tally, 1, tally);
+  PENDRES_DOOR_CALL(&d, count(ctx, request, tally));
+  return pendres_door_close(&d);
 }
 
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other)

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
+#include "orbits/attractor_internal.h"
 #include "noise/noise_common.h"
 
 const char *pendres_switching_way_name(pendres_switching_way way)
@@ -59,6 +61,18 @@ static const char *refuse(const pendres_switching_survey *q)
 
 /* ---- Following ----------------------------------------------------------------------------- */
 
+/* Open the door to a survey; returns it as it is behind, in *inside. */
+static const pendres_switching_survey *open_survey(pendres_door *d, pendres_context *ctx,
+                                                   const pendres_switching_survey *survey,
+                                                   pendres_switching_survey *inside)
+{
+  pendres_attractors_open(d, ctx, survey != NULL ? survey->set : NULL);
+  if (survey == NULL || !pendres_door_changes(d)) return survey;
+  *inside = *survey;
+  inside->set = pendres_attractors_inside(d, survey->set);
+  return inside;
+}
+
 static pendres_status choose_steps(pendres_context *ctx, const pendres_switching_survey *q,
                                    int state, int *steps)
 {
@@ -88,7 +102,11 @@ pendres_status pendres_switching_choose_steps(pendres_context *ctx,
                                               const pendres_switching_survey *survey, int state,
                                               int *steps)
 {
-  return PENDRES_CONTEXT_CALL(ctx, choose_steps(ctx, survey, state, steps));
+  pendres_door d;
+  pendres_switching_survey inside;
+  survey = open_survey(&d, ctx, survey, &inside);
+  PENDRES_DOOR_CALL(&d, choose_steps(ctx, survey, state, steps));
+  return pendres_door_close(&d);
 }
 
 /* Trajectories that start on a state. */
@@ -131,7 +149,13 @@ pendres_status pendres_switching_follow(pendres_context *ctx,
                                         const pendres_switching_survey *survey, double temperature,
                                         size_t part, pendres_switching_tally *tally)
 {
-  return PENDRES_CONTEXT_CALL(ctx, follow(ctx, survey, temperature, part, tally));
+  pendres_door d;
+  pendres_switching_survey inside;
+  survey = open_survey(&d, ctx, survey, &inside);
+  const double warm = temperature / pendres_units_factor(&d.scales, 2, -2);
+  tally = pendres_door_out(&d, &pendres_dim_tally, 1, tally);
+  PENDRES_DOOR_CALL(&d, follow(ctx, survey, warm, part, tally));
+  return pendres_door_close(&d);
 }
 
 /* ---- Rates and energies -------------------------------------------------------------------- */
@@ -176,8 +200,13 @@ static pendres_status activate(const pendres_switching_survey *q, int way, size_
     temperature[i] = rates[i].temperature;
     rate[i] = rates[i].way[way];
   }
+  const pendres_scales scales = {q->set->units[0], 1.0, 1.0};
+  pendres_units_in(&scales, &pendres_dim_energy, n, temperature);
+  pendres_units_in(&scales, &pendres_dim_rate, n, rate);
   status = pendres_switching_fit(n, temperature, rate, 0.0, out);
   if (status == PENDRES_NOT_FOUND) status = PENDRES_OK; /* too few events: the verdict says so */
+  pendres_units_out(&scales, &pendres_dim_activation, 1, out);
+  out->log_prefactor -= log(scales.unit.time);
   if (from < 0 || to < 0) out->verdict = PENDRES_SWITCHING_NO_STATE;
 done:
   free(temperature);
@@ -214,7 +243,7 @@ static pendres_status measure_at(pendres_context *ctx, const pendres_switching_s
   pendres_switching_tally all = {0}, one;
   pendres_status status = PENDRES_OK;
   for (size_t part = 0; part < parts && status == PENDRES_OK; part++) {
-    status = follow(ctx, q, temperature, part, &one);
+    status = pendres_switching_follow(ctx, q, temperature, part, &one);
     if (status == PENDRES_OK) pendres_switching_add(&all, &one);
   }
   if (ends_all(status)) return status;
@@ -234,7 +263,7 @@ static pendres_status measure(pendres_context *ctx, const pendres_switching_surv
   pendres_status status = PENDRES_OK;
   for (int s = 0; s < 2 && survey->steps_per_period == 0 && status == PENDRES_OK; s++) {
     int steps;
-    status = choose_steps(ctx, survey, s, &steps);
+    status = pendres_switching_choose_steps(ctx, survey, s, &steps);
     if (status == PENDRES_OK && steps > q.steps_per_period) q.steps_per_period = steps;
   }
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)

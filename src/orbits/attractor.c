@@ -8,6 +8,7 @@
 #include "orbits/attractor_internal.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "orbits/settle.h"
 #include "engine/passage.h"
 #include "model/model.h"
@@ -34,7 +35,9 @@ void pendres_attractors_free(pendres_attractors *set)
   if (set == NULL) return;
   for (size_t i = 0; i < set->sets; i++) pendres_catalogue_clear(&set->catalogues[i]);
   free(set->catalogues);
+  free(set->units);
   free(set->attractors);
+  free(set->shown);
   free(set);
 }
 
@@ -53,45 +56,84 @@ static pendres_attractors *create_sets(size_t sets)
   pendres_attractors *set = calloc(1, sizeof *set);
   if (set == NULL) return NULL;
   set->catalogues = calloc(sets + 1, sizeof *set->catalogues);
-  if (set->catalogues == NULL) {
-    free(set);
+  set->units = malloc((sets + 1) * sizeof *set->units);
+  if (set->catalogues == NULL || set->units == NULL) {
+    pendres_attractors_free(set);
     return NULL;
   }
   set->sets = sets;
+  for (size_t i = 0; i < sets; i++) set->units[i] = (pendres_units){1.0, 1.0};
   return set;
 }
 
-/* Make the list of all attractors, after all of them have been found. */
+/* Make the list of all attractors, after all of them have been found, as their caller sees them. */
 static int index_sets(pendres_attractors *set)
 {
   size_t count = 0;
-  for (size_t i = 0; i < set->sets; i++) count += set->catalogues[i].count;
+  int others = 0;
+  for (size_t i = 0; i < set->sets; i++) {
+    count += set->catalogues[i].count;
+    others |= !pendres_units_trivial(&set->units[i]);
+  }
   free(set->attractors);
+  free(set->shown);
   set->attractors = malloc((count + 1) * sizeof *set->attractors);
+  set->shown = others ? malloc((count + 1) * sizeof *set->shown) : NULL;
   set->count = 0;
-  if (set->attractors == NULL) return -1;
-  for (size_t i = 0; i < set->sets; i++)
-    for (size_t j = 0; j < set->catalogues[i].count; j++)
-      set->attractors[set->count++] = &set->catalogues[i].attractors[j];
+  if (set->attractors == NULL || (others && set->shown == NULL)) return -1;
+  for (size_t i = 0; i < set->sets; i++) {
+    const pendres_scales scales = {set->units[i], 1.0, 1.0};
+    for (size_t j = 0; j < set->catalogues[i].count; j++) {
+      const pendres_attractor *a = &set->catalogues[i].attractors[j];
+      if (others) {
+        set->shown[set->count] = *a;
+        pendres_units_out(&scales, &pendres_dim_attractor, 1, &set->shown[set->count]);
+        a = &set->shown[set->count];
+      }
+      set->attractors[set->count++] = a;
+    }
+  }
   return 0;
+}
+
+void pendres_attractors_open(pendres_door *d, pendres_context *ctx, const pendres_attractors *set)
+{
+  const pendres_units none = {1.0, 1.0};
+  pendres_door_open_in(d, ctx, set != NULL && set->sets == 1 ? set->units[0] : none);
+}
+
+const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendres_attractors *set)
+{
+  if (set == NULL || d->status != PENDRES_OK || !pendres_door_changes(d)) return set;
+  pendres_attractors *inside = pendres_door_memory(d, sizeof *inside);
+  const pendres_attractor **list = pendres_door_memory(d, (set->count + 1) * sizeof *list);
+  pendres_units *units = pendres_door_memory(d, sizeof *units);
+  if (d->status != PENDRES_OK) return NULL;
+  *units = (pendres_units){1.0, 1.0};
+  *inside = *set;
+  inside->units = units;
+  inside->shown = NULL;
+  inside->attractors = list;
+  for (size_t j = 0; j < set->count; j++) list[j] = &set->catalogues[0].attractors[j];
+  return inside;
 }
 
 /* Scouts that start all over a well, at rest and moving either way. */
 static size_t default_scouts(const pendres_pendulum *p, double x[64], double v[64])
 {
   size_t n = 0;
-  const double scale = pendres_model_scale(p);
   for (int i = 0; i < 12; i++)
     for (int j = -1; j <= 1; j++) {
-      x[n] = pendres_model_origin(p) + scale * two_pi * (i - 5.5) / 12.0;
-      v[n++] = 1.3 * j * scale;
+      x[n] = pendres_model_origin(p) + two_pi * (i - 5.5) / 12.0;
+      v[n++] = 1.3 * j;
     }
   return n;
 }
 
-static pendres_status attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
+static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p, size_t n,
                                       const double *x, const double *v, pendres_attractors **out)
 {
+  pendres_context *ctx = d->ctx;
   double default_x[64], default_v[64];
   if (p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
@@ -114,6 +156,7 @@ static pendres_status attractors_find(pendres_context *ctx, const pendres_pendul
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
     goto done;
   }
+  set->units[0] = d->scales.unit;
   set->catalogues[0].pendulum = *p;
   /* Whoever asks for attractors alone has many pendulums to come. */
   set->catalogues[0].effort = PENDRES_TRAP_MANY;
@@ -135,7 +178,13 @@ done:
 pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,
                                        const double *x, const double *v, pendres_attractors **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, attractors_find(ctx, p, n, x, v, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, p);
+  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
+  x = pendres_door_in(&d, &pendres_dim_length, n, x);
+  v = pendres_door_in(&d, &pendres_dim_speed, n, v);
+  PENDRES_DOOR_CALL(&d, attractors_find(&d, p, n, x, v, out));
+  return pendres_door_close(&d);
 }
 
 static pendres_status attractors_settle(pendres_context *ctx, const pendres_attractors *set,
@@ -158,7 +207,12 @@ pendres_status pendres_attractors_settle(pendres_context *ctx, const pendres_att
                                          size_t n, const double *x, const double *v,
                                          pendres_outcome *outcome)
 {
-  return PENDRES_CONTEXT_CALL(ctx, attractors_settle(ctx, set, n, x, v, outcome));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  x = pendres_door_in(&d, &pendres_dim_length, n, x);
+  v = pendres_door_in(&d, &pendres_dim_speed, n, v);
+  PENDRES_DOOR_CALL(&d, attractors_settle(ctx, set, n, x, v, outcome));
+  return pendres_door_close(&d);
 }
 
 static pendres_status attractors_point(pendres_context *ctx, const pendres_attractors *set,
@@ -196,7 +250,12 @@ static pendres_status attractors_point(pendres_context *ctx, const pendres_attra
 pendres_status pendres_attractors_point(pendres_context *ctx, const pendres_attractors *set,
                                         size_t i, pendres_state *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, attractors_point(ctx, set, i, out));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  const pendres_attractors *inside = pendres_attractors_inside(&d, set);
+  out = pendres_door_out(&d, &pendres_dim_state, 1, out);
+  PENDRES_DOOR_CALL(&d, attractors_point(ctx, inside, i, out));
+  return pendres_door_close(&d);
 }
 
 double pendres_attractors_weakest_multiplier(const pendres_attractors *set)
@@ -233,61 +292,90 @@ static size_t count_sets(size_t n, const pendres_pendulum *p)
   return sets;
 }
 
-static pendres_status settle_all(pendres_context *ctx, size_t n,
-                                    const pendres_pendulum *pendulums, const double *x,
-                                    const double *v, pendres_outcome *outcome,
-                                    pendres_attractors **found)
-{
-  if (n > 0 && (pendulums == NULL || x == NULL || v == NULL || outcome == NULL))
-    return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and outcome");
-  pendres_status status = check_states(ctx, n, pendulums, 1, x, v);
-  if (status != PENDRES_OK) return status;
+/* Pendulums of a stretch with their starts, and the sets that are made of them. */
+typedef struct settling {
+  size_t n;
+  const pendres_pendulum *pendulums;
+  const double *x, *v;
+  pendres_outcome *outcome;
+  pendres_attractors *all;
+  size_t sets;   /* those of earlier stretches, */
+  size_t offset; /* and their attractors */
+} settling;
 
-  pendres_attractors *all = create_sets(count_sets(n, pendulums));
+static pendres_status settle_stretch(pendres_door *d, settling *s)
+{
+  pendres_context *ctx = d->ctx;
+  const size_t n = s->n;
+  const pendres_pendulum *pendulums = s->pendulums;
+  pendres_attractors *all = s->all;
+  pendres_status status = PENDRES_OK;
   size_t *set = malloc((n + 1) * sizeof *set);
-  if (all == NULL || set == NULL) {
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-    goto done;
-  }
-  size_t offset = 0; /* attractors of earlier sets */
-  for (size_t first = 0, last, next_set = 0; first < n && status == PENDRES_OK; first = last) {
-    const size_t base = next_set;
+  if (set == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  for (size_t first = 0, last; first < n && status == PENDRES_OK; first = last) {
+    const size_t base = s->sets;
     for (last = first; last < n; last++) {
       if (last == first || !pendres_model_same(&pendulums[last], &pendulums[last - 1])) {
-        if (next_set - base == BATCH_SETS) break;
-        all->catalogues[next_set++].pendulum = pendulums[last];
+        if (s->sets - base == BATCH_SETS) break;
+        all->units[s->sets] = d->scales.unit;
+        all->catalogues[s->sets++].pendulum = pendulums[last];
       }
-      set[last] = next_set - 1 - base;
+      set[last] = s->sets - 1 - base;
     }
     pendres_catalogue *c = all->catalogues + base;
     const pendres_settle_starts some = {
-      .n = last - first, .set = set + first, .x = x + first, .v = v + first};
-    status = pendres_settle_batch(ctx, next_set - base, c, &some, outcome + first);
+      .n = last - first, .set = set + first, .x = s->x + first, .v = s->v + first};
+    status = pendres_settle_batch(ctx, s->sets - base, c, &some, s->outcome + first);
     /* Numbers within a set become numbers in the list of all attractors. */
     size_t starts[BATCH_SETS];
-    for (size_t s = 0; s < next_set - base; s++) {
-      starts[s] = offset;
-      offset += c[s].count;
+    for (size_t k = 0; k < s->sets - base; k++) {
+      starts[k] = s->offset;
+      s->offset += c[k].count;
     }
     for (size_t i = first; i < last && status == PENDRES_OK; i++)
-      if (outcome[i].attractor >= 0) outcome[i].attractor += (int)starts[set[i]];
+      if (s->outcome[i].attractor >= 0) s->outcome[i].attractor += (int)starts[set[i]];
   }
-  if (status == PENDRES_OK && index_sets(all) != 0)
-    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
-  if (status == PENDRES_OK && found != NULL) {
-    *found = all;
-    all = NULL;
-  }
-done:
-  pendres_attractors_free(all);
   free(set);
   return status;
+}
+
+/* What can be said before anything is computed; the sets are made for all of the pendulums. */
+static pendres_status settle_begin(pendres_context *ctx, settling *s)
+{
+  if (s->n > 0 && (s->pendulums == NULL || s->x == NULL || s->v == NULL || s->outcome == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, x, v and outcome");
+  const pendres_status status = check_states(ctx, s->n, s->pendulums, 1, s->x, s->v);
+  if (status != PENDRES_OK) return status;
+  s->all = create_sets(count_sets(s->n, s->pendulums));
+  if (s->all != NULL) return PENDRES_OK;
+  return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
 }
 
 pendres_status pendres_settle(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
                               const double *x, const double *v, pendres_outcome *outcome,
                               pendres_attractors **found)
 {
+  pendres_door d;
+  settling s = {.n = n, .pendulums = pendulums, .x = x, .v = v, .outcome = outcome};
   if (found != NULL) *found = NULL;
-  return PENDRES_CONTEXT_CALL(ctx, settle_all(ctx, n, pendulums, x, v, outcome, found));
+  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  PENDRES_DOOR_CALL(&d, settle_begin(ctx, &s));
+  while (pendres_door_next(&d)) {
+    s.n = d.count;
+    s.pendulums = pendres_door_in(&d, &pendres_dim_pendulum, d.count,
+                                  PENDRES_DOOR_AT(pendulums, d.first));
+    s.x = pendres_door_in(&d, &pendres_dim_length, d.count, PENDRES_DOOR_AT(x, d.first));
+    s.v = pendres_door_in(&d, &pendres_dim_speed, d.count, PENDRES_DOOR_AT(v, d.first));
+    s.outcome = PENDRES_DOOR_AT(outcome, d.first);
+    PENDRES_DOOR_CALL(&d, settle_stretch(&d, &s));
+  }
+  if (d.status == PENDRES_OK && index_sets(s.all) != 0)
+    d.status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for attractors");
+  if (d.status == PENDRES_OK && found != NULL) {
+    *found = s.all;
+    s.all = NULL;
+  }
+  pendres_attractors_free(s.all);
+  return pendres_door_close(&d);
 }

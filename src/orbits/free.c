@@ -14,6 +14,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/strobe_run.h"
 
 enum { FIRST_STEPS = 16, MOST_STEPS = 1000000, MOST_ITERATIONS = 40 };
@@ -215,5 +216,8 @@ pendres_status pendres_free_frequency_integrate(pendres_context *ctx, size_t n,
                                                 const double *amplitude, double *frequency,
                                                 double *error)
 {
-  return PENDRES_CONTEXT_CALL(ctx, free_frequency_integrate(ctx, n, amplitude, frequency, error));
+  pendres_door d;
+  pendres_door_open(&d, ctx, NULL);
+  PENDRES_DOOR_CALL(&d, free_frequency_integrate(ctx, n, amplitude, frequency, error));
+  return pendres_door_close(&d);
 }

@@ -9,6 +9,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/passage.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
@@ -378,8 +379,17 @@ pendres_status pendres_orbit_refine(pendres_context *ctx, size_t n,
                                     const pendres_orbit_guess *guess, pendres_orbit_want want,
                                     pendres_orbit *out, pendres_status *outcome)
 {
-  const outputs to = {.orbit = out, .outcome = outcome};
-  return PENDRES_CONTEXT_CALL(ctx, orbit_refine(ctx, n, guess, want, &to));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, guess, sizeof *guess);
+  while (pendres_door_next(&d)) {
+    const pendres_orbit_guess *in =
+      pendres_door_in(&d, &pendres_dim_guess, d.count, PENDRES_DOOR_AT(guess, d.first));
+    const outputs to = {.orbit = pendres_door_out(&d, &pendres_dim_orbit, d.count,
+                                                  PENDRES_DOOR_AT(out, d.first)),
+                        .outcome = PENDRES_DOOR_AT(outcome, d.first)};
+    PENDRES_DOOR_CALL(&d, orbit_refine(ctx, d.count, in, want, &to));
+  }
+  return pendres_door_close(&d);
 }
 
 pendres_status pendres_orbit_refine_pair(pendres_context *ctx, size_t n,

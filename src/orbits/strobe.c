@@ -8,6 +8,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
@@ -277,5 +278,16 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
                                       const pendres_pendulum *pendulums, double *x, double *v,
                                       long periods, double *error)
 {
-  return PENDRES_CONTEXT_CALL(ctx, strobe_advance(ctx, n, pendulums, x, v, periods, error));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  while (pendres_door_next(&d)) {
+    const size_t i = d.first, m = d.count;
+    const pendres_pendulum *p =
+      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
+    double *x_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
+    double *v_out = pendres_door_out(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
+    double *e_out = pendres_door_out(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(error, i));
+    PENDRES_DOOR_CALL(&d, strobe_advance(ctx, m, p, x_out, v_out, periods, e_out));
+  }
+  return pendres_door_close(&d);
 }

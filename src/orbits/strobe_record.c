@@ -13,6 +13,7 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
 #include "orbits/strobe_noise.h"
@@ -183,7 +184,29 @@ pendres_status pendres_recording_begin(pendres_context *ctx, const pendres_pendu
                                        const pendres_state *start, long periods, int samples,
                                        pendres_recording *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, begin(ctx, pendulum, start, periods, samples, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, pendulum);
+  const pendres_pendulum *p = pendres_door_in(&d, &pendres_dim_pendulum, 1, pendulum);
+  const pendres_state *s = pendres_door_in(&d, &pendres_dim_state, 1, start);
+  PENDRES_DOOR_CALL(&d, begin(ctx, p, s, periods, samples,
+                              pendres_door_out(&d, &pendres_dim_recording, 1, out)));
+  return pendres_door_close(&d);
+}
+
+/* Announce so many points of a record. */
+static void announce(pendres_door *d, size_t points, const pendres_record *to)
+{
+  if (to == NULL) return;
+  (void)pendres_door_out(d, &pendres_dim_length, points, to->x);
+  (void)pendres_door_out(d, &pendres_dim_speed, points, to->v);
+  (void)pendres_door_out(d, &pendres_dim_length, points, to->x_error);
+  (void)pendres_door_out(d, &pendres_dim_speed, points, to->v_error);
+}
+
+static int too_many(const pendres_recording *r, long periods)
+{
+  return r->samples < 1 || r->stretch < 1 || r->periods < 0 || periods < 0 ||
+         periods >= LONG_MAX / 64 / r->samples - r->periods;
 }
 
 static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long periods,
@@ -195,8 +218,7 @@ static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long per
   if ((x_error == NULL) != (v_error == NULL))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "errors are of both x and v, or of neither");
-  if (r->samples < 1 || r->stretch < 1 || r->periods < 0 || periods < 0 ||
-      periods >= LONG_MAX / 64 / r->samples - r->periods)
+  if (too_many(r, periods))
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "the recording was not begun by pendres_recording_begin(), or the "
                                 "number of periods is negative or too large");
@@ -228,7 +250,14 @@ static pendres_status go_on(pendres_context *ctx, pendres_recording *r, long per
 pendres_status pendres_recording_go_on(pendres_context *ctx, pendres_recording *recording,
                                        long periods, const pendres_record *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, go_on(ctx, recording, periods, out));
+  const int valid = recording != NULL && !too_many(recording, periods);
+  const size_t points = valid ? (size_t)periods * (size_t)recording->samples + 1 : 0;
+  pendres_door d;
+  pendres_door_open(&d, ctx, recording != NULL ? &recording->pendulum : NULL);
+  pendres_recording *r = pendres_door_out(&d, &pendres_dim_recording, 1, recording);
+  announce(&d, points, out);
+  PENDRES_DOOR_CALL(&d, go_on(ctx, r, periods, out));
+  return pendres_door_close(&d);
 }
 
 static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum *pendulum,
@@ -236,8 +265,9 @@ static pendres_status whole_record(pendres_context *ctx, const pendres_pendulum 
                                    const pendres_record *out)
 {
   pendres_recording r;
-  const pendres_status status = begin(ctx, pendulum, start, periods, samples, &r);
-  return status == PENDRES_OK ? go_on(ctx, &r, periods, out) : status;
+  const pendres_status status =
+    pendres_recording_begin(ctx, pendulum, start, periods, samples, &r);
+  return status == PENDRES_OK ? pendres_recording_go_on(ctx, &r, periods, out) : status;
 }
 
 pendres_status pendres_strobe_record(pendres_context *ctx, const pendres_pendulum *pendulum,

@@ -8,6 +8,7 @@
 #include "orbits/attractor_internal.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "orbits/settle.h"
 
 const char *pendres_basin_how_name(pendres_basin_how how)
@@ -49,6 +50,17 @@ static pendres_status check_grid(pendres_context *ctx, const pendres_attractors 
                                   i < grid->nx ? 'x' : 'v');
   }
   return PENDRES_OK;
+}
+
+/* A grid behind the door. */
+static const pendres_basin_grid *grid_inside(pendres_door *d, const pendres_basin_grid *grid)
+{
+  if (grid == NULL || !pendres_door_changes(d)) return grid;
+  pendres_basin_grid *inside = pendres_door_copy(d, grid, sizeof *grid);
+  if (inside == NULL) return NULL;
+  inside->x = pendres_door_in(d, &pendres_dim_length, grid->nx, grid->x);
+  inside->v = pendres_door_in(d, &pendres_dim_speed, grid->nv, grid->v);
+  return inside;
 }
 
 /* A state whose well is beyond those that 32 bits can number is as good as unresolved. */
@@ -161,7 +173,11 @@ pendres_status pendres_basin_states(pendres_context *ctx, const pendres_attracto
                                     const pendres_basin_grid *grid, size_t n, const size_t *index,
                                     pendres_basin_state *state)
 {
-  return PENDRES_CONTEXT_CALL(ctx, basin_states(ctx, set, grid, n, index, state));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  const pendres_basin_grid *inside = grid_inside(&d, grid);
+  PENDRES_DOOR_CALL(&d, basin_states(ctx, set, inside, n, index, state));
+  return pendres_door_close(&d);
 }
 
 /* Finish the states that have not settled soon if there are many of them; otherwise mark them. */
@@ -220,7 +236,11 @@ pendres_status pendres_basin_rows(pendres_context *ctx, const pendres_attractors
                                   const pendres_basin_grid *grid, size_t first, size_t rows,
                                   pendres_basin_state *state)
 {
-  return PENDRES_CONTEXT_CALL(ctx, basin_rows(ctx, set, grid, first, rows, state));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  const pendres_basin_grid *inside = grid_inside(&d, grid);
+  PENDRES_DOOR_CALL(&d, basin_rows(ctx, set, inside, first, rows, state));
+  return pendres_door_close(&d);
 }
 
 static pendres_status basin_extend(pendres_context *ctx, pendres_attractors *set,
@@ -251,7 +271,11 @@ pendres_status pendres_basin_extend(pendres_context *ctx, pendres_attractors *se
                                     const pendres_basin_grid *grid, size_t n, const size_t *index,
                                     size_t *grown)
 {
-  return PENDRES_CONTEXT_CALL(ctx, basin_extend(ctx, set, grid, n, index, grown));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  const pendres_basin_grid *inside = grid_inside(&d, grid);
+  PENDRES_DOOR_CALL(&d, basin_extend(ctx, set, inside, n, index, grown));
+  return pendres_door_close(&d);
 }
 
 /* List the numbers of the states that are marked as deferred, or of those that are not resolved. */

@@ -11,6 +11,7 @@
 #include "questions/basin_uncertainty.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "orbits/settle.h"
 
 enum {
@@ -208,8 +209,19 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
                                          const pendres_basin_sample *asked,
                                          pendres_basin_statistics *out)
 {
-  return PENDRES_CONTEXT_CALL(
-    ctx, pendres_basin_uncertainty_within(ctx, most_slopes, set, window, asked, out));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  const pendres_basin_window *w = pendres_door_in(&d, &pendres_dim_window, 1, window);
+  pendres_basin_sample inside = {0}, *sample = asked != NULL ? &inside : NULL;
+  if (asked != NULL) {
+    inside = *asked;
+    const int some = asked->scales > 0 && asked->scales <= PENDRES_BASIN_SCALES;
+    const size_t scales = some ? (size_t)asked->scales : 0;
+    inside.distance = pendres_door_in(&d, &pendres_dim_speed, scales, asked->distance);
+  }
+  pendres_basin_statistics *s = pendres_door_out(&d, &pendres_dim_statistics, 1, out);
+  PENDRES_DOOR_CALL(&d, pendres_basin_uncertainty_within(ctx, most_slopes, set, w, sample, s));
+  return pendres_door_close(&d);
 }
 
 /* ---- in place of a grid's exponent ---- */
@@ -268,5 +280,15 @@ pendres_status pendres_basin_statistics_refine(pendres_context *ctx, const pendr
                                                pendres_basin_statistics *statistics,
                                                size_t *states)
 {
-  return PENDRES_CONTEXT_CALL(ctx, statistics_refine(ctx, set, grid, statistics, states));
+  pendres_door d;
+  pendres_attractors_open(&d, ctx, set);
+  pendres_basin_grid inside = {0}, *g = grid != NULL ? &inside : NULL;
+  if (grid != NULL) {
+    inside = *grid;
+    inside.x = pendres_door_in(&d, &pendres_dim_length, grid->nx, grid->x);
+    inside.v = pendres_door_in(&d, &pendres_dim_speed, grid->nv, grid->v);
+  }
+  pendres_basin_statistics *s = pendres_door_out(&d, &pendres_dim_statistics, 1, statistics);
+  PENDRES_DOOR_CALL(&d, statistics_refine(ctx, set, g, s, states));
+  return pendres_door_close(&d);
 }

@@ -13,6 +13,7 @@
 #include "questions/boundary_grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "engine/steps.h"
@@ -79,9 +80,8 @@ int pendres_boundary_complete(const pendres_boundary *b)
 static const char *resolve(const pendres_pendulum *p, pendres_boundary_options *o)
 {
   if (o->x_low == 0.0 && o->x_high == 0.0) {
-    const double scale = pi * pendres_model_scale(p);
-    o->x_low = pendres_model_origin(p) - scale;
-    o->x_high = pendres_model_origin(p) + scale;
+    o->x_low = pendres_model_origin(p) - pi;
+    o->x_high = pendres_model_origin(p) + pi;
   }
   if (o->v_low == 0.0 && o->v_high == 0.0) {
     o->v_low = -2.5;
@@ -265,5 +265,18 @@ pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *
                                      const pendres_boundary_options *options,
                                      pendres_boundary **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, boundary_find(ctx, saddle, options, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, saddle != NULL ? &saddle->pendulum : NULL);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, saddle);
+  const pendres_boundary_options *o =
+    pendres_door_in(&d, &pendres_dim_boundary_options, 1, options);
+  PENDRES_DOOR_CALL(&d, boundary_find(ctx, from, o, out));
+  if (d.status == PENDRES_OK) {
+    pendres_boundary *b = *out;
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->x);
+    pendres_units_out(&d.scales, &pendres_dim_speed, b->count, b->v);
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->error);
+    pendres_units_out(&d.scales, &pendres_dim_length, 1, &b->bound);
+  }
+  return pendres_door_close(&d);
 }

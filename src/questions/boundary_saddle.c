@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "model/model.h"
 #include "orbits/orbit_newton.h"
 #include "continuation/continuation_arc.h"
@@ -96,5 +97,10 @@ static pendres_status saddle_find(pendres_context *ctx, const pendres_orbit *att
 pendres_status pendres_saddle_find(pendres_context *ctx, const pendres_orbit *attractor,
                                    pendres_orbit *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, saddle_find(ctx, attractor, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, attractor != NULL ? &attractor->pendulum : NULL);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, attractor);
+  pendres_orbit *to = pendres_door_out(&d, &pendres_dim_orbit, 1, out);
+  PENDRES_DOOR_CALL(&d, saddle_find(ctx, from, to));
+  return pendres_door_close(&d);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "orbits/orbit_newton.h"
 #include "questions/stretch.h"
 
@@ -92,5 +93,11 @@ pendres_status pendres_cascade_find(pendres_context *ctx, const pendres_orbit *o
                                     pendres_parameter parameter, double limit,
                                     pendres_cascade *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, cascade_find(ctx, orbit, parameter, limit, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, orbit != NULL ? &orbit->pendulum : NULL);
+  pendres_door_move(&d, parameter, parameter);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, orbit);
+  out = pendres_door_out(&d, &pendres_dim_cascade, 1, out);
+  PENDRES_DOOR_CALL(&d, cascade_find(ctx, from, parameter, limit / d.scales.first, out));
+  return pendres_door_close(&d);
 }

@@ -6,6 +6,7 @@
 
 #include "continuation/continuation_parameter.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "questions/hysteresis_chaos.h"
 #include "questions/hysteresis_circle.h"
 #include "questions/hysteresis_left.h"
@@ -263,5 +264,17 @@ pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pen
                                          const pendres_hysteresis_path *along,
                                          pendres_hysteresis **out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, checked(ctx, p, start, along, out));
+  pendres_door d;
+  pendres_hysteresis_path inside = {.n = 0};
+  if (along != NULL) inside = *along;
+  pendres_door_open_along(&d, ctx, p, inside.parameter, inside.n, inside.value);
+  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
+  start = pendres_door_in(&d, &pendres_dim_state, 1, start);
+  inside.value = pendres_door_in(&d, &pendres_dim_first, inside.n, inside.value);
+  PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, out));
+  if (out != NULL && *out != NULL && (d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED)) {
+    pendres_units_out(&d.scales, &pendres_dim_hysteresis_point, (*out)->count, (*out)->point);
+    pendres_units_out(&d.scales, &pendres_dim_jump, (*out)->jumps, (*out)->jump);
+  }
+  return pendres_door_close(&d);
 }

@@ -9,6 +9,7 @@
 #include "base/turns.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/passage.h"
 #include "engine/steps.h"
 #include "engine/strobe_run.h"
@@ -479,5 +480,17 @@ pendres_status pendres_lyapunov_find(pendres_context *ctx, size_t n,
                                      const double *v, const pendres_lyapunov_options *options,
                                      pendres_lyapunov *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, lyapunov_find(ctx, n, pendulums, x, v, options, out));
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, pendulums, sizeof *pendulums);
+  while (pendres_door_next(&d)) {
+    const size_t i = d.first, m = d.count;
+    const pendres_pendulum *p =
+      pendres_door_in(&d, &pendres_dim_pendulum, m, PENDRES_DOOR_AT(pendulums, i));
+    const double *x_in = pendres_door_in(&d, &pendres_dim_length, m, PENDRES_DOOR_AT(x, i));
+    const double *v_in = pendres_door_in(&d, &pendres_dim_speed, m, PENDRES_DOOR_AT(v, i));
+    pendres_lyapunov *to =
+      pendres_door_out(&d, &pendres_dim_lyapunov, m, PENDRES_DOOR_AT(out, i));
+    PENDRES_DOOR_CALL(&d, lyapunov_find(ctx, m, p, x_in, v_in, options, to));
+  }
+  return pendres_door_close(&d);
 }

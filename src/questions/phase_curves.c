@@ -12,6 +12,7 @@
 #include "base/grow.h"
 #include "continuation/continuation_families.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
 #include "questions/phase_line.h"
 
 /* Curves through the lines' bifurcations show branches that some lines have missed. The
@@ -153,25 +154,32 @@ static pendres_status unpack(size_t size, const void *bytes, pendres_phase_famil
   return pendres_phase_mark_set(&f->mark, h.outcome, from);
 }
 
-static pendres_curve_options options_of(const pendres_phase_grid *g)
+/* How far curves are followed, behind the door. */
+static pendres_curve_options options_of(const pendres_phase_grid *g, const pendres_scales *s)
 {
   pendres_curve_options options = {.second = g->across};
   const int plain = pendres_phase_plain(&g->pendulum, g->options.parameter) &&
                     pendres_phase_plain(&g->pendulum, g->across);
-  pendres_phase_reach(g->options.parameter, plain, g->value[0], g->value[g->values - 1],
-                      &options.low[0], &options.high[0]);
-  pendres_phase_reach(g->across, plain, g->line_value[0], g->line_value[g->lines - 1],
-                      &options.low[1], &options.high[1]);
+  pendres_phase_reach(g->options.parameter, plain, g->value[0] / s->first,
+                      g->value[g->values - 1] / s->first, &options.low[0], &options.high[0]);
+  pendres_phase_reach(g->across, plain, g->line_value[0] / s->second,
+                      g->line_value[g->lines - 1] / s->second, &options.low[1], &options.high[1]);
   return options;
 }
 
 /* Follow the curves of a family. A failure that is its own is marked, and what was found before it
    stays. */
-static pendres_status follow(pendres_context *ctx, const pendres_phase_diagram *d, size_t family,
+static pendres_status follow(pendres_door *door, const pendres_phase_diagram *d, size_t family,
                              pendres_phase_family *f)
 {
+  pendres_context *ctx = door->ctx;
   const pendres_bifurcation *first = &d->bifurcation[d->family[family].first];
-  const pendres_curve_options options = options_of(&d->grid);
+  const pendres_bifurcation *all = pendres_bifurcations_inside(door, d->bifurcations,
+                                                               d->bifurcation);
+  const pendres_curves *known = pendres_curves_inside(door, d->curves);
+  pendres_door_move(door, d->grid.options.parameter, d->grid.across);
+  const pendres_curve_options options = options_of(&d->grid, &door->scales);
+  if (door->status != PENDRES_OK) return door->status;
   size_t *which = malloc(d->bifurcations * sizeof *which), n = 0;
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   f->curves = pendres_curves_create();
@@ -180,24 +188,28 @@ static pendres_status follow(pendres_context *ctx, const pendres_phase_diagram *
   } else {
     for (size_t i = 0; i < d->bifurcations; i++)
       if (pendres_family_order(&d->bifurcation[i], first) == 0) which[n++] = i;
-    const pendres_curve_starts starts = {.all = d->bifurcation, .n = n, .which = which};
-    status = pendres_curves_add(ctx, &starts, &options, d->curves, f->curves, &f->end);
+    const pendres_curve_starts starts = {.all = all, .n = n, .which = which};
+    status = pendres_curves_add(ctx, &starts, &options, known, f->curves, &f->end);
     if (pendres_phase_is_own(status))
       status = pendres_phase_mark_set(&f->mark, status, pendres_context_message(ctx));
   }
   free(which);
+  pendres_curves_leave(door, f->curves);
   return status;
 }
 
 static pendres_status follow_family(pendres_context *ctx, const pendres_phase_diagram *d,
                                     size_t family, pendres_phase_record **out)
 {
+  pendres_door door;
   if (out != NULL) *out = NULL;
   if (d == NULL || out == NULL || family >= d->families)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "phase diagram: no diagram, no such family, or no place for it");
   pendres_phase_family f = {.curves = NULL};
-  pendres_status status = follow(ctx, d, family, &f);
+  pendres_door_open(&door, ctx, &d->bifurcation[d->family[family].first].orbit.pendulum);
+  PENDRES_DOOR_CALL(&door, follow(&door, d, family, &f));
+  pendres_status status = pendres_door_close(&door);
   if (status == PENDRES_OK && pack(&f, out) != PENDRES_OK)
     status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for curves");
   pendres_curves_free(f.curves);

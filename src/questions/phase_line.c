@@ -5,6 +5,8 @@
 #include <stdlib.h>
 
 #include "engine/context_internal.h"
+#include "continuation/continuation_units.h"
+#include "questions/phase_door.h"
 #include "model/model.h"
 #include "questions/response_members.h"
 #include "questions/small_end.h"
@@ -316,7 +318,16 @@ pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_
                                   pendres_branches **branches)
 {
   if (branches != NULL) *branches = NULL;
-  return PENDRES_CONTEXT_CALL(ctx, phase_line(ctx, n, pendulums, options, out, branches));
+  pendres_door d;
+  pendres_phase_open(&d, ctx, options, n, n > 0 ? pendulums : NULL,
+            n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
+  pendulums = pendres_door_in(&d, &pendres_dim_pendulum, n, pendulums);
+  pendres_phase_options inside;
+  options = pendres_phase_options_inside(&d, options, &inside);
+  out = pendres_door_out(&d, &pendres_dim_phase_point, n, out);
+  PENDRES_DOOR_CALL(&d, phase_line(ctx, n, pendulums, options, out, branches));
+  if (branches != NULL) pendres_branches_leave(&d, *branches);
+  return pendres_door_close(&d);
 }
 
 /* ---- what neighbouring lines know ---- */
@@ -466,6 +477,17 @@ pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
                                            pendres_phase_point *points,
                                            pendres_branches *branches)
 {
-  return PENDRES_CONTEXT_CALL(ctx,
-                              phase_line_complete(ctx, n, curves, options, points, branches));
+  pendres_door d;
+  pendres_phase_open(&d, ctx, options, n, n > 0 && points != NULL ? &points[0].pendulum : NULL,
+            n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
+  pendres_phase_options inside;
+  curves = pendres_curves_inside(&d, curves);
+  options = pendres_phase_options_inside(&d, options, &inside);
+  points = pendres_door_out(&d, &pendres_dim_phase_point, n, points);
+  if (d.status == PENDRES_OK) {
+    pendres_branches_enter(&d, branches);
+    PENDRES_DOOR_CALL(&d, phase_line_complete(ctx, n, curves, options, points, branches));
+    pendres_branches_leave(&d, branches);
+  }
+  return pendres_door_close(&d);
 }

@@ -7,6 +7,7 @@
 #include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "noise/langevin_moving.h"
 #include "orbits/escape.h"
@@ -338,10 +339,39 @@ static pendres_status ramp_follow(pendres_context *ctx, const pendres_ramp *ramp
   return status;
 }
 
+/* Open the door to a ramp; returns it as it is behind, in *inside. One that is refused stays as it
+   is. */
+static const pendres_ramp *open_ramp(pendres_door *d, pendres_context *ctx,
+                                     const pendres_ramp *ramp, pendres_ramp *inside)
+{
+  *inside = (pendres_ramp){.corners = 0};
+  if (ramp != NULL) *inside = *ramp;
+  pendres_door_open_along(d, ctx, &inside->pendulum, inside->parameter, inside->corners,
+                          inside->value);
+  if (ramp == NULL || d->status != PENDRES_OK || !pendres_door_changes(d)) return ramp;
+  pendres_units_in(&d->scales, &pendres_dim_pendulum, 1, &inside->pendulum);
+  inside->value = pendres_door_in(d, &pendres_dim_first, ramp->corners, ramp->value);
+  inside->point = pendres_door_in(d, &pendres_dim_hysteresis_point, ramp->points, ramp->point);
+  inside->jump = pendres_door_in(d, &pendres_dim_jump, ramp->jumps, ramp->jump);
+  return inside;
+}
+
 pendres_status pendres_ramp_follow(pendres_context *ctx, const pendres_ramp *ramp,
                                    const pendres_ramp_record *record, pendres_ramp_jump *jump)
 {
-  return PENDRES_CONTEXT_CALL(ctx, ramp_follow(ctx, ramp, record, jump));
+  pendres_door d;
+  pendres_ramp inside;
+  ramp = open_ramp(&d, ctx, ramp, &inside);
+  if (ramp != NULL) jump = pendres_door_out(&d, &pendres_dim_ramp_jump, ramp->jumps, jump);
+  if (ramp != NULL && record != NULL && record->every > 0) {
+    const size_t n = (size_t)(pendres_ramp_periods(ramp) / record->every) + 1;
+    (void)pendres_door_out(&d, &pendres_dim_length, n, record->x);
+    (void)pendres_door_out(&d, &pendres_dim_speed, n, record->v);
+    (void)pendres_door_out(&d, &pendres_dim_length, n, record->x_error);
+    (void)pendres_door_out(&d, &pendres_dim_speed, n, record->v_error);
+  }
+  PENDRES_DOOR_CALL(&d, ramp_follow(ctx, ramp, record, jump));
+  return pendres_door_close(&d);
 }
 
 /* ---- with noise ---- */
@@ -366,7 +396,12 @@ static pendres_status ramp_scatter(pendres_context *ctx, const pendres_ramp *ram
 pendres_status pendres_ramp_scatter(pendres_context *ctx, const pendres_ramp *ramp, size_t n,
                                     uint64_t first_id, double *time, double *value)
 {
-  return PENDRES_CONTEXT_CALL(ctx, ramp_scatter(ctx, ramp, n, first_id, time, value));
+  pendres_door d;
+  pendres_ramp inside;
+  ramp = open_ramp(&d, ctx, ramp, &inside);
+  if (ramp != NULL) value = pendres_door_out(&d, &pendres_dim_first, ramp->jumps * n, value);
+  PENDRES_DOOR_CALL(&d, ramp_scatter(ctx, ramp, n, first_id, time, value));
+  return pendres_door_close(&d);
 }
 
 pendres_status pendres_ramp_summarize(size_t n, const double *value, pendres_ramp_summary *out)

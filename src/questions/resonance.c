@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "engine/strobe_run.h"
 #include "questions/resonance_work.h"
 #include "questions/response_members.h"
@@ -109,9 +110,15 @@ pendres_status pendres_resonance_find_ensemble(pendres_context *ctx, const pendr
                                                const pendres_ensemble *ensemble,
                                                pendres_resonance *out)
 {
-  const double range[2] = {lowest, highest};
-  return PENDRES_CONTEXT_CALL(
-    ctx, pendres_resonance_find_within(ctx, p, range, ensemble, most_work, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, p);
+  const double unit = pendres_units_factor(&d.scales, 0, -1);
+  const double range[2] = {lowest / unit, highest / unit};
+  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
+  ensemble = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
+  out = pendres_door_out(&d, &pendres_dim_resonance, 1, out);
+  PENDRES_DOOR_CALL(&d, pendres_resonance_find_within(ctx, p, range, ensemble, most_work, out));
+  return pendres_door_close(&d);
 }
 
 /* ---- side by side ---- */
@@ -239,19 +246,22 @@ pendres_status pendres_resonance_find_many(pendres_context *ctx, size_t n,
                                            pendres_resonance_search *searches,
                                            const pendres_ensemble *ensemble)
 {
-  return PENDRES_CONTEXT_CALL(
-    ctx, pendres_resonance_find_together(ctx, n, searches, ensemble, most_work));
-}
-
-static pendres_status resonance_find(pendres_context *ctx, const pendres_pendulum *p, double lowest,
-                                     double highest, pendres_resonance *out)
-{
-  const pendres_ensemble e = pendres_ensemble_default();
-  return pendres_resonance_find_ensemble(ctx, p, lowest, highest, &e, out);
+  pendres_door d;
+  pendres_door_open_many(&d, ctx, n, searches, sizeof *searches);
+  while (pendres_door_next(&d)) {
+    const pendres_ensemble *e = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble);
+    pendres_resonance_search *s =
+      pendres_door_out(&d, &pendres_dim_search, d.count, PENDRES_DOOR_AT(searches, d.first));
+    PENDRES_DOOR_CALL(&d, pendres_resonance_find_together(ctx, d.count, s, e, most_work));
+  }
+  return pendres_door_close(&d);
 }
 
 pendres_status pendres_resonance_find(pendres_context *ctx, const pendres_pendulum *p,
                                       double lowest, double highest, pendres_resonance *out)
 {
-  return PENDRES_CONTEXT_CALL(ctx, resonance_find(ctx, p, lowest, highest, out));
+  const pendres_scales scales = {pendres_units_of(p), 1.0, 1.0};
+  pendres_ensemble e = pendres_ensemble_default();
+  pendres_units_out(&scales, &pendres_dim_ensemble, 1, &e);
+  return pendres_resonance_find_ensemble(ctx, p, lowest, highest, &e, out);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
+#include "engine/door.h"
 
 /* The spacing of dampings; around a small damping it is a tenth, then a fortieth of that. */
 static const double first_spacing = 4e-3, last_spacing = 1e-3;
@@ -155,7 +156,13 @@ pendres_status pendres_resonance_turn_find(pendres_context *ctx, const pendres_p
                                            const pendres_ensemble *ensemble,
                                            pendres_resonance_turn *out)
 {
-  const request q = {
-    .near = near, .lowest = lowest, .highest = highest, .ensemble = ensemble};
-  return PENDRES_CONTEXT_CALL(ctx, turn_find(ctx, &q, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, near);
+  const double unit = pendres_units_factor(&d.scales, 0, -1);
+  const request q = {.near = pendres_door_in(&d, &pendres_dim_pendulum, 1, near),
+                     .lowest = lowest / unit, .highest = highest / unit,
+                     .ensemble = pendres_door_in(&d, &pendres_dim_ensemble, 1, ensemble)};
+  out = pendres_door_out(&d, &pendres_dim_turn, 1, out);
+  PENDRES_DOOR_CALL(&d, turn_find(ctx, &q, out));
+  return pendres_door_close(&d);
 }

@@ -5,6 +5,7 @@
 
 #include "base/angles.h"
 #include "engine/context_internal.h"
+#include "engine/door.h"
 #include "noise/noise_common.h"
 
 /* The bias that steps are chosen for, of the loop area and of the first harmonic's amplitude. */
@@ -194,6 +195,11 @@ pendres_status pendres_response_add_noise(pendres_context *ctx, const pendres_re
                                           double temperature, size_t trajectories, long periods,
                                           pendres_response_noise *out)
 {
-  return PENDRES_CONTEXT_CALL(
-    ctx, add_noise(ctx, still, temperature, trajectories, periods, out));
+  pendres_door d;
+  pendres_door_open(&d, ctx, still != NULL ? &still->pendulum : NULL);
+  const pendres_response *r = pendres_door_in(&d, &pendres_dim_response, 1, still);
+  const double warm = temperature / pendres_units_factor(&d.scales, 2, -2);
+  pendres_response_noise *to = pendres_door_out(&d, &pendres_dim_response_noise, 1, out);
+  PENDRES_DOOR_CALL(&d, add_noise(ctx, r, warm, trajectories, periods, to));
+  return pendres_door_close(&d);
 }

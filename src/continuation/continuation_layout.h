@@ -1,14 +1,26 @@
 /*
- * continuation_curve.h -- what the parts of continuation share of curves.
- *
- * Owns: the layout of pendres_curve and of pendres_curves.
+ * continuation_layout.h -- what branches and curves are made of.
  */
-#ifndef PENDRES_CONTINUATION_CURVE_H
-#define PENDRES_CONTINUATION_CURVE_H
+#ifndef PENDRES_CONTINUATION_LAYOUT_H
+#define PENDRES_CONTINUATION_LAYOUT_H
 
 #include <pendres/continuation.h>
 
-#include "continuation/continuation_arc.h"
+#include "continuation/continuation_map.h"
+
+struct pendres_branch {
+  pendres_parameter parameter;
+  pendres_continuation_map map;
+  size_t count, bifurcations;
+  pendres_branch_point *point;
+  pendres_bifurcation *bifurcation;
+  pendres_branch_end end[2];
+};
+
+struct pendres_branches {
+  size_t count, capacity, skipped;
+  pendres_branch **branch;
+};
 
 struct pendres_curve {
   pendres_special kind;

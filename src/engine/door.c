@@ -1,0 +1,206 @@
+/* door.c -- the way of public functions into canonical units; see door.h. */
+#include "engine/door.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/accuracy.h"
+
+static const pendres_units none = {1.0, 1.0};
+
+struct pendres_door_memory {
+  struct pendres_door_memory *next;
+  max_align_t bytes[];
+};
+
+/* Where in a pendulum a parameter stands. */
+static size_t place_of(pendres_parameter parameter)
+{
+  static const size_t place[PENDRES_PARAMETER_COUNT] = {
+#define PLACE_OF(code, name, field) [PENDRES_##code] = offsetof(pendres_pendulum, field),
+    PENDRES_PARAMETER_LIST(PLACE_OF)
+#undef PLACE_OF
+  };
+  return (unsigned)parameter < PENDRES_PARAMETER_COUNT ? place[parameter]
+                                                       : sizeof(pendres_pendulum);
+}
+
+void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_parameter second)
+{
+  d->scales.first = pendres_units_of_field(&d->scales.unit, place_of(first));
+  d->scales.second = pendres_units_of_field(&d->scales.unit, place_of(second));
+}
+
+/* Enter the context; nonzero if that is refused. */
+static int enter(pendres_door *d, pendres_context *ctx)
+{
+  *d = (pendres_door){.ctx = ctx, .scales = {none, 1.0, 1.0}};
+  pendres_guard *guard = ctx != NULL ? &ctx->guard : NULL;
+  d->entered = pendres_guard_enter(guard);
+  if (!d->entered) {
+    d->status = pendres_guard_refusal(guard);
+    return 1;
+  }
+  d->outermost = !ctx->canonical;
+  d->tolerance = ctx->options.tolerance;
+  return 0;
+}
+
+/* Begin to compute in these units. */
+static void begin(pendres_door *d, pendres_units u)
+{
+  pendres_context *ctx = d->ctx;
+  if (!d->outermost) return;
+  d->scales = (pendres_scales){u, 1.0, 1.0};
+  ctx->canonical = 1;
+  if (ctx->tolerance_given) ctx->options.tolerance = d->tolerance / u.length;
+  const double t = ctx->options.tolerance;
+  if (!(t >= PENDRES_ACCURACY_TIGHTEST && t <= PENDRES_ACCURACY_LOOSEST))
+    d->status = pendres_context_fail(
+      ctx, PENDRES_INVALID_ARGUMENT,
+      "the tolerance is %.3g of this pendulum's unit of length, %.3g: it must be 1e-13 to 1e-2 of "
+      "it", t, u.length);
+}
+
+/* End that: what was announced is converted back, what was copied is freed. */
+static void end(pendres_door *d)
+{
+  for (int i = 0; i < d->outs; i++)
+    pendres_units_out(&d->scales, d->out[i].kind, d->out[i].n, d->out[i].records);
+  while (d->memory != NULL) {
+    struct pendres_door_memory *next = d->memory->next;
+    free(d->memory);
+    d->memory = next;
+  }
+  d->outs = 0;
+  if (!d->outermost) return;
+  d->ctx->options.tolerance = d->tolerance;
+  d->ctx->canonical = 0;
+}
+
+void pendres_door_open_in(pendres_door *d, pendres_context *ctx, pendres_units u)
+{
+  if (enter(d, ctx) == 0) begin(d, u);
+}
+
+void pendres_door_open(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p)
+{
+  pendres_door_open_in(d, ctx, pendres_units_of(p));
+}
+
+void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
+                             pendres_parameter moved, size_t n, const double *value)
+{
+  double largest = 0.0;
+  pendres_pendulum q = {.damping = 0.0};
+  if (p != NULL) q = *p;
+  for (size_t i = 0; value != NULL && i < n; i++)
+    if (fabs(value[i]) > fabs(largest) && isfinite(value[i])) largest = value[i];
+  if ((unsigned)moved < PENDRES_PARAMETER_COUNT)
+    memcpy((char *)&q + place_of(moved), &largest, sizeof largest);
+  pendres_door_open(d, ctx, &q);
+  pendres_door_move(d, moved, moved);
+}
+
+void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
+                            const void *pendulums, size_t stride)
+{
+  if (enter(d, ctx) != 0) return;
+  d->pendulums = pendulums;
+  d->n = n;
+  d->stride = stride;
+}
+
+static pendres_units units_at(const pendres_door *d, size_t i)
+{
+  return pendres_units_of((const pendres_pendulum *)(const void *)(d->pendulums + i * d->stride));
+}
+
+int pendres_door_next(pendres_door *d)
+{
+  if (!d->entered || d->status != PENDRES_OK) return 0;
+  if (d->begun) {
+    end(d);
+    d->first += d->count;
+    if (d->first >= d->n) return 0;
+  }
+  d->begun = 1;
+  d->count = d->n - d->first;
+  if (!d->outermost || d->pendulums == NULL || d->count == 0) {
+    begin(d, none);
+  } else {
+    const pendres_units u = units_at(d, d->first);
+    for (d->count = 1; d->first + d->count < d->n; d->count++) {
+      const pendres_units other = units_at(d, d->first + d->count);
+      if (other.length != u.length || other.time != u.time) break;
+    }
+    begin(d, u);
+  }
+  return d->status == PENDRES_OK;
+}
+
+int pendres_door_changes(const pendres_door *d)
+{
+  return !pendres_units_trivial(&d->scales.unit);
+}
+
+void *pendres_door_memory(pendres_door *d, size_t size)
+{
+  if (d->status != PENDRES_OK) return NULL;
+  struct pendres_door_memory *m = malloc(sizeof *m + size);
+  if (m == NULL) {
+    d->status = pendres_context_fail(d->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for arguments");
+    return NULL;
+  }
+  m->next = d->memory;
+  d->memory = m;
+  return m->bytes;
+}
+
+void *pendres_door_copy(pendres_door *d, const void *bytes, size_t size)
+{
+  if (bytes == NULL) return NULL;
+  void *copy = pendres_door_memory(d, size);
+  return copy != NULL ? memcpy(copy, bytes, size) : NULL;
+}
+
+const void *pendres_door_in(pendres_door *d, const pendres_dimensions *kind, size_t n,
+                            const void *records)
+{
+  if (records == NULL || n == 0 || d->status != PENDRES_OK || !pendres_door_changes(d))
+    return records;
+  void *copy = pendres_door_copy(d, records, n * kind->size);
+  if (copy != NULL) pendres_units_in(&d->scales, kind, n, copy);
+  return copy;
+}
+
+void *pendres_door_out(pendres_door *d, const pendres_dimensions *kind, size_t n, void *records)
+{
+  if (records == NULL || n == 0 || d->status != PENDRES_OK || !pendres_door_changes(d))
+    return records;
+  if (d->outs == PENDRES_DOOR_RESULTS) {
+    d->status = pendres_context_fail(d->ctx, PENDRES_INTERNAL, "too many results for a door");
+    return records;
+  }
+  pendres_units_in(&d->scales, kind, n, records);
+  d->out[d->outs].kind = kind;
+  d->out[d->outs].n = n;
+  d->out[d->outs++].records = records;
+  return records;
+}
+
+pendres_status pendres_door_close(pendres_door *d)
+{
+  if (!d->entered) return d->status;
+  /* Numbers of a message are canonical ones. */
+  if (d->status != PENDRES_OK && pendres_door_changes(d)) {
+    char words[PENDRES_MESSAGE_LENGTH];
+    memcpy(words, d->ctx->guard.message, sizeof words);
+    if (d->ctx->guard.said == d->status)
+      (void)pendres_context_fail(d->ctx, d->status, "%.400s (in units of length %g, of time %g)",
+                                 words, d->scales.unit.length, d->scales.unit.time);
+  }
+  end(d);
+  return pendres_guard_leave(&d->ctx->guard, d->status);
+}

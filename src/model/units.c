@@ -1,0 +1,151 @@
+/* units.c -- a pendulum's canonical units, and records in them; see units.h. */
+#include "model/units.h"
+
+#include <math.h>
+
+/* Exponents of units beyond this are cut: products of a few of them stay far from overflow. */
+enum { FARTHEST = 120 };
+
+/* A positive number as m 2^e with 1 <= m < 2. */
+typedef struct binary {
+  double m;
+  int e;
+} binary;
+
+static binary binary_of(double x)
+{
+  binary b = {1.0, 0};
+  if (!(isfinite(x) && x != 0.0)) return b;
+  b.m = 2.0 * frexp(fabs(x), &b.e);
+  b.e--;
+  return b;
+}
+
+/* Quotients are rounded alike whatever the power of two, so that units follow those of the user
+   exactly. */
+static binary over(binary a, binary b)
+{
+  binary q = {a.m / b.m, a.e - b.e};
+  if (q.m < 1.0) {
+    q.m *= 2.0;
+    q.e--;
+  }
+  return q;
+}
+
+static binary square(binary a)
+{
+  binary s = {a.m * a.m, 2 * a.e};
+  if (s.m >= 2.0) {
+    s.m *= 0.5;
+    s.e++;
+  }
+  return s;
+}
+
+/* floor(e / d), within bounds. */
+static int share(int e, int d)
+{
+  const int floored = e >= 0 ? e / d : -((-e + d - 1) / d);
+  return floored > FARTHEST ? FARTHEST : floored < -FARTHEST ? -FARTHEST : floored;
+}
+
+/*
+ * The power of two below the length at which the highest power equals the lowest. A single one has
+ * none: it gets the length at which it equals drive or torque or, without either, that at which
+ * small oscillations would be as fast as they are damped.
+ */
+static int length_of(const pendres_pendulum *p, int lowest, int highest)
+{
+  const double *a = p->force_coefficients;
+  const binary high = binary_of(a[highest - 1]);
+  if (highest > lowest) return share(over(binary_of(a[lowest - 1]), high).e, highest - lowest);
+  const double pushed = fmax(fabs(p->drive_amplitude), fabs(p->torque));
+  if (pushed > 0.0) return share(over(binary_of(pushed), high).e, highest);
+  if (highest == 1 || !(p->damping > 0.0)) return 0;
+  return share(over(square(binary_of(p->damping)), high).e, highest - 1);
+}
+
+pendres_units pendres_units_of(const pendres_pendulum *p)
+{
+  pendres_units u = {1.0, 1.0};
+  if (p == NULL || p->force != PENDRES_FORCE_POLYNOMIAL) return u;
+  const double *a = p->force_coefficients;
+  int lowest = 0, highest = 0, rate = 0;
+  for (int k = PENDRES_FORCE_COEFFICIENTS; k > 0; k--) {
+    if (!isfinite(a[k - 1])) return u;
+    if (a[k - 1] == 0.0) continue;
+    lowest = k;
+    if (highest == 0) highest = k;
+  }
+  if (highest == 0) return u;
+  const int length = length_of(p, lowest, highest);
+  for (int k = 1, any = 0; k <= PENDRES_FORCE_COEFFICIENTS; k++) {
+    if (a[k - 1] == 0.0) continue;
+    const int e = binary_of(a[k - 1]).e + (k - 1) * length;
+    if (!any || e > rate) rate = e;
+    any = 1;
+  }
+  u.length = ldexp(1.0, length);
+  u.time = ldexp(1.0, -share(rate, 2));
+  return u;
+}
+
+/* ---- records ---- */
+
+static double power(double x, int n)
+{
+  double product = 1.0;
+  for (int i = 0; i < n; i++) product *= x;
+  for (int i = n; i < 0; i++) product /= x;
+  return product;
+}
+
+double pendres_units_factor(const pendres_scales *s, int length, int time)
+{
+  if (length == PENDRES_UNITS_OF_FIRST) return s->first * power(s->unit.length, time);
+  if (length == PENDRES_UNITS_OF_SECOND) return s->second;
+  return power(s->unit.length, length) * power(s->unit.time, time);
+}
+
+double pendres_units_of_field(const pendres_units *unit, size_t offset)
+{
+  const pendres_scales s = {.unit = *unit, .first = 1.0, .second = 1.0};
+  for (size_t r = 0; r < pendres_dim_pendulum.rows; r++)
+    if (pendres_dim_pendulum.row[r].offset == offset)
+      return pendres_units_factor(&s, pendres_dim_pendulum.row[r].length,
+                                  pendres_dim_pendulum.row[r].time);
+  return 1.0;
+}
+
+static void convert(const pendres_scales *s, const pendres_dimensions *d, size_t n, void *records,
+                    int in)
+{
+  if (records == NULL) return;
+  for (size_t r = 0; r < d->rows; r++) {
+    const pendres_dimension *row = &d->row[r];
+    double f = row->of != NULL ? 1.0 : pendres_units_factor(s, row->length, row->time);
+    if (in) f = 1.0 / f;
+    for (size_t i = 0; i < n; i++) {
+      void *at = (char *)records + i * d->size + row->offset;
+      if (row->of != NULL) {
+        convert(s, row->of, row->count, at, in);
+        continue;
+      }
+      double *value = at;
+      for (size_t k = 0; k < row->count; k++) value[k] *= f;
+    }
+  }
+}
+
+void pendres_units_in(const pendres_scales *s, const pendres_dimensions *d, size_t n,
+                      void *records)
+{
+  convert(s, d, n, records, 1);
+}
+
+void pendres_units_out(const pendres_scales *s, const pendres_dimensions *d, size_t n,
+                       void *records)
+{
+  convert(s, d, n, records, 0);
+}
