@@ -21,7 +21,7 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_sample.h
-  orbits/settle.h
+  orbits/settle.h orbits/settle_lanes.h
   noise/langevin_moving.h noise/noise_common.h continuation/continuation_equations.h continuation/continuation_parameter.h
   continuation/continuation_arc.h continuation/continuation_branch.h
   continuation/continuation_families.h continuation/continuation_units.h'

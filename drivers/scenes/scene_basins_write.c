@@ -15,11 +15,6 @@ typedef struct state_row {
   int label, attractor, well, settling_periods, failed, uncertain;
 } state_row;
 
-static const char *doubt_names(int value)
-{
-  return value == 0 ? "no" : value == 1 ? "yes" : NULL;
-}
-
 static const scene_column of_states[BASINS_VARIABLES] = {
   SCENE_CODE(state_row, label, "what the pendulum settles on", scene_label_names),
   {.name = "attractor_index", .long_name = "number of the attractor that the pendulum settles on",
@@ -32,7 +27,7 @@ static const scene_column of_states[BASINS_VARIABLES] = {
    .comment = "-1: unresolved; -2: filled in by refinement, not integrated; -3: ended by --budget"},
   SCENE_CODE(state_row, failed, "why there is no label for the state", scene_failure_names),
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
-   .names = doubt_names,
+   .names = scene_doubt_names,
    .long_name = "whether the errors that the pendulum carried may change where it settles",
    .comment = "no: they may not, or the state was not integrated"},
 };

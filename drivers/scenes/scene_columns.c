@@ -21,6 +21,7 @@ typedef struct buffers {
 
 #define NAMES(function, call) \
   const char *function(int value) { return call; }
+NAMES(scene_doubt_names, value == 0 ? "no" : value == 1 ? "yes" : NULL)
 NAMES(scene_motion_names, pendres_label_name((pendres_label)value))
 NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
 NAMES(scene_special_names, pendres_special_name((pendres_special)value))

@@ -97,6 +97,7 @@ pendres_status scene_columns_write_rows(scene_run *run, const scene_table *table
 const char *scene_label_names(int value); /* of attractors */
 const char *scene_fate_names(int value);  /* of pendulums, which may escape, ... */
 const char *scene_motion_names(int value); /* ... or rotate without a lock to the drive */
+const char *scene_doubt_names(int value); /* "no", "yes" */
 const char *scene_regime_names(int value);
 const char *scene_special_names(int value);
 const char *scene_jump_names(int value);

@@ -20,7 +20,7 @@ enum {
 typedef struct row {
   double lyapunov, lyapunov_error, rotation, rotation_error;
   double period, period_error, winding, winding_error;
-  int label, failed;
+  int label, uncertain, failed;
 } row;
 
 typedef struct work {
@@ -60,10 +60,13 @@ static const row no_row = {.lyapunov = NAN, .lyapunov_error = NAN, .rotation = N
 static row row_of(const pendres_lyapunov *l)
 {
   const double closed = l->period > 0 ? 0.0 : NAN;
+  const int uncertain = l->label != PENDRES_LABEL_UNRESOLVED && !l->certain;
+  const double whole = uncertain ? NAN : closed; /* what other orbits there are is not known */
   return (row){.lyapunov = l->exponent, .lyapunov_error = l->exponent_error,
                .rotation = l->rotation, .rotation_error = l->rotation_error,
-               .period = l->period + closed, .period_error = closed,
-               .winding = l->winding + closed, .winding_error = closed, .label = (int)l->label,
+               .period = l->period + closed, .period_error = whole,
+               .winding = l->winding + closed, .winding_error = whole, .label = (int)l->label,
+               .uncertain = uncertain,
                .failed = l->label == PENDRES_LABEL_UNRESOLVED ? SCENE_FAILURE_UNRESOLVED
                                                               : SCENE_FAILURE_NONE};
 }
@@ -179,6 +182,10 @@ static const scene_column columns[] = {
   SCENE_COLUMN(row, period, "drive periods until the orbit closes", "1"),
   SCENE_COLUMN(row, winding, "whole turns until the orbit closes", "1"),
   SCENE_CODE(row, label, "kind of motion", scene_motion_names),
+  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(row, uncertain),
+   .names = scene_doubt_names,
+   .long_name = "whether errors that the start amplifies may have chosen the motion",
+   .comment = "no: they have not, or there is no verdict"},
   SCENE_CODE(row, failed, "why there is no verdict", scene_failure_names),
 };
 
@@ -195,10 +202,11 @@ static pendres_status write_all(scene_run *run, const work *w)
 
 static void tabulate(FILE *out, const work *w)
 {
-  size_t counts[PENDRES_LABEL_COUNT] = {0}, most = 0;
+  size_t counts[PENDRES_LABEL_COUNT] = {0}, most = 0, uncertain = 0;
   if (out == NULL) return;
   for (size_t i = 0; i < w->count; i++) {
     counts[w->rows[i].label]++;
+    uncertain += w->rows[i].uncertain != 0;
     if (w->rows[i].label == PENDRES_LABEL_CHAOTIC &&
         (w->rows[most].label != PENDRES_LABEL_CHAOTIC ||
          w->rows[i].lyapunov > w->rows[most].lyapunov))
@@ -209,6 +217,8 @@ static void tabulate(FILE *out, const work *w)
     if (counts[i] > 0)
       fprintf(out, "%-12s %10zu %8.4f\n", pendres_label_name((pendres_label)i), counts[i],
               (double)counts[i] / (double)w->count);
+  if (uncertain > 0)
+    fprintf(out, "%zu uncertain: errors as small as rounding choose what they do\n", uncertain);
   if (counts[PENDRES_LABEL_CHAOTIC] > 0)
     fprintf(out, "largest exponent %.4f +- %.0e at %s %g, %s %g\n", w->rows[most].lyapunov,
             w->rows[most].lyapunov_error, deck_axis_name(w->axis[0]), coordinate(w, most, 0),

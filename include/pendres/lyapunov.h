@@ -49,7 +49,19 @@
  * 1 by more than its error the motion grows without bound, and is an ESCAPE with that exponent;
  * where it is some 1e14 or more the point is unresolved.
  *
- * Chaos that ends later than it is followed is not distinguished from chaos that lasts.
+ * Chaos that ends, or goes over into another, later than it is followed is not distinguished from
+ * chaos that lasts. By default that is after 2264 drive periods, 2048 of which are averaged; of 194
+ * random chaotic pendulums that were followed for 32,768 periods three changed, after 768 to 1280.
+ *
+ * The error of the integration is carried along from the start (attractor.h). Where it has grown so
+ * large that it may have decided where the pendulum went, sixteen copies start next to it, as far
+ * off as its errors are. Do they all do the same, the verdict is certain; a fate that one copy in
+ * five has is missed once in thirty times. Otherwise the pendulum and its copies start again, with
+ * errors of rounding's size. Where copies still differ the verdict is not certain: its errors hold
+ * the exponents and the rotations of all copies, but periods and windings are those of one among
+ * several motions. In chaos errors grow in any case. There they decide nothing if the motion comes
+ * back, to a tenth of a radian, to the last state in which they were small. With adaptive steps, or
+ * steps that the caller has set, errors are not known, and no verdict is certain.
  */
 #ifndef PENDRES_LYAPUNOV_H
 #define PENDRES_LYAPUNOV_H
@@ -65,7 +77,7 @@ extern "C" {
 typedef struct pendres_lyapunov_options {
   long transient; /**< drive periods, at most, until an orbit is reached, and before averages are
                        taken; default 200, and more where damping is weak */
-  long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 512 */
+  long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 2048 */
 } pendres_lyapunov_options;
 
 /** What a pendulum does in the long run. Plain data. */
@@ -82,6 +94,8 @@ typedef struct pendres_lyapunov {
   double rotation_error; /**< its error, likewise; of quasi-periodic rotations a bound */
   int period;            /**< q, drive periods until an orbit closes; 0 of others */
   int winding;           /**< p, whole turns in them; 0 of others */
+  int certain;           /**< 1: no error of the integration could have led it elsewhere; 0 also if
+                              unresolved */
 } pendres_lyapunov;
 
 /**

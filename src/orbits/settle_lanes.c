@@ -113,7 +113,7 @@ static int longer_streak(const pendres_catalogue *c, const pendres_strobe_lane *
 static const double deviations = 3.0, borne = 0.03;
 static const double most_doubt = 100.0; /* of a lane that is not lost */
 
-static double doubt_on_way(double worst)
+double pendres_settle_doubt_on_way(double worst)
 {
   return deviations * sqrt(worst) / borne;
 }
@@ -124,7 +124,7 @@ static double doubt_in_trap(const pendres_trap *t, const pendres_strobe_lane *la
   const double variance =
     t->metric[0] * e->yy + 2.0 * t->metric[1] * e->yw + t->metric[2] * e->ww;
   const double here = deviations * sqrt(variance) / (pendres_trap_margin * t->radius);
-  const double before = doubt_on_way(lane->worst);
+  const double before = pendres_settle_doubt_on_way(lane->worst);
   if (lane->period > 0 && lane->added == 0.0) return NAN; /* errors were not carried */
   return isnan(before) || before > here ? before : here;
 }
@@ -150,7 +150,7 @@ static int chaotic(const pendres_settle_labelling *l, size_t i, const pendres_ca
     (pendres_outcome){.label = PENDRES_LABEL_CHAOTIC,
                       .attractor = c->cover[streak / STREAK_SCALE]->attractor,
                       .settling_periods = lane->period - streak % STREAK_SCALE + 1};
-  judge(l, i, lane->added > 0.0 ? doubt_on_way(l->entry[i]) : NAN);
+  judge(l, i, lane->added > 0.0 ? pendres_settle_doubt_on_way(l->entry[i]) : NAN);
   return 1;
 }
 
@@ -180,7 +180,7 @@ static void note_escape(const pendres_settle_labelling *l, size_t i,
   l->outcome[i] = (pendres_outcome){.label = PENDRES_LABEL_ESCAPE,
                                     .attractor = PENDRES_ATTRACTOR_ESCAPED,
                                     .settling_periods = lane->period};
-  judge(l, i, lane->added > 0.0 ? doubt_on_way(worst) : NAN);
+  judge(l, i, lane->added > 0.0 ? pendres_settle_doubt_on_way(worst) : NAN);
 }
 
 /* Whether a lane has escaped, or is lost. The last period of a lost one is looked at once more. */
@@ -223,7 +223,7 @@ static int lost(const pendres_settle_labelling *l, size_t i, const pendres_catal
                 const pendres_strobe_lane *lane)
 {
   const int on_chaos = c->covers > 0 && l->streak[i] > 0;
-  if (doubt_on_way(on_chaos ? l->entry[i] : lane->worst) <= most_doubt) return 0;
+  if (pendres_settle_doubt_on_way(on_chaos ? l->entry[i] : lane->worst) <= most_doubt) return 0;
   l->doubt[i] = INFINITY;
   return 1;
 }

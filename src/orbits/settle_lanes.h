@@ -74,6 +74,10 @@ int pendres_settle_carries(const pendres_context *ctx);
 /* The variance of the error that a step adds. */
 double pendres_settle_added(const pendres_context *ctx, double accuracy, int steps);
 
+/* The doubt (pendres_settle_labelling) of what is not in a trap, from the largest variance that its
+   error has had so far. */
+double pendres_settle_doubt_on_way(double worst);
+
 /* Run the lanes that are unresolved; those inside a trap are done before they begin. */
 pendres_status pendres_settle_lanes(pendres_context *ctx, size_t n, pendres_strobe_lane *lanes,
                                     pendres_settle_labelling *l);

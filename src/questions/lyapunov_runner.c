@@ -43,14 +43,30 @@ static void look_from(runner *r, const pendres_strobe_lane *l)
   r->ref_period = l->period;
 }
 
+/* The distance of two strobe points, whole turns aside, which are *across. */
+static double apart_by(const pendres_strobe_lane *l, double y, double w, double *across)
+{
+  const double dy = l->y - y, turn = pendres_model_turn(l->pendulum);
+  *across = rint(dy / turn);
+  return hypot(dy - turn * *across, l->w - w);
+}
+
+void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
+{
+  if (!(r->doubt <= 1.0)) return;
+  r->doubt = doubt;
+  if (!(doubt <= 1.0)) return;
+  r->sure_y = l->y;
+  r->sure_w = l->w;
+}
+
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
 {
   const long lag = l->period - r->ref_period;
-  double dy = l->y - r->ref_y;
-  const double turn = pendres_model_turn(l->pendulum), across = rint(dy / turn);
-  dy -= turn * across;
+  double across;
+  const double distance = apart_by(l, r->ref_y, r->ref_w, &across);
   /* The more periods, the more often points come back by chance. */
-  if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * hypot(dy, l->w - r->ref_w) < r->near) {
+  if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * distance < r->near) {
     const double turns = (double)(l->turns - r->ref_turns) + across;
     r->period = (int)lag;
     r->winding = fabs(turns) < 1e6 ? (int)turns : 0;
@@ -58,7 +74,7 @@ int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
   }
   if (l->period >= r->next) {
     look_from(r, l);
-    r->next = 2 * l->period;
+    r->next = l->period + (l->period < 2 * LONGEST_ORBIT ? l->period : 2 * LONGEST_ORBIT);
   }
   return 0;
 }
@@ -81,7 +97,8 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
 {
   runner r = {.lane = *lane, .u = {{0.6, 0.8}, {0.6, 0.8}}, .near = near, .next = 8,
               .open = pendres_escape_possible(lane->pendulum),
-              .before_y = lane->y, .before_w = lane->w};
+              .before_y = lane->y, .before_w = lane->w,
+              .sure_y = lane->y, .sure_w = lane->w, .back = INFINITY};
   look_from(&r, lane);
   return r;
 }
@@ -168,6 +185,8 @@ static void arrive(const average_job *a, size_t lane, long step, runner *r)
   pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);
+  double across;
+  r->back = fmin(r->back, apart_by(l, r->sure_y, r->sure_w, &across));
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_leaves(r, l)) return;
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_comes_back(r, l))
     r->state = PENDRES_RUNNER_CAUGHT;

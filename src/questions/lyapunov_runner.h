@@ -29,6 +29,11 @@ typedef struct pendres_runner {
   double ref_y, ref_w, near;
   long ref_turns, ref_period, next;
   int period, winding; /* of the orbit that it seems to be near */
+  int steps;           /* of averages, a period */
+  double doubt;        /* the error that it has carried so far, over the largest one that cannot
+                          change where it goes; NaN: not known */
+  double sure_y, sure_w; /* the last state before that was above 1, ... */
+  double back;           /* ... and the smallest distance to that in averages */
   int open;            /* it may escape, */
   double before_y, before_w; /* and was here a period ago */
   int rotates;         /* it may be on a rotation that is not locked to the drive */
@@ -44,6 +49,9 @@ typedef struct pendres_runner {
 /* A runner at its start, lane and steps, of which there must be an even number a period; points
    that come back closer than `near` are next to an orbit. */
 pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near);
+
+/* Note the doubt of the latest strobe point. */
+void pendres_runner_trust(pendres_runner *r, const pendres_strobe_lane *l, double doubt);
 
 /* Whether the latest strobe point is next to the one that it is compared with. */
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l);
