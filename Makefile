@@ -329,6 +329,8 @@ FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
 
 .SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)
+# What collects records needs all of it.
+$(BUILD)/fuzz_collect: $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS)
 $(BUILD)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(FUZZED_OBJECTS)
 	@echo "  LD  $@"
 	@$(LINK) -fsanitize=fuzzer -o $@ $^ $(DRIVER_LIBS)
@@ -346,9 +348,10 @@ $(FUZZ_NAMES:%=fuzz/%): fuzz/%: $(BUILD)/fuzz_%
 	  tests/fuzz/corpus/$*
 
 # What is found of new ways through the code is kept in build/fuzz/corpus, and gone on from.
-CLANG ?= $(firstword $(shell command -v clang clang-19 clang-17 clang-16 clang-15 clang-14))
+CLANG ?= $(shell for c in clang clang-19 clang-17 clang-16 clang-15 clang-14; do \
+           command -v $$c && break; done)
 fuzz:
-	@$(or $(CLANG),clang) --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer' \
+	@test -n '$(CLANG)' && $(CLANG) --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer' \
 	  '(Debian: apt-get install clang libclang-rt-dev)' >&2; exit 1; }
 	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)

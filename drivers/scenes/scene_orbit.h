@@ -6,6 +6,7 @@
 #ifndef SCENE_ORBIT_H
 #define SCENE_ORBIT_H
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_failed.h"
 
 /* What the first task finds of the pendulum. */
