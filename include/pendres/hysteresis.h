@@ -18,10 +18,14 @@
  * experiment controls, and the jump is marked as uncertain.
  *
  * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
- * If it has come to a periodic orbit, the interval is halved until the value at which it first
- * comes to an orbit is found, and that orbit is followed. If orbits and chaos have alternated four
- * times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum that
- * has escaped to infinity does not return on the rest of the path.
+ * If it has come to a periodic orbit, or has escaped, the interval is halved until the value at
+ * which it first does so is found. If the orbit is born there, in a window of the chaos, its birth
+ * is where the chaos ends. If it is there on both sides, or if the pendulum escapes, the chaos ends
+ * in a crisis. Next to a crisis chaos lasts long before it ends: the error includes how far beyond
+ * it chaos may have been taken to last, from the lives of 32 pendulums at two distances. The orbit
+ * is then followed. If orbits and chaos have alternated four times in one interval, the end of
+ * chaos is only known to lie in the rest of it. A pendulum that has escaped to infinity does not
+ * return on the rest of the path. Chaos that becomes wider or narrower without an end is no jump.
  *
  * An orbit whose computation stops, after so many points or in too short steps, is followed anew
  * from where that was, or, where this leads no further, settled at the next value. If that is
