@@ -87,6 +87,7 @@ static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
     w->found.well = outcome.well;
     w->found.settling_periods = outcome.settling_periods;
   }
+  w->found.uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
   if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE)
     w->found.label = outcome.label;
   pendres_attractors_free(set);
