@@ -68,16 +68,20 @@ static void bad_options(void **state)
     assert_int_equal(pendres_context_create(&bad[i].options, &ctx), PENDRES_INVALID_ARGUMENT);
     assert_null(ctx);
   }
-  /* Whether a tolerance can be met depends on the pendulum's unit of length. */
+  /* Whether a tolerance can be met depends on the pendulum's unit of length; one that is looser
+     than a hundredth of it is met by a hundredth. */
   for (int i = 0; i < 2; i++) {
     pendres_context *ctx = NULL;
     const double amplitude = 1.0;
     double frequency, error;
-    assert_int_equal(
-      pendres_context_create(&(pendres_options){.tolerance = i == 0 ? 1e-14 : 0.1}, &ctx), 0);
+    const pendres_options asked = {.tolerance = i == 0 ? 1e-14 : 0.1};
+    assert_int_equal(pendres_context_create(&asked, &ctx), 0);
     assert_int_equal(pendres_free_frequency_integrate(ctx, 1, &amplitude, &frequency, &error),
-                     PENDRES_INVALID_ARGUMENT);
-    assert_non_null(strstr(pendres_context_message(ctx), "1e-13 to 1e-2"));
+                     i == 0 ? PENDRES_INVALID_ARGUMENT : PENDRES_OK);
+    if (i == 0)
+      assert_non_null(strstr(pendres_context_message(ctx), "at least 1e-13"));
+    else
+      assert_true(fabs(frequency - pendres_free_frequency(amplitude)) <= error);
     pendres_context_free(ctx);
   }
   assert_null(pendres_options_check(NULL));

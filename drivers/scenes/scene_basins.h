@@ -8,7 +8,6 @@
 
 #include <pendres/basin.h>
 
-#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 

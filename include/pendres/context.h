@@ -72,8 +72,9 @@ int pendres_table_order(pendres_table table);
 typedef struct pendres_options {
   double tolerance;     /**< of the results, absolute: a length as x is, of which areas, velocities
                              and others have what follows in a pendulum's units
-                             (pendres_units_of); 1e-13 to 1e-2 of its unit of length, or
-                             computations refuse it. Default: 1e-8 of that unit, whatever it is */
+                             (pendres_units_of); at least 1e-13 of its unit of length, or
+                             computations refuse it; more than 1e-2 of it counts as that. Default:
+                             1e-8 of that unit, whatever it is */
   pendres_method method; /**< how pendulums are advanced */
   pendres_table table;  /**< Butcher table of the methods on ARKODE */
   int steps_per_period; /**< overrides the choice made from the tolerance */

@@ -55,11 +55,13 @@ static void begin(pendres_door *d, pendres_units u)
   d->scales = (pendres_scales){u, 1.0, 1.0};
   ctx->canonical = 1;
   if (ctx->tolerance_given) ctx->options.tolerance = d->tolerance / u.length;
-  const double t = ctx->options.tolerance;
-  if (!(t >= PENDRES_ACCURACY_TIGHTEST && t <= PENDRES_ACCURACY_LOOSEST))
+  /* More exact than asked for is what was asked for; less is not. */
+  const double t = fmin(ctx->options.tolerance, PENDRES_ACCURACY_LOOSEST);
+  ctx->options.tolerance = t;
+  if (!(t >= PENDRES_ACCURACY_TIGHTEST))
     d->status = pendres_context_fail(
       ctx, PENDRES_INVALID_ARGUMENT,
-      "the tolerance is %.3g of this pendulum's unit of length, %.3g: it must be 1e-13 to 1e-2 of "
+      "the tolerance is %.3g of this pendulum's unit of length, %.3g: it must be at least 1e-13 of "
       "it", t, u.length);
 }
 

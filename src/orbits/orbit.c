@@ -11,6 +11,7 @@
 #include "engine/context_internal.h"
 #include "engine/door.h"
 #include "engine/passage.h"
+#include "model/model.h"
 #include "orbits/orbit_error.h"
 #include "orbits/orbit_pair.h"
 #include "orbits/orbit_reading.h"
@@ -148,13 +149,35 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
   return spectrum;
 }
 
+/*
+ * How much more the steps of an orbit leave than those of one that swings. At rest each rounds a
+ * number of the full size, twice what it is in the mean of a swing, and the same pattern of
+ * rounding comes in every period, be it the worst. Or all steps round alike: with A the rate of the
+ * linear motion, a step of length h then leaves (1 - exp(A h))^-1 of what it rounds, some
+ * 1/(h |A|), in place of the root of their number. A linear force has all of a pattern's
+ * response at one frequency: half of the worst is seen where that is the drive's.
+ */
+static double at_rest(const pendres_newton_candidate *c, const result *fine, double last_place)
+{
+  static const double worst = 4.0;
+  const double noise = sqrt(c->steps * (double)c->guess->period);
+  const pendres_pendulum *p = &c->guess->pendulum;
+  double force, slope;
+  const int swings = fine->measures.amplitude > worst * last_place * fine->noise.along;
+  if (c->guess->winding != 0 || swings) return pendres_model_is_linear(p) ? 0.5 * worst : 1.0;
+  pendres_model_force(p, fine->y, &force, &slope);
+  const double steps = c->steps * p->drive_frequency / (two_pi * sqrt(fabs(slope)));
+  return fmax(fmin(steps / noise, noise), worst);
+}
+
 /* rounding: what one step leaves of an angle of order one. */
 static void fill(const pendres_newton_candidate *c, const result *coarse, const result *fine,
                  double rounding, pendres_orbit *o, double rounded[2])
 {
   const double noise = sqrt(c->steps * (double)c->guess->period); /* steps round at random */
   const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
-  const double last_place = fmax(rounding * size, DBL_TRUE_MIN);
+  double last_place = fmax(rounding * size, DBL_TRUE_MIN);
+  last_place *= at_rest(c, fine, last_place);
   const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
   const double along = pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
                                                     c->guess->period);

@@ -15,7 +15,8 @@ enum { MOST_ITERATIONS = 20 };
 
 static const int longest_period = 1000000, most_turns = 1000000000;
 
-/* A step longer than this is cut to this length, so that it does not leave the guess's well. */
+/* A step longer than this is cut to this length, so that it does not leave the guess's well. A
+   linear force has one orbit alone, which the first step leads to however far it is. */
 static const double longest_step = 0.6;
 /* After a step below this the error is of the order of rounding, by quadratic convergence. */
 static const double last_step = 1e-7;
@@ -248,13 +249,15 @@ static void improve(pendres_newton_candidate *c)
   double dw = (a * c->residual[1] - d * c->residual[0]) / det;
   const double omega = c->guess->pendulum.drive_frequency;
   const double step = hypot(dy, omega * dw);
+  const int linear = pendres_model_is_linear(&c->guess->pendulum);
 
   c->iterations++;
-  if (!(step < 1e6) || (c->iterations > MOST_ITERATIONS && step >= last_step)) {
+  if (!(step < (linear ? INFINITY : 1e6)) ||
+      (c->iterations > MOST_ITERATIONS && step >= last_step)) {
     c->state = PENDRES_NEWTON_FAILED;
     return;
   }
-  if (step > longest_step) {
+  if (step > longest_step && !linear) {
     dy *= longest_step / step;
     dw *= longest_step / step;
   }
@@ -265,7 +268,8 @@ static void improve(pendres_newton_candidate *c)
   c->last_step = step;
   /* The orbit of a tiny drive is tiny itself: go on until the step is small against it. */
   const double size = c->guess->pendulum.drive_amplitude != 0.0 ? hypot(c->y, omega * c->w) : 1.0;
-  if (step < fmin(last_step, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
+  const double enough = linear ? last_step * fmax(1.0, size) : last_step;
+  if (step < fmin(enough, size) || stalled) c->state = PENDRES_NEWTON_CONVERGED;
 }
 
 /* Active candidates first, in the order of steps, period and index. */

@@ -89,11 +89,30 @@ int accuracy_settled_guess(pendres_context *ctx, accuracy_random *r, pendres_orb
 /* Of the two pairs of multipliers, the farther: as they are ordered, or the other way round. */
 double accuracy_multipliers_apart(const pendres_orbit *o, const pendres_reference_cycle *e);
 
+/* ---- units ---- */
+
+/* How long a user's unit of length is in that of a draw, and a unit of time. */
+typedef struct accuracy_units {
+  double length, time;
+} accuracy_units;
+
+/* Millionths to millions of both, no powers of two. */
+accuracy_units accuracy_draw_units(accuracy_random *r);
+/* The same oscillator in units so long: what has a dimension is divided by it. */
+pendres_pendulum accuracy_in_units(const pendres_pendulum *p, accuracy_units u);
+/* The powers of two next to units: what is converted by them keeps all digits. */
+accuracy_units accuracy_near_units(accuracy_units u);
+/* An orbit that was found in units so long, in those of the draw. */
+pendres_orbit accuracy_out_of_units(const pendres_orbit *o, accuracy_units u);
+
 /* ---- sections ---- */
 
 void accuracy_orbits(accuracy *a);
 void accuracy_branches(accuracy *a);
 void accuracy_models(accuracy *a);
+void accuracy_scales(accuracy *a);
+void accuracy_weak(accuracy *a);
+void accuracy_linear(accuracy *a);
 void accuracy_advance(accuracy *a);
 void accuracy_resonance(accuracy *a);
 void accuracy_search(accuracy *a);

@@ -8,7 +8,9 @@
  * symmetry, where the reference has it (period one, along the drive frequency).
  *
  * The section `models` does the same with torques, parametric drives and polynomial forces, along
- * any of their parameters.
+ * any of their parameters; `scales` with polynomial forces in any units; `weak` with resonances of
+ * quality 100 to 100,000, the pendulum's and those of polynomial forces in any units, along the
+ * drive frequency.
  */
 #include "accuracy.h"
 
@@ -18,7 +20,7 @@
 
 static const double two_pi = 6.28318530717958647693;
 
-enum { POINTS = 6, BIFURCATIONS = 6, HOW = 600 };
+enum { POINTS = 6, BIFURCATIONS = 6, HOW = 700 };
 
 /* A point, or a bifurcation, and what is true of it. */
 typedef struct place {
@@ -33,7 +35,9 @@ typedef struct item {
   pendres_orbit_guess guess;
   double tolerance, low, high;
   pendres_parameter parameter;
+  accuracy_units units; /* in which the library is asked */
   place points[POINTS], bifurcations[BIFURCATIONS];
+  int answered; /* a branch was found */
 } item;
 
 static pendres_context *context_with(double tolerance)
@@ -44,7 +48,7 @@ static pendres_context *context_with(double tolerance)
 }
 
 /* A torque, a parametric drive, or both; or a well of a polynomial force, hard, soft, double or
-   lopsided, with the torque or the parametric drive at times. */
+   lopsided, with the torque or the parametric drive at times; of these some without a drive. */
 static pendres_pendulum model(accuracy_random *r)
 {
   pendres_pendulum p = accuracy_pendulum(r);
@@ -53,6 +57,7 @@ static pendres_pendulum model(accuracy_random *r)
   if (which < 2 || more == 1) p.torque = accuracy_uniform(r, -0.8, 0.8);
   if (which == 1 || which == 2 || which == 3 || more == 2)
     p.parametric_amplitude = accuracy_uniform(r, -1.0, 1.0);
+  if (more < 3 && accuracy_choice(r, 8) == 0) p.drive_amplitude = 0.0;
   if (which < 4) return p;
   p.force = PENDRES_FORCE_POLYNOMIAL;
   p.force_coefficients[0] = sign * accuracy_uniform(r, 0.5, 1.5);
@@ -75,7 +80,8 @@ static pendres_parameter direction(accuracy_random *r, const pendres_pendulum *p
   return chosen;
 }
 
-static int draw(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r), item *t)
+/* A branch through what a random start of one of these settles on, not far to either side. */
+static int settle_on(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r), item *t)
 {
   pendres_context *ctx = context_with(1e-6);
   int closes = 0;
@@ -84,12 +90,71 @@ static int draw(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r),
     closes = accuracy_settled_guess(ctx, r, &t->guess);
   }
   pendres_context_free(ctx);
-  t->tolerance = accuracy_tolerance(r);
   t->parameter = direction(r, &t->guess.pendulum);
   const double here = pendres_parameter_get(t->parameter, &t->guess.pendulum);
   t->low = here * accuracy_uniform(r, 0.6, 1.0);
   t->high = here * accuracy_uniform(r, 1.0, 1.6);
   return closes;
+}
+
+static int draw_plain(accuracy_random *r, item *t)
+{
+  return settle_on(r, accuracy_pendulum, t);
+}
+
+static int draw_model(accuracy_random *r, item *t)
+{
+  return settle_on(r, model, t);
+}
+
+static pendres_pendulum polynomial(accuracy_random *r)
+{
+  pendres_pendulum p;
+  do p = model(r);
+  while (p.force != PENDRES_FORCE_POLYNOMIAL);
+  return p;
+}
+
+static int draw_scaled(accuracy_random *r, item *t)
+{
+  t->units = accuracy_draw_units(r);
+  return settle_on(r, polynomial, t);
+}
+
+/*
+ * A weakly damped resonance, from beside it to its other side. The free frequency is
+ * w0 (1 + c A^2); the drive is such that at the largest amplitude it has moved by a tenth to a
+ * hundred times the width, and the guess is the linear response.
+ */
+static int draw_weak(accuracy_random *r, item *t)
+{
+  pendres_pendulum *p = &t->guess.pendulum;
+  *p = (pendres_pendulum){0};
+  double bend = -1.0 / 16.0, w0 = 1.0;
+  if (accuracy_choice(r, 2)) {
+    p->force = PENDRES_FORCE_POLYNOMIAL;
+    p->force_coefficients[0] = accuracy_uniform(r, 0.5, 1.5);
+    p->force_coefficients[2] = accuracy_uniform(r, -1.0, 1.0);
+    w0 = sqrt(p->force_coefficients[0]);
+    bend = 0.375 * p->force_coefficients[2] / p->force_coefficients[0];
+    t->units = accuracy_draw_units(r);
+  }
+  p->damping = w0 / accuracy_logarithmic(r, 1e2, 1e5);
+  const double widths = accuracy_logarithmic(r, 0.1, 100.0);
+  const double moved = fmin(0.1 * w0, widths * p->damping);
+  const double amplitude = sqrt(moved / (w0 * fabs(bend)));
+  p->drive_amplitude = amplitude * p->damping * w0;
+  t->parameter = PENDRES_DRIVE_FREQUENCY;
+  const double aside = 2.0 * (moved + p->damping);
+  t->low = w0 - aside;
+  t->high = w0 + aside;
+  p->drive_frequency = accuracy_choice(r, 2) ? t->low : t->high;
+  const double w = p->drive_frequency, stiff = (w0 - w) * (w0 + w), friction = p->damping * w;
+  const double size = p->drive_amplitude / hypot(stiff, friction), lag = atan2(friction, stiff);
+  t->guess.x = size * cos(lag) + pendres_model_of(p->force)->origin;
+  t->guess.v = size * w * sin(lag);
+  t->guess.period = 1;
+  return 1;
 }
 
 /* Where angles of the reference are counted from. */
@@ -209,12 +274,24 @@ static int exact_of(place *at)
 
 /* ---- what is had ---- */
 
+/* A bifurcation that was found in units, in those of the draw. */
+static pendres_bifurcation bifurcation_out_of(const pendres_bifurcation *b, accuracy_units u)
+{
+  pendres_bifurcation out = *b;
+  out.orbit = accuracy_out_of_units(&b->orbit, u);
+  out.value = pendres_parameter_get(b->parameter, &out.orbit.pendulum);
+  if (b->value != 0.0) out.value_error = b->value_error * (out.value / b->value);
+  return out;
+}
+
 static void look(accuracy_random *r, const pendres_branch *b, item *t)
 {
+  const accuracy_units u = accuracy_near_units(t->units);
   const size_t n = pendres_branch_count(b), met = pendres_branch_bifurcations(b);
   for (int k = 0; k < POINTS && n > 0; k++) {
     place *at = &t->points[k];
     at->point = *pendres_branch_get(b, (size_t)accuracy_choice(r, (int)n));
+    at->point.orbit = accuracy_out_of_units(&at->point.orbit, u);
     const pendres_orbit *o = &at->point.orbit;
     at->there = at->point.bifurcation < 0 &&
                 pendres_reference_orbit(&o->pendulum, o->x - origin_of(o), o->v, o->period,
@@ -222,14 +299,35 @@ static void look(accuracy_random *r, const pendres_branch *b, item *t)
   }
   for (size_t k = 0; k < met && k < BIFURCATIONS; k++) {
     place *at = &t->bifurcations[k];
-    at->bifurcation = *pendres_branch_bifurcation(b, k);
+    at->bifurcation = bifurcation_out_of(pendres_branch_bifurcation(b, k), u);
     at->there = exact_of(at);
   }
 }
 
-static void compute_one(accuracy_random *r, pendres_pendulum (*one)(accuracy_random *r), item *t)
+/* What is drawn, in the units in which the library is asked. */
+static void convert(item *t)
 {
-  if (!draw(r, one, t)) return;
+  const accuracy_units u = t->units;
+  pendres_pendulum *p = &t->guess.pendulum;
+  double *const ends[2] = {&t->low, &t->high};
+  for (int k = 0; k < 2; k++) {
+    pendres_pendulum at = *p;
+    pendres_parameter_set(t->parameter, *ends[k], &at);
+    at = accuracy_in_units(&at, u);
+    *ends[k] = pendres_parameter_get(t->parameter, &at);
+  }
+  *p = accuracy_in_units(p, u);
+  t->guess.x /= u.length;
+  t->guess.v /= u.length / u.time;
+}
+
+static void compute_one(accuracy_random *r, int (*draw)(accuracy_random *r, item *t), item *t)
+{
+  t->units = (accuracy_units){1.0, 1.0};
+  const int drawn = draw(r, t);
+  t->tolerance = accuracy_tolerance(r) / t->units.length;
+  if (!drawn) return;
+  convert(t);
   pendres_context *ctx = context_with(t->tolerance);
   pendres_status outcome = PENDRES_NOT_CONVERGED;
   pendres_orbit start;
@@ -242,6 +340,7 @@ static void compute_one(accuracy_random *r, pendres_pendulum (*one)(accuracy_ran
       outcome != PENDRES_NOT_CONVERGED &&
       pendres_branch_follow(ctx, 1, &start, &options, &b) == PENDRES_OK)
     look(r, b, t);
+  t->answered = b != NULL;
   pendres_branch_free(b);
   pendres_context_free(ctx);
 }
@@ -249,13 +348,25 @@ static void compute_one(accuracy_random *r, pendres_pendulum (*one)(accuracy_ran
 static void compute(accuracy_random *r, void *of, long number)
 {
   (void)number;
-  compute_one(r, accuracy_pendulum, of);
+  compute_one(r, draw_plain, of);
 }
 
 static void compute_model(accuracy_random *r, void *of, long number)
 {
   (void)number;
-  compute_one(r, model, of);
+  compute_one(r, draw_model, of);
+}
+
+static void compute_scaled(accuracy_random *r, void *of, long number)
+{
+  (void)number;
+  compute_one(r, draw_scaled, of);
+}
+
+static void compute_weak(accuracy_random *r, void *of, long number)
+{
+  (void)number;
+  compute_one(r, draw_weak, of);
 }
 
 /* How far an x is from where the reference has it, in whole turns. */
@@ -273,7 +384,8 @@ static void note_point(accuracy *a, const place *at, const char *how)
   accuracy_note(a, "v of a point", o->v, o->v_error, e->v, how);
   accuracy_note(a, "loop area of a point", o->loop_area, o->loop_area_error, e->loop_area, how);
   accuracy_note(a, "amplitude of a point", o->amplitude, o->amplitude_error, e->amplitude, how);
-  accuracy_note_error(a, "phase lag of a point",
+  if (!(isnan(o->phase_lag) && isnan(e->phase_lag))) /* at rest there is none */
+    accuracy_note_error(a, "phase lag of a point",
                       fabs(remainder((double)(o->phase_lag - e->phase_lag), two_pi)),
                       o->phase_lag_error, how);
   accuracy_note_error(a, "multipliers of a point", accuracy_multipliers_apart(o, e),
@@ -312,13 +424,13 @@ static void note(accuracy *a, const void *of, long number, void *tally)
     if (!at->there) continue;
     snprintf(how, sizeof how,
              "item %ld: F0 %.17g, damping %.17g, frequency %.17g, torque %.17g, parametric %.17g, "
-             "force %d: %.17g, %.17g, %.17g, q %d, winding %d, along %s "
-             "%.17g to %.17g, at x %.17g, v %.17g, %.17g, tolerance %.17g", number,
+             "force %d: %.17g, %.17g, %.17g, from x %.17g, v %.17g, q %d, winding %d, along %s "
+             "%.17g to %.17g, tolerance %.17g; at %.17g, units %.17g, %.17g", number,
              p->drive_amplitude, p->damping, p->drive_frequency, p->torque, p->parametric_amplitude,
              (int)p->force, p->force_coefficients[0], p->force_coefficients[1],
-             p->force_coefficients[2], t->guess.period, t->guess.winding,
-             pendres_parameter_name(t->parameter), t->low, t->high, o->x, o->v,
-             pendres_parameter_get(t->parameter, &o->pendulum), t->tolerance);
+             p->force_coefficients[2], t->guess.x, t->guess.v, t->guess.period, t->guess.winding,
+             pendres_parameter_name(t->parameter), t->low, t->high, t->tolerance,
+             pendres_parameter_get(t->parameter, &o->pendulum), t->units.length, t->units.time);
     if (k < POINTS) note_point(a, at, how);
     else note_bifurcation(a, at, how);
   }
@@ -338,4 +450,14 @@ void accuracy_branches(accuracy *a)
 void accuracy_models(accuracy *a)
 {
   follow_all(a, compute_model);
+}
+
+void accuracy_scales(accuracy *a)
+{
+  follow_all(a, compute_scaled);
+}
+
+void accuracy_weak(accuracy *a)
+{
+  follow_all(a, compute_weak);
 }
