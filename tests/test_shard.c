@@ -6,6 +6,8 @@
 #include "kinds_fixture.h"
 #include "same_results.h"
 
+#include <stddef.h>
+
 #include "farm/journal.h"
 #include "shard.h"
 
@@ -190,9 +192,53 @@ static void not_all_there(void **state)
   check_code(RUN("--no-journal", "--resume", "deck.nml"), 2);
 }
 
+/* The label of the first point of a map becomes 2^20, with checksums that fit. */
+static void forge_label(const char *name)
+{
+  enum { AFTER_NUMBERS = 8 * sizeof(double), ROOM = 1 << 20 };
+  static const int label = 1 << 20;
+  static unsigned char bytes[ROOM];
+  journal_entry e;
+  uint64_t length;
+  FILE *f = fopen(name, "r+b");
+  assert_non_null(f);
+  const size_t n = fread(bytes, 1, sizeof bytes, f);
+  memcpy(&length, bytes + 8, sizeof length);
+  unsigned char *head = bytes + JOURNAL_HEAD + length, *data = head + sizeof e;
+  memcpy(&e, head, sizeof e);
+  assert_true(e.stored > AFTER_NUMBERS + sizeof label && data + e.stored <= bytes + n);
+  memcpy(data + AFTER_NUMBERS, &label, sizeof label);
+  e.data_sum = journal_file_sum(data, e.stored);
+  e.sum = journal_file_sum(&e, offsetof(journal_entry, sum));
+  memcpy(head, &e, sizeof e);
+  rewind(f);
+  assert_int_equal(fwrite(bytes, 1, n, f), n);
+  assert_int_equal(fclose(f), 0);
+}
+
+/* Shards in a shared folder are others' bytes: one that no run has written is named, and without it
+   its points are computed. */
+static void not_ours(void **state)
+{
+  char deck[PATH_ROOM + 40];
+  (void)state;
+  snprintf(deck, sizeof deck, "%s/tests/kinds/lyapunov.nml", top);
+  check_code(RUN("-q", "-o", "whole.h5", deck), DONE);
+  check_code(RUN("-o", "map.h5", "--shard=1/2", deck), DONE);
+  check_code(RUN("-o", "map.h5", "--shard=2/2", deck), DONE);
+  forge_label("map.h5.1-of-2.journal");
+  check_code(RUN("-o", "map.h5", "--merge", deck), 1);
+  check_says(err, "'map.h5.1-of-2.journal' is of another size, or numbers in it are out of range");
+  assert_true(!exists("map.h5") && exists("map.h5.1-of-2.journal"));
+  assert_int_equal(remove("map.h5.1-of-2.journal"), 0);
+  check_code(RUN("-q", "-o", "map.h5", "--merge", "--resume", deck), DONE);
+  check_same_results("whole.h5", "map.h5");
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = { TEST(what_is_meant), TEST(same_bytes), TEST(not_all_there) };
+  const struct CMUnitTest tests[] = { TEST(what_is_meant), TEST(same_bytes), TEST(not_all_there),
+                                      TEST(not_ours) };
   if (!find_program()) return 77;
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
