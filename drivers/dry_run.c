@@ -43,6 +43,8 @@ void dry_run(scene_run *run, const scene_kind *scene)
   farm_set_trial(run->farm, &trial);
   const pendres_status status = scene->run(run);
   if (status != PENDRES_OK && trial.what == NULL && trial.spent > 0.0) return; /* it fails early */
+  /* Interrupted before there were tasks, or between them. */
+  if (status == PENDRES_INTERRUPTED && trial.what == NULL) trial.cut = 1;
   putchar('\n');
   estimate_print(run->deck, &trial, farm_trial_outside(&trial), farm_threads(run->farm), stdout);
   estimate_print_space(run->deck->output, stdout);

@@ -1,10 +1,11 @@
 /* estimate.c -- rules and words; see estimate.h. */
-#define _POSIX_C_SOURCE 200809L /* statvfs */
+#define _DEFAULT_SOURCE /* statvfs, _SC_PHYS_PAGES */
 #include "estimate.h"
 
 #include <math.h>
 #include <string.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 #include "scenes/scene.h"
 
@@ -13,6 +14,10 @@ static const double program_memory = 19e6, thread_memory = 9e6;
 
 /* Seconds that a program takes to start and to write what is short. */
 static const double program_seconds = 0.02;
+
+/* The damping at which the seconds a point of scene_size were measured. Below it pendulums settle
+   as much longer as it is weaker, down to where budgets of periods and searches end them. */
+static const double usual_damping = 0.2, slowest = 1000.0;
 
 /* Bytes that a grid's state adds to the compressed file where it differs from the one before; of a
    basin's boundary, mostly; of a noisy strobe point, and of one among others that may repeat; of a
@@ -118,6 +123,19 @@ static double estimate_journal(const deck *d, const farm_trial *t)
   return 1.2e3 * ways * points_of(d) + 8.0 * strobes_of(d);
 }
 
+/* How many times longer points take than at the usual damping, in the mean. */
+static double slowness(const deck *d)
+{
+  const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
+  const size_t n = a->count > 0 ? a->count : 1;
+  double sum = 0.0;
+  for (size_t i = 0; i < n; i++) {
+    const double damping = a->count > 0 ? a->value[i] : d->pendulum.damping;
+    sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), slowest) : 1.0;
+  }
+  return sum / (double)n;
+}
+
 /* ---- words --------------------------------------------------------------------------------- */
 
 /* Two digits of a number of bytes. */
@@ -138,14 +156,27 @@ static void print_seconds(double seconds, FILE *out)
   else fprintf(out, "%.1f days", seconds / 86400.0);
 }
 
+/* What was tried, and how the trial ended. */
+static void print_basis(const farm_trial *t, int rule, FILE *out)
+{
+  if (rule) fputs(", by a rule for scenes of this kind", out);
+  if (t->what == NULL && !t->cut) fputs(": all of it was computed to see\n", out);
+  else if (t->what == NULL) fputs(": what comes first takes longer than a trial\n", out);
+  else if (t->tried == 0) fputs(": a task is too long to be tried\n", out);
+  else
+    fprintf(out, ": %zu of %zu %s were tried%s\n", t->tried, t->tasks, t->what,
+            t->cut ? ", and another takes longer than a trial" : "");
+}
+
 static void print_time(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
 {
   const scene_size *r = size_of(d);
-  const int tried = t->what == NULL || t->tried > 0;
+  const int unknown = t->cut || (t->what != NULL && t->tried == 0);
   const double factor = t->what == NULL ? 1.0 : r->after;
-  const double seconds = program_seconds + outside +
-                         (tried ? factor * t->seconds : r->seconds * points_of(d));
-  fputs("time      about ", out);
+  const double seen = program_seconds + outside + factor * t->seconds;
+  const double seconds =
+    unknown ? fmax(seen, r->seconds * points_of(d) * slowness(d)) : seen;
+  fprintf(out, "time      %s ", t->cut && seconds == seen ? "at least" : "about");
   print_seconds(seconds, out);
   fputs(" of processor time", out);
   if (threads > 1) {
@@ -153,9 +184,7 @@ static void print_time(const deck *d, const farm_trial *t, double outside, int t
     print_seconds(seconds / threads, out);
     fprintf(out, " or more on %d threads", threads);
   }
-  if (t->what == NULL) fputs(": all of it was computed to see\n", out);
-  else if (tried) fprintf(out, ": %zu of %zu %s were tried\n", t->tried, t->tasks, t->what);
-  else fprintf(out, ", by a rule for scenes of this kind: a task is too long to be tried\n");
+  print_basis(t, seconds > seen, out);
 }
 
 void estimate_print(const deck *d, const farm_trial *t, double outside, int threads, FILE *out)
@@ -201,10 +230,22 @@ void estimate_print_space(const char *path, FILE *out)
   fputs(" free where the output goes\n", out);
 }
 
-void estimate_check_space(const deck *d, const char *path, progress *p)
+/* Bytes of memory that this machine has. */
+static double memory_there(void)
 {
-  const double space = space_beside(path), needed = estimate_output(d, NULL);
-  if (isnan(space) || space >= needed) return;
-  progress_note(p, "the output will take about %.2g MB, and where it goes only %.2g MB are free",
-                1e-6 * needed, 1e-6 * space);
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? (double)pages * (double)page : INFINITY;
+}
+
+int estimate_fits(const deck *d, const farm *f, progress *p)
+{
+  const double space = space_beside(d->output), needed = estimate_output(d, NULL);
+  const double memory = estimate_memory(d, NULL, farm_threads(f));
+  if (!isnan(space) && space < needed)
+    progress_note(p, "the output will take about %.2g MB, and where it goes only %.2g MB are free",
+                  1e-6 * needed, 1e-6 * space);
+  if (memory <= memory_there()) return 1;
+  progress_error(p, "the run will take about %.2g GB of memory, and this machine has %.2g GB",
+                 1e-9 * memory, 1e-9 * memory_there());
+  return 0;
 }

@@ -185,7 +185,8 @@ static int look_ahead(job *j)
 {
   j->run = (scene_run){ .deck = &j->deck, .farm = j->farm };
   const int code = files_writable(&j->deck, &j->progress);
-  if (code != DONE || watch(j) != DONE) return FAILED;
+  if (code != DONE || watch(j) != DONE || !estimate_fits(&j->deck, j->farm, &j->progress))
+    return FAILED;
   dry_run(&j->run, j->scene);
   return signals_stop(NULL) ? STOPPED : check_stdout(j);
 }
@@ -249,7 +250,7 @@ static int open_journal(job *j)
 {
   const options *o = &j->options;
   int code = files_writable(&j->deck, &j->progress);
-  if (code == DONE) estimate_check_space(&j->deck, j->deck.output, &j->progress);
+  if (code == DONE && !estimate_fits(&j->deck, j->farm, &j->progress)) code = FAILED;
   if (code == DONE) code = resume_open(&j->deck, o, &j->progress, &j->journal);
   farm_set_journal(j->farm, j->journal);
   if (o->shards > 0)

@@ -184,6 +184,36 @@ static void test_deck_is_kept(void **state)
   assert_int_equal(count_names(".part"), 1);
 }
 
+/*
+ * What takes longer than a trial is not told as short: at weak damping a resonance takes two
+ * decades more than at strong (19 s of processor time for these three). A rule that knows the
+ * damping is right within a factor of ten there, and no less than the trial itself has taken. What
+ * the machine has no memory for is refused, by a run too.
+ */
+static void test_dry_and_long(void **state)
+{
+  (void)state;
+  write_text("weak.nml", "&scene kind = 'resonance_curve' /\n&pendulum drive_amplitude = 0.2 /\n"
+                         "&sweep damping = 1e-5, 1e-4, 1e-3 /\n");
+  check_code(RUN("--dry-run", "-t", "1", "weak.nml"), DONE);
+  check_says(out, "a task is too long to be tried");
+  double seconds = 0.0;
+  const char *time = strstr(out, "\ntime ");
+  assert_non_null(time);
+  assert_true(sscanf(time, " time at least %lf s", &seconds) == 1 ||
+              sscanf(time, " time about %lf s", &seconds) == 1);
+  assert_true(seconds > 5.0 && seconds < 190.0);
+  write_text("huge.nml", "&scene kind = 'basins' /\n&pendulum damping = 0.12, "
+                         "drive_amplitude = 0.2, "
+                         "drive_frequency = 0.8 /\n&sweep x_range = -1, 1, 1000000, v_range = -1, "
+                         "1, 1000000 /\n&basins refine = .true. /\n");
+  check_code(RUN("--dry-run", "huge.nml"), 1);
+  check_says(err, "GB of memory, and this machine has");
+  check_code(RUN("huge.nml"), 1);
+  check_says(err, "GB of memory, and this machine has");
+  assert_int_equal(count_names(".h5"), 0);
+}
+
 /* As the store has it (test_store_failure.c), found by a dry run too. */
 static void test_output_targets(void **state)
 {
@@ -363,6 +393,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     TEST(test_usage),          TEST(test_bad_decks),     TEST(test_dry),
+    TEST(test_dry_and_long),
     TEST(test_output_refused), TEST(test_table_refused), TEST(test_streams_closed),
     TEST(test_signals),        TEST(test_deck_is_kept),  TEST(test_output_targets),
     TEST(test_two_runs),       TEST(test_scarce),         TEST(test_no_escape_sequences),

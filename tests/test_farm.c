@@ -331,6 +331,7 @@ static void test_long_task(void **state)
   read_lines(p.stream, text, sizeof text);
   assert_non_null(strstr(text, "0 of 200 tasks after "));
   assert_non_null(strstr(text, " s; the longest at work is number "));
+  assert_non_null(strstr(text, " drive periods), for "));
 
   p = talkative();
   progress_start(&p, "things", 10, 0);

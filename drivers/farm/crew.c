@@ -20,6 +20,7 @@ enum { MOST_WAITING = 64 << 20 };
 typedef struct worker {
   crew *crew;
   size_t task;
+  pendres_context *ctx; /* that its task computes with */
   farm_watch watch; /* of the point that it is at */
 } worker;
 
@@ -28,19 +29,30 @@ long long crew_milliseconds(void)
   return (long long)(1e3 * clock_wall());
 }
 
+/* A long task moves as the drive periods do that it has taken. */
+static void tick(progress *p, size_t finished, at_work *w, double seconds)
+{
+  char name[POINT_NAME + 40];
+  const long long periods = atomic_load(&w->periods);
+  snprintf(name, sizeof name, "%s", w->name);
+  if (periods > 0)
+    snprintf(name, sizeof name, "%s (%.3g drive periods)", w->name, (double)periods);
+  progress_tick(p, finished, name, seconds);
+}
+
 /* Where nothing has been told for long, say what is being worked on. */
 static void look_at_clock(crew *c, long long t)
 {
   progress *p = c->farm->options.progress;
   if (p == NULL || t < atomic_load(&c->look)) return;
   pthread_mutex_lock(&c->lock);
-  const at_work *first = NULL;
+  at_work *first = NULL;
   for (int i = 0; i < c->threads; i++) {
-    const at_work *w = &c->bench[i];
+    at_work *w = &c->bench[i];
     if (w->since > 0 && (first == NULL || w->since < first->since)) first = w;
   }
   if (first != NULL && t >= atomic_load(&c->look))
-    progress_tick(p, c->finished, first->name, 1e-3 * (double)(t - first->since));
+    tick(p, c->finished, first, 1e-3 * (double)(t - first->since));
   atomic_store(&c->look, t + (p->every < 4.0 ? 1 : 1000));
   pthread_mutex_unlock(&c->lock);
 }
@@ -58,6 +70,7 @@ static void note_work(crew *c, int thread, size_t task, long long since)
   pthread_mutex_lock(&c->lock);
   at_work *w = &c->bench[thread];
   w->since = since;
+  atomic_store(&w->periods, 0);
   snprintf(w->name, sizeof w->name, "number %zu", task);
   pthread_mutex_unlock(&c->lock);
 }
@@ -69,6 +82,9 @@ static int worker_stop(void *arg)
   worker *w = arg;
   crew *c = w->crew;
   const long long now = crew_milliseconds();
+  pendres_cost cost;
+  pendres_context_cost(w->ctx, &cost);
+  atomic_store(&c->bench[w->watch.thread].periods, (long long)cost.pendulum_periods);
   look_at_clock(c, now);
   return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted) ||
          point_over(&w->watch, now);
@@ -200,6 +216,7 @@ static pendres_status run_task(crew *c, worker *w, pendres_context *ctx, farm_re
   *record = (farm_record){ 0 };
   if (farm_record_resize(record, c->stage->record_size) == NULL) return PENDRES_OUT_OF_MEMORY;
   settle_books(c->farm, ctx);
+  w->ctx = ctx;
   record->watch = &w->watch;
   pendres_context_set_interrupt(ctx, worker_stop, w);
   const pendres_status status = c->stage->task(c->stage->arg, w->task, ctx, record);

@@ -21,6 +21,7 @@ enum { POINT_NAME = 120 };
 typedef struct at_work {
   char name[POINT_NAME];
   long long since; /* milliseconds */
+  atomic_llong periods; /* drive periods of pendulums that its task has taken so far */
 } at_work;
 
 /* The point that a thread works on, point.c's: only that thread touches it. */

@@ -24,8 +24,8 @@ typedef struct stage_trial {
   const farm_stage *stage;
   trial_record *record; /* of each task */
   char *tried;
-  size_t count;
-  double seconds, bytes, changes;
+  size_t count, cut;    /* that came to their end, and that the end of the trial cut short */
+  double seconds, bytes, changes; /* seconds of both kinds */
   double first;         /* seconds of the first task */
   pendres_cost cost;
 } stage_trial;
@@ -88,10 +88,11 @@ static pendres_status try_task(stage_trial *s, size_t task)
   pendres_context_cost(ctx, &after);
   s->farm->trial->spent += seconds;
   s->record[task] = (trial_record){ record.data, record.size };
+  s->cut += status == PENDRES_INTERRUPTED;
+  s->seconds += seconds;
   if (status != PENDRES_OK) return status;
   s->tried[task] = 1;
   s->count++;
-  s->seconds += seconds;
   if (s->count == 1) s->first = seconds;
   s->bytes += (double)stored_bytes(&s->record[task]);
   s->changes += (double)changes_in(&s->record[task], s->stage->element);
@@ -100,11 +101,12 @@ static pendres_status try_task(stage_trial *s, size_t task)
   return PENDRES_OK;
 }
 
-/* The first task of a chain finds what the others go on from, and takes longer. */
+/* The first task of a chain finds what the others go on from, and takes longer. A task that was cut
+   short takes at least what it took so far. */
 static double seconds_of_all(const stage_trial *s)
 {
-  const double tasks = (double)s->stage->tasks, count = (double)s->count;
-  if (s->count < 2 || !s->stage->chained) return tasks / fmax(count, 1.0) * s->seconds;
+  const double tasks = (double)s->stage->tasks, count = (double)(s->count + s->cut);
+  if (count < 2.0 || !s->stage->chained) return tasks / fmax(count, 1.0) * s->seconds;
   return s->first + (tasks - 1.0) / (count - 1.0) * (s->seconds - s->first);
 }
 
@@ -121,6 +123,7 @@ static void conclude(const stage_trial *s)
   t->what = s->count < s->stage->tasks ? s->stage->what : NULL;
   t->tasks = s->stage->tasks;
   t->tried = s->count;
+  t->cut = s->cut > 0;
 }
 
 static pendres_status collect(const stage_trial *s, size_t task)

@@ -28,6 +28,8 @@ typedef struct farm_trial {
                           known to be outside of tasks */
   const char *what;    /* tasks of the stage that ended it; NULL: the scene came to its end */
   size_t tasks, tried;
+  int cut;             /* the end of the trial came in the middle of something: what is told of time
+                          is the least that there is */
 } farm_trial;
 
 /* From now on the stages of this farm are tried; *t, not owned, has the first three and is zero
