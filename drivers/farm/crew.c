@@ -84,7 +84,8 @@ static int worker_stop(void *arg)
   const long long now = crew_milliseconds();
   pendres_cost cost;
   pendres_context_cost(w->ctx, &cost);
-  atomic_store(&c->bench[w->watch.thread].periods, (long long)cost.pendulum_periods);
+  if (cost.pendulum_periods >= 0.0) /* NaN: asked on another thread than the context's */
+    atomic_store(&c->bench[w->watch.thread].periods, (long long)cost.pendulum_periods);
   look_at_clock(c, now);
   return farm_stop(c->farm) || w->task > atomic_load(&c->limit) || atomic_load(&c->halted) ||
          point_over(&w->watch, now);
