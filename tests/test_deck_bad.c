@@ -134,10 +134,10 @@ static const struct { const char *text; const char *error[8]; } bad[] = {
   { CURVE "&sweep damping=0.1 /\n&ensemble members=0 /\n&precision tolerance=1e-15 "
         "steps_per_period=-1 /",
     { "4:19 'members' must be positive",
-      "5:22 'tolerance' must lie between 1e-13 and 0.01: less is beyond double",
+      "5:12 'tolerance' must lie between 1e-13 and 0.01: less is beyond double",
         "5:45 'steps_per_period' must not be negative" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble members=1000001 /\n&precision tolerance=0.02 "
-   "block_lanes=12 /", { "4:19 must lie between 1 and 1000000", "5:22 'tolerance' must lie",
+   "block_lanes=12 /", { "4:19 must lie between 1 and 1000000", "5:12 'tolerance' must lie",
         "5:27 multiple of 8" } },
   { CURVE "&sweep damping=0.1 /\n&ensemble x_first=2 x_last=1 /",
     { "4:21 'x_first' must be below 'x_last'" } },

@@ -46,7 +46,7 @@ static void test_bad_decks(void **state)
     { "&scene kind = 'free_oscillation' /\n&sweep amplitude_range = 0.1, 3, 99999999999 /\n",
       "count" },
     { "&scene kind = 'free_oscillation' /\n&sweep amplitude = 1 /\n&precision tolerance=1e-14 /",
-      "3:22: error: 'tolerance' must lie between 1e-13 and 0.01: less is beyond double precision" },
+      "3:12: error: 'tolerance' must lie between 1e-13 and 0.01: less is beyond double precision" },
   };
   (void)state;
   write_text("bad.h5", "precious");

@@ -247,6 +247,10 @@ pendres_status deck_resolved(const deck *d, char **text);
  *  NaN. */
 pendres_pendulum deck_pendulum(const deck *d);
 
+/** The canonical units of a deck's pendulums (pendres_units_of); of drives and torques that are
+ *  swept the largest decides. */
+pendres_units deck_pendulum_units(const deck *d);
+
 /** Does the deck ask for noise: a temperature above 0? */
 int deck_has_noise(const deck *d);
 

@@ -490,6 +490,7 @@ void deck_check(deck_builder *b)
   if (b->errors->count == 0) check_force(b);
   if (b->errors->count == 0) check_noise(b);
   check_output(b);
+  deck_check_units(b);
   check_ensemble(b);
   check_spectrum(b);
   if (d->precision.block_lanes % 8 != 0)

@@ -62,12 +62,14 @@
 #define RANGE(l, h) .low = (l), .high = (h)
 #define POSITIVE .low = 0.0, .high = BIG, .open = 1
 #define NOT_NEGATIVE .low = 0.0, .high = BIG
-#define FREQUENCY .low = 1e-6, .high = 1e6
+#define FREQUENCY .low = 1e-100, .high = BIG
+#define RATIO .low = -1e6, .high = 1e6
 #define UNLESS(a) .when = DECK_UNLESS_AXIS, .axis = DECK_AXIS_##a
 #define SAYS(u, words) .unit = u, .meaning = words
 #define EXAMPLE(values) .example = values
 
-#define BIG 1e6
+/* Lengths and times may be of any size (deck_units.c). */
+#define BIG 1e100
 
 static const char *const kinds[] = {
 #define KIND_NAME(code, name, words) name,
@@ -146,10 +148,10 @@ const deck_key deck_table[] = {
     SAYS("m g l",
          "constant torque I on the side of the drive; a Josephson junction's bias current") },
   { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
-    RANGE(-BIG, BIG), UNLESS(PARAMETRIC_AMPLITUDE),
+    RATIO, UNLESS(PARAMETRIC_AMPLITUDE),
     SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
   { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
-  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RANGE(-BIG, BIG) },
+  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
   { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
     .text = "pendulum",
     SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
@@ -193,7 +195,7 @@ const deck_key deck_table[] = {
   { SWEEP("torque", TORQUE), IN(CURVE | RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
     SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
   { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(CURVE | RESPONSE | ALONG | GRID),
-    RANGE(-BIG, BIG),
+    RATIO,
     SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
   { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
     EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
@@ -226,7 +228,8 @@ const deck_key deck_table[] = {
          "contain the sampling") },
   { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = -PENDRES_PI / 2,
-    SAYS("rad", "initial positions lie above this one, which a line leaves out") },
+    SAYS("rad", "initial positions lie above this one, which a line leaves out; the default is in "
+         "the pendulum's unit of length, as that of 'x_last' and others") },
   { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
     .number = 3 * PENDRES_PI / 2,
     SAYS("rad", "initial positions go up to this one, equally spaced") },
@@ -348,9 +351,11 @@ const deck_key deck_table[] = {
          "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
          "and periods of the drive in s, beside ours") },
 
-  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), RANGE(1e-13, 1e-2),
-    .why = "less is beyond double precision", .number = 1e-8,
-    SAYS("1", "wanted error of the results, absolute for angles of order one") },
+  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE,
+    .number = 1e-8,
+    SAYS("1", "wanted error of the results: absolute, of lengths as x is and of what follows from "
+         "them; 1e-13 to 1e-2 of the pendulum's unit of length, which is 1 but for polynomials "
+         "(docs/models.md). Without it 1e-8 of that unit") },
   { CHOICE("precision", "method", precision.method), IN(RESULTS), .choices = methods,
     .text = "block_fixed",
     SAYS(NULL, "way to integrate; orbits and their measures are by 'block_fixed' throughout") },

@@ -133,6 +133,9 @@ const char *deck_decimal(double x, char text[DECK_DECIMAL]);
 /* deck_check.c: everything that concerns several keys; expands the axes. */
 void deck_check(deck_builder *b);
 
+/* deck_units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
+void deck_check_units(deck_builder *b);
+
 /* deck_suggest.c: the candidate nearest to a misspelt word, or NULL if none is near. */
 typedef struct deck_suggestion {
   const char *word;

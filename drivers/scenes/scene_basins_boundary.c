@@ -12,15 +12,22 @@ static pendres_status put_boundary(scene_run *run, const pendres_boundary *curve
   static const char *const words[] = {"position on the boundary of basins",
                                       "velocity on the boundary of basins"};
   const size_t n = pendres_boundary_count(curve);
+  /* That of v has the errors divided by the unit of time. */
+  const double time = deck_pendulum_units(run->deck).time;
+  double *error = malloc((n + 1) * sizeof *error);
+  if (error == NULL) return PENDRES_OUT_OF_MEMORY;
   pendres_status status = scene_numbering(run, "boundary_point", n,
                                           "point of the boundary, in order along it");
   for (int k = 0; k < 2 && status == PENDRES_OK; k++) {
     const pendres_store_spec spec = {.name = names[k], .dimensions = {"boundary_point"},
                                      .long_name = words[k], .units = k == 0 ? "rad" : "1"};
+    for (size_t i = 0; i < n; i++)
+      error[i] = pendres_boundary_error(curve)[i] / (k == 0 ? 1.0 : time);
     status = pendres_store_put_result(
       store, &spec, k == 0 ? pendres_boundary_x(curve) : pendres_boundary_v(curve),
-      pendres_boundary_error(curve), n);
+      error, n);
   }
+  free(error);
   int32_t *piece = malloc((n + 1) * sizeof *piece);
   if (piece == NULL) return PENDRES_OUT_OF_MEMORY;
   for (size_t i = 0; i < n; i++) piece[i] = pendres_boundary_piece(curve)[i];

@@ -181,6 +181,7 @@ static pendres_status compute(scene_run *run, cloud_work *w)
 typedef struct row {
   pendres_cloud of;
   double escapes;
+  double xx_error, xv_error, vv_error; /* of linear theory's covariance */
 } row;
 
 #define OF(field) offsetof(row, of.field)
@@ -189,7 +190,7 @@ typedef struct row {
    .error = OF(measured.statistics[s].error)}
 #define LINEAR(label, field, words)                                                  \
   {.name = #label, .long_name = words " by linear noise theory",                     \
-   .value = OF(linear.field), .error = OF(linear_error)}
+   .value = OF(linear.field), .error = offsetof(row, field##_error)}
 #define BIAS(what, s)                                                                \
   {.name = "bias_" #what, .long_name = "bias of strobe_" #what " by finite steps",   \
    .value = OF(bias.statistics[s].value), .error = OF(bias.statistics[s].error)}
@@ -264,8 +265,11 @@ static pendres_status write_clouds(scene_run *run, const cloud_work *w)
   const scene_table table = {.dimensions = {"temperature", "attractor"}, .n = n,
                              .stride = sizeof *rows, .rows = rows, .missing = w->failed.reason};
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  const double time = deck_pendulum_units(run->deck).time;
   for (size_t i = 0; i < n; i++) {
-    rows[i] = (row){w->clouds[i], (double)w->clouds[i].measured.left};
+    const double error = w->clouds[i].linear_error;
+    rows[i] = (row){w->clouds[i], (double)w->clouds[i].measured.left, error, error / time,
+                    error / (time * time)};
     rows[i].of.verdict = verdict_of(w, i);
   }
   const pendres_status status = SCENE_WRITE(run, &table, columns);

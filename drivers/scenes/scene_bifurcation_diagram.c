@@ -139,7 +139,8 @@ static pendres_status collect_strobes(void *arg, size_t task, const farm_record 
   const int closed = scene_along_closed(point);
   w->attractors[task] = (int)r->attractors;
   const double x_error = closed ? point->attractor.orbit.x_error + w->d->precision.tolerance : NAN;
-  const double v_error = closed ? point->attractor.orbit.v_error + w->d->precision.tolerance : NAN;
+  const double fast = w->d->precision.tolerance / deck_pendulum_units(w->d).time;
+  const double v_error = closed ? point->attractor.orbit.v_error + fast : NAN;
   for (size_t k = 0; k < w->strobes; k++)
     w->strobe[task * w->strobes + k] = (strobe){within_a_turn(w->d, x[k]), x_error, v[k], v_error};
   return PENDRES_OK;

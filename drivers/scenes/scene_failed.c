@@ -35,16 +35,19 @@ int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, 
   /* The steps of about a minute. At weak damping chaos lasts long, and labels take several runs: a
      quarter of the steps is left for each. Slow drives settle within a period or two, of many
      steps. */
-  const int weak = p->damping < 2.0;
+  /* In the pendulum's units: how fast it oscillates is of order one in them. */
+  const double time = pendres_units_of(p).time;
+  const double damping = time * p->damping, frequency = time * p->drive_frequency;
+  const int weak = damping < 2.0;
   const double most_settling = weak ? 5e6 : 2e7, most = weak ? 2e9 : 2e7;
-  const double half = 0.5 * p->damping;
+  const double half = 0.5 * damping;
   const double rate = half < 1.0 ? half : 1.0 / (half + sqrt(half * half - 1.0));
   /* No less than the fewest steps that a period is integrated with. */
   const double a_unit_time =
-    fmax(fmax(p->damping / 4.0, 1.0 / 1.5), 8.0 * p->drive_frequency / (2.0 * PENDRES_PI));
+    fmax(fmax(damping / 4.0, 1.0 / 1.5), 8.0 * frequency / (2.0 * PENDRES_PI));
   const double settling = runs * a_unit_time * times / rate;
   const double steps =
-    settling + runs * a_unit_time * periods * 2.0 * PENDRES_PI / p->drive_frequency;
+    settling + runs * a_unit_time * periods * 2.0 * PENDRES_PI / frequency;
   if (settling <= most_settling && steps <= most) return 0;
   snprintf(words, size, "damping %g, drive_frequency %g ask for some %.1e steps of the integrator, "
            "more than %.0e", p->damping, p->drive_frequency, steps,

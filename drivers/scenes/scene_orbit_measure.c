@@ -87,6 +87,9 @@ static pendres_status measure_correlation(orbit_work *w)
   if (w->found.closed) c->dimension = c->dimension_error = 0.0;
   if (m->points < 2) return PENDRES_OK;
   if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  /* Distances are of x and of v times the unit of time. */
+  const double time = pendres_units_of(&w->pendulum).time;
+  for (size_t k = 0; k < m->points; k++) m->v[k] *= time;
   const pendres_section section = { m->points, m->x, m->v,
                                     pendres_model_of(w->pendulum.force)->period };
   return scene_asked(w->run,
