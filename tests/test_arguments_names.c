@@ -80,7 +80,8 @@ static const struct {
   {"store_type", store_type, PENDRES_STORE_TYPE_COUNT,
    {"double", "int8", "int32", "int64", "string"}},
   {"switching_verdict", switching_verdict, PENDRES_SWITCHING_VERDICTS,
-   {"straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier"}},
+   {"straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
+    "unbalanced"}},
   {"switching_way", switching_way, PENDRES_SWITCHING_WAYS,
    {"forth", "back", "first_well", "second_well"}},
 };

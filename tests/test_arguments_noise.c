@@ -171,8 +171,7 @@ static void clouds(void **state)
 
 static void switching(void **state)
 {
-  int wrong = 0, attractor = 7;
-  long well = 7;
+  int wrong = 0;
   pendres_switching_tally tally = { 0 };
   pendres_switching_rate rate;
   pendres_switching_activation energy;
@@ -181,23 +180,6 @@ static void switching(void **state)
   const double t[3] = { 0.01, 0.02, 0.03 };
   pendres_switching_rate r[3];
   (void)state;
-  pendres_switching_locate(NULL, 0.5, 1.0, 0.0, &attractor, &well);
-  assert_true(attractor == -1 && well == 0);
-  pendres_switching_locate(NULL, NAN, NAN, INFINITY, NULL, NULL);
-  pendres_attractors *set = NULL;
-  check_ok(pendres_attractors_find(ctx, &good, 0, NULL, NULL, &set));
-  const double home = pendres_attractors_get(set, 0)->orbit.x;
-  for (size_t i = 0; i < COUNT(bad_numbers); i++) {
-    pendres_switching_locate(set, 0.5, bad_numbers[i], 0.0, &attractor, &well);
-    assert_true(attractor == -1 && well == 0);
-    pendres_switching_locate(set, 0.5, home, bad_numbers[i], &attractor, &well);
-    assert_true(attractor == -1 && well == 0);
-  }
-  const pendres_switching_home from = { .set = set };
-  unsigned char left = 0;
-  pendres_switching_leave((void *)&from, &(pendres_langevin_strobe){ .count = 1 }, &left);
-  assert_int_equal(left, 0);
-  pendres_attractors_free(set);
   INVALID(pendres_switching_count(NULL, &nowhere, &tally));
   INVALID(pendres_switching_count(ctx, NULL, &tally));
   INVALID(pendres_switching_count(ctx, &nowhere, NULL));
@@ -224,7 +206,6 @@ static void switching(void **state)
     INVALID(pendres_switching_fit(3, t, r, 0.0, &energy));
     r[1] = kept;
   }
-  pendres_switching_leave(NULL, NULL, NULL);
   surveys(ctx, &wrong);
   pendres_context_free(ctx);
   assert_int_equal(wrong, 0);

@@ -64,9 +64,9 @@ static void parts_make_the_whole(void **state)
   assert_memory_equal(&sum.escape_rate, &whole.escape_rate, sizeof sum.escape_rate);
   assert_int_equal(sum.verdict, whole.verdict);
   assert_true(whole.measured.left > 0);
-  q.steps_per_period = 9;
+  q.steps_per_period = 4;
   check_ok(pendres_cloud_prepare(ctx, &q, &sum, NULL, NULL));
-  assert_int_equal(sum.bias.steps_per_period, 9);
+  assert_int_equal(sum.bias.steps_per_period, 4);
   assert_true(fabs(sum.bias.statistics[PENDRES_LANGEVIN_COV_XX].value) >
               fabs(whole.bias.statistics[PENDRES_LANGEVIN_COV_XX].value));
   pendres_attractors_free(set);

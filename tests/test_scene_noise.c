@@ -145,7 +145,9 @@ static void switching_counts_both_ways(void **state)
     get("one", name, events, 2);
     for (int i = 0; i < 2; i++) {
       assert_true(events[i] >= 10.0);
-      check_relative(rate[i], events[i] / (k == 0 ? sa : la)[i], 1e-12);
+      /* What is not seen on the other state in time is added. */
+      const double seen = events[i] / (k == 0 ? sa : la)[i];
+      assert_true(rate[i] >= seen && rate[i] < 1.3 * seen);
       assert_true(lower[i] < rate[i] && rate[i] < upper[i]);
       /* 1.96 standard errors on either side, but for the skewness of few events. */
       check_relative(upper[i] - lower[i], 2.0 * 1.96 * error[i], 0.15);

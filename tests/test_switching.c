@@ -3,6 +3,8 @@
  */
 #include "switching_fixture.h"
 
+#include "noise/cores.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,6 +73,8 @@ static void counts_are_what_plain_counting_gives(void **state)
   pendres_attractors *set = attractors(p);
   pendres_context *ctx = make(5, 24, 8);
   double events[2][2] = { { 0.0 } }, wells[2] = { 0.0 }, exposure[2] = { 0.0 };
+  double passage[2][2] = { { 0.0 } }, absence2[2] = { 0.0 }, ends[2] = { 0.0 };
+  pendres_cores cores;
   pendres_switching_tally tally;
   (void)state;
   assert_int_equal(pendres_attractors_count(set), 2);
@@ -78,28 +82,45 @@ static void counts_are_what_plain_counting_gives(void **state)
   const pendres_switching_request q = { .pendulum = p, .set = set, .from = 1, .trajectories = N,
                                         .periods = PERIODS, .first_id = 40 };
   check_ok(pendres_switching_count(ctx, &q, &tally));
+  check_ok(pendres_cores_make(ctx, set, p.temperature, 0.0, &cores));
   for (uint64_t i = 0; i < N; i++) {
     double x = la->orbit.x, v = la->orbit.v;
     const uint64_t id = 40 + i;
     int home = 1;
     long home_well = 0;
+    double since = 0.0;
+    pendres_outcome end;
     for (long k = 0; k < PERIODS; k++) {
-      int at;
       long well;
       check_ok(pendres_langevin_advance(ctx, RUN(1, &p, &id, k, 1, NULL), &x, &v));
       exposure[home] += 1.0;
-      pendres_switching_locate(set, 0.5, x, v, &at, &well);
-      if (at < 0 || (at == home && well == home_well)) continue;
-      events[home][at] += 1.0;
-      wells[home] += well != home_well;
+      since++;
+      const pendres_core *core = pendres_cores_locate(&cores, x, v, &well);
+      if (core == NULL) continue;
+      const int at = core->attractor;
+      if (at == home && well == home_well) {
+        absence2[home] += since * since;
+      } else {
+        passage[home][at] += since;
+        events[home][at] += 1.0;
+        wells[home] += well != home_well;
+      }
       home = at;
       home_well = well;
+      since = 0.0;
     }
+    check_ok(pendres_attractors_settle(ctx, set, 1, &x, &v, &end));
+    ends[end.attractor] += 1.0;
   }
   for (int s = 0; s < 2; s++) {
     check_near(tally.exposure[s], exposure[s], 0.0);
     check_near(tally.events[s][PENDRES_SWITCHING_WELL], wells[s], 0.0);
-    for (int t = 0; t < 2; t++) check_near(tally.events[s][t], events[s][t], 0.0);
+    check_near(tally.absence2[s], absence2[s], 0.0);
+    check_near(tally.ends[s], ends[s], 0.0);
+    for (int t = 0; t < 2; t++) {
+      check_near(tally.events[s][t], events[s][t], 0.0);
+      check_near(tally.passage[s][t], passage[s][t], 0.0);
+    }
   }
   assert_true(events[1][0] > 5.0 && events[0][1] > 5.0);
   pendres_context_free(ctx);
@@ -166,30 +187,38 @@ static void stillness_and_nonsense(void **state)
   q.from = 2;
   assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
   q.from = 0;
-  q.core = 1.5;
+  q.core = 2.5;
   assert_int_equal(pendres_switching_count(ctx, &q, &tally), PENDRES_INVALID_ARGUMENT);
   assert_int_equal(pendres_switching_rate_of(&tally, 0, 1, 1.0, &rate), PENDRES_INVALID_ARGUMENT);
   pendres_context_free(ctx);
   pendres_attractors_free(set);
 }
 
-/* Places: points of the orbits, moved by whole turns, and one in between. */
+/* Places: points of the orbits, moved by whole turns, one in between, and one that is lost. */
 static void states_are_located(void **state)
 {
   pendres_attractors *set = attractors(balanced(0.0));
-  int at;
-  long well;
+  pendres_context *ctx = make(1, 24, 8);
+  pendres_cores cores;
+  long well = 0;
   (void)state;
-  for (int i = 0; i < 2; i++)
-    for (long turn = -3; turn <= 3; turn++) {
-      const pendres_orbit *o = &pendres_attractors_get(set, (size_t)i)->orbit;
-      pendres_switching_locate(set, 0.0, o->x + 2.0 * PI * (double)turn, o->v, &at, &well);
-      assert_int_equal(at, i);
-      assert_int_equal(well, turn);
-    }
-  pendres_switching_locate(set, 1.0, -PI / 2.0, 0.0, &at, &well); /* a barrier's top */
-  assert_int_equal(at, -1);
-  assert_int_equal(well, 0);
+  for (int hot = 0; hot < 2; hot++) {
+    check_ok(pendres_cores_make(ctx, set, 0.01 * hot, 0.0, &cores));
+    assert_int_equal(cores.count, 2);
+    for (int i = 0; i < 2; i++)
+      for (long turn = -3; turn <= 3; turn++) {
+        const pendres_orbit *o = &pendres_attractors_get(set, (size_t)i)->orbit;
+        const pendres_core *at =
+          pendres_cores_locate(&cores, o->x + 2.0 * PI * (double)turn, o->v, &well);
+        assert_non_null(at);
+        assert_int_equal(at->attractor, i);
+        assert_int_equal(well, turn);
+      }
+    assert_null(pendres_cores_locate(&cores, -PI / 2.0, 0.0, &well)); /* a barrier's top */
+    assert_null(pendres_cores_locate(&cores, 1e300, 0.0, &well));
+    assert_null(pendres_cores_locate(&cores, NAN, 0.0, &well));
+  }
+  pendres_context_free(ctx);
   pendres_attractors_free(set);
 }
 
@@ -335,24 +364,26 @@ static void bursts_widen_intervals(void **state)
   check_relative(rate.upper, alone.upper, 1e-12);
 }
 
-/* A whole ellipse's edge turns trajectories back; halves and quarters agree. */
+/* Half as large and twice as large, both ways: a small core is found late, which is allowed for. */
 static void rates_do_not_depend_on_the_core(void **state)
 {
+  static const double sizes[] = { 1.0, 0.5, 2.0 };
   const pendres_pendulum p = balanced(0.02);
   pendres_attractors *set = attractors(p);
   pendres_context *ctx = make(9, 32, 192);
-  pendres_switching_rate rate[2];
+  pendres_switching_rate rate[3];
   (void)state;
-  for (int i = 0; i < 2; i++) {
-    const pendres_switching_request q = { .pendulum = p, .set = set, .core = i ? 0.25 : 0.5,
-                                          .trajectories = 384, .periods = 1000,
-                                          .first_id = 10000u * (unsigned)i };
-    pendres_switching_tally tally;
-    check_ok(pendres_switching_count(ctx, &q, &tally));
-    check_ok(pendres_switching_rate_of(&tally, 0, 1, 0.95, &rate[i]));
-    assert_true(rate[i].events > 50.0);
-  }
-  check_near(rate[0].value, rate[1].value, sigmas * hypot(rate[0].error, rate[1].error));
+  for (size_t from = 0; from < 2; from++)
+    for (int i = 0; i < 3; i++) {
+      const pendres_switching_request q = { .pendulum = p, .set = set, .core = sizes[i],
+                                            .from = from, .trajectories = 384, .periods = 2000,
+                                            .first_id = 10000u * (unsigned)i };
+      pendres_switching_tally tally;
+      check_ok(pendres_switching_count(ctx, &q, &tally));
+      check_ok(pendres_switching_rate_of(&tally, from, 1 - from, 0.95, &rate[i]));
+      assert_true(rate[i].events > 200.0);
+      check_near(rate[i].value, rate[0].value, sigmas * hypot(rate[i].error, rate[0].error));
+    }
   pendres_context_free(ctx);
   pendres_attractors_free(set);
 }

@@ -290,8 +290,29 @@ static const char *const verdicts[PENDRES_SWITCHING_VERDICTS] = {
   [PENDRES_SWITCHING_TOO_FEW] = "too few events",
   [PENDRES_SWITCHING_NO_STATE] = "there is no such state",
   [PENDRES_SWITCHING_NO_BARRIER] =
-    " (less than twice the temperature: no barrier to speak of)",
+    " (less than twice the temperature, this one or the way back: no barrier to speak of)",
+  [PENDRES_SWITCHING_UNBALANCED] = " (the rates do not imply where trajectories end)",
 };
+
+/* Where trajectories end, by their basins and by the rates. */
+static pendres_status write_occupation(scene_run *run, const work *w, int state)
+{
+#define OF_STATE(what, field) \
+  (offsetof(pendres_switching_rates, what) + offsetof(pendres_langevin_estimate, field))
+  static const scene_column columns[] = {
+    {.name = "occupation_*", .long_name = "share of the trajectories that end in the basin of",
+     .value = OF_STATE(occupation, value), .error = OF_STATE(occupation, error)},
+    {.name = "implied_occupation_*",
+     .long_name = "the same as the rates imply it, from where trajectories started, for",
+     .value = OF_STATE(implied, value), .error = OF_STATE(implied, error)},
+  };
+  const char *first = (const char *)w->rates;
+  const scene_table table = {
+    .dimensions = {"temperature"}, .star = w->name[state], .words = w->state[state],
+    .n = w->temperatures, .stride = sizeof *w->rates,
+    .rows = first + (size_t)state * sizeof(pendres_langevin_estimate)};
+  return SCENE_WRITE(run, &table, columns);
+}
 
 /* Exposures, steps, and the interval's level. */
 static pendres_status write_circumstances(scene_run *run, const work *w)
@@ -317,6 +338,7 @@ static pendres_status write_circumstances(scene_run *run, const work *w)
       .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
       .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
     status = scene_columns_write(run, &table, 1, &exposure);
+    if (status == PENDRES_OK) status = write_occupation(run, w, s);
   }
   return status == PENDRES_OK ? scene_columns_write(run, &scalars, 1, &steps) : status;
 }

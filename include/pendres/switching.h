@@ -7,17 +7,18 @@
  * all of it for two states; the functions after it do parts of that work, which a program may share
  * among its threads, with the same results to the last bit.
  *
- * Attractors come with trapping ellipses (attractor.h). A trajectory belongs to the attractor
- * and well whose ellipse it was in last; it has switched at the first strobe that sees it inside
- * the ellipse of another attractor, and has left its well at the first that sees it inside an
- * ellipse (of any attractor) in another well. What happens outside of all ellipses does not count:
- * an excursion that returns is no transition. A rate is the number of transitions divided by
- * the time that trajectories belonged to where they came from (core sets: Buchete and Hummer,
- * J. Phys. Chem. B 112 (2008) 6057; Schuette et al., J. Chem. Phys. 134 (2011) 204105).
+ * A trajectory belongs to the attractor, and well, whose core it was in last. It has switched at
+ * the first strobe that sees it in the core of another attractor, and has left its well at the
+ * first that sees it in a core (of any attractor) in another well. What happens outside of all
+ * cores does not count: an excursion that returns is no transition. A rate is the number of
+ * transitions divided by the time that trajectories belonged to where they came from (core sets:
+ * Buchete and Hummer, J. Phys. Chem. B 112 (2008) 6057; Schuette et al., J. Chem. Phys. 134 (2011)
+ * 204105), and by the share that is seen (pendres_switching_rate_of).
  *
- * Ellipses are shrunken by the factor `core`. The edge of a whole ellipse is close to the basin's
- * boundary: noise would soon drive out again many trajectories that have just come in there, and
- * the rates would count them.
+ * The core of an attractor is an ellipse around its strobe point, one standard deviation wide of
+ * the cloud that linear noise theory has there (langevin.h). Where twice that is not within the
+ * basin of attraction, which states on the edge tell by settling without noise, the core is half as
+ * wide as the basin allows: a barrier is then less than two temperatures.
  *
  * Under a force that drives to infinity (pendres_pendulum_leaves) infinity counts as another well,
  * from which nothing returns. A trajectory has escaped at the first strobe that sees it moving
@@ -46,28 +47,6 @@ enum {
                                                            or infinity */
 };
 
-/* ---- Where a trajectory belongs ------------------------------------------------------------ */
-
-/**
- * Find the attractor whose ellipse, shrunken to `core` of its size (0: the default, a half), holds
- * the state x, v at drive phase 0. *attractor receives its number in the set and *well the number
- * of the well (0 for running orbits); -1 and 0 if no ellipse holds the state. Either may be NULL.
- */
-void pendres_switching_locate(const pendres_attractors *set, double core, double x, double v,
-                              int *attractor, long *well);
-
-/** The attractor that trajectories start on, as `arg` of pendres_langevin_request. */
-typedef struct pendres_switching_home {
-  const pendres_attractors *set; /**< of one parameter set; not owned */
-  size_t attractor;              /**< its number in the set */
-  double core;                   /**< size of ellipses, from 0 to 1; 0: a half */
-} pendres_switching_home;
-
-/** The function `leave` of a pendres_langevin_request whose `arg` is a pendres_switching_home: it
- *  marks trajectories that have switched to another attractor or have left well 0. */
-void pendres_switching_leave(void *home, const pendres_langevin_strobe *strobe,
-                             unsigned char *left);
-
 /* ---- Counting transitions ------------------------------------------------------------------ */
 
 /** Trajectories to follow. */
@@ -75,7 +54,8 @@ typedef struct pendres_switching_request {
   pendres_pendulum pendulum;     /**< that of the set, with a temperature */
   const pendres_attractors *set; /**< of one parameter set; not owned */
   size_t from;                   /**< number of the attractor that all start on, in well 0 */
-  double core;                   /**< size of ellipses, from 0 to 1; 0: a half */
+  double core;                   /**< size of the cores, up to 2, in units of what follows from
+                                      the noise; 0: 1. Rates that depend on it are none */
   size_t trajectories;           /**< how many */
   long periods;                  /**< drive periods that each is followed over */
   int steps_per_period;          /**< steps a drive period, as in pendres_langevin_run */
@@ -100,6 +80,12 @@ typedef struct pendres_switching_tally {
                             of each one's events [s][t] times its exposure [s] */
   double exposure2[PENDRES_SWITCHING_STATES]; /**< sum over trajectories of the square of each one's
                                                    exposure [s] */
+  double passage[PENDRES_SWITCHING_STATES][PENDRES_SWITCHING_STATES + 1]; /**< sum over transitions
+                            [s][t] of the drive periods since the trajectory was in the core of s */
+  double absence2[PENDRES_SWITCHING_STATES]; /**< sum over visits to the core of [s] of the square
+                                                  of the drive periods since the one before it */
+  double ends[PENDRES_SWITCHING_STATES]; /**< trajectories whose last strobe is in the basin of
+                                              attraction of [s] */
 } pendres_switching_tally;
 
 /**
@@ -120,21 +106,25 @@ void pendres_switching_add(pendres_switching_tally *into, const pendres_switchin
 typedef struct pendres_switching_rate {
   double events;     /**< transitions counted */
   double exposure;   /**< time spent where they start, in units of 1/omega_0 */
-  double value;      /**< events / exposure; NaN without exposure */
-  double error;      /**< standard error; without events an upper bound at one sigma */
+  double value;      /**< events / exposure, and what passages miss; NaN without exposure */
+  double error;      /**< standard error, and an eighth of what passages miss; without events an
+                          upper bound at one sigma */
   double lower;      /**< lower end of the confidence interval */
   double upper;      /**< upper end of the confidence interval */
   double dispersion; /**< variance of the trajectories' counts, divided by the variance that
                           independent events would have. Above 1 transitions come in bursts, which
                           error and interval allow for. NaN where there are too few to tell */
-  double mean_time;  /**< mean time until a transition, exposure / events; NaN without events */
+  double mean_time;  /**< mean time until a transition, 1 / value; NaN without events */
   double mean_time_error; /**< its standard error, to first order in that of the rate */
 } pendres_switching_rate;
 
 /**
  * The rate of transitions from s to t, with its confidence interval of the given level
- * (0 < level < 1). The interval is that of pendres_langevin_rate, for events and exposure that are
- * divided by the dispersion where it exceeds 1.
+ * (0 < level < 1). A trajectory that has come to t is counted when it is seen in the core there,
+ * some time after it went, and by then may be back: events / exposure is too low by this time times
+ * the rates of s to t and back, to first order, which is made up for. Cores of half and of twice
+ * their size give the same rates then. The interval is that of pendres_langevin_rate, for events
+ * and exposure that are divided by the dispersion where it exceeds 1, widened as the error is.
  *
  * Errors: PENDRES_INVALID_ARGUMENT, PENDRES_OUT_OF_MEMORY.
  */
@@ -151,13 +141,16 @@ typedef enum pendres_switching_verdict {
   PENDRES_SWITCHING_UNCHECKED,    /**< two temperatures: nothing checks the law */
   PENDRES_SWITCHING_TOO_FEW,      /**< too few events: there is no fit */
   PENDRES_SWITCHING_NO_STATE,     /**< there is no such state: there is no fit */
-  PENDRES_SWITCHING_NO_BARRIER,   /**< the energy is less than twice the hottest temperature: no
-                                       barrier to speak of, and no activation energy */
+  PENDRES_SWITCHING_NO_BARRIER,   /**< the energy of this way, or between two states of the way
+                                       back, is less than twice the hottest temperature: no
+                                       barrier to speak of, no state, and no activation energy */
+  PENDRES_SWITCHING_UNBALANCED,   /**< at some temperature the rates do not imply where trajectories
+                                       end: see pendres_switching_rates */
   PENDRES_SWITCHING_VERDICTS      /**< how many there are */
 } pendres_switching_verdict;
 
-/** "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier"; NULL if
- *  out of range. */
+/** "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
+ *  "unbalanced"; NULL if out of range. */
 const char *pendres_switching_verdict_name(pendres_switching_verdict verdict);
 
 /**
@@ -240,6 +233,12 @@ typedef struct pendres_switching_rates {
                               one of the two states exists, whose rates are known */
   double exposure[2];    /**< time spent on each state, in units of 1/omega_0 */
   pendres_switching_rate way[PENDRES_SWITCHING_WAYS]; /**< rates, by their ways */
+  pendres_langevin_estimate occupation[2]; /**< share of the trajectories whose last strobe is in
+                              the basin of each state, by settling without noise; NaN without it */
+  pendres_langevin_estimate implied[2];    /**< the same as the rates forth and back imply it, from
+                              where trajectories started; NaN unless there are these two states
+                              alone. If both differ by more than three standard errors the rates
+                              miss transitions */
 } pendres_switching_rates;
 
 /**

@@ -4,13 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <pendres/switching.h>
-
 #include "base/angles.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "orbits/attractor_internal.h"
+#include "noise/cores.h"
 #include "noise/noise_common.h"
+#include "orbits/attractor_internal.h"
 
 enum { STATISTICS = PENDRES_LANGEVIN_STATISTICS, PART = 192 /* trajectories, at most */ };
 
@@ -87,20 +86,22 @@ static void announce(pendres_door *d, size_t trajectories, const pendres_cloud_r
   (void)pendres_door_out(d, &pendres_dim_speed, trajectories * (size_t)request->record, v);
 }
 
-/* The same for trajectories; `home` must live as long as the request. */
-static pendres_langevin_request trajectories_of(const pendres_cloud_request *q,
-                                                pendres_switching_home *home)
+/* The same for trajectories; `cores` must live as long as the request. */
+static pendres_status trajectories_of(pendres_context *ctx, const pendres_cloud_request *q,
+                                      pendres_cores *cores, pendres_langevin_request *out)
 {
   const pendres_orbit *o = orbit_of(q);
   pendres_langevin_request r = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                 .trajectories = q->trajectories,
                                 .settle = pendres_noise_settle(o), .record = q->record,
                                 .steps_per_period = q->steps_per_period,
-                                .leave = pendres_switching_leave, .arg = home};
+                                .leave = pendres_cores_leave, .arg = cores};
   r.pendulum.temperature = q->temperature;
   r.first_id = pendres_noise_first_id(&r.pendulum, q->attractor);
-  *home = (pendres_switching_home){.set = q->set, .attractor = q->attractor};
-  return r;
+  *out = r;
+  const pendres_status status = pendres_cores_make(ctx, q->set, q->temperature, 0.0, cores);
+  cores->home = (int)q->attractor;
+  return status;
 }
 
 /* A cloud whose numbers are all NaN. */
@@ -272,8 +273,10 @@ static pendres_status prepare(pendres_context *ctx, const pendres_cloud_request 
     c->way = PENDRES_CLOUD_STILL;
     return complete(ctx, q, c, x, v);
   }
-  pendres_switching_home home;
-  pendres_langevin_request r = trajectories_of(q, &home);
+  pendres_cores cores;
+  pendres_langevin_request r;
+  const pendres_status status = trajectories_of(ctx, q, &cores, &r);
+  if (status != PENDRES_OK) return status;
   ask_theory(&r, o, c);
   if (c->way == PENDRES_CLOUD_NARROW) return complete(ctx, q, c, x, v);
   r.trajectories = TRAJECTORIES;
@@ -316,12 +319,14 @@ static pendres_status follow(pendres_context *ctx, const pendres_cloud_request *
   if (wrong == NULL && !has_cloud(orbit_of(q))) wrong = "around this attractor there is no cloud";
   if (wrong == NULL && q->steps_per_period == 0) wrong = "to follow trajectories asks for steps";
   if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
-  pendres_switching_home home;
-  pendres_langevin_request r = trajectories_of(q, &home);
+  pendres_cores cores;
+  pendres_langevin_request r;
   size_t first;
+  pendres_status status = trajectories_of(ctx, q, &cores, &r);
+  if (status != PENDRES_OK) return status;
   r.trajectories = pendres_cloud_part(q, part, &first);
   r.first_id += first;
-  const pendres_status status = pendres_langevin_measure(ctx, &r, out, x, v);
+  status = pendres_langevin_measure(ctx, &r, out, x, v);
   return status == PENDRES_NOT_FOUND ? PENDRES_OK : status; /* all have left: an empty part */
 }
 

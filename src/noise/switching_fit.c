@@ -89,7 +89,8 @@ static const double least_barrier = 2.0;
 const char *pendres_switching_verdict_name(pendres_switching_verdict verdict)
 {
   static const char *const names[PENDRES_SWITCHING_VERDICTS] = {
-    "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier"};
+    "straight", "not_straight", "two_points", "too_few_events", "no_state", "no_barrier",
+    "unbalanced"};
   return (unsigned)verdict < PENDRES_SWITCHING_VERDICTS ? names[verdict] : NULL;
 }
 

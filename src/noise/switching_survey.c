@@ -6,8 +6,9 @@
 
 #include "engine/context_internal.h"
 #include "engine/door.h"
-#include "orbits/attractor_internal.h"
+#include "noise/cores.h"
 #include "noise/noise_common.h"
+#include "orbits/attractor_internal.h"
 
 const char *pendres_switching_way_name(pendres_switching_way way)
 {
@@ -83,17 +84,21 @@ static pendres_status choose_steps(pendres_context *ctx, const pendres_switching
   if (wrong != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", wrong);
   *steps = 0;
   if (q->state[state] < 0) return PENDRES_OK;
-  pendres_switching_home home = {q->set, (size_t)q->state[state], 0.0};
-  const pendres_orbit *o = &pendres_attractors_get(q->set, home.attractor)->orbit;
+  const size_t from = (size_t)q->state[state];
+  const pendres_orbit *o = &pendres_attractors_get(q->set, from)->orbit;
+  pendres_cores cores;
   pendres_langevin_request r = {.pendulum = o->pendulum, .x = o->x, .v = o->v,
                                 .trajectories = TRAJECTORIES, .record = RECORD,
                                 .settle = pendres_noise_settle(o),
-                                .leave = pendres_switching_leave, .arg = &home};
+                                .leave = pendres_cores_leave, .arg = &cores};
   r.pendulum.temperature = temperature_of_choice;
-  r.first_id = pendres_noise_first_id(&r.pendulum, home.attractor);
+  r.first_id = pendres_noise_first_id(&r.pendulum, from);
   pendres_langevin_bias bias;
-  const pendres_status status =
-    pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
+  pendres_status status =
+    pendres_cores_make(ctx, q->set, temperature_of_choice, 0.0, &cores);
+  cores.home = (int)from;
+  if (status == PENDRES_OK)
+    status = pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_of_choice, &bias);
   if (status == PENDRES_OK) *steps = 2 * bias.steps_per_period;
   return status;
 }
@@ -160,6 +165,50 @@ pendres_status pendres_switching_follow(pendres_context *ctx,
 
 /* ---- Rates and energies -------------------------------------------------------------------- */
 
+/* Shares of trajectories differ from what rates imply if they do by more standard errors. */
+static const double unlikely = 3.0;
+
+/* The share of trajectories on the second state after a time, by rates forth and back. */
+static double share_on_second(double start, double forth, double back, double time)
+{
+  const double sum = forth + back, left = exp(-sum * time);
+  return sum > 0.0 ? start * left + forth / sum * (1.0 - left) : start;
+}
+
+/* Where trajectories end, by their basins and by the rates. */
+static void compare_ends(const pendres_switching_survey *q, const pendres_switching_tally *all,
+                         pendres_switching_rates *r)
+{
+  const double n = all->trajectories, time = (double)q->periods * all->period;
+  const pendres_switching_rate *a = &r->way[PENDRES_SWITCHING_FORTH];
+  const pendres_switching_rate *b = &r->way[PENDRES_SWITCHING_BACK];
+  if (!(n > 0.0)) return;
+  for (int s = 0; s < 2; s++) {
+    if (q->state[s] < 0) continue;
+    const double p = all->ends[q->state[s]] / n;
+    /* One in doubt is one trajectory at least. */
+    r->occupation[s] = (pendres_langevin_estimate){p, fmax(sqrt(p * (1.0 - p) / n), 1.0 / n)};
+  }
+  if (q->state[0] < 0 || q->state[1] < 0 || all->states != 2 ||
+      pendres_pendulum_leaves(&pendres_attractors_get(q->set, 0)->orbit.pendulum))
+    return;
+  const double start = (double)share(q, 1) / n;
+  const double p = share_on_second(start, a->value, b->value, time);
+  const double error = hypot(share_on_second(start, a->value + a->error, b->value, time) - p,
+                             share_on_second(start, a->value, b->value + b->error, time) - p);
+  r->implied[0] = (pendres_langevin_estimate){1.0 - p, error};
+  r->implied[1] = (pendres_langevin_estimate){p, error};
+}
+
+static int balanced(const pendres_switching_rates *r)
+{
+  for (int s = 0; s < 2; s++)
+    if (fabs(r->occupation[s].value - r->implied[s].value) >
+        unlikely * hypot(r->occupation[s].error, r->implied[s].error))
+      return 0;
+  return 1; /* also where nothing is known */
+}
+
 pendres_status pendres_switching_conclude(const pendres_switching_survey *survey,
                                           double temperature, const pendres_switching_tally *all,
                                           pendres_switching_rates *rates)
@@ -171,6 +220,8 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
   const int *state = survey->state;
   *rates = (pendres_switching_rates){.temperature = temperature, .exposure = {NAN, NAN}};
   for (int k = 0; k < WAYS; k++) rates->way[k] = none;
+  for (int s = 0; s < 2; s++)
+    rates->occupation[s] = rates->implied[s] = (pendres_langevin_estimate){NAN, NAN};
   if (state[0] < 0 || state[1] < 0) rates->status = PENDRES_NOT_FOUND;
   if (all == NULL) return PENDRES_OK;
   for (int s = 0; s < 2; s++)
@@ -182,6 +233,7 @@ pendres_status pendres_switching_conclude(const pendres_switching_survey *survey
       status =
         pendres_switching_rate_of(all, (size_t)from, (size_t)to, level, &rates->way[k]);
   }
+  if (status == PENDRES_OK) compare_ends(survey, all, rates);
   return status;
 }
 
@@ -214,6 +266,20 @@ done:
   return status;
 }
 
+/* Where there is no barrier one way there is no state to come to either; where transitions are
+   missed, they are both ways. */
+static void judge_both(size_t n, const pendres_switching_rates *rates,
+                       pendres_switching_activation *activation)
+{
+  pendres_switching_verdict *forth = &activation[PENDRES_SWITCHING_FORTH].verdict;
+  pendres_switching_verdict *back = &activation[PENDRES_SWITCHING_BACK].verdict;
+  if (*forth == PENDRES_SWITCHING_NO_STATE) return;
+  for (size_t i = 0; i < n; i++)
+    if (!balanced(&rates[i])) *forth = *back = PENDRES_SWITCHING_UNBALANCED;
+  if (*forth == PENDRES_SWITCHING_NO_BARRIER || *back == PENDRES_SWITCHING_NO_BARRIER)
+    *forth = *back = PENDRES_SWITCHING_NO_BARRIER;
+}
+
 pendres_status pendres_switching_activate(const pendres_switching_survey *survey, size_t n,
                                           const pendres_switching_rates *rates,
                                           pendres_switching_activation *activation)
@@ -223,6 +289,7 @@ pendres_status pendres_switching_activate(const pendres_switching_survey *survey
     return PENDRES_INVALID_ARGUMENT;
   for (int k = 0; k < WAYS && status == PENDRES_OK; k++)
     status = activate(survey, k, n, rates, &activation[k]);
+  if (status == PENDRES_OK) judge_both(n, rates, activation);
   return status;
 }
 

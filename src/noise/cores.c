@@ -1,0 +1,140 @@
+/* cores.c -- what counts as having arrived at an attractor; see cores.h. */
+#include "noise/cores.h"
+
+#include <math.h>
+
+#include "base/angles.h"
+#include "model/model.h"
+
+enum { RING = 48 /* states on an ellipse's edge that are to settle inside */ };
+
+/* A core is half of the largest ellipse that is asked for, and up to two standard deviations of
+   that are: what comes to its edge will hardly leave at once. */
+static const double share = 0.5, widest = 2.0;
+
+/* So many ellipses are tried, each smaller than the last by this factor: a basin narrower than the
+   last, a thousandth of the first, holds no state to speak of. The first is at most as wide as a
+   well or, where the force has no wells, as so many of its lengths. */
+enum { TRIALS = 21 };
+static const double narrower = 0.7071067811865476, lengths = 100.0;
+
+/* A symmetric matrix over (x, v): a covariance, or its inverse. */
+typedef pendres_langevin_covariance matrix;
+
+static double form(const matrix *m, double x, double v)
+{
+  return m->xx * x * x + 2.0 * m->xv * x * v + m->vv * v * v;
+}
+
+static matrix inverse(const matrix *m)
+{
+  const double d = m->xx * m->vv - m->xv * m->xv;
+  return (matrix){m->vv / d, -m->xv / d, m->xx / d};
+}
+
+/* The trapping ellipse. */
+static matrix trap_of(const pendres_attractor *a)
+{
+  const double w = a->orbit.pendulum.drive_frequency, r = a->trap_radius;
+  return (matrix){a->trap_metric[0] / (r * r), a->trap_metric[1] / (r * r * w),
+                  a->trap_metric[2] / (r * r * w * w)};
+}
+
+/* Whether the ellipse of so many standard deviations belongs to the basin, by its edge: the image
+   of what is inside is bounded by the edge's image, so that it settles where that does. */
+static pendres_status settles(pendres_context *ctx, const pendres_attractors *set, int i,
+                              const matrix *cloud, double reach, int *inside)
+{
+  const pendres_attractor *a = pendres_attractors_get(set, (size_t)i);
+  const matrix trap = trap_of(a);
+  const double lower[3] = {sqrt(cloud->xx), cloud->xv / sqrt(cloud->xx),
+                           sqrt(cloud->vv - cloud->xv * cloud->xv / cloud->xx)};
+  double x[RING], v[RING];
+  pendres_outcome outcome[RING];
+  size_t n = 0;
+  for (int k = 0; k < RING; k++) {
+    const double c = reach * cos(two_pi * k / RING), s = reach * sin(two_pi * k / RING);
+    const double dx = lower[0] * c, dv = lower[1] * c + lower[2] * s;
+    if (form(&trap, dx, dv) <= 1.0) continue;
+    x[n] = a->orbit.x + dx;
+    v[n++] = a->orbit.v + dv;
+  }
+  const pendres_status status = n > 0 ? pendres_attractors_settle(ctx, set, n, x, v, outcome)
+                                      : PENDRES_OK;
+  *inside = 1;
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    if (outcome[k].attractor != i || outcome[k].well != 0) *inside = 0;
+  return status;
+}
+
+/* The ellipse of a core, before it is scaled by its size: P. */
+static pendres_status ellipse(pendres_context *ctx, const pendres_attractors *set, int i,
+                              double temperature, matrix *p)
+{
+  const pendres_attractor *a = pendres_attractors_get(set, (size_t)i);
+  pendres_pendulum hot = a->orbit.pendulum;
+  pendres_langevin_linear linear;
+  const double turn = pendres_model_turn(&hot), length = pendres_model_scale(&hot);
+  int inside = 0;
+  *p = trap_of(a);
+  hot.temperature = temperature;
+  pendres_status status = PENDRES_OK;
+  if (temperature > 0.0 &&
+      pendres_langevin_linear_theory(&hot, a->orbit.x, a->orbit.v, a->orbit.period, &linear) ==
+        PENDRES_OK) {
+    double reach = fmin(widest, fmin(0.5 * turn, lengths * length) / sqrt(linear.covariance.xx));
+    for (int k = 0; k < TRIALS && status == PENDRES_OK && !inside; k++, reach *= narrower) {
+      status = settles(ctx, set, i, &linear.covariance, reach, &inside);
+      if (!inside) continue;
+      *p = inverse(&linear.covariance);
+      *p = (matrix){p->xx / (reach * reach), p->xv / (reach * reach), p->vv / (reach * reach)};
+    }
+  }
+  return status;
+}
+
+pendres_status pendres_cores_make(pendres_context *ctx, const pendres_attractors *set,
+                                  double temperature, double size, pendres_cores *out)
+{
+  const double scale = share * (size > 0.0 ? size : 1.0), square = scale * scale;
+  const size_t n = pendres_attractors_count(set);
+  *out = (pendres_cores){0};
+  for (size_t i = 0; i < n && out->count < PENDRES_SWITCHING_STATES; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, i);
+    matrix p;
+    /* A chaotic attractor has no ellipse, and an orbit that is about to vanish one of size zero. */
+    if (!(a->trap_radius > 0.0)) continue;
+    const pendres_status status = ellipse(ctx, set, (int)i, temperature, &p);
+    if (status != PENDRES_OK) return status;
+    out->core[out->count++] =
+      (pendres_core){.attractor = (int)i, .running = a->orbit.winding != 0, .x = a->orbit.x,
+                     .v = a->orbit.v, .turn = pendres_model_turn(&a->orbit.pendulum),
+                     .xx = p.xx / square, .xv = p.xv / square, .vv = p.vv / square};
+  }
+  return PENDRES_OK;
+}
+
+const pendres_core *pendres_cores_locate(const pendres_cores *c, double x, double v, long *well)
+{
+  if (!(fabs(x) <= PENDRES_CORES_FARTHEST)) return NULL;
+  for (size_t i = 0; i < c->count; i++) {
+    const pendres_core *s = &c->core[i];
+    const double turns = rint((x - s->x) / s->turn);
+    const double dx = x - s->x - s->turn * turns, dv = v - s->v;
+    if (!(s->xx * dx * dx + 2.0 * s->xv * dx * dv + s->vv * dv * dv <= 1.0)) continue;
+    *well = s->running ? PENDRES_NO_WELL : (long)turns;
+    return s;
+  }
+  return NULL;
+}
+
+void pendres_cores_leave(void *cores, const pendres_langevin_strobe *strobe, unsigned char *left)
+{
+  const pendres_cores *c = cores;
+  for (size_t i = 0; i < strobe->count; i++) {
+    long well = PENDRES_NO_WELL;
+    const pendres_core *s = pendres_cores_locate(c, strobe->x[i], strobe->v[i], &well);
+    if (s == NULL) continue;
+    if (s->attractor != c->home || (well != 0 && well != PENDRES_NO_WELL)) left[i] = 1;
+  }
+}
