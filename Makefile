@@ -12,7 +12,8 @@
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
-#   make deps-python   what the Python package needs; make deps-plots, what plots need
+#   make deps-python   what the Python package needs; make deps-plots, what plots need; make
+#                   deps-fuzz, what make fuzz needs
 #   make doc        reference manual from the public headers, with doxygen
 #   make man        man/resonance.1 anew, with help2man: for a release, and when options change
 #   make decks-reference   docs/decks.md anew, from the table of keys
@@ -86,7 +87,7 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-mpi deps-plots deps-python clean uninstall doc style gallery help,$(GOALS))
+BUILDING := $(filter-out deps deps-fuzz deps-mpi deps-plots deps-python clean uninstall doc style gallery help,$(GOALS))
 
 ifneq ($(BUILDING),)
 # For tests that compute much by themselves. Clang has the library for it in a package of its own;
@@ -179,6 +180,7 @@ SHARED := $(BUILD)/libpendres.so.$(VERSION)
 DRIVER := $(BUILD)/libdriver.a
 # Other build directories leave the program at the top alone.
 PROGRAM := $(if $(wildcard drivers/main.c),$(patsubst build/resonance,resonance,$(BUILD)/resonance))
+PROGRAM_PATH := $(if $(PROGRAM),$(if $(filter /%,$(PROGRAM)),$(PROGRAM),$(CURDIR)/$(PROGRAM)))
 
 TEST_NAMES := $(patsubst tests/%.c,%,$(wildcard tests/test_*.c))
 TEST_PROGRAMS := $(TEST_NAMES:%=$(BUILD)/tests/%)
@@ -193,7 +195,7 @@ BENCH_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/bench_*.c))
 FUZZ_SECONDS ?= 60
 
 .PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
-        deps-plots deps-python doc decks-reference style figures gallery clean \
+        deps-fuzz deps-plots deps-python doc decks-reference style figures gallery clean \
         help FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
@@ -310,7 +312,7 @@ check-run: all $(CHECKS:%=run/%)
 
 # For scripts: what they need to know of this build.
 RUN_ENVIRONMENT = BUILD='$(BUILD)' CC='$(CC)' PKG_CONFIG='$(PKG_CONFIG)' \
-                  RESONANCE='$(if $(PROGRAM),$(abspath $(PROGRAM)))' \
+                  RESONANCE='$(PROGRAM_PATH)' \
                   UBSAN_OPTIONS="$${UBSAN_OPTIONS-print_stacktrace=1}"
 
 .PHONY: $(TEST_NAMES:%=run/%) $(SCRIPT_NAMES:%=run/%)
@@ -329,6 +331,8 @@ FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))
 
 .SECONDARY: $(FUZZ_NAMES:%=$(OBJ)/tests/fuzz/fuzz_%.o)
+# What collects records needs all of it.
+$(BUILD)/fuzz_collect: $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS)
 $(BUILD)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(FUZZED_OBJECTS)
 	@echo "  LD  $@"
 	@$(LINK) -fsanitize=fuzzer -o $@ $^ $(DRIVER_LIBS)
@@ -346,10 +350,11 @@ $(FUZZ_NAMES:%=fuzz/%): fuzz/%: $(BUILD)/fuzz_%
 	  tests/fuzz/corpus/$*
 
 # What is found of new ways through the code is kept in build/fuzz/corpus, and gone on from.
-CLANG ?= $(firstword $(shell command -v clang clang-19 clang-17 clang-16 clang-15 clang-14))
+CLANG ?= $(shell for c in clang clang-19 clang-17 clang-16 clang-15 clang-14; do \
+           command -v $$c && break; done)
 fuzz:
-	@$(or $(CLANG),clang) --version >/dev/null 2>&1 || { echo 'make fuzz needs clang with libFuzzer' \
-	  '(Debian: apt-get install clang libclang-rt-dev)' >&2; exit 1; }
+	@test -n '$(CLANG)' && $(CLANG) --version >/dev/null 2>&1 || { \
+	  echo 'make fuzz needs clang with libFuzzer (Debian: make deps-fuzz)' >&2; exit 1; }
 	+@$(MAKE) --no-print-directory -k CC=$(CLANG) BUILD=build/fuzz \
 	  SANITIZE=address,undefined,fuzzer-no-link $(FUZZ_NAMES:%=fuzz/%)
 
@@ -371,8 +376,8 @@ bench bench-baseline: all $(BENCH_PROGRAMS)
 # What pkg-config reads, on standard output: what a program needs that links libpendres.a, which the
 # shared library knows by itself. An installation writes it, like the manual page, where
 # it belongs and nowhere else: two that run at once, each with its own PREFIX, keep apart.
-PRINT_PC = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(LIBDIR:$(PREFIX)/%=$${prefix}/%)|' \
-  -e 's|@INCLUDEDIR@|$(INCLUDEDIR:$(PREFIX)/%=$${prefix}/%)|' -e 's|@VERSION@|$(VERSION)|' \
+PRINT_PC = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(subst $(PREFIX)/,$${prefix}/,$(LIBDIR))|' \
+  -e 's|@INCLUDEDIR@|$(subst $(PREFIX)/,$${prefix}/,$(INCLUDEDIR))|' -e 's|@VERSION@|$(VERSION)|' \
   -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
   -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
       $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm)|' \
@@ -383,35 +388,36 @@ SHARED_FILES = $(shell find examples input plots docs python -type f ! -name '*.
                  ! -path '*.egg-info/*' ! -path 'python/build/*')
 
 install: all
-	$(INSTALL) -d $(DESTDIR)$(LIBDIR)/pkgconfig $(DESTDIR)$(INCLUDEDIR)/pendres
-	$(INSTALL) -m 644 $(STATIC) $(DESTDIR)$(LIBDIR)
-	$(INSTALL) -m 755 $(SHARED) $(DESTDIR)$(LIBDIR)
-	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/$(SONAME)
-	ln -sf $(notdir $(SHARED)) $(DESTDIR)$(LIBDIR)/libpendres.so
-	$(INSTALL) -m 644 $(HEADERS) $(DESTDIR)$(INCLUDEDIR)/pendres
-	$(PRINT_PC) >$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc
-	chmod 644 $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc
+	$(INSTALL) -d "$(DESTDIR)$(LIBDIR)/pkgconfig" "$(DESTDIR)$(INCLUDEDIR)/pendres"
+	$(INSTALL) -m 644 $(STATIC) "$(DESTDIR)$(LIBDIR)"
+	$(INSTALL) -m 755 $(SHARED) "$(DESTDIR)$(LIBDIR)"
+	ln -sf $(notdir $(SHARED)) "$(DESTDIR)$(LIBDIR)/$(SONAME)"
+	ln -sf $(notdir $(SHARED)) "$(DESTDIR)$(LIBDIR)/libpendres.so"
+	$(INSTALL) -m 644 $(HEADERS) "$(DESTDIR)$(INCLUDEDIR)/pendres"
+	$(PRINT_PC) >"$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc"
+	chmod 644 "$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc"
 ifneq ($(PROGRAM),)
-	$(INSTALL) -d $(DESTDIR)$(BINDIR)
-	$(INSTALL) -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)
-	$(INSTALL) -d $(DESTDIR)$(MANDIR)/man1
-	$(INSTALL) -m 644 man/resonance.1 $(DESTDIR)$(MANDIR)/man1
+	$(INSTALL) -d "$(DESTDIR)$(BINDIR)"
+	$(INSTALL) -m 755 $(PROGRAM) "$(DESTDIR)$(BINDIR)"
+	$(INSTALL) -d "$(DESTDIR)$(MANDIR)/man1"
+	$(INSTALL) -m 644 man/resonance.1 "$(DESTDIR)$(MANDIR)/man1"
 endif
-	$(INSTALL) -d $(DESTDIR)$(MANDIR)/man3
-	sh man/pendres.3.sh $(VERSION) $(DATADIR) >$(DESTDIR)$(MANDIR)/man3/pendres.3
-	chmod 644 $(DESTDIR)$(MANDIR)/man3/pendres.3
-	$(INSTALL) -d $(addprefix $(DESTDIR)$(DATADIR)/,$(sort $(dir $(SHARED_FILES))))
+	$(INSTALL) -d "$(DESTDIR)$(MANDIR)/man3"
+	sh man/pendres.3.sh $(VERSION) '$(DATADIR)' >"$(DESTDIR)$(MANDIR)/man3/pendres.3"
+	chmod 644 "$(DESTDIR)$(MANDIR)/man3/pendres.3"
+	@for folder in $(sort $(dir $(SHARED_FILES))); do \
+	  $(INSTALL) -d "$(DESTDIR)$(DATADIR)/$$folder" || exit 1; done
 	@for file in $(SHARED_FILES); do \
 	  if [ -x "$$file" ]; then mode=755; else mode=644; fi; \
 	  $(INSTALL) -m $$mode "$$file" "$(DESTDIR)$(DATADIR)/$$file" || exit 1; done
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 uninstall:
-	rm -f $(DESTDIR)$(LIBDIR)/libpendres.a $(DESTDIR)$(LIBDIR)/libpendres.so \
-	  $(DESTDIR)$(LIBDIR)/$(SONAME) $(DESTDIR)$(LIBDIR)/$(notdir $(SHARED)) \
-	  $(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc $(DESTDIR)$(BINDIR)/resonance \
-	  $(DESTDIR)$(MANDIR)/man1/resonance.1 $(DESTDIR)$(MANDIR)/man3/pendres.3
-	rm -rf $(DESTDIR)$(INCLUDEDIR)/pendres $(DESTDIR)$(DATADIR)
+	rm -f "$(DESTDIR)$(LIBDIR)/libpendres.a" "$(DESTDIR)$(LIBDIR)/libpendres.so" \
+	  "$(DESTDIR)$(LIBDIR)/$(SONAME)" "$(DESTDIR)$(LIBDIR)/$(notdir $(SHARED))" \
+	  "$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc" "$(DESTDIR)$(BINDIR)/resonance" \
+	  "$(DESTDIR)$(MANDIR)/man1/resonance.1" "$(DESTDIR)$(MANDIR)/man3/pendres.3"
+	rm -rf "$(DESTDIR)$(INCLUDEDIR)/pendres" "$(DESTDIR)$(DATADIR)"
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 doc:
@@ -428,13 +434,15 @@ man: $(PROGRAM)
 decks-reference: $(PROGRAM)
 	@./$(PROGRAM) --reference >docs/decks.md.new && mv docs/decks.md.new docs/decks.md
 
-# Every deck that computes a figure, and its picture, into build/figures.
+# Every deck that computes a figure, and its picture, into build/figures. The shell makes the names:
+# those of make end at a blank.
 figures: $(PROGRAM)
-	@mkdir -p $(BUILD)/figures; cd $(BUILD)/figures && failed=0 && \
-	for deck in $(filter-out $(CURDIR)/input/workprec_%,$(wildcard $(CURDIR)/input/*.nml)); do \
-	  echo "$${deck##*/}"; $(abspath $(PROGRAM)) --quiet $$deck >/dev/null || [ $$? -eq 3 ] || failed=1; \
-	done; plot="$${PYTHON:-/usr/bin/python3} $(CURDIR)/plots/plot.py"; \
-	$$plot *.h5 && $$plot --surface f10.h5 && exit $$failed
+	@mkdir -p $(BUILD)/figures; top=$$PWD; cd $(BUILD)/figures && failed=0 && \
+	for deck in "$$top"/input/*.nml; do \
+	  case $${deck##*/} in workprec_*) continue ;; esac; echo "$${deck##*/}"; \
+	  "$(PROGRAM_PATH)" --quiet "$$deck" >/dev/null || [ $$? -eq 3 ] || failed=1; \
+	done; plot() { $${PYTHON:-/usr/bin/python3} "$$top/plots/plot.py" "$$@"; }; \
+	plot *.h5 && plot --surface f10.h5 && exit $$failed
 
 # The few pictures that docs/gallery.md and the README show, from what `make figures` left.
 GALLERY := f05 f07 f08 f09 hysteresis josephson cascade
@@ -464,6 +472,7 @@ PACKAGES := gcc make pkg-config libc6-dev $(if $(SUNDIALS_DIR),,libsundials-dev)
             librandom123-dev zlib1g-dev
 MPI_PACKAGES := openmpi-bin libopenmpi-dev
 PLOT_PACKAGES := python3 python3-h5py python3-matplotlib
+FUZZ_PACKAGES := clang libclang-rt-dev
 PYTHON_PACKAGES := python3-cffi python3-numpy python3-xarray python3-h5netcdf
 
 deps:
@@ -474,6 +483,9 @@ deps-mpi:
 
 deps-plots:
 	@.ci/packages $(PLOT_PACKAGES)
+
+deps-fuzz:
+	@.ci/packages $(FUZZ_PACKAGES)
 
 deps-python:
 	@.ci/packages $(PYTHON_PACKAGES)

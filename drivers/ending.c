@@ -1,17 +1,19 @@
 /* ending.c -- an orderly end where a library ends the program; see ending.h. */
-#define _XOPEN_SOURCE 700 /* siginfo_t */
+#define _GNU_SOURCE /* siginfo_t, REG_RIP */
 #include "ending.h"
 
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <ucontext.h>
 #include <unistd.h>
 
 #include <gsl/gsl_errno.h>
 
-enum { FAILED = 1, RUNNING = -1 };
+enum { FAILED = 1, RUNNING = -1, SIGNAL_STACK = 1 << 16 };
 
 #define LENGTH(array) (sizeof(array) / sizeof(array)[0])
 
@@ -20,6 +22,12 @@ static struct sigaction before[LENGTH(faults)];
 
 static pendres_store *const *_Atomic watched;
 static atomic_int result = RUNNING, done, whole;
+
+/* Where faults are handled: of a stack that overflows nothing is left. */
+static char signal_stack[SIGNAL_STACK];
+
+/* The program's own code, by the linker's names. */
+extern const char __executable_start[], etext[];
 
 /* Only what a signal handler may do, here and below. */
 static void say(const char *words)
@@ -52,27 +60,48 @@ static void at_exit(void)
   _exit(code == RUNNING ? FAILED : code);
 }
 
-/* Back to what was there, a debugger's or a sanitizer's say, which then meets the same fault. */
+/* Whether a fault was met in the code of a library, as far as that is known. */
+static int in_library(const siginfo_t *info, const void *context)
+{
+  uintptr_t at = (uintptr_t)__executable_start;
+  if (info->si_code <= 0) return 0; /* sent, not met */
+#if defined __linux__ && defined __x86_64__
+  at = (uintptr_t)((const ucontext_t *)context)->uc_mcontext.gregs[REG_RIP];
+#elif defined __linux__ && defined __aarch64__
+  at = (uintptr_t)((const ucontext_t *)context)->uc_mcontext.pc;
+#else
+  (void)context;
+#endif
+  return at < (uintptr_t)__executable_start || at >= (uintptr_t)etext;
+}
+
+/* Where the fault is not a library's, back to what was there, a debugger's or a sanitizer's say,
+   which then meets the same fault. */
 static void at_fault(int number, siginfo_t *info, void *context)
 {
-  const int code = atomic_load(&result);
-  (void)context;
-  drop_part();
+  const int code = atomic_load(&result), library = in_library(info, context);
+  if (!atomic_load(&done)) drop_part();
   if (code != RUNNING) _exit(code);
-  say("resonance: error: the program or one of its libraries has crashed, as some do when they get "
-      "no memory");
+  say(library ? "resonance: error: one of the program's libraries has crashed, as some do when "
+                "they get no memory"
+              : "resonance: error: the program has crashed");
   say_what_stands();
-  for (size_t i = 0; i < LENGTH(faults); i++)
-    if (faults[i] == number) (void)sigaction(number, &before[i], NULL);
+  for (size_t i = 0; i < LENGTH(faults); i++) {
+    if (faults[i] != number) continue;
+    if (library && before[i].sa_handler == SIG_DFL) _exit(FAILED);
+    (void)sigaction(number, &before[i], NULL);
+  }
   if (info->si_code <= 0) (void)raise(number); /* sent, not met: taken when this returns */
 }
 
 int ending_watch(pendres_store *const *store)
 {
-  struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO };
+  struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO | SA_ONSTACK };
+  const stack_t stack = { .ss_sp = signal_stack, .ss_size = sizeof signal_stack };
   int bad = sigemptyset(&action.sa_mask);
   atomic_store(&whole, 0);
   if (atomic_exchange(&watched, store) != NULL) return 0;
+  bad |= sigaltstack(&stack, NULL);
   (void)gsl_set_error_handler_off(); /* which ends the program where GSL gets no memory */
   for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
   bad |= atexit(at_exit);

@@ -4,12 +4,13 @@
  * Owns: what happens at exit() and at faults, and that GSL returns where it gets no memory. HDF5
  * (1.10) calls exit() where it gets no memory for one of its handles, follows null pointers
  * elsewhere, and may fault while it is closed after such a failure. GSL and SUNDIALS: see
- * pendres/status.h. An exit() in the middle of a run becomes exit code 1, with a line that says so.
- * A fault in the middle stays one, since it may as well be an error of this program, but leaves no
- * part file and says so; a fault when the run is over changes nothing of its exit code. A stack
- * that overflows ends the program as before, without a word: so does HDF5 where it gets no memory
- * for one of its first few requests (it calls itself without end to report that); no part file
- * exists by then. Like signals.h, state that is not passed around: such functions have no
+ * pendres/status.h. An exit() in the middle of a run becomes exit code 1, with a line that says
+ * so, and so does a fault in a library's code: for want of memory HDF5 (1.10) follows null
+ * pointers, or calls itself without end until the stack overflows, and SUNDIALS (6.4) follows null
+ * pointers. A fault in the program's own code stays one, since it is an error of this program, but
+ * leaves no part file and says so; a fault when the run is over changes nothing of its exit code.
+ * A stack that overflows on another thread than that of ending_watch() ends the program as before,
+ * without a word. Like signals.h, state that is not passed around: such functions have no
  * arguments.
  */
 #ifndef ENDING_H

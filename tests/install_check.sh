@@ -25,7 +25,7 @@ quiet()
 }
 
 top=$PWD
-stage=$scratch/stage
+stage="$scratch/the stage" # whose name the shell must not take apart
 # The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
 for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0.1 lib/pkgconfig/pendres.pc \
@@ -45,6 +45,29 @@ grep -q '^.B <pendres/context.h>' "$stage/opt/pendres/share/man/man3/pendres.3" 
 grep -rlF "$stage" "$stage/opt/pendres/lib/pkgconfig" && fail "DESTDIR got into pendres.pc"
 quiet $MAKE uninstall DESTDIR="$stage" PREFIX=/opt/pendres
 [ -z "$(find "$stage" ! -type d)" ] || fail "make uninstall left" $(find "$stage" ! -type d)
+
+# A folder with a blank in its name: to be used where a shell reads what pkg-config quotes.
+blank="$scratch/a prefix"
+quiet $MAKE install DESTDIR= PREFIX="$blank" LDCONFIG=:
+echo '#include <pendres/pendres.h>
+int main(void) { return pendres_version() == 0; }' >"$scratch/blank.c"
+flags=$(PKG_CONFIG_PATH="$blank/lib/pkgconfig" $PKG_CONFIG --cflags --libs pendres)
+eval "$CC \"$scratch/blank.c\" -o \"$scratch/blank\" $flags" || fail "no use of '$blank'"
+LD_LIBRARY_PATH="$blank/lib" "$scratch/blank" || fail "nothing runs in '$blank'"
+quiet $MAKE uninstall DESTDIR= PREFIX="$blank"
+[ -z "$(find "$blank" ! -type d)" ] || fail "make uninstall left" "$(find "$blank" ! -type d)"
+
+# So may the tree's own: a deck is run and its picture drawn, by a program that draws nothing.
+if [ -n "${RESONANCE:-}" ]; then
+  tree="$scratch/a tree"
+  mkdir -p "$tree/input" || exit 1
+  for entry in Makefile drivers src include tests plots; do ln -s "$top/$entry" "$tree"; done
+  ln -s "$RESONANCE" "$tree/resonance"
+  cp input/f01.nml "$tree/input"
+  cp input/f01.nml "$tree/input/workprec_left_out.nml"
+  quiet env PYTHON=true $MAKE -C "$tree" -o resonance BUILD=build figures
+  [ "$(ls "$tree/build/figures")" = f01.h5 ] || fail "make figures in '$tree' made no f01.h5"
+fi
 
 prefix=$scratch/prefix
 quiet $MAKE install DESTDIR= PREFIX="$prefix" LDCONFIG=:

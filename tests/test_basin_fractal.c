@@ -249,6 +249,46 @@ static void exponent_in_place_of_a_grid(void **state)
   pendres_attractors_free(set);
 }
 
+/*
+ * The exponent of random states, 0.30(1) by the slopes down to distances of 1e-8, is the same
+ * whatever the tolerance, which once chose their distances: a finer one was worse. States that have
+ * no time to settle are in the error, which then holds what they change.
+ */
+static void exponents_of_other_tolerances(void **state)
+{
+  static const double ends[2][2] = {{-0.5 * PENDRES_PI, 1.5 * PENDRES_PI}, {-4.0, 4.0}};
+  static const struct { double tolerance; int budget; } with[] = {
+    {1e-8, 0}, {1e-5, 0}, {1e-11, 0}, {1e-8, 20}};
+  enum { N = sizeof with / sizeof *with };
+  const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 2.0, .drive_frequency = 1.0};
+  const pendres_basin_grid grid = {.nx = 2, .nv = 2, .x = ends[0], .v = ends[1]};
+  double first = NAN;
+  (void)state;
+  for (int i = 0; i < N; i++) {
+    const pendres_options options = {.tolerance = with[i].tolerance};
+    pendres_basin_statistics s = {.states = 4, .boundary_boxes = 1.0, .uncertainty_exponent = NAN,
+                                  .uncertainty_exponent_error = NAN};
+    pendres_attractors *set = NULL;
+    pendres_context *ctx = NULL, *hasty = NULL;
+    size_t states = 0;
+    check_ok(pendres_context_create(&options, &ctx));
+    check_ok(pendres_context_create(&(pendres_options){.period_budget = with[i].budget}, &hasty));
+    check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+    check_ok(pendres_basin_statistics_refine(with[i].budget > 0 ? hasty : ctx, set, &grid, &s,
+                                             &states));
+    const double error = s.uncertainty_exponent_error;
+    if (i == 0) first = s.uncertainty_exponent;
+    assert_int_equal(states, 16384);
+    check_near(s.distance[0], 1e-5, 1e-20);
+    check_near(s.uncertainty_exponent, 0.30, 3.0 * hypot(0.01, error));
+    check_near(s.uncertainty_exponent, first, with[i].budget > 0 ? error : 0.1 * error);
+    assert_true(with[i].budget > 0 ? error > 0.03 : error < 0.012);
+    pendres_attractors_free(set);
+    pendres_context_free(ctx);
+    pendres_context_free(hasty);
+  }
+}
+
 /* ---- strands that accumulate ---- */
 
 enum { PARTS = 16, MOST_CROSSINGS = 400 };
@@ -329,6 +369,7 @@ int main(void)
     cmocka_unit_test_setup_teardown(uncertainty_exponent, setup, teardown),
     cmocka_unit_test_setup_teardown(fractal_labels, setup, teardown),
     cmocka_unit_test_setup_teardown(exponent_by_another_way, setup, teardown),
+    cmocka_unit_test(exponents_of_other_tolerances),
     cmocka_unit_test_setup_teardown(exponent_in_place_of_a_grid, setup, teardown),
     cmocka_unit_test(strands_of_fig7),
   };

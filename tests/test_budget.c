@@ -80,7 +80,8 @@ static void ends_at_its_budget(void **state)
     check_ok(farm_run(f, &stage));
     assert_int_equal(collected, TASKS);
     assert_int_equal(farm_points_lost(f), 1);
-    for (size_t i = 0; i < TASKS; i++) assert_int_equal(journal_has(j, 0, i), i != ENDLESS);
+    const uint64_t number = journal_stage(0, stage.what, stage.tasks, stage.record_size);
+    for (size_t i = 0; i < TASKS; i++) assert_int_equal(journal_has(j, number, i), i != ENDLESS);
     stage.tasks = ENDLESS; /* without the endless one */
     check_ok(farm_run(f, &stage));
     assert_int_equal(journal_count(j), TASKS - 1);

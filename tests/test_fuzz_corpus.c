@@ -21,6 +21,9 @@
 #define LLVMFuzzerTestOneInput fuzz_verify
 #include "fuzz/fuzz_verify.c"
 #undef LLVMFuzzerTestOneInput
+#define LLVMFuzzerTestOneInput fuzz_collect
+#include "fuzz/fuzz_collect.c"
+#undef LLVMFuzzerTestOneInput
 
 typedef int harness(const uint8_t *data, size_t size);
 
@@ -78,11 +81,28 @@ static void files_of_results(void **state)
   replay("verify", fuzz_verify);
 }
 
+/* And changes by chance, the same in every run: some of each deck. */
+static void collectors(void **state)
+{
+  enum { INPUTS = 200, CHANGES = 3 };
+  uint8_t bytes[1 + 8 * CHANGES];
+  uint32_t number = 20;
+  (void)state;
+  replay("collect", fuzz_collect);
+  for (int i = 0; i < INPUTS; i++) {
+    for (size_t k = 0; k < sizeof bytes; k++) {
+      number = 1664525u * number + 1013904223u;
+      bytes[k] = (uint8_t)(number >> 24);
+    }
+    (void)fuzz_collect(bytes, 1 + 8 * (size_t)(1 + i % CHANGES));
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(namelists), cmocka_unit_test(decks), cmocka_unit_test(journals),
-    cmocka_unit_test(files_of_results),
+    cmocka_unit_test(files_of_results), cmocka_unit_test(collectors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,13 +5,18 @@
 #ifndef _XOPEN_SOURCE
 #define _XOPEN_SOURCE 700 /* mkdtemp, setrlimit */
 #endif
+#ifndef _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE   /* syscall */
+#endif
 #include "check.h"
 
 #include <signal.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "farm/journal.h"
@@ -21,6 +26,16 @@ enum { RECORDS = 12, ROOM = 1 << 14 };
 /* Where files are made thousands of times: in memory, if there is such a place. */
 static char folder[40];
 static const char path[] = "run.journal", head[] = "libpendres 1\n&pendulum\n  damping = 0.1\n/\n";
+
+/* In the place of the C library's: the run that has the journal removes it at its end, between this
+   one's opening and its lock. */
+static int ends_before_lock;
+int flock(int fd, int operation)
+{
+  if (ends_before_lock) assert_int_equal(unlink(path), 0);
+  ends_before_lock = 0;
+  return (int)syscall(SYS_flock, fd, operation);
+}
 
 static int enter(void **state)
 {
@@ -166,6 +181,16 @@ static void replaced_meanwhile(void **state)
   save(path, (const unsigned char *)"my poems", 8);
   journal_remove(j);
   assert_int_equal(load(path, bytes), 8);
+  /* A journal that has gone before it was locked is nobody's: another is made. */
+  assert_int_equal(unlink(path), 0);
+  write_all(path);
+  ends_before_lock = 1;
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_int_equal(journal_count(j), 0);
+  journal_stay(j);
+  assert_int_equal(access(path, F_OK), 0);
+  journal_close(j);
+  assert_int_equal(access(path, F_OK), 0);
   /* Journals that others are writing are theirs. */
   journal *others = NULL;
   write_all("other.journal");
@@ -260,6 +285,52 @@ static void flipped_bits(void **state)
   }
 }
 
+/* The first record of a journal with other numbers, and checksums that fit. */
+static void forge(uint64_t task, uint64_t size)
+{
+  unsigned char bytes[ROOM];
+  journal_entry e;
+  write_all(path);
+  const size_t n = load(path, bytes), at = JOURNAL_HEAD + strlen(head);
+  memcpy(&e, bytes + at, sizeof e);
+  e.task = task;
+  e.size = size;
+  e.sum = journal_file_sum(&e, offsetof(journal_entry, sum));
+  memcpy(bytes + at, &e, sizeof e);
+  save(path, bytes, n);
+}
+
+/* A journal takes memory by its own bytes, whatever its numbers say: no more than a megabyte of a
+   record is not in the file, and an index has room for what is there. */
+static void forged_numbers(void **state)
+{
+  char words[JOURNAL_WORDS];
+  journal *j = NULL;
+  farm_record r = { 0 };
+  (void)state;
+  forge(0, (uint64_t)1 << 32);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_non_null(strstr(words, "torn or damaged"));
+  assert_int_equal(journal_count(j), 0);
+  journal_close(j);
+  forge((uint64_t)1 << 60, 7);
+  check_ok(journal_open(path, head, 1, &j, words));
+  assert_string_equal(words, "");
+  assert_int_equal(journal_count(j), RECORDS);
+  assert_true(journal_has(j, stage_of(0), (size_t)1 << 60) && !journal_has(j, stage_of(0), 0));
+  check_ok(journal_read(j, stage_of(0), (size_t)1 << 60, &r));
+  assert_int_equal(r.size, 7);
+  free(r.data);
+  journal_remove(j);
+  /* Stages are told apart by what they are. */
+  const uint64_t number = journal_stage(2, "lines", 8, 100);
+  assert_true(number == journal_stage(2, "lines", 8, 100));
+  assert_true(number != journal_stage(3, "lines", 8, 100));
+  assert_true(number != journal_stage(2, "chunks", 8, 100));
+  assert_true(number != journal_stage(2, "lines", 9, 100));
+  assert_true(number != journal_stage(2, "lines", 8, 104));
+}
+
 /* Records of several journals, as of shards. */
 static void several(void **state)
 {
@@ -322,7 +393,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(comes_back), cmocka_unit_test(replaced_meanwhile),
     cmocka_unit_test(another_head), cmocka_unit_test(cut_anywhere),
-    cmocka_unit_test(flipped_bits), cmocka_unit_test(several), cmocka_unit_test(no_room),
+    cmocka_unit_test(flipped_bits), cmocka_unit_test(forged_numbers), cmocka_unit_test(several),
+    cmocka_unit_test(no_room),
   };
   return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -58,6 +58,44 @@ static void hysteresis(void **state)
   free(period);
 }
 
+/* Where rounding chooses between a running orbit and its mirror image, the map says so, as scene
+   `orbit` does, and the errors of what the orbit is are not 0; a weakly driven one with more
+   friction is sure. */
+static void uncertain_starts(void **state)
+{
+  static const char pendulum[] = "&pendulum drive_frequency = 2.140092220495635,\n"
+    "  parametric_amplitude = -1.1244206502883256";
+  char text[500];
+  size_t n = 0;
+  (void)state;
+  snprintf(text, sizeof text, "&scene kind = 'lyapunov_map' /\n%s /\n"
+           "&sweep damping = 0.05023358555773262, 0.5,\n"
+           "  drive_amplitude = 0.01, 1.4276803210172417 /\n"
+           "&lyapunov_map x = 1.731637374106456, v = 0.3141185235724825 /\n", pendulum);
+  scene_run_deck(text, 1, "map");
+  pendres_store *store = scene_open("map");
+  double *uncertain = scene_values(store, "uncertain", &n);
+  double *winding = scene_values(store, "winding", &n);
+  double *winding_error = scene_values(store, "winding_error", &n);
+  double *rotation_error = scene_values(store, "rotation_error", &n);
+  assert_true(uncertain[2] == 0.0 && winding[2] == 0.0 && winding_error[2] == 0.0);
+  assert_true(uncertain[1] == 1.0 && fabs(winding[1]) == 1.0 && isnan(winding_error[1]));
+  check_near(rotation_error[1], 2.0, 1e-12);
+  pendres_store_free(store);
+  free(uncertain), free(winding), free(winding_error), free(rotation_error);
+  for (int i = 0; i < 2; i++) {
+    snprintf(text, sizeof text, "&scene kind = 'orbit' /\n%s,\n"
+             "  %s /\n"
+             "&orbit x = 1.731637374106456, v = 0.3141185235724825, periods = 1 /\n", pendulum,
+             i == 0 ? "damping = 0.5, drive_amplitude = 0.01"
+                    : "damping = 0.05023358555773262, drive_amplitude = 1.4276803210172417");
+    scene_run_deck(text, 1, "orbit");
+    store = scene_open("orbit");
+    assert_true(scene_scalar(store, "uncertain") == (double)i);
+    pendres_store_free(store);
+  }
+}
+
 /* A small map: what the library finds at a point, parts of it joined in their order. */
 static void lyapunov_map(void **state)
 {
@@ -268,6 +306,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(hysteresis),
     cmocka_unit_test(lyapunov_map),
+    cmocka_unit_test(uncertain_starts),
     cmocka_unit_test(other_forces),
     cmocka_unit_test(torque_sweep),
     cmocka_unit_test(bifurcation_diagram),

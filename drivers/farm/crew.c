@@ -16,6 +16,8 @@ enum { NOT_DONE, DONE, KEPT, JOURNALED, OTHERS };
 /* Bytes of records that wait in memory for their turn, where the journal holds them as well. */
 enum { MOST_WAITING = 64 << 20 };
 
+enum { FOREIGN = 500 /* room for what is said of a record that is refused */ };
+
 /* A thread at a task, for the question whether to go on with it. */
 typedef struct worker {
   crew *crew;
@@ -128,8 +130,26 @@ static int may_collect(const crew *c)
   return c->collected < atomic_load(&c->limit) && done != NOT_DONE && done != OTHERS;
 }
 
+/* The one place at which records are looked at before they are used. What was never on disk is this
+   program's own. */
+static int fits(const crew *c, size_t task, const farm_record *record)
+{
+  const farm_stage *s = c->stage;
+  if (c->journal == NULL) return 1;
+  return s->check != NULL ? s->check(s->arg, task, record) : record->size == s->record_size;
+}
+
+/* A record that no run of this deck and build can have written. */
+static void tell_foreign(const crew *c, size_t task, char words[FOREIGN])
+{
+  const char *file = journal_place(c->journal, c->number, task);
+  snprintf(words, FOREIGN, "the record of %s number %zu in '%.200s' is of another size, or numbers "
+           "in it are out of range: it was not written by a run of this deck; without that file it "
+           "is computed again", c->stage->what, task, file != NULL ? file : "memory");
+}
+
 /* Hand the next record over, without the lock: others go on with their tasks meanwhile. */
-static pendres_status collect_next(crew *c)
+static pendres_status collect_next(crew *c, char words[FOREIGN])
 {
   kept *k = &c->record[c->collected];
   farm_record record = { .data = k->data, .size = k->size };
@@ -139,8 +159,12 @@ static pendres_status collect_next(crew *c)
     if (status != PENDRES_OK) return status;
     if (c->done[c->collected] == JOURNALED) farm_spend(c->farm, &record.cost);
   }
-  deal_share(c, c->collected, &record);
-  if (c->stage->collect != NULL) status = c->stage->collect(c->stage->arg, c->collected, &record);
+  if (!fits(c, c->collected, &record)) status = PENDRES_INVALID_ARGUMENT;
+  if (status == PENDRES_OK) deal_share(c, c->collected, &record);
+  if (status == PENDRES_OK && c->stage->collect != NULL)
+    status = c->stage->collect(c->stage->arg, c->collected, &record);
+  if (status == PENDRES_INVALID_ARGUMENT && c->journal != NULL)
+    tell_foreign(c, c->collected, words);
   free(record.data);
   *k = (kept){ 0 };
   return status;
@@ -190,11 +214,12 @@ static void collect_ready(crew *c)
   if (mine) c->collecting = 1;
   while (mine && c->collecting) {
     const size_t size = c->record[c->collected].size;
+    char words[FOREIGN] = "";
     pthread_mutex_unlock(&c->lock);
-    const pendres_status collected = collect_next(c);
+    const pendres_status collected = collect_next(c, words);
     pthread_mutex_lock(&c->lock);
     c->waiting -= size;
-    if (collected != PENDRES_OK) fail(c, c->collected, collected, "");
+    if (collected != PENDRES_OK) fail(c, c->collected, collected, words);
     else c->collected++;
     c->collecting = may_collect(c);
   }
@@ -334,7 +359,8 @@ static pendres_status outcome(crew *c)
 /* Room for the records of a stage; free it in any case. */
 static pendres_status crew_create(crew *c, farm *f, const farm_stage *stage, int threads)
 {
-  *c = (crew){ .farm = f, .stage = stage, .number = f->stages,
+  *c = (crew){ .farm = f, .stage = stage,
+               .number = journal_stage(f->stages, stage->what, stage->tasks, stage->record_size),
                .journal = stage->timed || f->lost > 0 ? NULL : f->journal };
   atomic_init(&c->limit, stage->tasks);
   c->done = calloc(stage->tasks, 1);

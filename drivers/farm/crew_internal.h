@@ -6,6 +6,7 @@
 #define CREW_INTERNAL_H
 
 #include <stdatomic.h>
+#include <stdint.h>
 
 #include "farm/farm_internal.h"
 
@@ -41,7 +42,7 @@ typedef struct farm_watch {
 typedef struct crew {
   farm *farm;
   const farm_stage *stage;
-  size_t number;        /* of the stage */
+  uint64_t number;      /* of the stage: journal_stage() */
   journal *journal;     /* of the stage's records; NULL: none */
   int hired;            /* threads that work; those with higher numbers go home */
   pthread_mutex_t lock;

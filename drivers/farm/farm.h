@@ -66,6 +66,10 @@ void farm_lost(farm_record *record, char *words, size_t size);
 /* The same where of the points begun together `lost` are given up, and the others are done. */
 void farm_lost_some(farm_record *record, size_t lost, char *words, size_t size);
 
+/* Can this be the record of a task, by its size and the ranges of all numbers in it that are used?
+   Records may come from a journal that others have written. 0: it is refused. */
+typedef int farm_check(const void *arg, size_t task, const farm_record *record);
+
 /* Tasks of one kind. */
 typedef struct farm_stage {
   const char *what;      /* names the tasks in the progress line, e.g. "dampings" */
@@ -79,8 +83,10 @@ typedef struct farm_stage {
   int chained;           /* each task reads what was collected of the one before: one at a time, and
                             by every shard */
   farm_task *task;
+  farm_check *check;     /* before a record is collected; NULL: it has record_size bytes, and that
+                            is all there is to it */
   farm_collect *collect; /* may be NULL */
-  void *arg;             /* of both */
+  void *arg;             /* of all of these */
 } farm_stage;
 
 /*
@@ -92,8 +98,9 @@ pendres_status farm_run(farm *f, const farm_stage *stage);
 /*
  * Keep the records of finished tasks in a journal, which is not owned, and take those that it holds
  * already from there instead of computing them. The stages of a run are told apart by their
- * ordinals: with the same deck and code they follow each other in the same order. NULL: no journal,
- * as at first. Stages whose tasks look at the clock are never kept.
+ * ordinals, names, numbers of tasks and sizes of records: with the same deck and code they follow
+ * each other in the same order. NULL: no journal, as at first. Stages whose tasks look at the clock
+ * are never kept.
  */
 struct journal;
 void farm_set_journal(farm *f, struct journal *j);

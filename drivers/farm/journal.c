@@ -97,6 +97,19 @@ static const slot *find(const journal *j, uint64_t stage, uint64_t task)
   return found != NULL ? *found : NULL;
 }
 
+uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t record_size)
+{
+  char text[200];
+  snprintf(text, sizeof text, "%zu %zu %.150s", tasks, record_size, name);
+  return (uint64_t)journal_file_sum(text, strlen(text)) << 32 | (uint32_t)ordinal;
+}
+
+const char *journal_place(const journal *j, uint64_t stage, size_t task)
+{
+  const slot *s = find(j, stage, task);
+  return s != NULL ? j->added[s->file] : NULL;
+}
+
 int journal_has(const journal *j, uint64_t stage, size_t task)
 {
   return find(j, stage, task) != NULL;

@@ -40,6 +40,13 @@ const char *journal_path(const journal *j);
    can tell. NULL: no. */
 int journal_alone(const journal *j);
 
+/* What a stage is called in a journal: its ordinal, with a checksum of its name, the number of its
+   tasks and the size of their records. */
+uint64_t journal_stage(size_t ordinal, const char *name, size_t tasks, size_t record_size);
+
+/* The name of the file that holds a record; NULL: none. */
+const char *journal_place(const journal *j, uint64_t stage, size_t task);
+
 /* Is the record of a task there? j may be NULL: no. */
 int journal_has(const journal *j, uint64_t stage, size_t task);
 

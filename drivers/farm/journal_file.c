@@ -27,7 +27,7 @@ enum {
   MOST_ZEROS = 1 << 20 /* bytes of a record that are left out */
 };
 
-static uint32_t sum_of(const void *data, size_t size)
+uint32_t journal_file_sum(const void *data, size_t size)
 {
   const unsigned char *p = data;
   uLong sum = crc32(0L, Z_NULL, 0);
@@ -66,14 +66,14 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
              "alone");
     return JOURNAL_NONE;
   }
-  if (!bytes_read(fd, 0, &h, sizeof h) || h.sum != sum_of(&h, offsetof(file_head, sum)) ||
+  if (!bytes_read(fd, 0, &h, sizeof h) || h.sum != journal_file_sum(&h, offsetof(file_head, sum)) ||
       h.length > (uint64_t)s.st_size)
     return JOURNAL_TORN;
   char *theirs = malloc((size_t)h.length + 1);
   if (theirs == NULL) return JOURNAL_NO_MEMORY;
   theirs[h.length] = '\0';
   if (bytes_read(fd, sizeof h, theirs, (size_t)h.length) &&
-      h.text_sum == sum_of(theirs, (size_t)h.length)) {
+      h.text_sum == journal_file_sum(theirs, (size_t)h.length)) {
     found = strcmp(theirs, text) == 0 ? JOURNAL_SAME : JOURNAL_OTHER;
     if (found == JOURNAL_OTHER) name_difference(theirs, text, words);
   }
@@ -84,9 +84,9 @@ journal_head journal_file_head(int fd, const char *text, off_t *end, char *words
 
 int journal_file_begin(int fd, const char *text, off_t *end)
 {
-  file_head h = { .length = strlen(text), .text_sum = sum_of(text, strlen(text)) };
+  file_head h = { .length = strlen(text), .text_sum = journal_file_sum(text, strlen(text)) };
   memcpy(h.magic, magic, sizeof magic);
-  h.sum = sum_of(&h, offsetof(file_head, sum));
+  h.sum = journal_file_sum(&h, offsetof(file_head, sum));
   *end = (off_t)(sizeof h + h.length);
   return bytes_write(fd, 0, &h, sizeof h) && bytes_write(fd, sizeof h, text, (size_t)h.length);
 }
@@ -97,7 +97,7 @@ int journal_file_entry(int fd, off_t at, journal_entry *e)
 {
   struct stat s;
   return fstat(fd, &s) == 0 && bytes_read(fd, at, e, sizeof *e) && e->mark == mark &&
-         e->sum == sum_of(e, offsetof(journal_entry, sum)) && e->stored <= e->size &&
+         e->sum == journal_file_sum(e, offsetof(journal_entry, sum)) && e->stored <= e->size &&
          e->stored <= (uint64_t)s.st_size && e->size - e->stored <= MOST_ZEROS;
 }
 
@@ -106,7 +106,7 @@ int journal_file_data(int fd, off_t at, const journal_entry *e, void *data)
   const size_t stored = (size_t)e->stored;
   if (!bytes_read(fd, at + (off_t)sizeof *e, data, stored)) return 0;
   memset((char *)data + stored, 0, (size_t)e->size - stored);
-  return e->data_sum == sum_of(data, stored);
+  return e->data_sum == journal_file_sum(data, stored);
 }
 
 /* The data are not kept: only their sum counts. */
@@ -136,8 +136,8 @@ int journal_file_append(int fd, off_t at, journal_entry *e, const void *data)
   while (e->stored > 0 && e->size - e->stored < MOST_ZEROS && bytes[e->stored - 1] == 0)
     e->stored--;
   e->mark = mark;
-  e->data_sum = sum_of(data, (size_t)e->stored);
-  e->sum = sum_of(e, offsetof(journal_entry, sum));
+  e->data_sum = journal_file_sum(data, (size_t)e->stored);
+  e->sum = journal_file_sum(e, offsetof(journal_entry, sum));
   return bytes_write(fd, at, e, sizeof *e) &&
          bytes_write(fd, at + (off_t)sizeof *e, data, (size_t)e->stored);
 }

@@ -38,6 +38,9 @@ typedef enum journal_head {
   JOURNAL_NO_MEMORY
 } journal_head;
 
+/* The checksum of bytes. */
+uint32_t journal_file_sum(const void *data, size_t size);
+
 /* Compare the head with `text`; *end is where it ends. words: the difference. */
 journal_head journal_file_head(int fd, const char *text, off_t *end, char *words);
 

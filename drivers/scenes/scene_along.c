@@ -183,6 +183,38 @@ pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pen
   return status;
 }
 
+static int point_fits(const pendres_hysteresis_point *p)
+{
+  return scene_check_attractor(&p->attractor) &&
+         scene_check_code((int)p->outcome, PENDRES_STATUS_COUNT);
+}
+
+static int jump_fits(const pendres_jump *j, size_t points)
+{
+  return j->step < points && (j->direction == 1 || j->direction == -1) &&
+         scene_check_code((int)j->kind, PENDRES_JUMP_COUNT) &&
+         scene_check_code((int)j->from, PENDRES_LABEL_COUNT) &&
+         scene_check_code((int)j->to, PENDRES_LABEL_COUNT) && j->to_period >= 0 &&
+         scene_check_code(j->gradual, 2) && scene_check_code(j->certain, 2);
+}
+
+int scene_along_check(const farm_record *in, size_t points)
+{
+  const pendres_hysteresis_point *point;
+  const pendres_jump *jump;
+  head n;
+  if (in->size < sizeof n) return 0;
+  memcpy(&n, in->data, sizeof n);
+  if (n.points != points || n.points > (in->size - sizeof n) / sizeof *point) return 0;
+  const size_t rest = in->size - sizeof n - points * sizeof *point;
+  point = (const void *)((const char *)in->data + sizeof n);
+  jump = (const void *)(point + points);
+  int good = n.jumps == rest / sizeof *jump && rest % sizeof *jump == 0;
+  for (size_t i = 0; good && i < n.points; i++) good = point_fits(&point[i]);
+  for (size_t i = 0; good && i < n.jumps; i++) good = jump_fits(&jump[i], points);
+  return good;
+}
+
 pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
 {
   head n;

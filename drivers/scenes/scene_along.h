@@ -7,6 +7,7 @@
 #ifndef SCENE_ALONG_H
 #define SCENE_ALONG_H
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
@@ -47,6 +48,9 @@ typedef struct scene_along_way {
    values together: where it ends the path, the rest of it stays unresolved. */
 pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
                                   farm_record *out);
+
+/* Can it be the record of a path of so many points? See farm_check. */
+int scene_along_check(const farm_record *in, size_t points);
 
 /* Take over such a record. */
 pendres_status scene_along_take(const farm_record *in, scene_along_path *path);

@@ -172,6 +172,26 @@ static void take_given_up(basins *b, size_t n, const size_t *index)
   b->unresolved += n;
 }
 
+/* Numbers of states that a record names; it names at most so many. */
+static int numbers_fit(const basins *b, size_t n, const size_t *index, size_t most)
+{
+  int good = 1;
+  for (size_t k = 0; k < n && k < most && good; k++) good = index[k] < b->grid.nx * b->grid.nv;
+  return good;
+}
+
+static int check_rows(const void *arg, size_t task, const farm_record *in)
+{
+  const sweep *s = arg;
+  const part *p = in->data;
+  const size_t n = rows_of(s, task) * s->b->grid.nv;
+  return in->size == sizeof *p + n * sizeof(pendres_basin_state) && p->lost <= n &&
+         p->given_up <= n && numbers_fit(s->b, p->lost, p->lost_index, LOST_A_TASK) &&
+         numbers_fit(s->b, p->given_up, p->given_up_index, BASINS_NAMED) &&
+         scene_check_basin_states(n, (const pendres_basin_state *)(p + 1),
+                                  pendres_attractors_count(s->b->set));
+}
+
 static pendres_status collect_rows(void *arg, size_t task, const farm_record *in)
 {
   sweep *s = arg;
@@ -218,7 +238,8 @@ static pendres_status sweep_once(basins *b, size_t *grown, int last)
   if (s.index == NULL) return PENDRES_OUT_OF_MEMORY;
   status = scene_compute(b->run, &(farm_stage){ .what = "groups of rows", .tasks = tasks,
                                                 .element = sizeof(pendres_basin_state),
-                                                .task = compute_rows, .collect = collect_rows,
+                                                .task = compute_rows, .check = check_rows,
+                                                .collect = collect_rows,
                                                 .arg = &s });
   if (status == PENDRES_OK && !last) status = extend(b, s.lost, s.index, grown);
   free(s.index);
@@ -250,6 +271,14 @@ static pendres_status compute_slice(const void *arg, size_t task, pendres_contex
   return find_states(s->b, n, s->index + task * SLICE, ctx, out, state);
 }
 
+static int check_slice(const void *arg, size_t task, const farm_record *in)
+{
+  const slices *s = arg;
+  const size_t n = slice_of(s, task);
+  return in->size == n * sizeof *s->state &&
+         scene_check_basin_states(n, in->data, pendres_attractors_count(s->b->set));
+}
+
 static pendres_status collect_slice(void *arg, size_t task, const farm_record *in)
 {
   const slices *s = arg;
@@ -266,7 +295,8 @@ static pendres_status integrate(basins *b, size_t n, const size_t *index,
   slices s = {.b = b, .n = n, .index = index, .state = *state};
   if (n > SMALL)
     return scene_compute(b->run, &(farm_stage){ .what = "slices", .tasks = (n + SLICE - 1) / SLICE,
-                                                .task = compute_slice, .collect = collect_slice,
+                                                .task = compute_slice, .check = check_slice,
+                                                .collect = collect_slice,
                                                 .arg = &s });
   pendres_context *ctx = scene_context(b->run);
   if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;

@@ -8,6 +8,7 @@
 
 #include <pendres/basin.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 

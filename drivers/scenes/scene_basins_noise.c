@@ -94,6 +94,32 @@ static void keep_strobes(cloud_work *w, size_t number, size_t begin, const made 
   }
 }
 
+/* With as many strobes as it says, or none: the parts of what is not followed are empty. */
+static int fits(const farm_record *in)
+{
+  const made *m = in->data;
+  return in->size >= sizeof *m && m->strobes == (in->size - sizeof *m) / (2 * sizeof(double)) &&
+         in->size == sizeof *m + 2 * m->strobes * sizeof(double) &&
+         scene_check_verdict(&m->verdict);
+}
+
+static int check_prepared(const void *arg, size_t number, const farm_record *in)
+{
+  const made *m = in->data;
+  (void)arg;
+  (void)number;
+  return fits(in) && scene_check_code((int)m->cloud.way, PENDRES_CLOUD_WAY_COUNT) &&
+         scene_check_code((int)m->cloud.verdict, PENDRES_CLOUD_VERDICTS) &&
+         scene_check_code(m->cloud.bias.steps_per_period, 1000001);
+}
+
+static int check_part(const void *arg, size_t task, const farm_record *in)
+{
+  (void)arg;
+  (void)task;
+  return in->size == 0 || fits(in);
+}
+
 static pendres_status collect_prepared(void *arg, size_t number, const farm_record *in)
 {
   cloud_work *w = arg;
@@ -164,11 +190,13 @@ static pendres_status compute(scene_run *run, cloud_work *w)
   pendres_status status =
     scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = n, .task = prepare,
                                       .cheap = 1,
-                                      .record_size = sizeof(made), .collect = collect_prepared,
+                                      .record_size = sizeof(made), .check = check_prepared,
+                                      .collect = collect_prepared,
                                       .arg = w });
   if (status == PENDRES_OK)
     status = scene_compute(run, &(farm_stage){ .what = "chunks of clouds", .tasks = n * w->parts,
-                                               .task = follow, .collect = collect_part,
+                                               .task = follow, .check = check_part,
+                                               .collect = collect_part,
                                                .arg = w });
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < n && status == PENDRES_OK; i++) status = conclude(w, i);

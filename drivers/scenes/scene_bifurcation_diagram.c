@@ -4,6 +4,7 @@
  *
  * The path is one task; strobe points at each value, and the cascade, are tasks of a second stage.
  */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,6 +57,13 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   (void)task;
   const scene_along_way way = {w->axis, w->values, w->d->axis[w->axis].value};
   return scene_along_follow(w->d, &way, ctx, out);
+}
+
+static int check_path(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  (void)task;
+  return scene_along_check(in, w->values);
 }
 
 static pendres_status collect_path(void *arg, size_t task, const farm_record *in)
@@ -123,6 +131,18 @@ static double within_a_turn(const deck *d, double x)
   const double turn = 2.0 * PENDRES_PI;
   if (!(pendres_model_of(deck_pendulum(d).force)->period > 0.0)) return x;
   return x - turn * ceil((x - 0.75 * turn) / turn);
+}
+
+static int check_strobes(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  const record *r = in->data;
+  const cascade_record *c = in->data;
+  if (task < w->values)
+    return in->size == sizeof *r + 2 * w->strobes * sizeof(double) && r->attractors >= NO_TIME &&
+           r->attractors <= INT_MAX;
+  return in->size == sizeof *c && scene_check_verdict(&c->verdict) &&
+         scene_check_code(c->cascade.doublings, PENDRES_CASCADE_DOUBLINGS + 1);
 }
 
 static pendres_status collect_strobes(void *arg, size_t task, const farm_record *in)
@@ -268,10 +288,10 @@ static void tabulate(FILE *out, const work *w)
 static pendres_status compute(scene_run *run, work *w)
 {
   const farm_stage path = {.what = "sweeps", .tasks = 1, .record_size = 1, .task = follow,
-                           .collect = collect_path, .arg = w};
+                           .check = check_path, .collect = collect_path, .arg = w};
   const farm_stage strobes = {.what = "values", .last = 1, .tasks = w->values + 1,
                               .record_size = 1, .task = find_strobes,
-                              .collect = collect_strobes, .arg = w};
+                              .check = check_strobes, .collect = collect_strobes, .arg = w};
   const pendres_status status = scene_compute(run, &path);
   return status == PENDRES_OK ? scene_compute(run, &strobes) : status;
 }

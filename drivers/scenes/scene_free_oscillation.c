@@ -3,6 +3,7 @@
  * amplitude, Fig. 1 of the paper: by the elliptic integral, by two approximations (eqs. 1.1 to
  * 1.5), and by integrating the equation of motion, which is a check from end to end.
  */
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
@@ -70,6 +71,15 @@ static row row_of(double amplitude, double integrated, double error)
                pendres_free_frequency_belendez(amplitude), rounding, integrated, error};
 }
 
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const record *r = in->data;
+  int good = in->size == sizeof *r;
+  for (size_t i = 0; good && i < count_of(arg, task); i++)
+    good = scene_check_verdict(&r->verdict[i]);
+  return good;
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
@@ -121,7 +131,8 @@ static pendres_status run(scene_run *r)
 
   status = scene_compute(r, &(farm_stage){ .what = "blocks of amplitudes", .last = 1,
                                            .tasks = (n + CHUNK - 1) / CHUNK, .task = integrate,
-                                           .record_size = sizeof(record), .collect = collect,
+                                           .record_size = sizeof(record), .check = check,
+                                           .collect = collect,
                                            .arg = &w });
   const scene_table table = { .dimensions = { "amplitude" }, .n = n, .stride = sizeof *w.rows,
                               .rows = w.rows };

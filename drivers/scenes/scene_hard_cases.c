@@ -5,6 +5,7 @@
  * A case is a task of the farm; rows are written in the order of the list whatever the threads. A
  * case that gives up leaves a row that does not hold and says why; the others still run.
  */
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 
 #include <math.h>
@@ -59,6 +60,18 @@ static pendres_status run_case(const void *arg, size_t task, pendres_context *ct
   if (row != NULL && sheet.count > 0) memcpy(row, sheet.row, sheet.count * sizeof *row);
   hard_sheet_clear(&sheet);
   return status;
+}
+
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const hard_row *found = in->data;
+  int good = in->size % sizeof *found == 0;
+  (void)arg;
+  (void)task;
+  for (size_t k = 0; good && k < in->size / sizeof *found; k++)
+    good = scene_check_text(found[k].name, sizeof found[k].name) &&
+           scene_check_text(found[k].quantity, sizeof found[k].quantity);
+  return good;
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
@@ -154,7 +167,8 @@ static pendres_status run_scene(scene_run *run)
     (void)scene_fail(run, status, "%s", pendres_status_message(status));
   else
     status = scene_compute(run, &(farm_stage){ .what = "cases", .last = 1, .tasks = w.count,
-                                               .task = run_case, .collect = collect, .arg = &w });
+                                               .task = run_case, .check = check, .collect = collect,
+                                               .arg = &w });
   if (status == PENDRES_OK) status = report(run, &w);
   free(w.row);
   free(w.chosen);

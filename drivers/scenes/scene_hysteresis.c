@@ -34,6 +34,13 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   return status;
 }
 
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  (void)task;
+  return scene_along_check(in, DIRECTIONS * w->values);
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
@@ -141,7 +148,7 @@ static pendres_status run_scene(scene_run *run)
   work w = {.d = run->deck};
   w.values = scene_along_axis(run->deck, &w.axis)->count;
   const farm_stage stage = {.what = "sweeps", .tasks = 1, .record_size = 1,
-                            .task = follow, .collect = collect, .arg = &w};
+                            .task = follow, .check = check, .collect = collect, .arg = &w};
   pendres_status status = scene_compute(run, &stage);
   if (status == PENDRES_OK) status = write_all(run, &w);
   if (status == PENDRES_OK) tabulate(run->table, &w);

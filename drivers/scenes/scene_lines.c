@@ -155,6 +155,14 @@ static pendres_status complete(const void *arg, size_t task, pendres_context *ct
   return PENDRES_OK;
 }
 
+/* The library looks at its own bytes when it takes them. */
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  (void)arg;
+  (void)task;
+  return in->size > 0;
+}
+
 /* Points of the deck that a line's record leaves out were ended by their budget. */
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
@@ -193,14 +201,16 @@ static pendres_status follow_curves(scene_lines *l)
 {
   for (;;) {
     farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
-                         .task = follow_family, .collect = take_family, .arg = l};
+                         .task = follow_family, .check = check, .collect = take_family,
+                         .arg = l};
     pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
     if (status != PENDRES_OK) return scene_fail(l->run, status, "out of memory for bifurcations");
     if (curves.tasks == 0) return PENDRES_OK;
     status = scene_compute(l->run, &curves);
     if (status == PENDRES_OK)
       status = scene_compute(l->run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
-                                                   .task = complete, .collect = collect,
+                                                   .task = complete, .check = check,
+                                                   .collect = collect,
                                                    .arg = l});
     if (status != PENDRES_OK) return status;
   }
@@ -274,7 +284,8 @@ pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *
                       pendres_status_message(status));
   leave_out(l);
   status = scene_compute(run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
-                                            .task = compute, .collect = collect, .arg = l});
+                                            .task = compute, .check = check, .collect = collect,
+                                            .arg = l});
   if (status == PENDRES_OK) status = follow_curves(l);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point(l->diagram, i);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scenes/scene_along.h"
+#include "scenes/scene_check.h"
 #include "scenes/scene_failed.h"
 
 enum {
@@ -140,6 +141,17 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   return status;
 }
 
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  const row *rows = in->data;
+  int good = in->size == w->chunk * sizeof *rows;
+  for (size_t i = 0; good && i < count_of(w, task); i++)
+    good = scene_check_code(rows[i].label, PENDRES_LABEL_COUNT) &&
+           scene_check_code(rows[i].failed, SCENE_FAILURE_COUNT);
+  return good;
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
@@ -236,7 +248,7 @@ static pendres_status run_scene(scene_run *run)
   const farm_stage stage = {.what = "parts of the map", .last = 1,
                             .tasks = (w.count + w.chunk - 1) / w.chunk,
                             .record_size = w.chunk * sizeof(row), .task = compute,
-                            .collect = collect, .arg = &w};
+                            .check = check, .collect = collect, .arg = &w};
   w.rows = scene_rows(run, w.count, sizeof *w.rows);
   pendres_status status = w.rows != NULL ? scene_compute(run, &stage) : PENDRES_OUT_OF_MEMORY;
   if (status == PENDRES_OK) status = write_all(run, &w);
@@ -262,7 +274,7 @@ const scene_kind scene_lyapunov_map = {
   .references = "G. Benettin, L. Galgani and J.-M. Strelcyn, Physical Review A 14 (1976) 2338; "
                 "G. L. Baker and J. P. Gollub, Chaotic Dynamics (1996)",
   .budget = 1,
-  .size = {40e3, 18.0, 100.0, 1.0, 1.0, 5e-4},
+  .size = {40e3, 19.0, 100.0, 1.0, 1.0, 5e-4},
   .describe = describe,
   .run = run_scene,
 };

@@ -87,6 +87,7 @@ static pendres_status find_from_start(orbit_work *w, pendres_context *ctx)
     w->found.well = outcome.well;
     w->found.settling_periods = outcome.settling_periods;
   }
+  w->found.uncertain = outcome.attractor != PENDRES_ATTRACTOR_UNKNOWN && !outcome.certain;
   if (status == PENDRES_OK && outcome.label == PENDRES_LABEL_ESCAPE)
     w->found.label = outcome.label;
   pendres_attractors_free(set);
@@ -199,6 +200,22 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   return status;
 }
 
+/* The recording goes on from where it stands, and has to be that of the deck. */
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const orbit_work *w = arg;
+  const record *r = in->data;
+  if (in->size != sizeof *r + 4 * room_of(w) * sizeof(double)) return 0;
+  const pendres_attractor a = { .label = r->found.label, .orbit = r->found.orbit };
+  const pendres_recording *p = &r->recording;
+  const long periods = (long)task * w->chunk + periods_of(w, task);
+  const int unused = p->samples == 0 && p->periods == 0 && p->stretch == 0;
+  return scene_check_attractor(&a) && scene_check_verdict(&r->found.verdict) &&
+         scene_check_code(r->found.closed, 2) && scene_check_code(r->found.gone, 2) &&
+         (!r->found.closed || r->found.orbit.period > 0) &&
+         (unused || (p->samples == (int)w->d->orbit.samples && p->periods <= periods));
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   orbit_work *w = arg;
@@ -235,7 +252,7 @@ static pendres_status run_scene(scene_run *run)
     run, &(farm_stage){ .what = tasks > 1 ? "parts of the record" : "orbits", .last = 1,
                         .tasks = tasks, .chained = tasks > 1, .task = compute,
                         .record_size = sizeof(record) + 4 * room_of(&w) * sizeof(double),
-                        .collect = collect, .arg = &w });
+                        .check = check, .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = scene_orbit_measure_put(&w);
   if (status == PENDRES_OK) scene_orbit_tabulate(run->table, &w);
   scene_orbit_measure_free(&w);

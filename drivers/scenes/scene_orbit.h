@@ -6,6 +6,7 @@
 #ifndef SCENE_ORBIT_H
 #define SCENE_ORBIT_H
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_failed.h"
 
 /* What the first task finds of the pendulum. */
@@ -13,6 +14,7 @@ typedef struct orbit_found {
   pendres_label label;
   long well, settling_periods;   /* -1: no start to settle from */
   int closed;                    /* nonzero: there is a closed orbit */
+  int uncertain;                 /* nonzero: errors that the start amplifies may have chosen it */
   int gone;                      /* nonzero: double precision can no longer say where the recorded
                                     trajectory is on its way to infinity */
   pendres_orbit orbit;

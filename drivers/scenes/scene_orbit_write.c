@@ -98,10 +98,14 @@ static pendres_status put_scalars(scene_run *run, const orbit_work *w)
 
 /* What it is. */
 typedef struct verdict {
-  int label, failed;
+  int label, uncertain, failed;
 } verdict;
 
 static const scene_column of_failures[] = {
+  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(verdict, uncertain),
+   .names = scene_doubt_names,
+   .long_name = "whether errors that the start amplifies may have chosen the attractor",
+   .comment = "no: they have not, or the start settles on nothing"},
   SCENE_CODE(verdict, failed, "why there is no orbit", scene_failure_names),
 };
 
@@ -113,7 +117,7 @@ static pendres_status put_label(scene_run *run, const orbit_work *w)
   const int failed = late->reason != SCENE_FAILURE_NONE ? late->reason
                      : unresolved                       ? SCENE_FAILURE_UNRESOLVED
                                                         : SCENE_FAILURE_NONE;
-  const verdict of = {(int)w->found.label, failed};
+  const verdict of = {(int)w->found.label, w->found.uncertain, failed};
   const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
   const scene_column label = {
     .name = "label", .long_name = "kind of attractor", .type = SCENE_FLAG,
@@ -241,7 +245,8 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
   const orbit_found *f = &w->found;
   const pendres_orbit *o = &f->orbit;
   if (out == NULL) return;
-  fprintf(out, "%-26s %s\n", "label", pendres_label_name(f->label));
+  fprintf(out, "%-26s %s%s\n", "label", pendres_label_name(f->label),
+          f->uncertain ? " (uncertain: errors as small as rounding choose it)" : "");
   if (f->settling_periods >= 0)
     fprintf(out, "%-26s %ld\n", "settling periods", f->settling_periods);
   if (isfinite(f->lyapunov))

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
@@ -145,6 +146,21 @@ static pendres_status follow(const void *arg, size_t task, pendres_context *ctx,
   return scene_verdict_note((scene_verdict *)(x + 4 * n), status, pendres_context_message(ctx));
 }
 
+static size_t bytes_of(const work *w)
+{
+  return w->ramp.jumps * sizeof *w->jump + 4 * samples(w) * sizeof(double) + sizeof w->verdict;
+}
+
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  scene_verdict v;
+  (void)task;
+  if (in->size != bytes_of(w)) return 0;
+  memcpy(&v, (const char *)in->data + in->size - sizeof v, sizeof v);
+  return scene_check_verdict(&v);
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   work *w = arg;
@@ -177,6 +193,13 @@ static pendres_status scatter(const void *arg, size_t task, pendres_context *ctx
   double *value = farm_record_resize(out, (2 * jumps * n + 1) * sizeof *value);
   if (value == NULL) return PENDRES_OUT_OF_MEMORY;
   return pendres_ramp_scatter(ctx, &w->ramp, n, first, value + jumps * n, value);
+}
+
+static int check_part(const void *arg, size_t task, const farm_record *in)
+{
+  const work *w = arg;
+  size_t first;
+  return in->size == (2 * w->ramp.jumps * part_of(w, task, &first) + 1) * sizeof(double);
 }
 
 static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
@@ -322,12 +345,11 @@ static pendres_status compute(scene_run *run, work *w)
 {
   const size_t tasks = (w->trajectories + PART - 1) / PART;
   const farm_stage ramp = {
-    .what = "ramps", .tasks = 1, .task = follow, .collect = collect, .arg = w,
-    .record_size = w->ramp.jumps * sizeof *w->jump + 4 * samples(w) * sizeof(double) +
-                   sizeof w->verdict};
+    .what = "ramps", .tasks = 1, .task = follow, .check = check, .collect = collect, .arg = w,
+    .record_size = bytes_of(w)};
   const farm_stage noise = {.what = "parts of the noisy trajectories", .tasks = tasks,
                             .record_size = 1, .last = 1, .task = scatter,
-                            .collect = collect_part, .arg = w};
+                            .check = check_part, .collect = collect_part, .arg = w};
   pendres_status status = scene_compute(run, &ramp);
   const int failed = w->verdict.reason != SCENE_FAILURE_NONE;
   for (size_t k = 0; k < w->ramp.jumps * w->trajectories; k++) w->noisy[k] = NAN;

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_failed.h"
 #include "scenes/scene_peak.h"
 
@@ -106,6 +107,16 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
   }
   free(s);
   return status;
+}
+
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const curve *c = arg;
+  const record *r = in->data;
+  int good = in->size == c->group * sizeof *r;
+  for (size_t i = 0; good && i < points_of(c, task); i++)
+    good = scene_check_resonance(&r[i].point, r[i].outcome) && scene_check_verdict(&r[i].verdict);
+  return good;
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
@@ -272,7 +283,7 @@ static pendres_status run_scene(scene_run *run)
   status = scene_compute(run, &(farm_stage){ .what = c.group > 1 ? of->groups : of->many,
                                              .last = 1,
                                              .tasks = (n + c.group - 1) / c.group,
-                                             .task = compute, .collect = collect,
+                                             .task = compute, .check = check, .collect = collect,
                                              .record_size = c.group * sizeof(record),
                                              .arg = &c });
   if (status == PENDRES_OK) status = write_results(run, &c);

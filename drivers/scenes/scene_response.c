@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_failed.h"
 #include "scenes/scene_peak.h"
 #include "scenes/scene_response_noise.h"
@@ -208,6 +209,33 @@ static pendres_status keep_points(const grid *g, size_t first, size_t n,
   return status == PENDRES_OK ? status : scene_fail(g->run, status, "%s", why);
 }
 
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const grid *g = arg;
+  size_t n;
+  if (task >= g->lines * g->chunks) {
+    const peak_record *r = in->data;
+    return in->size == sizeof *r && scene_check_resonance(&r->peak, r->outcome) &&
+           scene_check_verdict(&r->verdict);
+  }
+  const point_record *r = in->data;
+  int good = in->size == sizeof *r;
+  (void)first_of(g, task, &n);
+  for (size_t k = 0; good && k < n; k++)
+    good = scene_check_response(&r->point[k]) && scene_check_verdict(&r->verdict[k]);
+  return good;
+}
+
+static int check_names(const void *arg, size_t task, const farm_record *in)
+{
+  const grid *g = arg;
+  const pendres_response *points = in->data;
+  int good = in->size == g->values * sizeof *points;
+  (void)task;
+  for (size_t i = 0; good && i < g->values; i++) good = scene_check_response(&points[i]);
+  return good;
+}
+
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
 {
   grid *g = arg;
@@ -384,10 +412,10 @@ static pendres_status compute_all(scene_run *run, grid *g)
 {
   const size_t peaks = g->peaked ? g->lines : 0;
   const farm_stage points = {.what = "chunks", .tasks = g->lines * g->chunks + peaks,
-                             .task = compute, .collect = collect, .arg = g};
+                             .task = compute, .check = check, .collect = collect, .arg = g};
   const farm_stage names = {.what = "lines", .tasks = g->lines, .cheap = 1, .task = name_states,
                             .record_size = g->values * sizeof(pendres_response),
-                            .collect = collect_names, .arg = g};
+                            .check = check_names, .collect = collect_names, .arg = g};
   pendres_status status = scene_spill_create(run, g->lines * g->values, sizeof(pendres_response),
                                              SCENE_SPILL_MEMORY, &g->points);
   if (status == PENDRES_OK)

@@ -7,6 +7,7 @@
 
 #include <stdlib.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
@@ -41,6 +42,15 @@ static pendres_status compute(const void *arg, size_t task, pendres_context *ctx
     pendres_response_add_noise(ctx, &still, temperature, (size_t)w->d->noise.trajectories,
                                (long)w->d->noise.periods, &p->response);
   return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
+}
+
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  const point *p = in->data;
+  (void)arg;
+  (void)task;
+  return in->size == sizeof *p && p->response.steps_per_period >= 0 &&
+         scene_check_verdict(&p->verdict);
 }
 
 static pendres_status collect(void *arg, size_t task, const farm_record *in)
@@ -171,7 +181,7 @@ pendres_status scene_response_write_noise(scene_run *run, const scene_response_g
   }
   status = scene_compute(run, &(farm_stage){ .what = "points with noise", .last = 1, .tasks = n,
                                              .task = compute, .record_size = sizeof(point),
-                                             .collect = collect, .arg = &w });
+                                             .check = check, .collect = collect, .arg = &w });
   if (status == PENDRES_OK) status = write_results(run, &w);
   if (status == PENDRES_OK) status = write_failed(run, &w);
   if (status == PENDRES_OK && run->table != NULL) print_table(run->table, &w);

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "scenes/scene_check.h"
 #include "scenes/scene_columns.h"
 #include "scenes/scene_failed.h"
 
@@ -113,6 +114,24 @@ static pendres_status choose(const void *arg, size_t task, pendres_context *ctx,
   const pendres_status status =
     pendres_switching_choose_steps(ctx, &w->survey, (int)task, &c->steps);
   return scene_verdict_point(&c->verdict, status, pendres_context_message(ctx), out);
+}
+
+static int check_choice(const void *arg, size_t task, const farm_record *in)
+{
+  const choice *c = in->data;
+  (void)arg;
+  (void)task;
+  return in->size == sizeof *c && scene_check_code(c->steps, 1000001) &&
+         scene_check_verdict(&c->verdict);
+}
+
+static int check_part(const void *arg, size_t task, const farm_record *in)
+{
+  const part *p = in->data;
+  (void)arg;
+  (void)task;
+  return in->size == sizeof *p && p->tally.states <= PENDRES_SWITCHING_STATES &&
+         scene_check_verdict(&p->verdict);
 }
 
 static pendres_status collect_choice(void *arg, size_t task, const farm_record *in)
@@ -224,13 +243,14 @@ static pendres_status compute(scene_run *run, work *w)
   pendres_status status =
     scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = STATES, .task = choose,
                                       .cheap = 1,
-                                      .record_size = sizeof(choice), .collect = collect_choice,
+                                      .record_size = sizeof(choice), .check = check_choice,
+                                      .collect = collect_choice,
                                       .arg = w });
   w->survey.steps_per_period = steps_of(w);
   if (status == PENDRES_OK)
     status = scene_compute(run, &(farm_stage){ .what = "chunks", .last = 1, .task = count,
                                                .tasks = w->temperatures * w->parts,
-                                               .record_size = sizeof(part),
+                                               .record_size = sizeof(part), .check = check_part,
                                                .collect = collect_part, .arg = w });
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < w->temperatures && status == PENDRES_OK; i++) status = conclude(w, i);

@@ -224,8 +224,8 @@ typedef struct pendres_basin_well {
  * Errors hold for the sampling of the window by this grid: what the same grid finds that is shifted
  * by a part of its step. They are standard errors from the scatter between groups of rows around
  * their trend, of fractions two of them; NaN where a grid has fewer than 20 rows. States that are
- * uncertain count in those of fractions and entropies. An uncertainty exponent's error contains
- * what slopes differ by over the distances used. It cannot know of a limit far below the grid's
+ * uncertain count in all of them. An uncertainty exponent's error contains what slopes differ by
+ * over the distances used. It cannot know of a limit far below the grid's
  * step: pendres_basin_uncertainty looks there.
  *
  * Sources: Daza, Wagemakers, Georgeot, Guéry-Odelin, Sanjuán, Scientific Reports 6 (2016) 31416;
@@ -289,15 +289,16 @@ typedef struct pendres_basin_sample {
   size_t n;               /**< how many states */
   uint64_t seed;          /**< what they depend on, beside the window */
   int scales;             /**< how many distances, PENDRES_BASIN_SCALES at most */
-  const double *distance; /**< [scales], not kept; meaningless well below the tolerance */
+  const double *distance; /**< [scales], not kept; meaningless near rounding, some 1e-12 */
 } pendres_basin_sample;
 
 /**
  * The uncertainty exponent from random states of a window, each compared with its neighbours. If
  * they take too long to settle, as in chaos that ends late, or if more than half of them are
  * uncertain at nearly all distances, only the first of them are used; the field `states` says how
- * many. The fields states, unresolved, uncertainty_exponent, distance and uncertain are set; others
- * are NaN or 0.
+ * many. The fields states, unresolved, uncertain_states, uncertainty_exponent, distance and
+ * uncertain are set; others are NaN or 0. Whatever the tolerance, labels are made certain down to
+ * rounding; states whose end rounding decides, or that settle too late, count in the errors.
  * PENDRES_NOT_FOUND: there are too few distances at which the boundary is met often enough for a
  * count, but by fewer than half of the states (shares near one are no power of the distance).
  */
@@ -312,7 +313,7 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
  * distance that the grid has, or is not yet the power that it becomes, while random states meet it
  * at distances far below the grid's step; a smooth one they meet too rarely there.
  *
- * @param ctx        belongs to one thread at a time; its tolerance sets the distances
+ * @param ctx        belongs to one thread at a time; its tolerance changes nothing
  * @param set        the attractors that the grid was settled on; read
  * @param grid       the grid that the statistics are of: its first and last x and v, and `by`
  * @param statistics those of pendres_basin_sums_result(); replaced are uncertainty_exponent,

@@ -3,7 +3,8 @@
  * @brief Branches of periodic orbits, and where they end.
  *
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
- * doublings and symmetry breakings on the way; curves of these in two parameters; cusps.
+ * doublings, symmetry breakings and branch points on the way; curves of the first three in two
+ * parameters; cusps.
  *
  * All pendulums are served, with torque, parametric drive or another force, as long as there is a
  * drive of either kind where orbits go round: without one a rotation has a period of its own, and
@@ -12,7 +13,11 @@
  * Method: Newton's method on the strobe map with its variational equations and parameter
  * sensitivities, pseudo-arclength steps. An orbit that is its own mirror image is a fixed point
  * of half a period followed by the reflection y -> -y: its folds are multipliers +1 of that
- * half map, its symmetry breakings multipliers -1, and it cannot double its period.
+ * half map, its symmetry breakings multipliers -1, and it cannot double its period. Branch points
+ * are told from folds by the determinant of the equations bordered by the branch's tangent, and
+ * from branches that only come close by what is left of the closing of the orbit (the source's
+ * section 10.2; Moore, SIAM Journal on Numerical Analysis 17 (1980) 567). Two that come closer than
+ * rounding tells are said to cross.
  *
  * Source: Kuznetsov, Elements of Applied Bifurcation Theory, chapters 4, 9 and 10; Swift and
  * Wiesenfeld, Physical Review Letters 52 (1984) 705.
@@ -110,6 +115,10 @@ typedef struct pendres_bifurcation {
   pendres_orbit orbit; /**< the orbit there, its pendulum with the value; slopes are NaN; its
                             multipliers are those that make the bifurcation: one is +1 or -1, and
                             the product of both follows from the damping */
+  double crossing[3];  /**< of a branch point: along the branch that crosses the one on which it was
+                            found, (dx, dv, dparameter), either way and of no length in particular.
+                            NaN for the other kinds, and where the branches are too much alike to
+                            tell */
 } pendres_bifurcation;
 
 /** A bifurcation that is a fold. */
@@ -252,9 +261,10 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
                                     double value, size_t room, pendres_orbit *out, size_t *found);
 
 /**
- * An orbit on the branch that crosses at a period doubling or a symmetry breaking: one of
- * twice the period, or one of a pair that are each other's mirror image. Its parameter differs
- * from the bifurcation's.
+ * An orbit on the branch that crosses at a period doubling, a symmetry breaking or a branch point:
+ * one of twice the period, or one of a pair that are each other's mirror image, or one on the other
+ * branch, on the side on which that attracts, if it does on one. Its parameter differs from the
+ * bifurcation's.
  */
 pendres_status pendres_branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                      pendres_orbit *out);

@@ -8,8 +8,9 @@
  *
  * A stable periodic orbit is followed by continuation, so that the value at which it ends is that
  * of a bifurcation, located to the tolerance, and not that of the next step. At a period doubling
- * or a symmetry breaking at which a stable orbit is born, the pendulum goes over to that orbit
- * without a jump. Everywhere else it jumps. PENDRES_HYSTERESIS_TRIALS pendulums then start from the
+ * or a symmetry breaking at which a stable orbit is born, or a branch point at which another takes
+ * over the stability, the pendulum goes over to that orbit without a jump. Everywhere else it
+ * jumps. PENDRES_HYSTERESIS_TRIALS pendulums then start from the
  * orbit that ends, with the parameter beyond the bifurcation by a ten-thousandth or a
  * hundred-thousandth of its scale (0.3 for the drive frequency, 0.1 for others), and the pendulum
  * goes to the state that most of them reach. How long a pendulum stays near a fold depends on the
@@ -18,10 +19,14 @@
  * experiment controls, and the jump is marked as uncertain.
  *
  * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
- * If it has come to a periodic orbit, the interval is halved until the value at which it first
- * comes to an orbit is found, and that orbit is followed. If orbits and chaos have alternated four
- * times in one interval, the end of chaos is only known to lie in the rest of it. A pendulum that
- * has escaped to infinity does not return on the rest of the path.
+ * If it has come to a periodic orbit, or has escaped, the interval is halved until the value at
+ * which it first does so is found. If the orbit is born there, in a window of the chaos, its birth
+ * is where the chaos ends. If it is there on both sides, or if the pendulum escapes, the chaos ends
+ * in a crisis. Next to a crisis chaos lasts long before it ends: the error includes how far beyond
+ * it chaos may have been taken to last, from the lives of 32 pendulums at two distances. The orbit
+ * is then followed. If orbits and chaos have alternated four times in one interval, the end of
+ * chaos is only known to lie in the rest of it. A pendulum that has escaped to infinity does not
+ * return on the rest of the path. Chaos that becomes wider or narrower without an end is no jump.
  *
  * An orbit whose computation stops, after so many points or in too short steps, is followed anew
  * from where that was, or, where this leads no further, settled at the next value. If that is
@@ -35,8 +40,8 @@
  * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive.
  * States that are no periodic orbits are then identified by averages, as quasi-periodic or chaotic,
  * by the criteria of lyapunov.h. A trial in which averages cannot decide, since a rotation slips
- * only once in thousands of periods, say, is repeated with the parameter ten times as far beyond
- * the bifurcation, up to three times.
+ * only once in thousands of periods, say, or one of any pendulum that has not settled, is repeated
+ * with the parameter ten times as far beyond the bifurcation, up to three times.
  *
  * Such a rotation lies on an invariant circle, a closed curve around the cylinder of states, which
  * persists where the rotation locks to the drive in narrow steps and unlocks again. Where the

@@ -6,9 +6,10 @@
  * drive amplitude (the paper's definition of resonance).
  *
  * The mean loop area is smooth in omega where the members keep their attractors, and jumps where
- * an attractor ends in a fold or a member changes its basin. The largest value is either a smooth
- * peak (a zero of dA/domega along the branch, from the variational equation) or an edge (the
- * largest value at a jump). Both are searched for in the whole range, and the larger one counts.
+ * an attractor ends in a fold or a member changes its basin. Where one loses its mirror symmetry
+ * the slope jumps. The largest value is either a smooth peak (a zero of dA/domega along the branch,
+ * from the variational equation) or an edge (the largest value at a jump of either kind). Both are
+ * searched for in the whole range, and the larger one counts.
  *
  * The range is scanned in steps of damping times omega, the least width of a resonance. In the gap
  * between two frequencies the area of each state is bounded by its slopes at both ends, and each
@@ -36,7 +37,7 @@ extern "C" {
 /** What kind of maximum a resonance is. */
 typedef enum pendres_peak {
   PENDRES_PEAK_SMOOTH = 0, /**< a maximum with a vanishing slope */
-  PENDRES_PEAK_EDGE = 1,   /**< the largest mean area where it jumps */
+  PENDRES_PEAK_EDGE = 1,   /**< the largest mean area where it, or its slope, jumps */
   PENDRES_PEAK_RAGGED = 2, /**< the largest mean area found, where the shares of the members change
                                 so often that there is no largest one to many digits; errors are
                                 spreads */
@@ -55,8 +56,9 @@ typedef struct pendres_resonance {
                                           of the drive in one of its periods, in m g l */
   double loop_area_error;            /**< its error */
   pendres_response response;         /**< everything else there; at an edge, on its upper side */
-  double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, and
-                                          at an edge made by basins alone */
+  double fold_frequency;             /**< of the fold that makes the edge; NaN at a smooth peak, at
+                                          an edge made by basins alone, and where a state loses its
+                                          mirror symmetry */
   double fold_frequency_error;       /**< its error; NaN where there is none */
   int complete;                      /**< 1; 0: a larger area may exist, since the search ended at
                                           its budget of work, or resonances may be narrower than its

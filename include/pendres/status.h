@@ -14,9 +14,12 @@
  *   stages, and in the methods that serve for comparison (one problem a pendulum, CVODE);
  * - GSL (2.7) ends the program by its default error handler, which the library leaves alone. After
  *   gsl_set_error_handler_off() there is a status instead;
- * - HDF5 (1.10) calls exit(-1) if it gets no memory for one of its handles, crashes in attaching a
- *   dimension scale and in closing itself at exit after such a failure, and overflows the stack if
- *   it starts without memory; see pendres_store_drop_part().
+ * - HDF5 (1.10) calls exit(-1) if it gets no memory for one of its handles, crashes if it gets
+ *   none for the copy of a name, in attaching a dimension scale, and in closing itself at exit
+ *   after such a failure, and overflows the stack if it starts without memory; see
+ *   pendres_store_drop_part().
+ *
+ * The program `resonance` ends with exit code 1 and a sentence in all of these cases.
  */
 #ifndef PENDRES_STATUS_H
 #define PENDRES_STATUS_H

@@ -5,29 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "continuation/continuation_locate.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-
-double pendres_arc_least_scale(int i)
-{
-  if (i < PENDRES_U_OMEGA) return 1.0;
-  return i == PENDRES_U_OMEGA ? 0.3 : 0.1;
-}
-
-double pendres_arc_scale(int i, double value)
-{
-  static const double logarithmic = 20.0;
-  const double least = pendres_arc_least_scale(i);
-  return i < PENDRES_U_OMEGA ? least : fmax(least, fabs(value) / logarithmic);
-}
-
-double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT])
-{
-  double sum = 0.0;
-  for (int i = 0; i < PENDRES_U_COUNT; i++)
-    sum = hypot(sum, (a[i] - b[i]) / pendres_arc_scale(i, 0.5 * (a[i] + b[i])));
-  return sum;
-}
 
 pendres_arc pendres_arc_of(const pendres_orbit *orbit, pendres_continuation_condition condition,
                            const pendres_parameter *parameter, double spacing,
@@ -57,6 +37,9 @@ static const double farthest_miss = 0.25;
    points were stepped over. */
 static const double farthest_off = 0.08;
 static const double shortest_step = 1e-6;
+/* With steps shorter than this no crossing is looked into: branches that come closer are told by
+   the doubts of their points. */
+static const double shortest_crossing = 32.0 * 1e-6;
 static const int widest_gap = 3; /* how many steps lie between one point and the next */
 /* An orbit closes by half if it misses that by less than this. Next to where a branch was born, one
    of its orbits that does not close by half comes as near only within half of this distance. */
@@ -248,10 +231,8 @@ static pendres_status keep_off(pendres_context *ctx, int which, size_t n, candid
   return status;
 }
 
-/*
- * Where branches cross, Newton's method may lead to the other one. That of orbits that close by
- * half is told by their closing; such points are dropped.
- */
+/* Where branches cross, Newton's method may lead to the other one. That of orbits that close by
+   half is told by their closing; such points are dropped. */
 static pendres_status keep_apart(pendres_context *ctx, size_t n, candidate *c, size_t *index,
                                  double (*u)[PENDRES_U_COUNT])
 {
@@ -347,10 +328,8 @@ pendres_status pendres_arc_correct(pendres_context *ctx, const pendres_arc *kind
   return status;
 }
 
-/*
- * The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
- * tried as the one that goes on: near a fold the last one hardly changes.
- */
+/* The tangent at a point, towards growing last unknown if `direction` is positive. Each unknown is
+   tried as the one that goes on: near a fold the last one hardly changes. */
 static int first_tangent(const pendres_arc *w, const pendres_continuation_equations *e,
                          const double u[PENDRES_U_COUNT], double direction, double *tangent)
 {
@@ -433,17 +412,37 @@ pendres_status pendres_arc_describe(pendres_context *ctx, const pendres_arc *w, 
   return status;
 }
 
-/*
- * Keep the points that converged and follow upon each other, and choose the next step. A few that
- * failed may be stepped over: where branches cross there is a small gap in which none converges.
- */
-static void accept(pendres_arc *w, const candidate *c)
+/* Whether a point is on the branch of the last one. Where branches come close without crossing, the
+   step across leads straight from one to another. Of what is too close for the steps it may. */
+static pendres_status stays(pendres_context *ctx, const pendres_arc *w,
+                            const pendres_arc_point *last, const pendres_arc_point *point,
+                            int *same)
+{
+  const pendres_located_end ends[2] = {{last->u, last->tangent, &last->image},
+                                       {point->u, point->tangent, &point->image}};
+  int parts = 0;
+  const pendres_status status =
+    w->step < shortest_crossing
+      ? PENDRES_OK
+      : pendres_continuation_parts(ctx, &w->map, w->unknown, ends, &parts);
+  *same = !parts;
+  return status;
+}
+
+/* Keep the points that converged and follow upon each other, and choose the next step. A few that
+   failed may be stepped over: where branches cross there is a small gap in which none converges. */
+static pendres_status accept(pendres_context *ctx, pendres_arc *w, const candidate *c)
 {
   const pendres_arc_point start = w->here;
   const pendres_arc_point *last = &start;
+  pendres_status status = PENDRES_OK;
   w->found = 0;
   for (int rank = 0, gap = 1; rank < PENDRES_ARC_AHEAD && gap <= widest_gap; rank++) {
-    if (follows(w, last, gap, &c[rank], &w->ahead[w->found])) {
+    pendres_arc_point *next = &w->ahead[w->found];
+    int keep = follows(w, last, gap, &c[rank], next);
+    if (keep && w->condition == PENDRES_CONDITION_NONE) status = stays(ctx, w, last, next, &keep);
+    if (status != PENDRES_OK) return status;
+    if (keep) {
       last = &w->ahead[w->found++];
       gap = 1;
     } else {
@@ -455,7 +454,7 @@ static void accept(pendres_arc *w, const candidate *c)
     /* With a shorter step the bend may be the wrong one of a longer past. */
     memset(w->bend, 0, sizeof w->bend);
     w->stuck = w->step < shortest_step;
-    return;
+    return status;
   }
   const pendres_arc_point *before = w->found > 1 ? &w->ahead[w->found - 2] : &start;
   for (int k = 0; k < w->unknowns; k++)
@@ -465,6 +464,7 @@ static void accept(pendres_arc *w, const candidate *c)
     w->step = fmin(1.6 * w->step, w->longest);
   else if (w->found < PENDRES_ARC_AHEAD / 2)
     w->step *= 0.5;
+  return status;
 }
 
 pendres_status pendres_arc_advance(pendres_context *ctx, size_t n, pendres_arc *arcs)
@@ -490,7 +490,7 @@ pendres_status pendres_arc_advance(pendres_context *ctx, size_t n, pendres_arc *
   status = converge(ctx, count, c);
   for (size_t i = 0, k = 0; i < n && status == PENDRES_OK; i++)
     if (!arcs[i].stuck) {
-      accept(&arcs[i], &c[k]);
+      status = accept(ctx, &arcs[i], &c[k]);
       k += PENDRES_ARC_AHEAD;
     }
 done:

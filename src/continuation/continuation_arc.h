@@ -14,6 +14,7 @@
 #include <pendres/continuation.h>
 
 #include "continuation/continuation_equations.h"
+#include "continuation/continuation_scale.h"
 
 enum { PENDRES_ARC_AHEAD = 8, PENDRES_ARC_UNKNOWNS = 4 };
 
@@ -51,17 +52,6 @@ typedef struct pendres_arc {
 
 /* The equations of an arc at so many steps a period. */
 pendres_continuation_system pendres_arc_system(const pendres_arc *arc, int steps);
-
-/* The length that counts as one in arclength, of entry `i` of u where it has this value. Of
-   parameters it is a constant at first, but never less than a twentieth of the value: beyond twenty
-   of the constant they count by their logarithms, and a curve over decades is not a long one. */
-double pendres_arc_scale(int i, double value);
-
-/* The constant. */
-double pendres_arc_least_scale(int i);
-
-/* Distance in the scale of arclength. What is the same in both points does not count. */
-double pendres_arc_distance(const double a[PENDRES_U_COUNT], const double b[PENDRES_U_COUNT]);
 
 /*
  * The curve of orbits (PENDRES_CONDITION_NONE: of one parameter) or of bifurcations (of two) that

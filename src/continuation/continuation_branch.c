@@ -3,11 +3,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "continuation/continuation_units.h"
 #include "continuation/continuation_course.h"
+#include "continuation/continuation_crossing.h"
 #include "continuation/continuation_parameter.h"
 
 enum { MOST_BIFURCATIONS = 256 };
@@ -145,6 +147,25 @@ static pendres_status locate_fold(pendres_context *ctx, const pendres_trail *t,
   return born == PENDRES_NOT_CONVERGED ? fold : born;
 }
 
+/* Locate where another branch crosses. Where this one was born from orbits that close by half it
+   meets itself, and of rest the other map has a flip. */
+static pendres_status locate_crossing(pendres_context *ctx, const pendres_trail *t,
+                                      const double u[PENDRES_U_COUNT], double reach,
+                                      pendres_course_special *m)
+{
+  int which = -1;
+  m->condition = PENDRES_CONDITION_CROSSING;
+  if (t->kind.map.mirror == PENDRES_MIRROR_WHOLE && t->kind.map.period <= 2)
+    return PENDRES_NOT_CONVERGED;
+  const pendres_continuation_system crossings =
+    pendres_continuation_system_of(&t->kind.map, m->condition, t->kind.unknown);
+  const pendres_status status =
+    pendres_continuation_locate(ctx, &crossings, u, reach, &m->located);
+  if (!pendres_located_found(status) || t->kind.apart == 0) return status;
+  const pendres_status asked = closing_half(ctx, t, m->located.pair.coarse, &which);
+  return asked != PENDRES_OK ? asked : which >= 0 ? PENDRES_NOT_CONVERGED : status;
+}
+
 static pendres_status locate_flip(pendres_context *ctx, const pendres_trail *t,
                                   const double u[PENDRES_U_COUNT], double reach,
                                   pendres_course_special *m)
@@ -155,8 +176,22 @@ static pendres_status locate_flip(pendres_context *ctx, const pendres_trail *t,
   return pendres_continuation_locate(ctx, &flips, u, reach, &m->located);
 }
 
-/* Locate all bifurcations of a trail. Births come first, since the test function of folds may have
-   a zero or two there. */
+/* Leave out the zeros of folds' test function at branch points, of which it has one as well. */
+static size_t without_crossings(const pendres_course *c, size_t n, pendres_trail_zero *zeros)
+{
+  size_t kept = 0;
+  for (size_t i = 0; i < n; i++) {
+    int crossed = 0;
+    for (size_t k = 0; k < c->specials; k++)
+      crossed |= c->special[k].condition == PENDRES_CONDITION_CROSSING &&
+                 c->special[k].at.i == zeros[i].i;
+    if (!crossed) zeros[kept++] = zeros[i];
+  }
+  return kept;
+}
+
+/* Locate all bifurcations of a trail. Births and branch points come first, since the test function
+   of folds may have a zero or two there. */
 static pendres_status locate_all(pendres_context *ctx, pendres_course *c)
 {
   pendres_trail_zero zeros[MOST_BIFURCATIONS];
@@ -164,7 +199,12 @@ static pendres_status locate_all(pendres_context *ctx, pendres_course *c)
   pendres_status status = pendres_trail_births(ctx, c->trail, MOST_BIFURCATIONS, zeros, &n);
   if (status == PENDRES_OK) status = pendres_course_locate(ctx, locate_birth, n, zeros, c);
   if (status == PENDRES_OK) {
+    n = pendres_trail_crossings(c->trail, MOST_BIFURCATIONS, zeros);
+    status = pendres_course_locate(ctx, locate_crossing, n, zeros, c);
+  }
+  if (status == PENDRES_OK) {
     n = pendres_trail_zeros(c->trail, test_fold, MOST_BIFURCATIONS, zeros);
+    n = without_crossings(c, n, zeros);
     status = pendres_course_locate(ctx, locate_fold, n, zeros, c);
   }
   if (status == PENDRES_OK) {
@@ -176,6 +216,29 @@ static pendres_status locate_all(pendres_context *ctx, pendres_course *c)
 
 /* ---- points ---- */
 
+/* Tell a branch point which way the other branch goes. */
+static pendres_status set_crossing(pendres_context *ctx, const pendres_trail *t,
+                                   const pendres_course_special *s, pendres_bifurcation *b)
+{
+  const pendres_continuation_pair *p = &s->located.pair;
+  pendres_continuation_system system =
+    pendres_continuation_system_of(&p->map, s->condition, t->kind.unknown);
+  double way[3];
+  system.steps = p->fine_steps;
+  const pendres_status status =
+    pendres_crossing_direction(ctx, &system, p->fine, t->point[s->at.i].tangent, way);
+  if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+  const int place = t->kind.unknown[2];
+  for (int k = 0; k < 3; k++) {
+    const int i = t->kind.unknown[k];
+    way[k] *= pendres_arc_scale(i, p->fine[i]);
+  }
+  way[1] *= p->fine[PENDRES_U_OMEGA]; /* of w = v / omega */
+  if (place == PENDRES_U_OMEGA) way[1] += p->fine[PENDRES_U_W] * way[2];
+  memcpy(b->crossing, way, sizeof way);
+  return PENDRES_OK;
+}
+
 static pendres_status fill(pendres_context *ctx, const pendres_course *c, pendres_branch *b)
 {
   b->bifurcation = malloc((c->specials + 1) * sizeof *b->bifurcation);
@@ -184,8 +247,11 @@ static pendres_status fill(pendres_context *ctx, const pendres_course *c, pendre
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
   for (; b->bifurcations < c->specials; b->bifurcations++) {
     const pendres_course_special *s = &c->special[b->bifurcations];
-    const pendres_status status = pendres_continuation_locate_finish(
-      ctx, s->condition, b->parameter, &s->located, &b->bifurcation[b->bifurcations]);
+    pendres_bifurcation *at = &b->bifurcation[b->bifurcations];
+    pendres_status status =
+      pendres_continuation_locate_finish(ctx, s->condition, b->parameter, &s->located, at);
+    if (status == PENDRES_OK && s->condition == PENDRES_CONDITION_CROSSING)
+      status = set_crossing(ctx, c->trail, s, at);
     if (status != PENDRES_OK) return status;
   }
   for (; b->count < c->count; b->count++) {

@@ -91,15 +91,72 @@ pendres_status pendres_branch_cross(pendres_context *ctx, const pendres_branch *
 
 /* ---- branches that cross ---- */
 
+/* The orbit where a trail of one point meets the plane across its tangent; *good: 0 if there is
+   none within `reach` of where it was, in the scale of arclength. */
+static pendres_status meet_plane(pendres_context *ctx, const pendres_trail *one, double reach,
+                                 pendres_orbit *out, int *good)
+{
+  pendres_continuation_pair pair;
+  double error[1][2];
+  const pendres_status status = pendres_trail_polish(ctx, one, &pair, error);
+  *good = status == PENDRES_OK && error[0][0] < 1e-6 &&
+          pendres_arc_distance(pair.fine, one->point->u) <= reach;
+  return *good ? pendres_continuation_orbit_measure(ctx, 1, &pair, out)
+         : status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+}
+
+/* The other branch at a branch point, a little along its direction, one way or the other. It leaves
+   that direction with the square of the distance, the branch itself in proportion to it. */
+static pendres_status switch_crossing(pendres_context *ctx, const pendres_bifurcation *at,
+                                      pendres_orbit *out)
+{
+  static const double longest = 0.02, straight = 0.05;
+  enum { HALVINGS = 6 };
+  double u[PENDRES_U_COUNT], way[PENDRES_ARC_UNKNOWNS] = {0.0}, scale[3], length = 0.0;
+  const pendres_arc one =
+    pendres_arc_of(&at->orbit, PENDRES_CONDITION_NONE, &at->parameter, 0.05, u);
+  way[0] = at->crossing[0];
+  way[1] = at->crossing[1];
+  way[2] = at->crossing[2];
+  if (one.unknown[2] == PENDRES_U_OMEGA) way[1] -= u[PENDRES_U_W] * way[2];
+  way[1] /= u[PENDRES_U_OMEGA];
+  for (int k = 0; k < 3; k++) scale[k] = pendres_arc_scale(one.unknown[k], u[one.unknown[k]]);
+  for (int k = 0; k < 3; k++) way[k] /= scale[k];
+  for (int k = 0; k < 3; k++) length = hypot(length, way[k]);
+  for (int k = 0; k < 3; k++) way[k] /= length;
+  for (int halving = 0; halving < HALVINGS; halving++) {
+    const double away = ldexp(longest, -halving);
+    int found = 0;
+    for (int side = 1; side >= -1; side -= 2) {
+      pendres_orbit here;
+      pendres_arc_point point = {.arclength = 0.0};
+      const pendres_trail trail = {.kind = one, .count = 1, .point = &point};
+      int good = 0;
+      memcpy(point.tangent, way, sizeof way);
+      memcpy(point.u, u, sizeof u);
+      for (int k = 0; k < 3; k++)
+        point.u[one.unknown[k]] += side * away * way[k] * scale[k];
+      const pendres_status status = meet_plane(ctx, &trail, straight * away, &here, &good);
+      if (status != PENDRES_OK) return status;
+      if (good && (!found || here.stable)) *out = here;
+      found += good;
+    }
+    if (found == 2) return PENDRES_OK;
+  }
+  return pendres_context_fail(ctx, PENDRES_NOT_FOUND, "no crossing branch could be entered");
+}
+
 static pendres_status branch_switch(pendres_context *ctx, const pendres_bifurcation *at,
                                     pendres_orbit *out)
 {
   if (at == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "bifurcation and out");
-  if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING)
+  if (at->kind != PENDRES_PERIOD_DOUBLING && at->kind != PENDRES_SYMMETRY_BREAKING &&
+      at->kind != PENDRES_BRANCH_POINT)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
                                 "no branch crosses at a bifurcation of this kind");
   const char *why = pendres_continuation_refuses(&at->orbit, at->parameter);
   if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "branch: %s", why);
+  if (at->kind == PENDRES_BRANCH_POINT) return switch_crossing(ctx, at, out);
   double u[PENDRES_U_COUNT];
   pendres_continuation_image image;
   int steps = 0;

@@ -221,8 +221,10 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
   if (!(o->spacing >= 0.0 && o->wildest >= 0.0)) return "spacing and wildest must not be negative";
   for (size_t i = 0; i < n; i++) {
     if (starts[i].kind == PENDRES_REGULAR ||
-        (unsigned)starts[i].kind > PENDRES_SYMMETRY_BREAKING)
+        (unsigned)starts[i].kind >= PENDRES_SPECIAL_COUNT)
       return "a start is no bifurcation";
+    if (starts[i].kind == PENDRES_BRANCH_POINT)
+      return "branch points have no curves: where two parameters change they come apart";
     if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
     const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
     if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);

@@ -7,6 +7,7 @@
 
 #include <gsl/gsl_linalg.h>
 
+#include "continuation/continuation_crossing.h"
 #include "engine/context_internal.h"
 
 /* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
@@ -88,6 +89,24 @@ static void append_row(pendres_continuation_equations *e, const pendres_continua
   for (int k = 0; k < s->unknowns; k++) e->j[row][s->unknown[k]] = (nudged[k] - value) / nudge;
 }
 
+/* The equations of a branch point, all by one pivot; images: at the point, and nudged. */
+static void crossing_rows(const pendres_continuation_image *image,
+                          const pendres_continuation_system *s, pendres_continuation_equations *e)
+{
+  const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, s->unknown[2]);
+  double rows[PENDRES_U_COUNT + 1][4];
+  for (int k = 0; k <= s->unknowns; k++) pendres_crossing_rows(&pivot, &image[k], rows[k]);
+  e->equations = 1;
+  e->image = *image;
+  e->r[0] = rows[0][0];
+  memcpy(e->j[0], image->j[pivot.row], sizeof e->j[0]);
+  for (int row = 1; row < 3; row++) {
+    double nudged[PENDRES_U_COUNT];
+    for (int k = 0; k < s->unknowns; k++) nudged[k] = rows[k + 1][row];
+    append_row(e, s, rows[0][row], nudged);
+  }
+}
+
 /* The images at all stencils of the points, each along its null vector. */
 static pendres_status look_around(pendres_context *ctx, const pendres_continuation_system *s,
                                   size_t n, size_t each, workspace *w)
@@ -132,6 +151,10 @@ pendres_status pendres_continuation_equations_at(pendres_context *ctx,
   for (size_t i = 0; i < n; i++) {
     const pendres_continuation_image *image = w.image + i * each;
     double value[PENDRES_U_COUNT + 1] = {0.0};
+    if (condition == PENDRES_CONDITION_CROSSING) {
+      crossing_rows(image, s, &out[i]);
+      continue;
+    }
     plain_rows(image, &out[i]);
     if (condition == PENDRES_CONDITION_NONE) continue;
     for (size_t k = 0; k < each; k++)
@@ -175,7 +198,7 @@ pendres_continuation_system pendres_continuation_system_of(const pendres_continu
                                                            pendres_continuation_condition condition,
                                                            const int *unknown)
 {
-  static const int counts[] = {2, 3, 3, 4}; /* unknowns of the conditions */
+  static const int counts[] = {2, 3, 3, 4, 3}; /* unknowns of the conditions */
   return (pendres_continuation_system){.map = map, .condition = condition,
                                        .unknowns = counts[condition], .unknown = unknown};
 }

@@ -4,9 +4,10 @@
 #include <math.h>
 
 #include "engine/context_internal.h"
-#include "continuation/continuation_units.h"
+#include "continuation/continuation_crossing.h"
 #include "continuation/continuation_locate.h"
 #include "continuation/continuation_parameter.h"
+#include "continuation/continuation_units.h"
 #include "continuation/continuation_arc.h"
 
 enum { MOST_ADVANCES = 200 };
@@ -49,7 +50,10 @@ static pendres_status follow_to_fold(pendres_context *ctx, pendres_arc *w, pendr
     for (int k = 0; k < w->found; k++) {
       const pendres_arc_point *p = &w->ahead[k];
       const double before = pendres_continuation_map_fold(&last.image);
-      if (before != 0.0 && before * pendres_continuation_map_fold(&p->image) <= 0.0) {
+      /* Where branches cross it changes its sign, too. */
+      const int crossed = pendres_crossing_bordered(&last.image, place, last.tangent) *
+                            pendres_crossing_bordered(&p->image, place, p->tangent) < 0.0;
+      if (!crossed && before != 0.0 && before * pendres_continuation_map_fold(&p->image) <= 0.0) {
         status = between(ctx, w, &last, p, out);
         if (status != PENDRES_NOT_CONVERGED) return status;
       }

@@ -7,7 +7,8 @@
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
-#include "continuation/continuation_arc.h"
+#include "continuation/continuation_crossing.h"
+#include "continuation/continuation_scale.h"
 #include "engine/steps.h"
 
 /* The rounding of a step, taken three times as large as it usually is, since errors claim to be
@@ -50,7 +51,8 @@ static int moved_by_each(const pendres_continuation_equations *e, const int *unk
 /* What rounding of the map adds to each equation. The derivatives of the map are a few times less
    exact than the map itself, and change with what rounding makes of the orbit; the third equation
    of a cusp comes from differences over a hundredth. */
-static void rounding_of(const pendres_continuation_equations *e, int steps, int period,
+static void rounding_of(const pendres_continuation_equations *e,
+                        pendres_continuation_condition condition, int steps, int period,
                         double off[PENDRES_EQUATIONS_MOST])
 {
   const double along = epsilon * sqrt(steps * period);
@@ -58,15 +60,26 @@ static void rounding_of(const pendres_continuation_equations *e, int steps, int 
   off[0] = off[1] = unit;
   off[2] = hypot(4.0 * unit, along * hypot(e->j[2][PENDRES_U_Y], e->j[2][PENDRES_U_W]));
   off[3] = 400.0 * unit;
+  if (condition == PENDRES_CONDITION_CROSSING)
+    off[1] = hypot(4.0 * unit, along * hypot(e->j[1][PENDRES_U_Y], e->j[1][PENDRES_U_W]));
 }
 
 /* What the equations of the place differ by from those that it solves; the last one of a cusp
-   follows the others. */
-static void residuals_of(pendres_continuation_condition condition,
+   follows the others, that of a branch point is what they leave. */
+static void residuals_of(const pendres_continuation_system *system,
+                         const pendres_crossing_pivot *pivot,
                          const pendres_continuation_image *at,
                          const pendres_continuation_image *solved,
                          double off[PENDRES_EQUATIONS_MOST])
 {
+  const pendres_continuation_condition condition = system->condition;
+  if (condition == PENDRES_CONDITION_CROSSING) {
+    double is[4], was[4];
+    pendres_crossing_rows(pivot, at, is);
+    pendres_crossing_rows(pivot, solved, was);
+    for (int k = 0; k < PENDRES_EQUATIONS_MOST; k++) off[k] = is[k] - was[k];
+    return;
+  }
   off[0] = at->f[0] - solved->f[0];
   off[1] = at->f[1] - solved->f[1];
   off[2] = condition == PENDRES_CONDITION_FLIP
@@ -99,17 +112,22 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_continuati
   const int between = (pair->coarse_steps + pair->fine_steps) / 4 * 2;
   const int steps[] = {pair->coarse_steps, between, pair->fine_steps};
   double early[PENDRES_EQUATIONS_MOST], late[PENDRES_EQUATIONS_MOST];
+  const int crosses = system->condition == PENDRES_CONDITION_CROSSING;
+  const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(&at->image, system->unknown[2]);
+  pendres_continuation_system of = *system;
   pendres_continuation_image image[3];
+  if (!crosses) of.unknowns = 0; /* which need the derivatives by the state alone */
   for (int i = 0; i < 3; i++) {
-    const pendres_status status = pendres_continuation_map_states(
-      ctx, &pair->map, steps[i], 1, (const double (*)[PENDRES_U_COUNT])pair->coarse, &image[i]);
+    of.steps = steps[i];
+    const pendres_status status = pendres_continuation_map_images(
+      ctx, &of, 1, (const double (*)[PENDRES_U_COUNT])pair->coarse, &image[i]);
     if (status != PENDRES_OK) return status;
   }
   const double middle = pow((double)steps[0] / steps[1], 8);
   const double fine = pow((double)steps[0] / steps[2], 8);
   const double times = (1.0 - fine) / (middle - fine);
-  residuals_of(system->condition, &image[2], &image[0], early);
-  residuals_of(system->condition, &image[2], &image[1], late);
+  residuals_of(system, &pivot, &image[2], &image[0], early);
+  residuals_of(system, &pivot, &image[2], &image[1], late);
   for (int k = 0; k < PENDRES_EQUATIONS_MOST; k++) {
     late[k] *= times;
     early[k] = fmax(fabs(early[k]), fabs(late[k]));
@@ -117,7 +135,7 @@ static pendres_status distance_of(pendres_context *ctx, const pendres_continuati
   if (!moved_at_once(at, system->unknown, late, out->late)) return PENDRES_NOT_CONVERGED;
   const double entries = fabs(image[2].n[0][0] - image[0].n[0][0]) +
                          fabs(image[2].n[1][1] - image[0].n[1][1]);
-  early[2] = fmax(early[2], 0.125 * entries);
+  for (int k = crosses ? 1 : 2; k < 3; k++) early[k] = fmax(early[k], 0.125 * entries);
   return moved_by_each(at, system->unknown, early, out->parts) ? PENDRES_OK
                                                                 : PENDRES_NOT_CONVERGED;
 }
@@ -161,6 +179,23 @@ static pendres_status curvature_of(pendres_context *ctx,
   return PENDRES_OK;
 }
 
+/*
+ * Whether two branches cross at a place that solves their equations, or only come close: what these
+ * leave of the closing is rounding, or an error of the steps, which their two numbers tell.
+ */
+static int crosses(const pendres_continuation_system *system,
+                   const pendres_continuation_image *coarse, const pendres_continuation_image *fine)
+{
+  static const double sure = 16.0; /* roundings, each bounded by epsilon as usual */
+  const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(fine, system->unknown[2]);
+  const double unit = epsilon * sqrt(system->steps * system->map->period) *
+                      fmax(1.0, pendres_continuation_map_growth(fine));
+  double few[4], many[4];
+  pendres_crossing_rows(&pivot, coarse, few);
+  pendres_crossing_rows(&pivot, fine, many);
+  return fabs(many[3]) <= sure * unit + fabs(many[3] - few[3]);
+}
+
 /* Solve a system with its own steps, and again with more. */
 static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_system system,
                                   const double u[PENDRES_U_COUNT], double reach,
@@ -185,9 +220,13 @@ static pendres_status solve_twice(pendres_context *ctx, pendres_continuation_sys
   if (status != PENDRES_OK) return status;
   memcpy(pair->fine, pair->coarse, sizeof pair->fine);
   system.steps = pair->fine_steps;
+  const pendres_continuation_image few = at.image;
   status = pendres_continuation_equations_solve(ctx, &system, 0.01, pair->fine, &at);
   if (status != PENDRES_OK) return status;
-  rounding_of(&at, pair->fine_steps, pair->map.period, off);
+  out->parted =
+    system.condition == PENDRES_CONDITION_CROSSING && !crosses(&system, &few, &at.image);
+  if (out->parted) return PENDRES_NOT_CONVERGED;
+  rounding_of(&at, system.condition, pair->fine_steps, pair->map.period, off);
   if (!moved_by_each(&at, unknown, off, rounding)) return PENDRES_NOT_CONVERGED;
   status = distance_of(ctx, &system, pair, &at, &away);
   if (status != PENDRES_OK) return status;
@@ -216,6 +255,7 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
     ctx, system.map->force, u, pendres_accuracy_first(ctx), &system.steps);
   double from[PENDRES_U_COUNT];
   memcpy(from, u, sizeof from);
+  out->parted = 0;
   for (int attempt = 0; attempt < MOST_TRIES && status == PENDRES_OK; attempt++) {
     double worst = 0.0;
     status = solve_twice(ctx, system, from, reach, out);
@@ -234,6 +274,26 @@ int pendres_located_found(pendres_status status)
   return status == PENDRES_OK || status == PENDRES_TOLERANCE_UNREACHABLE;
 }
 
+pendres_status pendres_continuation_parts(pendres_context *ctx,
+                                          const pendres_continuation_map *map, const int *unknown,
+                                          const pendres_located_end ends[2], int *parts)
+{
+  const double *from = ends[0].u, *to = ends[1].u;
+  const double a = pendres_crossing_bordered(ends[0].image, unknown[2], ends[0].tangent);
+  const double b = pendres_crossing_bordered(ends[1].image, unknown[2], ends[1].tangent);
+  const double reach = 2.0 * pendres_arc_distance(from, to);
+  double u[PENDRES_U_COUNT];
+  pendres_located at;
+  *parts = 0;
+  if (!(a * b < 0.0)) return PENDRES_OK;
+  for (int i = 0; i < PENDRES_U_COUNT; i++) u[i] = from[i] + a / (a - b) * (to[i] - from[i]);
+  const pendres_continuation_system crossings =
+    pendres_continuation_system_of(map, PENDRES_CONDITION_CROSSING, unknown);
+  const pendres_status status = pendres_continuation_locate(ctx, &crossings, u, reach, &at);
+  *parts = status == PENDRES_NOT_CONVERGED && at.parted;
+  return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
+}
+
 pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_continuation_condition condition,
                                                   pendres_parameter parameter,
@@ -246,10 +306,12 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                .value = p->fine[place],
                                .value_error = l->error[2],
                                .curvature = NAN,
-                               .curvature_error = NAN};
-  out->kind = condition == PENDRES_CONDITION_FOLD ? PENDRES_FOLD
-              : p->map.mirror                     ? PENDRES_SYMMETRY_BREAKING
-                                                  : PENDRES_PERIOD_DOUBLING;
+                               .curvature_error = NAN,
+                               .crossing = {NAN, NAN, NAN}};
+  out->kind = condition == PENDRES_CONDITION_FOLD       ? PENDRES_FOLD
+              : condition == PENDRES_CONDITION_CROSSING ? PENDRES_BRANCH_POINT
+              : p->map.mirror                           ? PENDRES_SYMMETRY_BREAKING
+                                                        : PENDRES_PERIOD_DOUBLING;
   pendres_status status = pendres_continuation_orbit_measure(ctx, 1, p, &out->orbit);
   pendres_continuation_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
   if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;

@@ -16,6 +16,7 @@ typedef struct pendres_located {
   pendres_continuation_pair pair;
   double error[PENDRES_EQUATIONS_MOST];
   double curvature[2]; /* of a fold, at coarse and fine steps */
+  int parted;          /* where two branches were to cross: they come close, and do not */
 } pendres_located;
 
 /*
@@ -28,6 +29,21 @@ pendres_status pendres_continuation_locate(pendres_context *ctx,
                                            const pendres_continuation_system *system,
                                            const double u[PENDRES_U_COUNT], double reach,
                                            pendres_located *out);
+
+/* One end of a step along a branch. */
+typedef struct pendres_located_end {
+  const double *u, *tangent;
+  const pendres_continuation_image *image;
+} pendres_located_end;
+
+/*
+ * Whether a step leads from one branch to another since these come close, and do not cross: where
+ * they cross, too, the bordered determinant changes its sign. unknown[3]: y, w and the branches'
+ * parameter.
+ */
+pendres_status pendres_continuation_parts(pendres_context *ctx,
+                                          const pendres_continuation_map *map, const int *unknown,
+                                          const pendres_located_end ends[2], int *parts);
 
 /* Whether a status of pendres_continuation_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);

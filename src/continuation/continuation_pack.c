@@ -93,6 +93,45 @@ static void *get_array(source *s, size_t n, size_t size, pendres_status *status)
   return array;
 }
 
+/* ---- whether bytes can be what they seem: they may come from elsewhere ---- */
+
+enum { LONGEST_PERIOD = 1000000 };
+
+static int orbit_fits(const pendres_orbit *o)
+{
+  return (unsigned)o->pendulum.force < PENDRES_FORCE_COUNT && o->period >= 1 &&
+         o->period <= LONGEST_PERIOD;
+}
+
+static int map_fits(const pendres_continuation_map *m)
+{
+  return (unsigned)m->force < PENDRES_FORCE_COUNT && (unsigned)m->mirror <= PENDRES_MIRROR_WHOLE &&
+         m->period >= 1 && m->period <= LONGEST_PERIOD;
+}
+
+static int ends_fit(const pendres_branch_end end[2])
+{
+  return (unsigned)end[0] < PENDRES_END_COUNT && (unsigned)end[1] < PENDRES_END_COUNT;
+}
+
+static int branch_fits(const pendres_branch *b)
+{
+  int good = (unsigned)b->parameter < PENDRES_PARAMETER_COUNT && map_fits(&b->map) &&
+             ends_fit(b->end);
+  for (size_t i = 0; i < b->count && good; i++) {
+    const pendres_branch_point *p = &b->point[i];
+    good = (unsigned)p->kind < PENDRES_SPECIAL_COUNT && orbit_fits(&p->orbit) &&
+           (p->kind == PENDRES_REGULAR ? p->bifurcation == -1
+                                       : p->bifurcation >= 0 &&
+                                           (size_t)p->bifurcation < b->bifurcations);
+  }
+  for (size_t i = 0; i < b->bifurcations && good; i++)
+    good = (unsigned)b->bifurcation[i].kind < PENDRES_SPECIAL_COUNT &&
+           (unsigned)b->bifurcation[i].parameter < PENDRES_PARAMETER_COUNT &&
+           orbit_fits(&b->bifurcation[i].orbit);
+  return good;
+}
+
 static pendres_status get_branch(source *s, pendres_branch **out)
 {
   branch_head h;
@@ -108,6 +147,7 @@ static pendres_status get_branch(source *s, pendres_branch **out)
   b->bifurcations = h.bifurcations;
   b->point = get_array(s, h.count, sizeof *b->point, &status);
   b->bifurcation = get_array(s, h.bifurcations, sizeof *b->bifurcation, &status);
+  if (status == PENDRES_OK && !branch_fits(b)) status = PENDRES_INVALID_ARGUMENT;
   if (status == PENDRES_OK) *out = b;
   else pendres_branch_free(b);
   return status;
@@ -178,6 +218,21 @@ void pendres_curves_pack(const pendres_curves *curves, void *bytes)
   }
 }
 
+static int curve_fits(const pendres_curve *c)
+{
+  int good = (unsigned)c->kind < PENDRES_SPECIAL_COUNT && map_fits(&c->map) && ends_fit(c->end) &&
+             (unsigned)c->condition <= PENDRES_CONDITION_CUSP;
+  for (int k = 0; k < 2; k++) good = good && (unsigned)c->parameter[k] < PENDRES_PARAMETER_COUNT;
+  for (size_t i = 0; i < c->count && good; i++)
+    good = orbit_fits(&c->point[i].orbit) && c->point[i].cusp >= -1 &&
+           (c->point[i].cusp < 0 || (size_t)c->point[i].cusp < c->cusps);
+  for (size_t i = 0; i < c->cusps && good; i++)
+    good = orbit_fits(&c->cusp[i].orbit) &&
+           (unsigned)c->cusp[i].parameter[0] < PENDRES_PARAMETER_COUNT &&
+           (unsigned)c->cusp[i].parameter[1] < PENDRES_PARAMETER_COUNT;
+  return good;
+}
+
 static pendres_status get_curve(source *s, pendres_curve **out)
 {
   pendres_curve h;
@@ -189,6 +244,7 @@ static pendres_status get_curve(source *s, pendres_curve **out)
   c->point = get_array(s, h.count, sizeof *c->point, &status);
   c->u = get_array(s, h.count, sizeof *c->u, &status);
   c->cusp = get_array(s, h.cusps, sizeof *c->cusp, &status);
+  if (status == PENDRES_OK && !curve_fits(c)) status = PENDRES_INVALID_ARGUMENT;
   if (status == PENDRES_OK) *out = c;
   else pendres_curve_free(c);
   return status;

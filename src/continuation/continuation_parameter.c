@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "continuation/continuation_arc.h"
+#include "continuation/continuation_scale.h"
 #include "orbits/orbit_newton.h"
 
 static const char *const names[PENDRES_PARAMETER_COUNT] = {

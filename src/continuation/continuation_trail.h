@@ -73,6 +73,10 @@ pendres_status pendres_trail_refine(pendres_context *ctx, pendres_trail *trail,
 size_t pendres_trail_zeros(const pendres_trail *trail, pendres_trail_test *test, size_t room,
                            pendres_trail_zero *zeros);
 
+/* Where a trail passes branch points, or places where branches come so close that its points have
+   led from one to another: up to `room`, in order. Births are among them. */
+size_t pendres_trail_crossings(const pendres_trail *trail, size_t room, pendres_trail_zero *zeros);
+
 /* Where a trail that keeps apart from orbits that close by a half map passes one: the orbit was
    born there, and beyond it is its own image. Up to `room`, in order. */
 pendres_status pendres_trail_births(pendres_context *ctx, const pendres_trail *trail, size_t room,

@@ -6,6 +6,7 @@
 #include "base/grow.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
+#include "continuation/continuation_crossing.h"
 #include "continuation/continuation_trail.h"
 
 /* A minimum above this share of its neighbours' values is no zero that the points missed. */
@@ -120,6 +121,19 @@ size_t pendres_trail_zeros(const pendres_trail *t, pendres_trail_test *test, siz
       zeros[count++] = (pendres_trail_zero){.i = i, .part = part_of(t, test, i, a, b)};
     else if (touches(t, test, i))
       zeros[count++] = (pendres_trail_zero){.i = i, .part = 0.0};
+  }
+  return count;
+}
+
+size_t pendres_trail_crossings(const pendres_trail *t, size_t room, pendres_trail_zero *zeros)
+{
+  size_t count = 0;
+  const size_t n = t->count, chords = t->closed ? n : n - 1;
+  for (size_t i = 0; i < chords && n > 1 && count < room; i++) {
+    const pendres_arc_point *p = &t->point[i], *q = &t->point[(i + 1) % n];
+    const double a = pendres_crossing_bordered(&p->image, t->kind.unknown[2], p->tangent);
+    const double b = pendres_crossing_bordered(&q->image, t->kind.unknown[2], q->tangent);
+    if (a * b < 0.0) zeros[count++] = (pendres_trail_zero){.i = i, .part = a / (a - b)};
   }
   return count;
 }

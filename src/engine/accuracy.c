@@ -29,9 +29,9 @@ double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing)
   return fmax(finest, fmin(1e-3 * spacing, 1e-5));
 }
 
-double pendres_accuracy_to_sample(const pendres_context *ctx)
+double pendres_accuracy_to_sample(void)
 {
-  return 10.0 * ctx->options.tolerance;
+  return 1e-7;
 }
 
 double pendres_accuracy_to_average(const pendres_context *ctx)
@@ -72,11 +72,6 @@ double pendres_accuracy_far_better(const pendres_context *ctx)
 double pendres_accuracy_of_jump(const pendres_context *ctx)
 {
   return 0.25 * ctx->options.tolerance;
-}
-
-double pendres_accuracy_nearest_apart(const pendres_context *ctx)
-{
-  return fmin(1e3 * ctx->options.tolerance, 1e-4);
 }
 
 double pendres_accuracy_negligible(const pendres_context *ctx)

@@ -37,8 +37,9 @@ double pendres_accuracy_to_settle(const pendres_context *ctx);
    kept, since it was asked for. */
 double pendres_accuracy_to_picture(const pendres_context *ctx, double spacing);
 
-/* The same for states drawn at random, whose neighbours may be as near as they like. */
-double pendres_accuracy_to_sample(const pendres_context *ctx);
+/* The same for states drawn at random. Each label is made certain by itself, by runs as exact as it
+   needs: that of the first one decides about the work alone. */
+double pendres_accuracy_to_sample(void);
 
 /* Of trajectories that are averaged over long times, as for exponents: they forget their errors
    (chaos_walkers.c). */
@@ -68,10 +69,6 @@ double pendres_accuracy_far_better(const pendres_context *ctx);
 /* The width of an interval in which a jump is left: its middle and the rest of the error have room
    below the tolerance. */
 double pendres_accuracy_of_jump(const pendres_context *ctx);
-
-/* The smallest distance of states whose ends tell whether a boundary lies between them: well above
-   what their ends are off by. */
-double pendres_accuracy_nearest_apart(const pendres_context *ctx);
 
 /* What a part may add to a result's error without being looked at: harmonics left out of a mean,
    the last step of a search. */

@@ -208,6 +208,11 @@ pendres_status pendres_context_flow(pendres_context *ctx, pendres_flow_kind kind
                                                   PENDRES_ROWS_SENSITIVITY, PENDRES_ROWS_DRIVES,
                                                   PENDRES_ROWS_ALL};
   pendres_status status = PENDRES_OK;
+  /* ARKODE (6.4) crashes when it is called again after it has got no memory. */
+  if (ctx->flows[kind] != NULL && pendres_flow_failure(ctx->flows[kind]) == ARK_MEM_FAIL) {
+    pendres_flow_free(ctx->flows[kind]);
+    ctx->flows[kind] = NULL;
+  }
   if (ctx->flows[kind] == NULL) status = make_flow(ctx, rows[kind], 0.0, &ctx->flows[kind]);
   *out = ctx->flows[kind];
   return status;

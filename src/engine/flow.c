@@ -185,6 +185,7 @@ static pendres_status start_period(pendres_flow *flow, double end)
 
 static pendres_status failed(const pendres_flow *flow)
 {
+  if (flow->failure == ARK_MEM_FAIL) return PENDRES_OUT_OF_MEMORY;
   return flow->stopped ? PENDRES_INTERRUPTED : PENDRES_INTEGRATION_FAILED;
 }
 

@@ -91,7 +91,10 @@ TABLE(lyapunov, pendres_lyapunov, lyapunov);
 static const pendres_dimension bifurcation[] = {
   PART(pendres_bifurcation, orbit, orbit), FIRST(pendres_bifurcation, value),
   FIRST(pendres_bifurcation, value_error), CURVATURE(pendres_bifurcation, curvature),
-  CURVATURE(pendres_bifurcation, curvature_error)};
+  CURVATURE(pendres_bifurcation, curvature_error),
+  {offsetof(pendres_bifurcation, crossing[0]), 1, 1, 0, NULL},
+  {offsetof(pendres_bifurcation, crossing[1]), 1, 1, -1, NULL},
+  {offsetof(pendres_bifurcation, crossing[2]), 1, PENDRES_UNITS_OF_FIRST, 0, NULL}};
 TABLE(bifurcation, pendres_bifurcation, bifurcation);
 
 static const pendres_dimension branch_options[] = {FIRST(pendres_branch_options, low),

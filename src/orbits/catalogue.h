@@ -75,6 +75,9 @@ int pendres_catalogue_sort(const pendres_catalogue *c, int *order);
    written for all of them; rank may be NULL. */
 pendres_status pendres_catalogue_order(pendres_context *ctx, pendres_catalogue *c, int *rank);
 
+/* Whether two orbits of a pendulum with the mirror symmetry are each other's images. */
+int pendres_catalogue_are_images(const pendres_orbit *a, const pendres_orbit *b);
+
 /*
  * Measures and multipliers of an orbit and of its mirror image are exactly the same. Where those
  * of two differ by more than their errors, at least one of the errors is too small, and both are

@@ -15,7 +15,7 @@ enum { HARMONICS = 5 /* so many are compared */ };
 
 /* y(t) -> 2 c - y(t + half a drive period) changes the sign of even harmonics, and moves the mean
    to the other side of the centre; of an angle there are centres everywhere. */
-static int are_images(const pendres_orbit *a, const pendres_orbit *b)
+int pendres_catalogue_are_images(const pendres_orbit *a, const pendres_orbit *b)
 {
   if (a->period != b->period || a->winding != -b->winding) return 0;
   if (!(fabs(a->amplitude - b->amplitude) <= same_harmonics)) return 0;
@@ -68,6 +68,6 @@ void pendres_catalogue_compare_images(pendres_catalogue *c)
     for (size_t j = i + 1; j < c->count; j++) {
       pendres_attractor *a = &c->attractors[i], *b = &c->attractors[j];
       if (a->label == PENDRES_LABEL_CHAOTIC || b->label == PENDRES_LABEL_CHAOTIC) continue;
-      if (are_images(&a->orbit, &b->orbit)) compare(a, b);
+      if (pendres_catalogue_are_images(&a->orbit, &b->orbit)) compare(a, b);
     }
 }

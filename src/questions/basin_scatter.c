@@ -72,8 +72,21 @@ static usable list_usable(const pendres_scatter *s, int scales, const double *di
 static double variance_of_logs(const pendres_scatter *s, const usable *u, int m, const double *c)
 {
   double weight[QUANTITIES] = {0.0};
-  for (int i = 0; i < m; i++) weight[u->scale[i]] = c[i] / s->total[u->scale[i]];
-  return pendres_scatter_variance(s, weight);
+  double doubtful = 0.0;
+  for (int i = 0; i < m; i++) {
+    const int k = u->scale[i];
+    weight[k] = c[i] / s->total[k];
+    doubtful += weight[k] * weight[k] * s->doubtful[k];
+  }
+  return pendres_scatter_variance(s, weight) + doubtful;
+}
+
+/* What counts that are not known may change such a combination by. */
+static double unknown_of_logs(const pendres_scatter *s, const usable *u, int m, const double *c)
+{
+  double sum = 0.0;
+  for (int i = 0; i < m; i++) sum += fabs(c[i]) * s->unknown[u->scale[i]] / s->total[u->scale[i]];
+  return sum;
 }
 
 /* The slope over the first m scales by least squares, and its factors c of the logarithms of
@@ -127,7 +140,8 @@ void pendres_scatter_exponent(const pendres_scatter *s, int scales, const double
   for (int m = u.n; m >= LEAST_SCALES; m--) {
     const double value = slope(&u, m, c), scatter = variance_of_logs(s, &u, m, c);
     /* Few slopes may agree by chance: the slope over all distances is compared, too. */
-    const double one = sqrt(scatter + pow(bend(s, &u, m), 2.0) + pow(value - whole, 2.0));
+    const double one = sqrt(scatter + pow(bend(s, &u, m), 2.0) + pow(value - whole, 2.0)) +
+                       unknown_of_logs(s, &u, m, c);
     if (m < u.n && !(one < *error)) continue;
     *exponent = value;
     *error = one;

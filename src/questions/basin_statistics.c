@@ -361,12 +361,15 @@ static void conclude_exponent(const pendres_basin_sums *s, pendres_basin_statist
     tried[k] = used ? rows * (double)(s->nv - ((size_t)2 << k)) : NAN;
     weight[k] = 1.0;
     scatter.total[k] = s->counts[k]; /* rows that make no box as well */
+    /* A state that is labelled wrongly makes itself and two others uncertain. */
+    scatter.doubtful[k] = 3.0 * (double)s->uncertain;
+    scatter.unknown[k] = 3.0 * (double)s->members[s->attractors].states;
     out->distance[k] = used ? s->step * (double)((size_t)1 << k) : NAN;
     out->uncertain[k] = used ? s->counts[k] / tried[k] : NAN;
-    /* Rows at the end that make no box scatter like the others. A state that is labelled wrongly
-       makes itself and two others uncertain. */
+    /* Rows at the end that make no box scatter like the others. */
     out->uncertain_error[k] =
-      used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped) / tried[k] +
+      used ? sqrt(pendres_scatter_variance(&scatter, weight) * rows / grouped +
+                  scatter.doubtful[k]) / tried[k] + scatter.unknown[k] / tried[k] +
                3.0 * s->suspect / ((double)s->nv * rows)
            : NAN;
     /* Not below one state in all of them: that none is unlike is no certainty. */

@@ -49,15 +49,25 @@ static int are_unlike(const pendres_outcome *a, const pendres_outcome *b, pendre
          (by == PENDRES_BASIN_BY_WELL && a->attractor >= 0 && a->well != b->well);
 }
 
+static int is_unknown(const pendres_outcome *o)
+{
+  return o->attractor == PENDRES_ATTRACTOR_UNKNOWN;
+}
+
 /* Count one state and its neighbours: outcome[0] its own, then two a distance. Each state is a
    group of its own, since states know nothing of one another. */
 static void count_sample(pendres_scatter *s, int scales, pendres_basin_end by,
                          const pendres_outcome *outcome)
 {
   double unlike[PENDRES_SCATTER_QUANTITIES] = {0.0};
-  for (int k = 0; k < scales; k++)
-    unlike[k] = are_unlike(&outcome[0], &outcome[1 + 2 * k], by) ||
-                are_unlike(&outcome[0], &outcome[2 + 2 * k], by);
+  for (int k = 0; k < scales; k++) {
+    const pendres_outcome *one = &outcome[1 + 2 * k], *two = one + 1;
+    unlike[k] = are_unlike(&outcome[0], one, by) || are_unlike(&outcome[0], two, by);
+    if (is_unknown(&outcome[0]) || is_unknown(one) || is_unknown(two))
+      s->unknown[k] += 1.0;
+    else if (!(outcome[0].certain && one->certain && two->certain))
+      s->doubtful[k] += 1.0;
+  }
   pendres_scatter_add(s, unlike);
 }
 
@@ -71,7 +81,9 @@ static void conclude(const pendres_scatter *s, pendres_basin_statistics *out)
     tried[k] = n;
     out->uncertain[k] = share;
     /* Not below one state in all of them: none or all that are alike is no certainty. */
-    out->uncertain_error[k] = fmax(sqrt(share * (1.0 - share) / n), 1.0 / n);
+    out->uncertain_error[k] =
+      fmax(sqrt(share * (1.0 - share) / n + s->doubtful[k] / (n * n)), 1.0 / n) +
+      s->unknown[k] / n;
   }
   pendres_scatter_exponent(s, out->scales, out->distance, tried, &out->uncertainty_exponent,
                            &out->uncertainty_exponent_error);
@@ -105,12 +117,14 @@ static pendres_status settle_some(pendres_context *ctx, sample *a, size_t count,
     place(a->window, a->of, (uint64_t)(out->states + i), &a->x[i * each], &a->v[i * each]);
   const pendres_settle_starts starts = {.n = count * each, .x = a->x, .v = a->v};
   const pendres_status status =
-    pendres_settle_known(ctx, a->set->catalogues, &starts, pendres_accuracy_to_sample(ctx),
+    pendres_settle_known(ctx, a->set->catalogues, &starts, pendres_accuracy_to_sample(),
                          PENDRES_SETTLE_FULL, a->outcome);
   if (status != PENDRES_OK) return status;
   for (size_t i = 0; i < count; i++) {
-    out->unresolved += a->outcome[i * each].attractor == PENDRES_ATTRACTOR_UNKNOWN;
-    count_sample(counts, out->scales, a->window->by, &a->outcome[i * each]);
+    const pendres_outcome *own = &a->outcome[i * each];
+    out->unresolved += is_unknown(own);
+    out->uncertain_states += !is_unknown(own) && !own->certain;
+    count_sample(counts, out->scales, a->window->by, own);
   }
   out->states += count;
   return status;
@@ -226,10 +240,13 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
 
 /* ---- in place of a grid's exponent ---- */
 
-/* Random states and distances, which depend on the tolerance alone. */
+/* Random states and their distances, the smallest and the ratio of one to the next. Labels are
+   made certain down to rounding, whatever the tolerance is. This is far above it, and a thousandth
+   of the distances of a fine grid. */
 enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5, RANDOM_SEED = 1 };
+static const double nearest = 1e-5, ratio = 6.0;
 
-static int random_states_tell_more(const pendres_basin_statistics *s, double nearest)
+static int random_states_tell_more(const pendres_basin_statistics *s)
 {
   enum { MET = 50 /* twice what makes a share worth fitting */ };
   if (!(s->boundary_boxes > 0.0)) return 0;
@@ -246,20 +263,18 @@ static pendres_status statistics_refine(pendres_context *ctx, const pendres_attr
                                         const pendres_basin_grid *g, pendres_basin_statistics *s,
                                         size_t *states)
 {
-  static const double apart = 6.0; /* of distances, one to the next */
   if (set == NULL || g == NULL || g->x == NULL || g->v == NULL || s == NULL || states == NULL)
     return PENDRES_CONTEXT_NULL(ctx, "attractors, grid, its x and v, statistics and states");
   if (g->nx == 0 || g->nv == 0)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "the grid has no states");
-  const double nearest = pendres_accuracy_nearest_apart(ctx);
   const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
                                        .v_low = g->v[0], .v_high = g->v[g->nv - 1],
                                        .by = g->by};
   double distance[RANDOM_SCALES];
   pendres_basin_statistics random;
   *states = 0;
-  if (!random_states_tell_more(s, nearest)) return PENDRES_OK;
-  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = nearest * pow(apart, k);
+  if (!random_states_tell_more(s)) return PENDRES_OK;
+  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = nearest * pow(ratio, k);
   const pendres_basin_sample asked = {
     .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = RANDOM_SCALES, .distance = distance};
   const pendres_status status = pendres_basin_uncertainty(ctx, set, &window, &asked, &random);

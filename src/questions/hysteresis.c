@@ -135,9 +135,8 @@ static pendres_status settle_at(path *w, size_t *i)
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
   const pendres_settled old = w->state;
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
-  const int same = pendres_settled_closed(&old.attractor) &&
-                   pendres_settled_alike(&old.attractor, &w->state.attractor);
-  if (status == PENDRES_OK && w->settled && pendres_settled_closed(&w->state.attractor) && !same) {
+  if (status == PENDRES_OK && w->settled &&
+      pendres_chaos_ends(&old.attractor, &w->state.attractor)) {
     if (w->tried != *i) w->tries = 0;
     w->tried = *i;
     w->tries++;

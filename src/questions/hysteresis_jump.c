@@ -226,8 +226,9 @@ static void begin(const pendres_bifurcation *at, int direction, double distance[
 }
 
 /*
- * Near the end of a lock a rotation slips only once in many periods, too rarely for averages.
- * They are repeated further beyond the end, ten times as far in each round.
+ * Near the end of a lock a rotation slips only once in many periods, too rarely for averages, and
+ * next to a fold some stay for longer than a pendulum is settled. They are repeated further beyond
+ * the end, ten times as far in each round.
  */
 static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                             double distance[TRIALS], pendres_settled went[TRIALS])
@@ -240,7 +241,6 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
     for (int i = 0; i < TRIALS; i++) {
       pendres_settled *s = &went[i];
       if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
-      if (!pendres_lyapunov_may_rotate(&s->pendulum)) continue;
       distance[i] *= further;
       s->pendulum = beyond_by(at, direction * distance[i]);
       some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);

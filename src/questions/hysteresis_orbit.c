@@ -33,7 +33,8 @@ static pendres_status go_over(pendres_path *w, const pendres_bifurcation *end, d
                               pendres_stretch *next)
 {
   const int doubled = end->kind == PENDRES_PERIOD_DOUBLING ? 2 : 1;
-  if (end->kind != PENDRES_PERIOD_DOUBLING && end->kind != PENDRES_SYMMETRY_BREAKING)
+  if (end->kind != PENDRES_PERIOD_DOUBLING && end->kind != PENDRES_SYMMETRY_BREAKING &&
+      end->kind != PENDRES_BRANCH_POINT)
     return PENDRES_NOT_FOUND;
   if (w->stretch.end != PENDRES_STRETCH_BIRTH)
     return doubled * end->orbit.period <= PENDRES_HYSTERESIS_PERIOD

@@ -146,6 +146,7 @@ static pendres_status unpack(size_t size, const void *bytes, pendres_phase_famil
   memcpy(&h, from, sizeof h);
   from += sizeof h;
   size -= sizeof h;
+  if ((unsigned)h.outcome >= PENDRES_STATUS_COUNT) return PENDRES_INVALID_ARGUMENT;
   if (h.words == 0 || h.words > size || h.curves != size - h.words || from[h.words - 1] != '\0')
     return PENDRES_INVALID_ARGUMENT;
   pendres_status status = pendres_curves_unpack(h.curves, from + h.words, &f->curves);

@@ -141,7 +141,8 @@ static pendres_status get_marks(source *s, pendres_phase_done *l)
 {
   for (size_t k = 0; k < l->values; k++) {
     pendres_status outcome;
-    if (!get(s, &outcome, 1, sizeof outcome)) return PENDRES_INVALID_ARGUMENT;
+    if (!get(s, &outcome, 1, sizeof outcome) || (unsigned)outcome >= PENDRES_STATUS_COUNT)
+      return PENDRES_INVALID_ARGUMENT;
     const char *end = memchr(s->at, '\0', s->left);
     if (end == NULL) return PENDRES_INVALID_ARGUMENT;
     const size_t length = (size_t)(end - s->at);
@@ -154,6 +155,13 @@ static pendres_status get_marks(source *s, pendres_phase_done *l)
   return s->left == 0 ? PENDRES_OK : PENDRES_INVALID_ARGUMENT;
 }
 
+static int point_fits(const pendres_phase_point *p)
+{
+  return (unsigned)p->pendulum.force < PENDRES_FORCE_COUNT &&
+         (unsigned)p->regime < PENDRES_REGIME_COUNT && (unsigned)p->exact < PENDRES_REGIME_COUNT &&
+         (unsigned)p->other < 2 * PENDRES_OTHER_UNRESOLVED;
+}
+
 static pendres_status get_line(source *s, const head *h, pendres_phase_done *l)
 {
   if (!get(s, l->place, h->values, sizeof *l->place) ||
@@ -162,6 +170,8 @@ static pendres_status get_line(source *s, const head *h, pendres_phase_done *l)
   for (size_t k = 0; k < h->values; k++)
     if (l->place[k] != PENDRES_PHASE_NOWHERE && l->place[k] >= h->count)
       return PENDRES_INVALID_ARGUMENT;
+  for (size_t k = 0; k < h->count; k++)
+    if (!point_fits(&l->points[k])) return PENDRES_INVALID_ARGUMENT;
   l->count = h->count;
   const pendres_status status = pendres_branches_unpack(h->branches, s->at, &l->branches);
   if (status != PENDRES_OK) return status;

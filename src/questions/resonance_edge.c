@@ -262,7 +262,8 @@ pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_sca
   *out = (pendres_resonance){.peak = PENDRES_PEAK_EDGE,
                              .frequency_error = at->fold_error,
                              .fold_frequency = at->fold,
-                             .fold_frequency_error = at->fold_error};
+                             .fold_frequency_error =
+                               isnan(at->fold) ? NAN : at->fold_error};
   return conclude(ctx, at, -at->at_fold, out);
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/model.h"
+#include "orbits/catalogue.h"
 
 enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
 
@@ -25,12 +26,18 @@ typedef struct families {
 /*
  * Whether an orbit goes on from one frequency to the next: its Poincaré point has moved as the
  * slopes at both ends say. On a branch that bends sharply it has not, and the gap is looked into.
+ * At a bifurcation there is no slope: states that branch off there go as the root of the distance,
+ * twice as far as the slope at the other end says.
  */
 static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
 {
   const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
-  const double dx = 0.5 * step * (a->frequency_derivative[0] + b->frequency_derivative[0]);
-  const double dv = 0.5 * step * (a->frequency_derivative[1] + b->frequency_derivative[1]);
+  double by[2];
+  for (int k = 0; k < 2; k++) {
+    const double p = a->frequency_derivative[k], q = b->frequency_derivative[k];
+    by[k] = isnan(p) ? 2.0 * q : isnan(q) ? 2.0 * p : 0.5 * (p + q);
+  }
+  const double dx = step * by[0], dv = step * by[1];
   const pendres_pendulum *p = &a->pendulum;
   const double off = pendres_model_distance(p, b->x - a->x - dx, b->v - a->v - dv);
   return a->period == b->period && a->winding == b->winding &&
@@ -51,6 +58,9 @@ static family both_ends(const pendres_attractor *a, const pendres_attractor *b, 
   family f = {.area = {p->loop_area, q->loop_area},
               .slope = {p->loop_area_slope, q->loop_area_slope}};
   if (a->label == PENDRES_LABEL_CHAOTIC) f.slope[0] = f.slope[1] = 0.0;
+  /* A slope that is not known is that of a parabola. */
+  for (int e = 0; e < 2; e++)
+    if (isnan(f.slope[e])) f.slope[e] = 2.0 * (f.area[1] - f.area[0]) / width - f.slope[1 - e];
   f.residual = fabs(f.area[1] - f.area[0] - 0.5 * width * (f.slope[0] + f.slope[1]));
   if (a->label == PENDRES_LABEL_CHAOTIC)
     f.residual = 3.0 * (p->loop_area_error + q->loop_area_error);
@@ -75,6 +85,25 @@ static family one_end(const pendres_orbit *o, int end, double width)
   f.slope[0] = f.slope[1] = (f.area[1] - f.area[0]) / width;
   f.middle = 0.5 * (f.area[0] + f.area[1]);
   return f;
+}
+
+/* A state whose mirror image comes before it in the list is that image: areas are the same. */
+static int image_of(const pendres_response *r, size_t i)
+{
+  if (!pendres_pendulum_symmetric(&r->pendulum)) return -1;
+  for (size_t k = 0; k < i; k++)
+    if (pendres_catalogue_are_images(&r->state[k].orbit, &r->state[i].orbit)) return (int)k;
+  return -1;
+}
+
+/* Have mirror images count as one state. */
+static void merge_images(const pendres_response *const of[2], families *all)
+{
+  for (int e = 0; e < 2; e++)
+    for (size_t i = 0; i < of[e]->states; i++) {
+      const int image = image_of(of[e], i);
+      if (image >= 0) all->at[e][i] = all->at[e][image];
+    }
 }
 
 /* The states of both ends; 1 if one with members is at one end only. */
@@ -105,6 +134,7 @@ static int find_families(const pendres_response *a, const pendres_response *b, d
     all->at[1][j] = (int)all->count;
     all->of[all->count++] = one_end(&b->state[j].orbit, 1, width);
   }
+  merge_images((const pendres_response *const[2]){a, b}, all);
   for (size_t i = 0; i < all->count; i++)
     if (!isfinite(all->of[i].middle)) all->of[i] = (family){.middle = -INFINITY};
   return alone;

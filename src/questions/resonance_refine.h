@@ -13,8 +13,9 @@ typedef struct pendres_scan_point {
   int jump_to_next;          /* there is a jump before the next point, whatever the states say */
   int fold_sought;           /* the gap to the next point was searched for a fold already */
   int at_fold;               /* not 0: the point is at a fold, on the side without the state that
-                                ends there, which exists at lower (-1) or higher (1) omega */
-  double fold, fold_error;
+                                ends there, which exists at lower (-1) or higher (1) omega; or at
+                                a kink, and belongs to what is on the other side */
+  double fold, fold_error;   /* NaN, and the error of the frequency, at a kink */
   signed char *where;        /* the state that each member is on, -1: none; NULL: not asked for */
 } pendres_scan_point;
 
@@ -55,7 +56,17 @@ pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_e
                                            const pendres_scan_point *a,
                                            const pendres_scan_point *b, pendres_scan_fold *out);
 
-/* The resonance at a point at a fold. */
+/* Where a state loses its mirror symmetry: the mean area goes on, and its slope jumps. */
+typedef struct pendres_scan_kink {
+  int found;                /* 0: there is none */
+  pendres_scan_point at[2]; /* with the states on the lower side, and those on the upper one */
+} pendres_scan_kink;
+
+/* The kink between a and b that the states of both tell of, if there is one. */
+pendres_status pendres_resonance_find_kink(pendres_context *ctx, const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_kink *out);
+
+/* The resonance at a point at a fold or a kink. */
 pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,
                                          pendres_resonance *out);
 

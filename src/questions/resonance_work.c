@@ -99,6 +99,47 @@ static double largest_bound(const pendres_resonance_work *w, double threshold)
   return largest;
 }
 
+/* Whether all states of two points go on to a kink between them, and their members meet there. */
+static int meet(const pendres_scan_point *a, const pendres_scan_kink *kink,
+                const pendres_scan_point *b)
+{
+  const pendres_response *p = &kink->at[0].response, *q = &kink->at[1].response;
+  pendres_gap before, behind;
+  pendres_gap_look(a, &kink->at[0], 0, &before);
+  pendres_gap_look(&kink->at[1], b, 0, &behind);
+  return before.kind != PENDRES_GAP_JUMP && behind.kind != PENDRES_GAP_JUMP &&
+         fabs(p->mean_loop_area - q->mean_loop_area) <=
+           p->mean_loop_area_error + q->mean_loop_area_error;
+}
+
+/*
+ * A kink in a gap in which no fold was found becomes two points, one for either side. If there are
+ * jumps in the gap as well, nobody knows yet where the members are at the kink: it is looked for
+ * again when the gap has been cut.
+ */
+static pendres_status add_kink(pendres_resonance_work *w, size_t gap, int *found)
+{
+  pendres_search *s = &w->s;
+  const pendres_scan_point a = s->points[gap], b = s->points[gap + 1];
+  pendres_scan_kink *kink = malloc(sizeof *kink);
+  if (kink == NULL)
+    return pendres_context_fail(s->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a resonance");
+  pendres_status status = pendres_resonance_find_kink(s->ctx, &a, &b, kink);
+  pendres_search_account(s, pendres_scan_frequency(&a));
+  *found = status == PENDRES_OK && kink->found;
+  if (*found && s->count + 2 > PENDRES_SEARCH_POINTS) {
+    s->crowded = 1;
+  } else if (*found && !meet(&a, kink, &b)) {
+    *found = 0;
+    if (w->known[gap].gap.width > narrow * s->rate) s->points[gap].fold_sought = 0;
+  } else if (*found) {
+    status = pendres_search_insert(s, &kink->at[0], &a);
+    if (status == PENDRES_OK) status = pendres_search_insert(s, &kink->at[1], &b);
+  }
+  free(kink);
+  return status;
+}
+
 /*
  * Look for a fold in the most promising gap that was not searched for one yet, however narrow. The
  * fold saves many frequencies close to it, where its ghost slows everything down. *sought: there
@@ -127,6 +168,7 @@ static pendres_status add_fold(pendres_resonance_work *w, int *sought, int *foun
   pendres_status status = pendres_resonance_find_fold(s->ctx, s->ensemble, a, b, &fold);
   pendres_search_account(s, pendres_scan_frequency(a));
   *found = status == PENDRES_OK && fold.found;
+  if (status == PENDRES_OK && !*found) return add_kink(w, gap, found);
   if (!*found) return status;
   if (s->count + 2 > PENDRES_SEARCH_POINTS) {
     s->crowded = 1;

@@ -26,8 +26,8 @@ enum { FEW_POINTS = 48, MOST_POINTS = 2000, ENOUGH = 8 };
 
 /* Values that differ by less, in the parameter's scale, are those of one place. */
 static const double same_value = 1e-8;
-/* A point this close to a bifurcation does not tell what follows upon that: it may be on either of
-   two branches that meet there. */
+/* A point this close to a bifurcation does not tell what there is before or behind that: it may be
+   on either of two branches that meet there. */
 static const double next_to = 1e-4;
 
 void pendres_stretch_free(pendres_stretch *s)
@@ -95,6 +95,21 @@ static pendres_branch_end branch_end(const pendres_stretch *s)
   return pendres_branch_end_of(s->branch, s->step > 0);
 }
 
+/* The bifurcation that is the point after number k; NULL: it is none. */
+static const pendres_bifurcation *coming(const pendres_stretch *s, size_t k)
+{
+  const pendres_branch_point *p = point_of(s, k + 1);
+  if (p == NULL || p->bifurcation < 0) return NULL;
+  return pendres_branch_bifurcation(s->branch, (size_t)p->bifurcation);
+}
+
+/* Whether a point is so close to a bifurcation that its stability is a matter of rounding. */
+static int beside(const pendres_stretch *s, const pendres_branch_point *p,
+                  const pendres_bifurcation *at)
+{
+  return at != NULL && distance(p, s->parameter, at->value, &at->orbit) < next_to;
+}
+
 /* Take points from the place on as long as orbits are stable; sets points and the end, and returns
    the number of the point that told the end. */
 static size_t take_stable(pendres_stretch *s, double limit)
@@ -115,7 +130,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
     /* Next to a bifurcation, at the beginning or on the way, stability is a matter of rounding. */
     const double before = met != NULL ? met->value : value_of(s, s->points - 1);
     if ((s->points == 1 || met != NULL) && fabs(value_of(s, k) - before) <= same) continue;
-    if (met != NULL && distance(p, s->parameter, met->value, &met->orbit) < next_to) continue;
+    if (beside(s, p, met) || beside(s, p, coming(s, k))) continue;
     turned = ahead(s, value_of(s, k), before) < -same;
     if (!p->orbit.stable || turned) break;
     met = NULL;
