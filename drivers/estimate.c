@@ -16,8 +16,9 @@ static const double program_memory = 19e6, thread_memory = 9e6;
 static const double program_seconds = 0.02;
 
 /* The damping at which the seconds a point of scene_size were measured. Below it pendulums settle
-   as much longer as it is weaker, down to where budgets of periods and searches end them. */
-static const double usual_damping = 0.2, slowest = 1000.0;
+   as much longer as it is weaker, down to where budgets of periods and searches end them; where
+   branches are followed they hardly do (measured at dampings down to 1e-5). */
+static const double usual_damping = 0.2, slowest = 300.0, slowest_branch = 5.0;
 
 /* Bytes that a grid's state adds to the compressed file where it differs from the one before; of a
    basin's boundary, mostly; of a noisy strobe point, and of one among others that may repeat; of a
@@ -128,10 +129,13 @@ static double slowness(const deck *d)
 {
   const deck_axis *a = &d->axis[DECK_AXIS_DAMPING];
   const size_t n = a->count > 0 ? a->count : 1;
+  const int branch = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
+                     d->kind == DECK_BRANCHES;
+  const double most = branch ? slowest_branch : slowest;
   double sum = 0.0;
   for (size_t i = 0; i < n; i++) {
     const double damping = a->count > 0 ? a->value[i] : d->pendulum.damping;
-    sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), slowest) : 1.0;
+    sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), most) : 1.0;
   }
   return sum / (double)n;
 }
