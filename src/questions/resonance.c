@@ -25,7 +25,7 @@ const char *pendres_peak_name(pendres_peak peak)
  * have alone. When it is spent, those that have not ended begin anew, each with a budget of its
  * own.
  */
-static const double most_work = 9.0;
+static const double most_work = 30.0;
 
 /* A resonance of which nothing is known: its numbers are NaN. */
 static void clear(pendres_resonance *out)

@@ -178,6 +178,10 @@ static double largest_between(const curve *c, double width)
   return ends + c->residual;
 }
 
+/* On whose states a member may be: its own; those of the members beside it, too, if these change
+   theirs; or in any case. */
+typedef enum reach { OWN, MOVED, BESIDE } reach;
+
 /* What the members do in a gap. */
 typedef struct census {
   size_t on[MOST_FAMILIES]; /* each on the largest state that it may be on */
@@ -187,12 +191,14 @@ typedef struct census {
 
 /*
  * Each member is on one of the two states that it is on at the ends. In a wide gap it may also be
- * on a state of the members beside it, since a basin's boundary may have come by and gone back. The
- * members at a fold's own point, which lies on the far side of the jump, say nothing about the gap.
+ * on a state of the members beside it, since a basin's boundary may have come by and gone back; in
+ * one that is not so wide, only where the boundary has moved. The members at a fold's own point,
+ * which lies on the far side of the jump, say nothing about the gap.
  */
-static void count_members(const families *all, const pendres_scan_point *const end[2], int wide,
+static void count_members(const families *all, const pendres_scan_point *const end[2], reach far,
                           const int asked[2], size_t members, census *c)
 {
+  const int wide = far != OWN;
   *c = (census){.up = 0};
   for (size_t k = 0; k < members; k++) {
     int largest = -2, stays = -2, own[2];
@@ -202,6 +208,7 @@ static void count_members(const families *all, const pendres_scan_point *const e
       stays = stays == -2 ? own[e] : larger_of(all, stays, own[e]);
       for (size_t j = wide && k > 0 ? k - 1 : k; j <= k + (size_t)wide && j < members; j++) {
         const int f = family_at(all, end[e], e, j);
+        if (far == MOVED && j != k && f == family_at(all, end[1 - e], 1 - e, j)) continue;
         largest = largest == -2 ? f : larger_of(all, largest, f);
       }
     }
@@ -244,9 +251,10 @@ void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, 
 {
   const pendres_scan_point *const end[2] = {a, b};
   const double omega = pendres_scan_frequency(a), width = pendres_scan_frequency(b) - omega;
-  /* A gap is wide above a fiftieth of the width over which the response changes: boundaries move by
-     the distance of members over it. */
-  const double narrow = 0.02 * pendres_search_width(&a->response.pendulum, omega);
+  /* Over a fiftieth of the width over which the response changes boundaries move by the distance of
+     members; over a fifth they may turn back. */
+  const double change = pendres_search_width(&a->response.pendulum, omega);
+  const double narrow = 0.02 * change, wide = 0.2 * change;
   const int at_fold = a->at_fold > 0 || b->at_fold < 0;
   const int asked[2] = {a->at_fold <= 0, b->at_fold >= 0};
   families all;
@@ -257,7 +265,8 @@ void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, 
     return;
   }
   const int alone = find_families(&a->response, &b->response, width, &all);
-  count_members(&all, end, width > narrow || at_fold, asked, members, &c);
+  count_members(&all, end, width > wide || at_fold ? BESIDE : width > narrow ? MOVED : OWN,
+                asked, members, &c);
   out->bound = bound_of(&all, &c, members, width);
   out->loose = c.loose && width > narrow;
   out->mixed = c.up && c.down;
