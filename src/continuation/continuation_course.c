@@ -39,8 +39,8 @@ void pendres_course_free(pendres_course *c)
 
 /* ---- special points ---- */
 
-/* A trail is back at a place only after at least this arclength. */
-static const double another_pass = 1.0;
+/* A trail is back at a place only after more than so many of its longest steps. */
+static const double another_pass = 4.0;
 
 /* Whether two special points of a trail are one. A trail that passes a place twice, as the two ways
    of a start on a closed curve may, has a special point there each time. */
@@ -51,7 +51,7 @@ static int same_place(const pendres_trail *t, const pendres_course_special *a,
   const double round = t->point[t->count - 1].arclength;
   double sum = 0.0, between = fabs(t->point[a->at.i].arclength - t->point[b->at.i].arclength);
   if (t->closed) between = fmin(between, round - between);
-  if (a->condition != b->condition || between > another_pass) return 0;
+  if (a->condition != b->condition || between > another_pass * w->longest) return 0;
   for (int k = 0; k < w->unknowns; k++)
     sum = hypot(sum, a->located.pair.fine[w->unknown[k]] - b->located.pair.fine[w->unknown[k]]);
   return sum < 1e-8;

@@ -112,11 +112,12 @@ static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
     [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY,
     [PENDRES_BRANCH_POINT] = PENDRES_JUMP_BRANCH_POINT};
   const pendres_stretch *s = &w->stretch;
+  const pendres_branch_point *last = pendres_stretch_last(s);
   pendres_bifurcation end = s->bifurcation;
   if (s->end == PENDRES_STRETCH_UNLOCATED)
     end = (pendres_bifurcation){.kind = PENDRES_REGULAR, .parameter = w->parameter,
                                 .value = s->end_value, .value_error = s->end_error,
-                                .orbit = w->state.attractor.orbit};
+                                .orbit = last != NULL ? last->orbit : w->state.attractor.orbit};
   pendres_jump j = {.step = step, .direction = s->direction, .kind = kinds[end.kind],
                     .value = end.value, .value_error = end.value_error,
                     .from = w->state.attractor.label, .share = NAN};

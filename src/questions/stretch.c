@@ -110,6 +110,15 @@ static int beside(const pendres_stretch *s, const pendres_branch_point *p,
   return at != NULL && distance(p, s->parameter, at->value, &at->orbit) < next_to;
 }
 
+/* How far a stretch that ends before point number k may reach beyond its last point: as far as the
+   points before and behind that. */
+static double unlocated(const pendres_stretch *s, size_t k)
+{
+  const size_t last = s->points - 1;
+  const double behind = fabs(value_of(s, k) - value_of(s, last));
+  return last > 0 ? fmax(behind, fabs(value_of(s, last) - value_of(s, last - 1))) : behind;
+}
+
 /* Take points from the place on as long as orbits are stable; sets points and the end, and returns
    the number of the point that told the end. */
 static size_t take_stable(pendres_stretch *s, double limit)
@@ -149,7 +158,7 @@ static size_t take_stable(pendres_stretch *s, double limit)
   s->end = p != NULL                            ? PENDRES_STRETCH_UNLOCATED
            : branch_end(s) == PENDRES_END_RANGE ? PENDRES_STRETCH_LIMIT
                                                 : PENDRES_STRETCH_STOPPED;
-  if (p != NULL) s->end_error = fmax(s->end_error, fabs(value_of(s, k) - s->end_value));
+  if (p != NULL) s->end_error = unlocated(s, k);
   /* What happens at a bifurcation right before the computation stopped is told by what follows. */
   if (met == NULL || (p == NULL && branch_end(s) == PENDRES_END_POINTS)) return k;
   s->end = turned ? PENDRES_STRETCH_BIRTH : PENDRES_STRETCH_BIFURCATION;

@@ -32,6 +32,7 @@ static const section sections[] = {
   {"resonance", accuracy_resonance},
   {"search", accuracy_search},
   {"ensembles", accuracy_ensembles},
+  {"sweeps", accuracy_sweeps},
 };
 enum { SECTIONS = sizeof sections / sizeof sections[0] };
 

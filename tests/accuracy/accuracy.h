@@ -117,6 +117,7 @@ void accuracy_advance(accuracy *a);
 void accuracy_resonance(accuracy *a);
 void accuracy_search(accuracy *a);
 void accuracy_ensembles(accuracy *a);
+void accuracy_sweeps(accuracy *a);
 
 /* ---- for main ---- */
 

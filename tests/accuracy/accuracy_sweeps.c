@@ -1,0 +1,295 @@
+/*
+ * accuracy_sweeps.c -- sweeps up and down along any parameter of any model: each state that ends
+ * does end, and none ends without a jump.
+ *
+ * What is true is told by a continuation of its own: from each point of a path that is a closed
+ * orbit the extended-precision reference's Newton's method leads on to the next value, in steps
+ * that are halved where it fails. Where it arrives and the orbit has been stable all the way, there
+ * must be no jump, and the next point must be that orbit; where it does not, there must be a jump
+ * at that place.
+ */
+#include "accuracy.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum {
+  VALUES = 12,
+  POINTS = 2 * VALUES,
+  FAULTS = 4,  /* of a sweep, that are told */
+  SHOWN = 100, /* jumps that are printed where one item is asked for */
+  HOW = 700,
+  WORDS = 60
+};
+
+/* The shortest step of a continuation, in that of the path: how well it knows an end. */
+static const double shortest = 1e-5;
+/* A step leads on along a branch if it ends this close to where it was expected to. */
+static const double expected = 0.02;
+/* Measures of one orbit agree to this. */
+static const double same = 1e-6;
+/* Longer orbits are not followed: a step takes as many periods. */
+static const long longest = 8;
+
+typedef struct fault {
+  char what[WORDS];
+  double from, to, value;
+} fault;
+
+typedef struct item {
+  pendres_pendulum pendulum;
+  pendres_parameter parameter;
+  double low, high, x, v;
+  pendres_status status;
+  long steps, checked, marked, jumps[PENDRES_JUMP_COUNT];
+  int faults;
+  fault fault[FAULTS];
+  int shown;
+  pendres_jump jump[SHOWN];
+} item;
+
+/* ---- draws ---- */
+
+static pendres_pendulum model(accuracy_random *r)
+{
+  pendres_pendulum p = {.damping = accuracy_logarithmic(r, 0.05, 1.0),
+                        .drive_amplitude = accuracy_logarithmic(r, 0.02, 1.5),
+                        .drive_frequency = accuracy_uniform(r, 0.3, 2.0)};
+  const int which = accuracy_choice(r, 8);
+  if (accuracy_choice(r, 3) == 0) p.torque = accuracy_uniform(r, -0.6, 0.6);
+  if (accuracy_choice(r, 3) == 0) p.parametric_amplitude = accuracy_uniform(r, -0.8, 0.8);
+  if (which < 4) return p;
+  p.force = PENDRES_FORCE_POLYNOMIAL;
+  if (which < 7) p.force_coefficients[0] = which == 5 ? -1.0 : 1.0;
+  if (which == 6) p.force_coefficients[1] = accuracy_uniform(r, -1.0, 1.0);
+  p.force_coefficients[2] = accuracy_choice(r, 6) == 0 && which == 4
+                              ? 0.0 : accuracy_uniform(r, 0.2, 1.0);
+  return p;
+}
+
+static void draw(accuracy_random *r, item *t)
+{
+  static const double range[][2] = {{0.2, 4.0}, {0.05, 2.0}, {0.0, 3.0}, {-2.0, 2.0}, {-2.0, 2.0}};
+  t->pendulum = model(r);
+  t->parameter = (pendres_parameter)accuracy_choice(r, PENDRES_PARAMETRIC_AMPLITUDE + 1);
+  const double from = range[t->parameter][0], to = range[t->parameter][1];
+  const double a = accuracy_uniform(r, from, to), b = accuracy_uniform(r, from, to);
+  t->low = fmin(a, b);
+  t->high = fmax(a, b) + 0.05;
+  /* One in four goes far. */
+  if (accuracy_choice(r, 4) == 0) t->high = t->low + 20.0 * (t->high - t->low);
+  t->x = accuracy_uniform(r, -1.0, 2.0);
+  t->v = accuracy_uniform(r, -0.5, 0.5);
+}
+
+/* ---- a continuation of its own ---- */
+
+typedef struct place {
+  double value;
+  pendres_reference_cycle cycle;
+} place;
+
+static double turn_of(const pendres_pendulum *p)
+{
+  const double period = pendres_model_of(p->force)->period;
+  return period > 0.0 ? period : 1e300;
+}
+
+static int stable(const pendres_reference_cycle *c)
+{
+  return hypotl(c->multiplier_re[0], c->multiplier_im[0]) < 1.0L &&
+         hypotl(c->multiplier_re[1], c->multiplier_im[1]) < 1.0L;
+}
+
+/* The orbit at a value, expected on the line through two places before it; 1: it is there, and
+   stable. */
+static int next_place(const item *t, const place *before, const place *here, double value,
+                      place *out)
+{
+  const pendres_reference_cycle *a = &before->cycle, *b = &here->cycle;
+  pendres_pendulum p = t->pendulum;
+  const long double way = here->value - before->value;
+  const long double part = way != 0.0L ? (value - here->value) / way : 0.0L;
+  const long double turn = turn_of(&p);
+  const long double y = b->y + part * remainderl(b->y - a->y, turn);
+  const long double v = b->v + part * (b->v - a->v);
+  pendres_parameter_set(t->parameter, value, &p);
+  out->value = value;
+  return pendres_reference_orbit(&p, y, v, b->period, b->winding, &out->cycle) == PENDRES_OK &&
+         hypotl(remainderl(out->cycle.y - y, turn), out->cycle.v - v) < expected &&
+         stable(&out->cycle);
+}
+
+/* Lead an orbit on to a value: 1 if it arrives; *end is the last place that was reached. */
+static int lead(const item *t, const pendres_orbit *from, double to, place *end)
+{
+  const double start = pendres_parameter_get(t->parameter, &from->pendulum);
+  const double least = shortest * fabs(to - start);
+  double step = (to - start) / 8.0;
+  place before = {.value = start,
+                  .cycle = {.y = from->x - pendres_model_of(from->pendulum.force)->origin,
+                            .v = from->v, .period = from->period, .winding = from->winding}};
+  place here, next;
+  *end = before;
+  if (!next_place(t, &before, &before, start, &here)) return 0;
+  for (before = here; here.value != to;) {
+    const int last = fabs(to - here.value) <= fabs(step) * 1.001;
+    if (next_place(t, &before, &here, last ? to : here.value + step, &next)) {
+      before = here;
+      here = next;
+      step *= 1.5;
+    } else {
+      step *= 0.5;
+    }
+    *end = here;
+    if (fabs(step) < least) return 0;
+  }
+  return 1;
+}
+
+/* ---- a path ---- */
+
+static void complain(item *t, const char *what, double from, double to, double value)
+{
+  if (t->faults < FAULTS) {
+    fault *f = &t->fault[t->faults];
+    snprintf(f->what, sizeof f->what, "%s", what);
+    f->from = from;
+    f->to = to;
+    f->value = value;
+  }
+  t->faults++;
+}
+
+/* The jump on the way to point i that is nearest to a value, the first one for NaN; NULL: none. */
+static const pendres_jump *jump_near(const pendres_hysteresis *h, size_t i, double value)
+{
+  const pendres_jump *found = NULL;
+  for (size_t k = 0; k < pendres_hysteresis_jumps(h); k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    if (j->step == i && (found == NULL || fabs(j->value - value) < fabs(found->value - value)))
+      found = j;
+  }
+  return found;
+}
+
+/* The way from point i to the next. Where an orbit grows into the one that it was born from, the
+   continuation goes on along that, and comes to later jumps. */
+static void check_step(item *t, const pendres_hysteresis *h, size_t i)
+{
+  const pendres_jump *j = jump_near(h, i + 1, NAN);
+  const pendres_hysteresis_point *a = pendres_hysteresis_get(h, i), *b = a + 1;
+  const pendres_orbit *o = &a->attractor.orbit, *q = &b->attractor.orbit;
+  place end;
+  if (a->value == b->value) return;
+  t->steps++;
+  if (o->period < 1 || o->period > longest) return;
+  t->checked++;
+  const int arrives = lead(t, o, b->value, &end);
+  const double way = fabs(b->value - a->value);
+  if (j != NULL && arrives && !j->gradual)
+    complain(t, "a jump from a state that goes on", a->value, b->value, j->value);
+  if (j != NULL && !arrives) j = jump_near(h, i + 1, end.value);
+  if (j != NULL && !arrives && fabs(end.value - j->value) > j->value_error + 1e-3 * way)
+    complain(t, "a jump elsewhere", a->value, b->value, end.value);
+  if (j == NULL && !arrives)
+    complain(t, "a state that ends without a jump", a->value, b->value, end.value);
+  const double off = fabs((double)end.cycle.amplitude - q->amplitude);
+  if (j == NULL && arrives && (q->period < 1 || off > same + q->amplitude_error))
+    complain(t, "another state without a jump", a->value, b->value, q->amplitude);
+}
+
+static void check(item *t, const pendres_hysteresis *h)
+{
+  const size_t jumps = pendres_hysteresis_jumps(h);
+  for (size_t k = 0; k < jumps; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    t->jumps[j->kind]++;
+    if (t->shown < SHOWN) t->jump[t->shown++] = *j;
+    if (!(j->value_error >= 0.0 && isfinite(j->value_error)))
+      complain(t, "a jump without an error", j->value, j->value, j->value_error);
+  }
+  for (size_t i = 0; i + 1 < pendres_hysteresis_count(h); i++) {
+    const pendres_hysteresis_point *a = pendres_hysteresis_get(h, i);
+    if (a->outcome == PENDRES_OK && a[1].outcome == PENDRES_OK) check_step(t, h, i);
+    else t->marked++;
+  }
+}
+
+static void compute(accuracy_random *r, void *of, long number)
+{
+  item *t = of;
+  pendres_context *ctx = NULL;
+  pendres_hysteresis *h = NULL;
+  double value[POINTS];
+  (void)number;
+  draw(r, t);
+  for (int i = 0; i < VALUES; i++)
+    value[i] = value[POINTS - 1 - i] = t->low + (t->high - t->low) * i / (VALUES - 1.0);
+  const pendres_hysteresis_path path = {t->parameter, POINTS, value};
+  t->status = pendres_context_create(NULL, &ctx);
+  if (t->status == PENDRES_OK)
+    t->status =
+      pendres_hysteresis_follow(ctx, &t->pendulum, &(pendres_state){t->x, t->v}, &path, &h);
+  if (t->status == PENDRES_OK) check(t, h);
+  pendres_hysteresis_free(h);
+  pendres_context_free(ctx);
+}
+
+/* ---- notes ---- */
+
+typedef struct tally {
+  long sweeps, steps, checked, marked, jumps[PENDRES_JUMP_COUNT];
+} tally;
+
+static void show(const item *t)
+{
+  for (int k = 0; k < t->shown; k++) {
+    const pendres_jump *j = &t->jump[k];
+    printf("  %-4s %-12s %.14g +- %.1g %s to %s, period %d%s%s\n", j->direction > 0 ? "up" : "down",
+           pendres_jump_kind_name(j->kind), j->value, j->value_error, pendres_label_name(j->from),
+           pendres_label_name(j->to), j->to_period, j->gradual ? ", gradual" : "",
+           j->certain ? "" : ", uncertain");
+  }
+}
+
+static void note(accuracy *a, const void *of, long number, void *counts)
+{
+  const item *t = of;
+  const pendres_pendulum *p = &t->pendulum;
+  tally *c = counts;
+  char how[HOW];
+  c->sweeps++;
+  c->steps += t->steps;
+  c->checked += t->checked;
+  c->marked += t->marked;
+  for (int k = 0; k < PENDRES_JUMP_COUNT; k++) c->jumps[k] += t->jumps[k];
+  const int length = snprintf(
+    how, sizeof how, "item %ld: %s, force %.17g %.17g %.17g, damping %.17g, F0 %.17g, omega %.17g, "
+    "I %.17g, b %.17g, x %.17g, v %.17g; %s %.17g to %.17g", number,
+    p->force == PENDRES_FORCE_PENDULUM ? "pendulum" : "polynomial", p->force_coefficients[0],
+    p->force_coefficients[1], p->force_coefficients[2], p->damping, p->drive_amplitude,
+    p->drive_frequency, p->torque, p->parametric_amplitude, t->x, t->v,
+    pendres_parameter_name(t->parameter), t->low, t->high);
+  if (t->status != PENDRES_OK) accuracy_complain(a, "a sweep failed", how);
+  if (accuracy_get_options(a)->item >= 0) show(t);
+  for (int k = 0; k < t->faults && k < FAULTS; k++) {
+    snprintf(how + length, sizeof how - (size_t)length, ": %.10g to %.10g, at %.10g",
+             t->fault[k].from, t->fault[k].to, t->fault[k].value);
+    accuracy_complain(a, t->fault[k].what, how);
+  }
+}
+
+void accuracy_sweeps(accuracy *a)
+{
+  tally c = {0};
+  accuracy_each(a, &(accuracy_work){.items = accuracy_get_options(a)->points / 2, .at_once = 4,
+                                    .size = sizeof(item), .compute = compute, .note = note,
+                                    .tally = &c});
+  printf("\nsweeps: %ld of %ld values; %ld steps, %ld of them beside a continuation, %ld next to "
+         "values left out; jumps:", c.sweeps, (long)POINTS, c.steps, c.checked, c.marked);
+  for (int k = 0; k < PENDRES_JUMP_COUNT; k++)
+    printf(" %ld %s%s", c.jumps[k], pendres_jump_kind_name((pendres_jump_kind)k),
+           k + 1 < PENDRES_JUMP_COUNT ? "," : "\n");
+}
