@@ -246,11 +246,26 @@ static void the_other_branch(void **state)
   pendres_branch_free(crossing);
   assert_int_equal(pendres_fold_find_along(ctx, &rest, PENDRES_PARAMETRIC_AMPLITUDE, &found),
                    PENDRES_NOT_FOUND);
-  /* It has no curve. */
+  /* Its curve is that of the tongue's edge; a torque would part the branches: there is none. */
   pendres_curve *curve = NULL;
-  const pendres_curve_options options = {
+  pendres_curve_options options = {
     .second = PENDRES_DAMPING, .low = {0.5, 0.05}, .high = {1.0, 0.2}};
-  assert_int_equal(pendres_curve_follow(ctx, 1, at, &options, &curve), PENDRES_INVALID_ARGUMENT);
+  check_ok(pendres_curve_follow(ctx, 1, at, &options, &curve));
+  assert_int_equal(pendres_curve_kind(curve), PENDRES_BRANCH_POINT);
+  assert_true(pendres_curve_count(curve) > 5);
+  for (size_t i = 0; i < pendres_curve_count(curve); i++) {
+    const pendres_curve_point *c = pendres_curve_get(curve, i);
+    const pendres_pendulum *q = &c->orbit.pendulum;
+    /* Both parameters have errors: the edge's slope by the damping is below 4. */
+    check_near(q->parametric_amplitude, mathieu_edge(q->damping, 1.0, 1.0, 0.3, 1.2),
+               c->value_error[0] + 4.0 * c->value_error[1]);
+  }
+  pendres_curve_free(curve);
+  options = (pendres_curve_options){
+    .second = PENDRES_TORQUE, .low = {0.5, -0.1}, .high = {1.0, 0.1}};
+  check_ok(pendres_curve_follow(ctx, 1, at, &options, &curve));
+  assert_int_equal(pendres_curve_count(curve), 1);
+  pendres_curve_free(curve);
   pendres_branch_free(b);
   pendres_context_free(ctx);
 }

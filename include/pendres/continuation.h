@@ -3,8 +3,8 @@
  * @brief Branches of periodic orbits, and where they end.
  *
  * Owns: following orbits, stable and unstable, as a parameter changes; folds, period
- * doublings, symmetry breakings and branch points on the way; curves of the first three in two
- * parameters; cusps.
+ * doublings, symmetry breakings and branch points on the way; curves of these in two parameters;
+ * cusps.
  *
  * All pendulums are served, with torque, parametric drive or another force, as long as there is a
  * drive of either kind where orbits go round: without one a rotation has a period of its own, and
@@ -360,7 +360,7 @@ typedef struct pendres_curve_point {
   pendres_orbit orbit;           /**< the orbit there; slopes are NaN */
 } pendres_curve_point;
 
-/** Opaque: a curve of folds, period doublings or symmetry breakings, in order. */
+/** Opaque: a curve of folds, period doublings, symmetry breakings or branch points, in order. */
 typedef struct pendres_curve pendres_curve;
 
 /**

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "continuation/continuation_crossing.h"
 #include "continuation/continuation_locate.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -58,8 +59,7 @@ static int tangent_of(const pendres_arc *w, const pendres_continuation_equations
   const int n = w->unknowns;
   double a[PENDRES_U_COUNT][PENDRES_U_COUNT], t[PENDRES_U_COUNT] = {0.0}, length = 0.0;
   for (int k = 0; k < n; k++) {
-    for (int r = 0; r < n - 1; r++)
-      a[r][k] = e->j[r][w->unknown[k]] * scale_at(w, k, u);
+    for (int r = 0; r < n - 1; r++) a[r][k] = e->j[r][w->unknown[k]] * scale_at(w, k, u);
     a[n - 1][k] = along[k];
   }
   t[n - 1] = 1.0;
@@ -122,8 +122,7 @@ static void linearise(const candidate *c, double a[][PENDRES_U_COUNT])
   const pendres_arc *w = c->arc;
   const int n = w->unknowns;
   for (int k = 0; k < n; k++) {
-    for (int r = 0; r < n - 1; r++)
-      a[r][k] = c->at.j[r][w->unknown[k]] * scale_at(w, k, c->u);
+    for (int r = 0; r < n - 1; r++) a[r][k] = c->at.j[r][w->unknown[k]] * scale_at(w, k, c->u);
     a[n - 1][k] = c->tangent[k];
   }
 }
@@ -262,6 +261,9 @@ static int follows(const pendres_arc *w, const pendres_arc_point *last, int gap,
 {
   double way = 0.0, miss = 0.0, turn = 0.0;
   if (c->state != CONVERGED) return 0;
+  if (w->condition == PENDRES_CONDITION_CROSSING &&
+      !pendres_crossing_closes(&c->at.image, w->unknown[2], c->steps * w->map.period, 0.0))
+    return 0;
   if (!tangent_of(w, &c->at, c->u, last->tangent, point->tangent)) return 0;
   for (int k = 0; k < w->unknowns; k++) {
     const int i = w->unknown[k];
@@ -421,10 +423,9 @@ static pendres_status stays(pendres_context *ctx, const pendres_arc *w,
   const pendres_located_end ends[2] = {{last->u, last->tangent, &last->image},
                                        {point->u, point->tangent, &point->image}};
   int parts = 0;
-  const pendres_status status =
-    w->step < shortest_crossing
-      ? PENDRES_OK
-      : pendres_continuation_parts(ctx, &w->map, w->unknown, ends, &parts);
+  pendres_status status = PENDRES_OK;
+  if (w->step >= shortest_crossing)
+    status = pendres_continuation_parts(ctx, &w->map, w->unknown, ends, &parts);
   *same = !parts;
   return status;
 }

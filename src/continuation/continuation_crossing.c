@@ -42,6 +42,19 @@ void pendres_crossing_rows(const pendres_crossing_pivot *pivot,
   rows[n] = image->f[1 - pivot->row] - times * image->f[pivot->row];
 }
 
+int pendres_crossing_closes(const pendres_continuation_image *image, int parameter, int steps,
+                            double error)
+{
+  /* Of a step, with an ample margin: what keeps branches apart and is not larger than this, no
+     double can tell. */
+  static const double rounding = 6e-15;
+  const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, parameter);
+  double rows[4];
+  pendres_crossing_rows(&pivot, image, rows);
+  return fabs(rows[3]) <=
+         rounding * sqrt(steps) * fmax(1.0, pendres_continuation_map_growth(image)) + error;
+}
+
 /* ---- directions ---- */
 
 static double dot(const double a[3], const double b[3])

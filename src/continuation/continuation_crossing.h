@@ -40,6 +40,10 @@ pendres_crossing_pivot pendres_crossing_pivot_of(const pendres_continuation_imag
 void pendres_crossing_rows(const pendres_crossing_pivot *pivot,
                            const pendres_continuation_image *image, double rows[4]);
 
+/* Whether beta is 0 but for the rounding of so many steps and another error. */
+int pendres_crossing_closes(const pendres_continuation_image *image, int parameter, int steps,
+                            double error);
+
 /*
  * The determinant of B bordered by a branch's tangent: along the branch in one direction it keeps
  * its sign, at folds too, and changes it where branches cross.

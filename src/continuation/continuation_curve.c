@@ -65,9 +65,11 @@ static pendres_arc kind_of(const pendres_bifurcation *b, pendres_parameter secon
                            double u[PENDRES_U_COUNT])
 {
   const pendres_parameter parameter[2] = {b->parameter, second};
-  pendres_arc w = pendres_arc_of(
-    &b->orbit, b->kind == PENDRES_FOLD ? PENDRES_CONDITION_FOLD : PENDRES_CONDITION_FLIP, parameter,
-    spacing, u);
+  const pendres_continuation_condition condition =
+    b->kind == PENDRES_FOLD           ? PENDRES_CONDITION_FOLD
+    : b->kind == PENDRES_BRANCH_POINT ? PENDRES_CONDITION_CROSSING
+                                      : PENDRES_CONDITION_FLIP;
+  pendres_arc w = pendres_arc_of(&b->orbit, condition, parameter, spacing, u);
   if (b->kind == PENDRES_PERIOD_DOUBLING) pendres_continuation_map_unfold(&w.map);
   return w;
 }
@@ -194,9 +196,7 @@ static pendres_status build(pendres_context *ctx, void *call, size_t i, pendres_
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a curve");
   c->map = t->kind.map;
   c->condition = t->kind.condition;
-  c->kind = c->condition == PENDRES_CONDITION_FOLD ? PENDRES_FOLD
-            : c->map.mirror                        ? PENDRES_SYMMETRY_BREAKING
-                                                   : PENDRES_PERIOD_DOUBLING;
+  c->kind = pendres_continuation_kind(c->condition, &c->map);
   for (int k = 0; k < 2; k++) {
     c->parameter[k] = (pendres_parameter)(t->kind.unknown[2 + k] - PENDRES_U_OMEGA);
     c->end[k] = t->end[k];
@@ -223,8 +223,6 @@ static const char *check(size_t n, const pendres_bifurcation *starts,
     if (starts[i].kind == PENDRES_REGULAR ||
         (unsigned)starts[i].kind >= PENDRES_SPECIAL_COUNT)
       return "a start is no bifurcation";
-    if (starts[i].kind == PENDRES_BRANCH_POINT)
-      return "branch points have no curves: where two parameters change they come apart";
     if ((unsigned)starts[i].parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
     const char *why = pendres_continuation_refuses(&starts[i].orbit, starts[i].parameter);
     if (why == NULL) why = pendres_continuation_refuses(&starts[i].orbit, o->second);

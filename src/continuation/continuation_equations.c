@@ -198,7 +198,8 @@ pendres_continuation_system pendres_continuation_system_of(const pendres_continu
                                                            pendres_continuation_condition condition,
                                                            const int *unknown)
 {
-  static const int counts[] = {2, 3, 3, 4, 3}; /* unknowns of the conditions */
+  /* Unknowns of the conditions. */
+  static const int counts[PENDRES_CONDITION_COUNT] = {2, 3, 3, 4, 3};
   return (pendres_continuation_system){.map = map, .condition = condition,
                                        .unknowns = counts[condition], .unknown = unknown};
 }

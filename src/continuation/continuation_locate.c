@@ -179,21 +179,17 @@ static pendres_status curvature_of(pendres_context *ctx,
   return PENDRES_OK;
 }
 
-/*
- * Whether two branches cross at a place that solves their equations, or only come close: what these
- * leave of the closing is rounding, or an error of the steps, which their two numbers tell.
- */
+/* Whether two branches cross at a place that solves their equations, or only come close: what these
+   leave of the closing is rounding, or an error of the steps, which their two numbers tell. */
 static int crosses(const pendres_continuation_system *system,
                    const pendres_continuation_image *coarse, const pendres_continuation_image *fine)
 {
-  static const double sure = 16.0; /* roundings, each bounded by epsilon as usual */
   const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(fine, system->unknown[2]);
-  const double unit = epsilon * sqrt(system->steps * system->map->period) *
-                      fmax(1.0, pendres_continuation_map_growth(fine));
   double few[4], many[4];
   pendres_crossing_rows(&pivot, coarse, few);
   pendres_crossing_rows(&pivot, fine, many);
-  return fabs(many[3]) <= sure * unit + fabs(many[3] - few[3]);
+  return pendres_crossing_closes(fine, system->unknown[2], system->steps * system->map->period,
+                                 fabs(many[3] - few[3]));
 }
 
 /* Solve a system with its own steps, and again with more. */
@@ -294,6 +290,14 @@ pendres_status pendres_continuation_parts(pendres_context *ctx,
   return pendres_located_found(status) || status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
 }
 
+pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
+                                          const pendres_continuation_map *map)
+{
+  if (condition == PENDRES_CONDITION_FOLD) return PENDRES_FOLD;
+  if (condition == PENDRES_CONDITION_CROSSING) return PENDRES_BRANCH_POINT;
+  return map->mirror ? PENDRES_SYMMETRY_BREAKING : PENDRES_PERIOD_DOUBLING;
+}
+
 pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_continuation_condition condition,
                                                   pendres_parameter parameter,
@@ -308,10 +312,7 @@ pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                .curvature = NAN,
                                .curvature_error = NAN,
                                .crossing = {NAN, NAN, NAN}};
-  out->kind = condition == PENDRES_CONDITION_FOLD       ? PENDRES_FOLD
-              : condition == PENDRES_CONDITION_CROSSING ? PENDRES_BRANCH_POINT
-              : p->map.mirror                           ? PENDRES_SYMMETRY_BREAKING
-                                                        : PENDRES_PERIOD_DOUBLING;
+  out->kind = pendres_continuation_kind(condition, &p->map);
   pendres_status status = pendres_continuation_orbit_measure(ctx, 1, p, &out->orbit);
   pendres_continuation_orbit_set_critical(out->kind, 1, &parameter, &out->value_error, &out->orbit);
   if (status != PENDRES_OK || condition != PENDRES_CONDITION_FOLD) return status;

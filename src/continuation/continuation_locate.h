@@ -48,6 +48,10 @@ pendres_status pendres_continuation_parts(pendres_context *ctx,
 /* Whether a status of pendres_continuation_locate() says that *out is complete. */
 int pendres_located_found(pendres_status status);
 
+/* The bifurcation that a condition is of, of this map. */
+pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
+                                          const pendres_continuation_map *map);
+
 /* Make a public bifurcation of a located fold or flip in one parameter. */
 pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
                                                   pendres_continuation_condition condition,

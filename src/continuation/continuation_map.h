@@ -75,7 +75,8 @@ typedef enum pendres_continuation_condition {
   PENDRES_CONDITION_FOLD, /* det(N - I) = 0 */
   PENDRES_CONDITION_FLIP, /* det(N + I) = 0 */
   PENDRES_CONDITION_CUSP, /* fold, and its quadratic term is 0 */
-  PENDRES_CONDITION_CROSSING /* two branches cross (continuation_crossing.h) */
+  PENDRES_CONDITION_CROSSING, /* two branches cross (continuation_crossing.h) */
+  PENDRES_CONDITION_COUNT
 } pendres_continuation_condition;
 
 /* Equations on a map, and what is unknown in them: the first two of `unknown[unknowns]` are y and

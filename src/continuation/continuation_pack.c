@@ -221,7 +221,7 @@ void pendres_curves_pack(const pendres_curves *curves, void *bytes)
 static int curve_fits(const pendres_curve *c)
 {
   int good = (unsigned)c->kind < PENDRES_SPECIAL_COUNT && map_fits(&c->map) && ends_fit(c->end) &&
-             (unsigned)c->condition <= PENDRES_CONDITION_CUSP;
+             (unsigned)c->condition < PENDRES_CONDITION_COUNT;
   for (int k = 0; k < 2; k++) good = good && (unsigned)c->parameter[k] < PENDRES_PARAMETER_COUNT;
   for (size_t i = 0; i < c->count && good; i++)
     good = orbit_fits(&c->point[i].orbit) && c->point[i].cusp >= -1 &&
