@@ -150,7 +150,7 @@ def test_errors():
     words = raised(pendres.InvalidArgument, pendres.strobe_advance, p, [0, np.nan], 0, 1)
     assert "pendulum 1" in words, words
     raised(ValueError, pendres.strobe_advance, p, np.inf, 0, 1)
-    assert "tolerance" in raised(pendres.InvalidArgument, pendres.Context, tolerance=7)
+    assert "tolerance" in raised(pendres.InvalidArgument, pendres.Context, tolerance=-1)
     assert raised(pendres.NotFound, pendres.resonance, p, 0.5, 0.6)
     assert "drive_amplitude" in raised(TypeError, pendres.pendulum, drive_amplitud=1)
     assert "tolerance" in raised(TypeError, pendres.Context, tolerances=1)
