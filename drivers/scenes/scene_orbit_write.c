@@ -102,11 +102,14 @@ typedef struct verdict {
 } verdict;
 
 static const scene_column of_failures[] = {
+  SCENE_CODE(verdict, failed, "why there is no orbit", scene_failure_names),
+};
+
+/* Only where it is: files of starts that are sure have none. */
+static const scene_column of_doubts[] = {
   {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(verdict, uncertain),
    .names = scene_doubt_names,
-   .long_name = "whether errors that the start amplifies may have chosen the attractor",
-   .comment = "no: they have not, or the start settles on nothing"},
-  SCENE_CODE(verdict, failed, "why there is no orbit", scene_failure_names),
+   .long_name = "whether errors that the start amplifies may have chosen the attractor"},
 };
 
 static pendres_status put_label(scene_run *run, const orbit_work *w)
@@ -127,8 +130,10 @@ static pendres_status put_label(scene_run *run, const orbit_work *w)
     scene_failure_tell(run, (scene_failure)failed, late->words[0] != '\0' ? late->words : NULL,
                        "orbit");
   run->failed_points = (size_t)lost;
-  const pendres_status status = scene_columns_write(run, &table, 1, &label);
-  return status == PENDRES_OK ? SCENE_WRITE(run, &table, of_failures) : status;
+  pendres_status status = scene_columns_write(run, &table, 1, &label);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_failures);
+  if (status == PENDRES_OK && of.uncertain) status = SCENE_WRITE(run, &table, of_doubts);
+  return status;
 }
 
 typedef struct multiplier {

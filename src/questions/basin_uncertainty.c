@@ -242,9 +242,10 @@ pendres_status pendres_basin_uncertainty(pendres_context *ctx, const pendres_att
 
 /* Random states and their distances, the smallest and the ratio of one to the next. Labels are
    made certain down to rounding, whatever the tolerance is. This is far above it, and a thousandth
-   of the distances of a fine grid. */
+   of the distances of a fine grid. Where half of the states are uncertain even there, states are
+   drawn that are nearer to each other, step by step, as long as rounding is far below. */
 enum { RANDOM_STATES = 16384, RANDOM_SCALES = 5, RANDOM_SEED = 1 };
-static const double nearest = 1e-5, ratio = 6.0;
+static const double nearest = 1e-5, ratio = 6.0, nearer = 0.01, near_rounding = 1e-12;
 
 static int random_states_tell_more(const pendres_basin_statistics *s)
 {
@@ -254,9 +255,27 @@ static int random_states_tell_more(const pendres_basin_statistics *s)
      do not follow a power of the distance. */
   if (3 * s->uncertain_states > s->states) return 0;
   if (!isfinite(s->uncertainty_exponent_error)) return 1;
-  const double nearer = nearest / s->distance[0];
-  return nearer < 1.0 &&
-         RANDOM_STATES * s->uncertain[0] * pow(nearer, s->uncertainty_exponent) > MET;
+  const double closer = nearest / s->distance[0];
+  return closer < 1.0 &&
+         RANDOM_STATES * s->uncertain[0] * pow(closer, s->uncertainty_exponent) > MET;
+}
+
+/* The exponent of random states of a window, at the largest distances at which most are alike. */
+static pendres_status exponent_of_random(pendres_context *ctx, const pendres_attractors *set,
+                                         const pendres_basin_window *window,
+                                         pendres_basin_statistics *out)
+{
+  double distance[RANDOM_SCALES];
+  const pendres_basin_sample asked = {
+    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = RANDOM_SCALES, .distance = distance};
+  pendres_status status = PENDRES_NOT_FOUND;
+  int many = 1;
+  for (double first = nearest; first > near_rounding && many; first *= nearer) {
+    for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = first * pow(ratio, k);
+    status = pendres_basin_uncertainty(ctx, set, window, &asked, out);
+    many = status == PENDRES_NOT_FOUND && out->uncertain[LEAST_SCALES - 1] > 0.5;
+  }
+  return status;
 }
 
 static pendres_status statistics_refine(pendres_context *ctx, const pendres_attractors *set,
@@ -270,14 +289,10 @@ static pendres_status statistics_refine(pendres_context *ctx, const pendres_attr
   const pendres_basin_window window = {.x_low = g->x[0], .x_high = g->x[g->nx - 1],
                                        .v_low = g->v[0], .v_high = g->v[g->nv - 1],
                                        .by = g->by};
-  double distance[RANDOM_SCALES];
   pendres_basin_statistics random;
   *states = 0;
   if (!random_states_tell_more(s)) return PENDRES_OK;
-  for (int k = 0; k < RANDOM_SCALES; k++) distance[k] = nearest * pow(ratio, k);
-  const pendres_basin_sample asked = {
-    .n = RANDOM_STATES, .seed = RANDOM_SEED, .scales = RANDOM_SCALES, .distance = distance};
-  const pendres_status status = pendres_basin_uncertainty(ctx, set, &window, &asked, &random);
+  const pendres_status status = exponent_of_random(ctx, set, &window, &random);
   if (status == PENDRES_NOT_FOUND) return PENDRES_OK; /* none this way: the grid's, if any */
   if (status != PENDRES_OK) return status;
   *states = random.states;
