@@ -131,6 +131,58 @@ static void only_bifurcations(void **state)
   pendres_hysteresis_free(h);
 }
 
+/* The orbit near a guess that is right but for some Newton steps. */
+static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p, double x)
+{
+  const pendres_orbit_guess guess = {.pendulum = *p, .x = x, .period = 1};
+  pendres_orbit o;
+  pendres_status outcome;
+  check_ok(pendres_orbit_refine(ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &o, &outcome));
+  assert_int_equal(outcome, PENDRES_OK);
+  return o;
+}
+
+/* Orbits at both ends of a wide range lie on one branch, which reaches from end to end. */
+static void one_branch(void **state)
+{
+  const pendres_branch_options range = {PENDRES_DRIVE_FREQUENCY, 2.0, 60.0, 0, 0, 0};
+  pendres_orbit orbit[2];
+  pendres_branches *set = NULL;
+  for (int i = 0; i < 2; i++) {
+    const double w = i == 0 ? 2.0 : 60.0;
+    const pendres_pendulum p = {.damping = 0.2, .drive_amplitude = 0.5, .drive_frequency = w};
+    orbit[i] = orbit_at(*state, &p, 1.57079632679489662 + 0.5 / (1.0 - w * w));
+  }
+  check_ok(pendres_branches_find(*state, 2, orbit, &range, &set));
+  assert_int_equal(pendres_branches_count(set), 1);
+  for (int end = 0; end < 2; end++)
+    assert_int_equal(pendres_branch_end_of(pendres_branches_get(set, 0), end), PENDRES_END_RANGE);
+  pendres_branches_free(set);
+}
+
+/* An upright pendulum is followed from b = 0.5, where it falls over, to where a fast parametric
+   drive holds it upright: there the reference's map has a multiplier 1. */
+static void upright(void **state)
+{
+  const double up = 4.71238898038468986;
+  const pendres_branch_options range = {PENDRES_PARAMETRIC_AMPLITUDE, 0.4, 25.0, 0, 0, 0};
+  pendres_pendulum p = {.damping = 0.1, .drive_frequency = 14.0, .parametric_amplitude = 0.5};
+  const pendres_orbit start = orbit_at(*state, &p, up);
+  pendres_branch *b = NULL;
+  pendres_reference_image image;
+  check_ok(pendres_branch_follow(*state, 1, &start, &range, &b));
+  assert_int_equal(pendres_branch_bifurcations(b), 1);
+  const pendres_bifurcation *held = pendres_branch_bifurcation(b, 0);
+  p.parametric_amplitude = held->value;
+  check_ok(pendres_reference_map(&p, 3.14159265358979323846L, 0.0L, 1, &image));
+  const long double trace = image.monodromy[0][0] + image.monodromy[1][1];
+  const long double product = expl(-0.1L * 2.0L * 3.14159265358979323846L / 14.0L);
+  /* 1 - trace + product = (1 - m)(1 - product/m) falls by some 0.01 from b to b + 1. */
+  check_near((double)(1.0L - trace + product), 0.0, 0.1 * held->value_error + 1e-15);
+  assert_true(held->value_error < 1e-8);
+  pendres_branch_free(b);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -138,6 +190,8 @@ int main(void)
     cmocka_unit_test(no_end_of_the_torque),
     cmocka_unit_test(no_end_of_rest),
     cmocka_unit_test(only_bifurcations),
+    cmocka_unit_test(one_branch),
+    cmocka_unit_test(upright),
   };
   return cmocka_run_group_tests(tests, setup, teardown);
 }
