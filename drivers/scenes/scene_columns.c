@@ -81,18 +81,22 @@ static void gather_reals(const scene_table *t, const scene_column *c, buffers *b
   }
 }
 
+/* Into the one buffer that is stored: tables may have millions of rows. */
 static void gather_others(const scene_table *t, const scene_column *c, buffers *b)
 {
   for (size_t i = 0; i < t->n; i++) {
+    const void *from = field(t, i, c->value);
     int number = 0;
     size_t count = 0;
-    b->text[i] = field(t, i, c->value);
-    if (is_count(c->type)) memcpy(&count, b->text[i], sizeof count);
-    else if (c->type != SCENE_TEXT) memcpy(&number, b->text[i], sizeof number);
-    if (c->type == SCENE_COUNT32) number = (int)count;
-    b->flag[i] = (int8_t)number;
-    b->number[i] = missing(t, i) ? 0 : (int32_t)number;
-    b->count[i] = missing(t, i) ? 0 : (int64_t)count;
+    if (is_count(c->type)) memcpy(&count, from, sizeof count);
+    else if (c->type != SCENE_TEXT) memcpy(&number, from, sizeof number);
+    switch (c->type) {
+    case SCENE_TEXT: b->text[i] = from; break;
+    case SCENE_FLAG: b->flag[i] = (int8_t)number; break;
+    case SCENE_COUNT: b->count[i] = missing(t, i) ? 0 : (int64_t)count; break;
+    case SCENE_COUNT32: b->number[i] = missing(t, i) ? 0 : (int32_t)count; break;
+    default: b->number[i] = missing(t, i) ? 0 : (int32_t)number;
+    }
   }
 }
 
