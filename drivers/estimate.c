@@ -132,9 +132,10 @@ static double slowness(const deck *d)
   const int branch = d->kind == DECK_HYSTERESIS || d->kind == DECK_BIFURCATION_DIAGRAM ||
                      d->kind == DECK_BRANCHES;
   const double most = branch ? slowest_branch : slowest;
+  const double unit = deck_pendulum_units(d).time;
   double sum = 0.0;
   for (size_t i = 0; i < n; i++) {
-    const double damping = a->count > 0 ? a->value[i] : d->pendulum.damping;
+    const double damping = unit * (a->count > 0 ? a->value[i] : d->pendulum.damping);
     sum += damping > 0.0 ? fmin(fmax(usual_damping / damping, 1.0), most) : 1.0;
   }
   return sum / (double)n;

@@ -58,10 +58,11 @@ double pendres_model_stiffest(const pendres_pendulum *p, double reach);
 double pendres_model_scale(const pendres_pendulum *p);
 
 /*
- * What lengths and frequencies of a pendulum are to be compared with, so that nothing depends on
- * the units of its parameters: how far the drive gets it or, if that is less, the force's own
- * length; and an upper estimate of the frequency of free oscillations as wide as that. Both are 1
- * of pendulums, whose frequency only falls with amplitude; their damping must not be 0.
+ * What lengths and frequencies of motions under this drive are to be compared with, in canonical
+ * units as all else: how far the drive gets the pendulum or, if that is less, the force's own
+ * length, far less than 1 under a weak drive; and an upper estimate of the frequency of free
+ * oscillations as wide as that. Both are 1 of pendulums, whose frequency only falls with amplitude;
+ * their damping must not be 0.
  */
 typedef struct pendres_model_units {
   double length, rate;

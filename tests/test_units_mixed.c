@@ -1,0 +1,158 @@
+/*
+ * test_units_mixed.c -- pendulums of different units in one call: each result is what the pendulum
+ * has alone, bit for bit, whatever its neighbours' units are.
+ */
+#include "units_fixture.h"
+
+enum { N = 6, PERIODS = 3 };
+
+/* Neighbours alike, others not, a plain pendulum among them. */
+static const units of[N] = {{1.0, 1.0},   {0x1p-9, 1.0}, {0x1p-9, 1.0},
+                            {1e6, 100.0}, {1.0, 1.0},    {0x1p-20, 0x1p-22}};
+
+typedef struct many {
+  pendres_context *ctx;
+  pendres_pendulum p[N];
+  double x[N], v[N];
+} many;
+
+static many make(void)
+{
+  many m = {.ctx = NULL};
+  check_ok(pendres_context_create(NULL, &m.ctx));
+  for (int i = 0; i < N; i++) {
+    m.p[i] = in_units(duffing, of[i]);
+    m.x[i] = 0.2 * of[i].length;
+  }
+  m.p[4] = (pendres_pendulum){.damping = 0.2, .drive_amplitude = 0.2, .drive_frequency = 0.8};
+  return m;
+}
+
+static void motions(void **state)
+{
+  many m = make();
+  double x[N], v[N], error[N], alone;
+  (void)state;
+  memcpy(x, m.x, sizeof x);
+  memcpy(v, m.v, sizeof v);
+  check_ok(pendres_strobe_advance(m.ctx, N, m.p, x, v, PERIODS, error));
+  for (int i = 0; i < N; i++) {
+    double y = m.x[i], w = m.v[i];
+    check_ok(pendres_strobe_advance(m.ctx, 1, &m.p[i], &y, &w, PERIODS, &alone));
+    assert_true(y == x[i] && w == v[i] && alone == error[i]);
+  }
+  pendres_context_free(m.ctx);
+}
+
+static void attractors(void **state)
+{
+  many m = make();
+  pendres_outcome outcome[N], alone;
+  pendres_attractors *found = NULL, *one = NULL;
+  pendres_orbit_guess guess[N];
+  pendres_orbit orbit[N], refined;
+  pendres_status status[N];
+  pendres_lyapunov exponent[N], own;
+  (void)state;
+  check_ok(pendres_settle(m.ctx, N, m.p, m.x, m.v, outcome, &found));
+  check_ok(pendres_lyapunov_find(m.ctx, N, m.p, m.x, m.v, NULL, exponent));
+  for (int i = 0; i < N; i++) {
+    check_ok(pendres_settle(m.ctx, 1, &m.p[i], &m.x[i], &m.v[i], &alone, &one));
+    const pendres_attractor *a = pendres_attractors_get(found, (size_t)outcome[i].attractor);
+    const pendres_attractor *b = pendres_attractors_get(one, (size_t)alone.attractor);
+    assert_non_null(a);
+    assert_memory_equal(a, b, sizeof *a);
+    assert_int_equal(outcome[i].settling_periods, alone.settling_periods);
+    guess[i] = (pendres_orbit_guess){m.p[i], a->orbit.x, a->orbit.v, a->orbit.period, 0};
+    pendres_attractors_free(one);
+    check_ok(pendres_lyapunov_find(m.ctx, 1, &m.p[i], &m.x[i], &m.v[i], NULL, &own));
+    assert_true(exponent[i].exponent == own.exponent && exponent[i].label == own.label);
+  }
+  pendres_attractors_free(found);
+  check_ok(pendres_orbit_refine(m.ctx, N, guess, PENDRES_ORBIT_PLAIN, orbit, status));
+  for (int i = 0; i < N; i++) {
+    pendres_status own_status;
+    check_ok(pendres_orbit_refine(m.ctx, 1, &guess[i], PENDRES_ORBIT_PLAIN, &refined, &own_status));
+    assert_int_equal(own_status, status[i]);
+    assert_true(refined.x == orbit[i].x && refined.loop_area == orbit[i].loop_area &&
+                refined.loop_area_error == orbit[i].loop_area_error);
+  }
+  pendres_context_free(m.ctx);
+}
+
+/* What an observer was shown of each trajectory at the last strobe. */
+static pendres_langevin_answer watch(void *arg, const pendres_langevin_strobe *s)
+{
+  double *seen = arg;
+  for (size_t i = 0; i < s->count; i++) seen[s->first + i] = s->x[i];
+  return PENDRES_LANGEVIN_GO_ON;
+}
+
+static void noise(void **state)
+{
+  many m = make();
+  double x[N], v[N], seen[N];
+  const pendres_langevin_observer observer = {watch, seen, 1};
+  (void)state;
+  for (int i = 0; i < N; i++) m.p[i].temperature = 0.001 * (i == 4 ? 1.0 : factor(of[i], 2, -2));
+  memcpy(x, m.x, sizeof x);
+  memcpy(v, m.v, sizeof v);
+  const pendres_langevin_run run = {
+    .n = N, .pendulums = m.p, .periods = PERIODS, .observer = &observer};
+  check_ok(pendres_langevin_advance(m.ctx, &run, x, v));
+  for (int i = 0; i < N; i++) {
+    const uint64_t id = (uint64_t)i;
+    const pendres_langevin_run one = {
+      .n = 1, .pendulums = &m.p[i], .ids = &id, .periods = PERIODS};
+    double y = m.x[i], w = m.v[i];
+    check_ok(pendres_langevin_advance(m.ctx, &one, &y, &w));
+    assert_true(y == x[i] && w == v[i] && seen[i] == x[i]);
+  }
+  pendres_context_free(m.ctx);
+}
+
+static void ensembles(void **state)
+{
+  many m = make();
+  pendres_response all[N], one;
+  const pendres_ensemble e = {.members = 4, .x_first = -1.0, .x_last = 1.5};
+  (void)state;
+  /* The same starts in the caller's units: in range for those of order one alone. */
+  const int some[] = {0, 4, 0};
+  pendres_pendulum p[3];
+  for (int i = 0; i < 3; i++) p[i] = m.p[some[i]];
+  p[2].force_coefficients[2] = 0.0625;
+  check_ok(pendres_response_compute(m.ctx, 3, p, &e, all));
+  for (int i = 0; i < 3; i++) {
+    check_ok(pendres_response_compute(m.ctx, 1, &p[i], &e, &one));
+    assert_true(one.mean_loop_area == all[i].mean_loop_area &&
+                one.mean_loop_area_error == all[i].mean_loop_area_error &&
+                one.mean_amplitude == all[i].mean_amplitude);
+  }
+  pendres_context_free(m.ctx);
+}
+
+/* A tolerance that one of the pendulums cannot have is refused with its unit. */
+static void tolerances(void **state)
+{
+  many m = make();
+  double x = m.x[3], v = 0.0;
+  pendres_context *ctx = NULL;
+  (void)state;
+  check_ok(pendres_context_create(&(pendres_options){.tolerance = 1e-12}, &ctx));
+  assert_int_equal(pendres_strobe_advance(ctx, 1, &m.p[3], &x, &v, 1, NULL),
+                   PENDRES_INVALID_ARGUMENT);
+  assert_non_null(strstr(pendres_context_message(ctx), "unit of length, 5.24e+05"));
+  x = m.x[0];
+  check_ok(pendres_strobe_advance(ctx, 1, &m.p[0], &x, &v, 1, NULL));
+  pendres_context_free(ctx);
+  pendres_context_free(m.ctx);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(motions), cmocka_unit_test(attractors),
+                                     cmocka_unit_test(noise), cmocka_unit_test(ensembles),
+                                     cmocka_unit_test(tolerances)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
