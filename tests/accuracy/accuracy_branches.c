@@ -382,7 +382,8 @@ static void note_point(accuracy *a, const place *at, const char *how)
   const pendres_reference_cycle *e = &at->exact;
   accuracy_note(a, "x of a point", o->x - turn_of(o, e), o->x_error, e->y + origin_of(o), how);
   accuracy_note(a, "v of a point", o->v, o->v_error, e->v, how);
-  accuracy_note(a, "loop area of a point", o->loop_area, o->loop_area_error, e->loop_area, how);
+  if (o->pendulum.drive_amplitude != 0.0) /* without a drive it is 0 exactly */
+    accuracy_note(a, "loop area of a point", o->loop_area, o->loop_area_error, e->loop_area, how);
   accuracy_note(a, "amplitude of a point", o->amplitude, o->amplitude_error, e->amplitude, how);
   if (!(isnan(o->phase_lag) && isnan(e->phase_lag))) /* at rest there is none */
     accuracy_note_error(a, "phase lag of a point",
