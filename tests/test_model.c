@@ -390,9 +390,36 @@ static void running_and_wells(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Starts that nobody gives follow the wells of a force: in Helmholtz's, z - z^2 with a barrier at
+ * z = 1, most of those about 0 escape, and one state attracts a twentieth of a window. It is found
+ * wherever the well is and however large.
+ */
+static void starts_follow_wells(void **state)
+{
+  static const double shift[] = {0.0, 2.0, -5.0}, size[] = {1.0, 3.0, 1e-3};
+  pendres_context *ctx = context(1e-9);
+  (void)state;
+  for (size_t k = 0; k < COUNT(shift); k++) {
+    const double c = shift[k], s = size[k];
+    const pendres_pendulum p = {.damping = 0.1, .drive_amplitude = 0.1 * s,
+                                .drive_frequency = 0.85, .torque = s * (c + c * c),
+                                .force = PENDRES_FORCE_POLYNOMIAL,
+                                .force_coefficients = {1.0 + 2.0 * c, -1.0 / s}};
+    pendres_attractors *found = NULL;
+    check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &found));
+    assert_int_equal(pendres_attractors_count(found), 1);
+    const pendres_orbit *o = &pendres_attractors_get(found, 0)->orbit;
+    check_near(o->amplitude, 0.613284122745 * s, 1e-9 * s);
+    pendres_attractors_free(found);
+  }
+  pendres_context_free(ctx);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(starts_follow_wells),
     cmocka_unit_test(facts),         cmocka_unit_test(derivatives),
     cmocka_unit_test(refusals),      cmocka_unit_test(blocks),
     cmocka_unit_test(tangents),      cmocka_unit_test(free_duffing),

@@ -74,7 +74,8 @@ static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, req
   } else if (status != PENDRES_OK) {
     char list[100];
     list_labels(set, list, sizeof list);
-    snprintf(r->why, r->size, "there is no attractor '%s' at these parameters; found: %s", start,
+    snprintf(r->why, r->size, "no attractor '%s' is found at these parameters from the starts that "
+             "are tried; found: %s. Give a state that leads to it by 'x' and 'v'", start,
              list[0] != '\0' ? list : "none");
   }
   r->found = pendres_attractors_count(set);

@@ -132,7 +132,8 @@ typedef struct pendres_outcome {
 
 /**
  * Find the attractors of one parameter set from n scouts x[n], v[n] at drive phase 0 (n = 0: a
- * built-in set of scouts). *out is to be freed by pendres_attractors_free.
+ * built-in set of 36 over a turn, and 36 in each well of another force that has a barrier; what
+ * attracts few states may be missed). *out is to be freed by pendres_attractors_free.
  * PENDRES_OK also when a scout stayed unresolved.
  */
 pendres_status pendres_attractors_find(pendres_context *ctx, const pendres_pendulum *p, size_t n,

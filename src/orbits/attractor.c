@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/angles.h"
 #include "orbits/attractor_internal.h"
+#include "base/angles.h"
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
 #include "engine/door.h"
@@ -118,23 +118,11 @@ const pendres_attractors *pendres_attractors_inside(pendres_door *d, const pendr
   return inside;
 }
 
-/* Scouts that start all over a well, at rest and moving either way. */
-static size_t default_scouts(const pendres_pendulum *p, double x[64], double v[64])
-{
-  size_t n = 0;
-  for (int i = 0; i < 12; i++)
-    for (int j = -1; j <= 1; j++) {
-      x[n] = pendres_model_origin(p) + two_pi * (i - 5.5) / 12.0;
-      v[n++] = 1.3 * j;
-    }
-  return n;
-}
-
 static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p, size_t n,
                                       const double *x, const double *v, pendres_attractors **out)
 {
   pendres_context *ctx = d->ctx;
-  double default_x[64], default_v[64];
+  double default_x[PENDRES_CATALOGUE_STARTS], default_v[PENDRES_CATALOGUE_STARTS];
   if (p == NULL || out == NULL || (n > 0 && (x == NULL || v == NULL)))
     return PENDRES_CONTEXT_NULL(ctx, "pendulum, x, v and out");
   *out = NULL;
@@ -142,7 +130,7 @@ static pendres_status attractors_find(pendres_door *d, const pendres_pendulum *p
   if (pendres_pendulum_check(p, &why) != PENDRES_OK)
     return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
   if (n == 0) {
-    n = default_scouts(p, default_x, default_v);
+    n = pendres_catalogue_starts(p, default_x, default_v);
     x = default_x;
     v = default_v;
   }

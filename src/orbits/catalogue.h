@@ -41,6 +41,15 @@ typedef struct pendres_scout {
 
 void pendres_catalogue_clear(pendres_catalogue *c);
 
+/*
+ * Where scouts of a pendulum in canonical units start from unless told: all over a turn, or about
+ * as far under other forces; and of these in each of up to four wells that have a barrier, across
+ * it. Returns their number. What attracts little of these places may still be missed.
+ */
+enum { PENDRES_CATALOGUE_STARTS = 180 };
+size_t pendres_catalogue_starts(const pendres_pendulum *p, double x[PENDRES_CATALOGUE_STARTS],
+                                double v[PENDRES_CATALOGUE_STARTS]);
+
 /* Integrate scouts (their period and winding are not read, but overwritten), and add the orbits
    that they lead to. */
 pendres_status pendres_catalogue_explore(pendres_context *ctx, size_t sets,
