@@ -131,6 +131,38 @@ static void only_bifurcations(void **state)
   pendres_hysteresis_free(h);
 }
 
+/*
+ * An orbit of eight periods is born from one of four, and grows into that again a little further: a
+ * closed branch, so short that its points pass the second doubling more than once. Both ways meet
+ * the same doublings, and at the second the reference's orbit of four periods has a multiplier -1.
+ */
+static void doublings_of_a_short_branch(void **state)
+{
+  enum { N = 2, JUMPS = 6 };
+  static const int to[JUMPS] = {4, 8, 4, 8, 4, 2};
+  const pendres_pendulum p = {.damping = 0.57395788975562456, .torque = 0.46123985610058271,
+                              .drive_frequency = 0.47158924700965588};
+  const pendres_branch_options range = {PENDRES_DRIVE_AMPLITUDE, 2.58, 2.6793, 0, 0, 0};
+  pendres_hysteresis *h = sweep(*state, &p, &range, N, 0.65);
+  assert_int_equal(pendres_hysteresis_jumps(h), JUMPS);
+  for (size_t k = 0; k < JUMPS; k++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, k);
+    const pendres_jump *back = pendres_hysteresis_jump(h, JUMPS - 1 - k);
+    assert_true(j->kind == PENDRES_JUMP_FLIP && j->gradual);
+    assert_int_equal(j->to_period, to[k]);
+    check_near(j->value, back->value, j->value_error + back->value_error);
+  }
+  const pendres_orbit *o = &pendres_hysteresis_get(h, N - 1)->attractor.orbit;
+  pendres_pendulum q = o->pendulum;
+  pendres_reference_cycle c;
+  q.drive_amplitude = pendres_hysteresis_jump(h, 2)->value;
+  check_ok(pendres_reference_orbit(&q, (long double)o->x - 1.57079632679489662L,
+                                   (long double)o->v, o->period, o->winding, &c));
+  /* It changes by some thousands a unit of F0, and the value is known to some 1e-11. */
+  check_near((double)fminl(c.multiplier_re[0], c.multiplier_re[1]), -1.0, 1e-6);
+  pendres_hysteresis_free(h);
+}
+
 /* The orbit near a guess that is right but for some Newton steps. */
 static pendres_orbit orbit_at(pendres_context *ctx, const pendres_pendulum *p, double x)
 {
@@ -190,6 +222,7 @@ int main(void)
     cmocka_unit_test(no_end_of_the_torque),
     cmocka_unit_test(no_end_of_rest),
     cmocka_unit_test(only_bifurcations),
+    cmocka_unit_test(doublings_of_a_short_branch),
     cmocka_unit_test(one_branch),
     cmocka_unit_test(upright),
   };

@@ -140,6 +140,7 @@ static pendres_status settle_at(path *w, size_t *i)
     if (w->tried != *i) w->tries = 0;
     w->tried = *i;
     w->tries++;
+    pendres_path_allow(w); /* where it ended is a question of its own */
     status = end_chaos(w, *i, &old);
     pendres_path_leave(w);
   }
