@@ -22,6 +22,7 @@
  *
  * All quantities are dimensionless: times are in units of 1/omega_0, where omega_0 is the angular
  * frequency of small oscillations, energies and torques in units of m g l (mass, gravity, length).
+ * With a polynomial they are in units of the caller's, of any size (pendres_units_of).
  * The potential is V(x) = -sin x. Wells lie at x = pi/2 + 2 pi n (n is the well number), the
  * barrier tops, 2 above them, at x = -pi/2 + 2 pi n. The pendulum's angle is y = x - pi/2.
  * The mirror symmetry is y -> -y together with half a drive period's delay; that of other forces
