@@ -373,15 +373,17 @@ bench bench-baseline: all $(BENCH_PROGRAMS)
 
 # ---- Installation ----------------------------------------------------------------------------
 
-# What pkg-config reads, on standard output: what a program needs that links libpendres.a, which the
-# shared library knows by itself. An installation writes it, like the manual page, where
-# it belongs and nowhere else: two that run at once, each with its own PREFIX, keep apart.
-PRINT_PC = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@LIBDIR@|$(subst $(PREFIX)/,$${prefix}/,$(LIBDIR))|' \
-  -e 's|@INCLUDEDIR@|$(subst $(PREFIX)/,$${prefix}/,$(INCLUDEDIR))|' -e 's|@VERSION@|$(VERSION)|' \
-  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' \
-  -e 's|@LIBS@|$(strip $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) \
-      $(if $(GSL_PC),,$(GSL_LIBS)) $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm)|' \
-  pendres.pc.in
+# What pkg-config and CMake read: what a program needs that links libpendres.a, which the shared
+# library knows by itself. An installation writes them, like the manual page, where they
+# belong and nowhere else: two that run at once, each with its own PREFIX, keep apart.
+OTHERS = $(SUNDIALS_LIBS) $(if $(MPI_PC),,$(MPI_LIBS)) $(if $(GSL_PC),,$(GSL_LIBS)) \
+         $(if $(HDF5_PC),-lhdf5_hl,$(HDF5_LIBS)) $(THREADS) -lm
+FILL = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@SONAME@|$(SONAME)|'
+FILL_PC = $(FILL) -e 's|@LIBDIR@|$(subst $(PREFIX)/,$${prefix}/,$(LIBDIR))|' \
+  -e 's|@INCLUDEDIR@|$(subst $(PREFIX)/,$${prefix}/,$(INCLUDEDIR))|' \
+  -e 's|@REQUIRES@|$(strip $(MPI_PC) $(GSL_PC) $(HDF5_PC))|' -e 's|@LIBS@|$(strip $(OTHERS))|'
+FILL_CMAKE = $(FILL) -e 's|@LIBDIR@|$(LIBDIR)|' -e 's|@INCLUDEDIR@|$(INCLUDEDIR)|' \
+  -e 's|@LIBS@|$(strip $(LIBS))|'
 
 # What share/pendres holds, beside what a compiler reads.
 SHARED_FILES = $(shell find examples input plots docs python -type f ! -name '*.h5' ! -name '*.pyc' \
@@ -394,8 +396,12 @@ install: all
 	ln -sf $(notdir $(SHARED)) "$(DESTDIR)$(LIBDIR)/$(SONAME)"
 	ln -sf $(notdir $(SHARED)) "$(DESTDIR)$(LIBDIR)/libpendres.so"
 	$(INSTALL) -m 644 $(HEADERS) "$(DESTDIR)$(INCLUDEDIR)/pendres"
-	$(PRINT_PC) >"$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc"
+	$(FILL_PC) pendres.pc.in >"$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc"
 	chmod 644 "$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc"
+	$(INSTALL) -d "$(DESTDIR)$(LIBDIR)/cmake/pendres"
+	@for file in pendres-config pendres-config-version; do \
+	  $(FILL_CMAKE) $$file.cmake.in >"$(DESTDIR)$(LIBDIR)/cmake/pendres/$$file.cmake" && \
+	  chmod 644 "$(DESTDIR)$(LIBDIR)/cmake/pendres/$$file.cmake" || exit 1; done
 ifneq ($(PROGRAM),)
 	$(INSTALL) -d "$(DESTDIR)$(BINDIR)"
 	$(INSTALL) -m 755 $(PROGRAM) "$(DESTDIR)$(BINDIR)"
@@ -417,7 +423,7 @@ uninstall:
 	  "$(DESTDIR)$(LIBDIR)/$(SONAME)" "$(DESTDIR)$(LIBDIR)/$(notdir $(SHARED))" \
 	  "$(DESTDIR)$(LIBDIR)/pkgconfig/pendres.pc" "$(DESTDIR)$(BINDIR)/resonance" \
 	  "$(DESTDIR)$(MANDIR)/man1/resonance.1" "$(DESTDIR)$(MANDIR)/man3/pendres.3"
-	rm -rf "$(DESTDIR)$(INCLUDEDIR)/pendres" "$(DESTDIR)$(DATADIR)"
+	rm -rf "$(DESTDIR)$(INCLUDEDIR)/pendres" "$(DESTDIR)$(LIBDIR)/cmake/pendres" "$(DESTDIR)$(DATADIR)"
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
 
 doc:

@@ -1,6 +1,6 @@
 #!/bin/sh
 # install_check.sh -- what a stranger gets: installs into a scratch folder and builds a program
-# with `pkg-config --cflags --libs pendres` alone, against the shared and the static library.
+# with `pkg-config --cflags --libs pendres` or CMake alone, against the shared and the static library.
 # Run by make check, which sets BUILD, CC, MAKE and PKG_CONFIG.
 set -u
 CC=${CC:-gcc}
@@ -29,6 +29,7 @@ stage="$scratch/the stage" # whose name the shell must not take apart
 # The variables of an outer command line come along in MAKEFLAGS; these are the later ones.
 quiet $MAKE install DESTDIR="$stage" PREFIX=/opt/pendres LDCONFIG=:
 for file in lib/libpendres.a lib/libpendres.so lib/libpendres.so.0.1 lib/pkgconfig/pendres.pc \
+  lib/cmake/pendres/pendres-config.cmake lib/cmake/pendres/pendres-config-version.cmake \
   include/pendres/pendres.h share/man/man1/resonance.1 share/man/man3/pendres.3 \
   share/pendres/input/f02.nml share/pendres/plots/plot.py share/pendres/docs/decks.md \
   share/pendres/python/pendres/__init__.py share/pendres/python/setup.py; do
@@ -42,7 +43,8 @@ grep -q '^.B <pendres/context.h>' "$stage/opt/pendres/share/man/man3/pendres.3" 
   grep -qF /opt/pendres/share/pendres/examples "$stage/opt/pendres/share/man/man3/pendres.3" ||
   fail "pendres.3 lacks headers, or where the examples are"
 [ "$(ls "$stage")" = opt ] && [ "$(ls "$stage/opt")" = pendres ] || fail "files outside PREFIX"
-grep -rlF "$stage" "$stage/opt/pendres/lib/pkgconfig" && fail "DESTDIR got into pendres.pc"
+grep -rlF "$stage" "$stage/opt/pendres/lib/pkgconfig" "$stage/opt/pendres/lib/cmake" &&
+  fail "DESTDIR got into what pkg-config or CMake reads"
 quiet $MAKE uninstall DESTDIR="$stage" PREFIX=/opt/pendres
 [ -z "$(find "$stage" ! -type d)" ] || fail "make uninstall left" $(find "$stage" ! -type d)
 
@@ -139,16 +141,41 @@ quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) \
   -Wl,-rpath,"$($PKG_CONFIG --variable=libdir pendres)" -o rpath
 (unset LD_LIBRARY_PATH && quiet ./rpath) || exit 1
 
-mkdir static_only
-cp "$prefix/lib/libpendres.a" static_only
-static=$($PKG_CONFIG --define-variable=libdir="$scratch/static_only" --static --cflags --libs pendres)
+# The archive in place of the shared library beside it, by the words of the documentation.
+words=$(cat "$top/README.md" "$top/docs/install.md" 2>/dev/null |
+  sed -n 's/.*`pkg-config \(--static [^`]* pendres\)`.*/\1/p' | head -n 1)
+[ -n "$words" ] || fail "no page says how to link libpendres.a"
+static=$($PKG_CONFIG $words)
 quiet $CC $strict stranger.c $static -o static
-quiet ./static
 readelf -d static | grep -q 'NEEDED.*pendres' && fail "static: still wants the shared library"
+(unset LD_LIBRARY_PATH && quiet ./static) || exit 1
 # Everything in the archive at once: pendres.pc names all that it needs.
-quiet $CC $strict stranger.c -Wl,--whole-archive static_only/libpendres.a -Wl,--no-whole-archive \
-  $static -o whole
-quiet ./whole
+quiet $CC $strict stranger.c -Wl,--whole-archive "$prefix/lib/libpendres.a" \
+  -Wl,--no-whole-archive $static -o whole
+(unset LD_LIBRARY_PATH && quiet ./whole) || exit 1
+
+# The same with CMake, both ways.
+if command -v cmake >/dev/null; then
+  mkdir cmake
+  echo 'cmake_minimum_required(VERSION 3.13)
+project(stranger C)
+find_package(pendres 0.1 REQUIRED)
+add_executable(shared ../stranger.c)
+target_link_libraries(shared PRIVATE pendres::pendres)
+add_executable(static ../stranger.c)
+target_link_libraries(static PRIVATE pendres::static)
+find_package(pendres 99 QUIET)
+if(pendres_FOUND)
+  message(FATAL_ERROR "version 99 was found")
+endif()' >cmake/CMakeLists.txt
+  quiet cmake -S cmake -B cmake/build -DCMAKE_C_COMPILER="$CC" -DCMAKE_PREFIX_PATH="$prefix"
+  quiet cmake --build cmake/build
+  (unset LD_LIBRARY_PATH && quiet cmake/build/shared && quiet cmake/build/static) || exit 1
+  readelf -d cmake/build/shared | grep -q 'NEEDED.*\[libpendres\.so\.0\.1\]' ||
+    fail "CMake: pendres::pendres is not the shared library"
+  readelf -d cmake/build/static | grep -q 'NEEDED.*pendres' &&
+    fail "CMake: pendres::static still wants the shared library"
+fi
 
 # The Python package works where it was installed, without the tree: pkg-config tells of the rest.
 for python in "${PYTHON:-python3}" /usr/bin/python3; do
