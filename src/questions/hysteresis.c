@@ -272,7 +272,7 @@ pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pen
   start = pendres_door_in(&d, &pendres_dim_state, 1, start);
   inside.value = pendres_door_in(&d, &pendres_dim_first, inside.n, inside.value);
   PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, out));
-  if (out != NULL && *out != NULL && (d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED)) {
+  if ((d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED) && *out != NULL) {
     pendres_units_out(&d.scales, &pendres_dim_hysteresis_point, (*out)->count, (*out)->point);
     pendres_units_out(&d.scales, &pendres_dim_jump, (*out)->jumps, (*out)->jump);
   }
