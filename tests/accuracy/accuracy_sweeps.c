@@ -46,6 +46,7 @@ typedef struct item {
   int faults;
   fault fault[FAULTS];
   int shown;
+  pendres_status why; /* the latest of values left out */
   pendres_jump jump[SHOWN];
 } item;
 
@@ -214,6 +215,7 @@ static void check(item *t, const pendres_hysteresis *h)
     const pendres_hysteresis_point *a = pendres_hysteresis_get(h, i);
     if (a->outcome == PENDRES_OK && a[1].outcome == PENDRES_OK) check_step(t, h, i);
     else t->marked++;
+    if (a->outcome != PENDRES_OK) t->why = a->outcome;
   }
 }
 
@@ -243,8 +245,10 @@ typedef struct tally {
   long sweeps, steps, checked, marked, jumps[PENDRES_JUMP_COUNT];
 } tally;
 
-static void show(const item *t)
+static void show(const item *t, const char *how)
 {
+  printf("%s\n", how);
+  if (t->marked > 0) printf("  left out: %s\n", pendres_status_message(t->why));
   for (int k = 0; k < t->shown; k++) {
     const pendres_jump *j = &t->jump[k];
     printf("  %-4s %-12s %.14g +- %.1g %s to %s, period %d%s%s\n", j->direction > 0 ? "up" : "down",
@@ -273,7 +277,7 @@ static void note(accuracy *a, const void *of, long number, void *counts)
     p->drive_frequency, p->torque, p->parametric_amplitude, t->x, t->v,
     pendres_parameter_name(t->parameter), t->low, t->high);
   if (t->status != PENDRES_OK) accuracy_complain(a, "a sweep failed", how);
-  if (accuracy_get_options(a)->item >= 0) show(t);
+  if (accuracy_get_options(a)->item >= 0) show(t, how);
   for (int k = 0; k < t->faults && k < FAULTS; k++) {
     snprintf(how + length, sizeof how - (size_t)length, ": %.10g to %.10g, at %.10g",
              t->fault[k].from, t->fault[k].to, t->fault[k].value);
