@@ -187,7 +187,8 @@ pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pen
 static int point_fits(const pendres_hysteresis_point *p)
 {
   return scene_check_attractor(&p->attractor) &&
-         scene_check_code((int)p->outcome, PENDRES_STATUS_COUNT);
+         scene_check_code((int)p->outcome, PENDRES_STATUS_COUNT) &&
+         scene_check_code(p->certain, 2);
 }
 
 static int jump_fits(const pendres_jump *j, size_t points)
@@ -242,6 +243,11 @@ static scene_failure failure_of(const pendres_hysteresis_point *point)
                                               : scene_failure_of(point->outcome);
 }
 
+static int is_doubtful(const pendres_hysteresis_point *p)
+{
+  return p->attractor.label != PENDRES_LABEL_UNRESOLVED && !p->certain;
+}
+
 int scene_along_closed(const pendres_hysteresis_point *point)
 {
   return point->attractor.orbit.period > 0;
@@ -256,7 +262,7 @@ scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
     const double closed = scene_along_closed(p) ? 0.0 : NAN;
     rows[i] = (scene_along_row){.of = *p, .period = o->period + closed, .period_error = closed,
                                 .winding = o->winding + closed, .winding_error = closed,
-                                .failed = (int)failure_of(p)};
+                                .uncertain = is_doubtful(p), .failed = (int)failure_of(p)};
   }
   return rows;
 }
@@ -287,11 +293,34 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
   return status;
 }
 
-const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS] = {
+static const scene_column verdicts[] = {
   { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
     .value = offsetof(scene_along_row, of.attractor.label), .names = scene_motion_names },
   SCENE_CODE(scene_along_row, failed, "why there is no attractor", scene_failure_names),
 };
+
+/* Only where it is: files of starts that are sure have none. */
+static const scene_column doubts[] = {
+  { .name = "uncertain", .type = SCENE_FLAG, .value = offsetof(scene_along_row, uncertain),
+    .names = scene_doubt_names,
+    .long_name = "whether errors that the start amplifies may have chosen the state on which the "
+                 "path begins" },
+};
+
+int scene_along_uncertain(const scene_along_path *path)
+{
+  for (size_t i = 0; i < path->points; i++)
+    if (is_doubtful(&path->point[i])) return 1;
+  return 0;
+}
+
+pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                          const scene_table *table)
+{
+  const pendres_status status = SCENE_WRITE(run, table, verdicts);
+  return status == PENDRES_OK && scene_along_uncertain(path) ? SCENE_WRITE(run, table, doubts)
+                                                             : status;
+}
 
 /* Of values that a path has left out; NULL: what is said of all. */
 static const char *remedy_of(scene_failure failed)

@@ -62,7 +62,7 @@ int scene_along_closed(const pendres_hysteresis_point *point);
 typedef struct scene_along_row {
   pendres_hysteresis_point of;
   double period, period_error, winding, winding_error; /* NaN unless the orbit closes */
-  int failed;                                          /* a scene_failure */
+  int uncertain, failed;                               /* a scene_failure */
 } scene_along_row;
 
 #define SCENE_ALONG_COLUMN(label, field, words, unit)                                           \
@@ -88,9 +88,12 @@ pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *p
 #define SCENE_ALONG_WRITE_JUMPS(run, path, what, columns) \
   scene_along_write_jumps(run, path, what, sizeof columns / sizeof *columns, columns)
 
-/* Columns of a table of scene_along_row: `label` and `failed`. */
-enum { SCENE_ALONG_VERDICTS = 2 };
-extern const scene_column scene_along_verdicts[SCENE_ALONG_VERDICTS];
+/* Whether errors of the integration may have chosen the state that the path begins on. */
+int scene_along_uncertain(const scene_along_path *path);
+
+/* Write columns of a table of scene_along_row: `label`, `failed` and, if it is, `uncertain`. */
+pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                          const scene_table *table);
 
 /* Count the points that failed, and tell the first of them. If there are two ways, points of the
    way back are in the order of the axis, too. */

@@ -239,7 +239,7 @@ static pendres_status write_values(scene_run *run, const work *w)
   if (status == PENDRES_OK) status = SCENE_WRITE(run, &points, of_points);
   if (status == PENDRES_OK) status = scene_columns_write(run, &counts, 1, &of_attractors);
   if (status == PENDRES_OK)
-    status = scene_columns_write(run, &points, SCENE_ALONG_VERDICTS, scene_along_verdicts);
+    status = scene_along_write_verdicts(run, &w->path, &points);
   free(rows);
   scene_along_tell(run, w->axis, &w->path, 1);
   return status;
@@ -279,6 +279,8 @@ static void tabulate(FILE *out, const work *w)
     fprintf(out, "%-10s %.14g +- %.0e  %d\n", pendres_jump_kind_name(j->kind), j->value,
             j->value_error, j->to_period);
   }
+  if (scene_along_uncertain(&w->path))
+    fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
   const pendres_cascade *c = &w->cascade.cascade;
   if (c->doublings > 3)
     fprintf(out, "%d doublings accumulate at %.12g +- %.0e, ratio %.6f +- %.0e\n", c->doublings,

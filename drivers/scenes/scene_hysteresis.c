@@ -107,7 +107,7 @@ static pendres_status write_points(scene_run *run, const work *w)
     scene_columns_write_orbits(run, &table, offsetof(scene_along_row, of.attractor.orbit));
   if (status == PENDRES_OK) status = SCENE_WRITE(run, &table, of_points);
   if (status == PENDRES_OK)
-    status = scene_columns_write(run, &table, SCENE_ALONG_VERDICTS, scene_along_verdicts);
+    status = scene_along_write_verdicts(run, &w->path, &table);
   free(rows);
   scene_along_tell(run, w->axis, &w->path, DIRECTIONS);
   return status;
@@ -127,6 +127,8 @@ static void tabulate(FILE *out, const work *w)
             pendres_label_name(j->from), pendres_label_name(j->to), j->to_period,
             j->gradual ? ", gradual" : "", j->certain ? "" : ", uncertain");
   }
+  if (scene_along_uncertain(&w->path))
+    fprintf(out, "uncertain: errors as small as rounding choose the state that it begins on\n");
   if (w->path.jumps == 0) fprintf(out, "the state does not end within the range\n");
   if (w->path.jumps > TABLE_JUMPS) fprintf(out, "and %zu more\n", w->path.jumps - TABLE_JUMPS);
 }

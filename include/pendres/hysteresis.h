@@ -20,8 +20,9 @@
  *
  * From a chaotic state the pendulum is settled anew at each value, starting from its present state.
  * If it has come to a periodic orbit, or has escaped, the interval is halved until the value at
- * which it first does so is found. If the orbit is born there, in a window of the chaos, its birth
- * is where the chaos ends. If it is there on both sides, or if the pendulum escapes, the chaos ends
+ * which it first does so is found. If the orbit is born there, in a window of the chaos, and most
+ * trials go to it just behind its birth, from states of the chaos just before it, its birth is
+ * where the chaos ends. If it is there on both sides, or if the pendulum escapes, the chaos ends
  * in a crisis. Next to a crisis chaos lasts long before it ends: the error includes how far beyond
  * it chaos may have been taken to last, from the lives of 32 pendulums at two distances. The orbit
  * is then followed. If orbits and chaos have alternated four times in one interval, the end of
@@ -95,6 +96,10 @@ typedef struct pendres_hysteresis_point {
   double mean_velocity_error;  /**< its error: rounding of closed orbits, whose mean is exact; of
                                     quasi-periodic rotations a bound; else it holds with a
                                     confidence of 99.9 % */
+  int certain;                 /**< 1: no error of the integration can have chosen the state on
+                                    which the path began, and from which the pendulum has come by
+                                    jumps that say of themselves whether they are certain; 0 also
+                                    if unresolved */
   pendres_status outcome;      /**< PENDRES_OK; else why the path left the value out:
                                     PENDRES_TOLERANCE_UNREACHABLE, PENDRES_INTEGRATION_FAILED,
                                     PENDRES_NOT_CONVERGED, PENDRES_UNRESOLVED (the way there takes

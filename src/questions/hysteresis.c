@@ -12,6 +12,7 @@
 #include "questions/hysteresis_left.h"
 #include "questions/hysteresis_orbit.h"
 #include "questions/hysteresis_rotation.h"
+#include "questions/lyapunov_move.h"
 #include "model/model.h"
 
 enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
@@ -128,6 +129,25 @@ static void stay_away(path *w, size_t *i)
   pendres_path_put(w, (*i)++, &w->state.attractor);
 }
 
+/* The path begins on the state that has been found. Whether averages alone are certain is known
+   only where errors stay small; where they grow, copies tell. */
+static pendres_status begin_path(path *w, double x, double v)
+{
+  const pendres_settled *s = &w->state;
+  const int closed = pendres_settled_closed(&s->attractor);
+  pendres_lyapunov l;
+  if (w->known || s->attractor.label == PENDRES_LABEL_UNRESOLVED) return PENDRES_OK;
+  w->known = 1;
+  w->certain = s->certain;
+  if (w->certain || !pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK;
+  const pendres_status status =
+    pendres_lyapunov_find(w->ctx, 1, &s->pendulum, &x, &v, NULL, &l);
+  w->certain = status == PENDRES_OK && l.certain && l.label == s->attractor.label &&
+               (!closed || (l.period == s->attractor.orbit.period &&
+                            l.winding == s->attractor.orbit.winding));
+  return status;
+}
+
 /* Find what the pendulum settles on at value number *i, from its present state, or the orbit that
    it goes to on the way there, which is to be followed first. */
 static pendres_status settle_at(path *w, size_t *i)
@@ -135,6 +155,7 @@ static pendres_status settle_at(path *w, size_t *i)
   const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
   const pendres_settled old = w->state;
   pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
+  if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
   if (status == PENDRES_OK && w->settled &&
       pendres_chaos_ends(&old.attractor, &w->state.attractor)) {
     if (w->tried != *i) w->tries = 0;

@@ -64,39 +64,77 @@ static pendres_jump_kind kind_of(pendres_special kind)
   }
 }
 
+/* States that a pendulum comes through, far enough apart for chaos to have lost its memory. */
+static pendres_status spread(const search *w, const pendres_settled *from, int n, double *x,
+                             double *v)
+{
+  double xs[LIVES * APART + 1], vs[LIVES * APART + 1];
+  const pendres_status status =
+    pendres_strobe_record(w->ctx, &from->pendulum, &(pendres_state){from->x, from->v},
+                          (long)n * APART, 1, &(pendres_record){.x = xs, .v = vs});
+  for (int i = 0; i < n && status == PENDRES_OK; i++) {
+    x[i] = xs[i * APART];
+    v[i] = vs[i * APART];
+  }
+  return status;
+}
+
+/* Whether the pendulum stays in the old state just before an orbit's birth, and most trials from
+   there go to that orbit just behind it. Sets share and certain of the jump. */
+static pendres_status try_beside(const search *w, const pendres_stretch *s, int direction,
+                                 pendres_jump *jump, int *born)
+{
+  const double small = direction * beside * pendres_parameter_scale(w->parameter);
+  const pendres_orbit *first = &pendres_stretch_last(s)->orbit;
+  const pendres_pendulum p = pendulum_at(w, s->end_value - small);
+  const pendres_pendulum q = pendulum_at(w, s->end_value + small);
+  pendres_settled before, behind;
+  pendres_jump there = {.share = NAN};
+  double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
+  pendres_status status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
+  *born = 0;
+  if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
+      before.attractor.label == PENDRES_LABEL_ESCAPE)
+    return status;
+  status = spread(w, &before, PENDRES_HYSTERESIS_TRIALS, x, v);
+  if (status == PENDRES_OK) status = pendres_jump_try_from(w->ctx, &q, x, v, &behind, &there);
+  if (status != PENDRES_OK) return status;
+  *born = pendres_settled_closed(&behind.attractor) &&
+          behind.attractor.orbit.period == first->period;
+  if (!*born) return status;
+  jump->share = there.share;
+  jump->certain = there.certain;
+  return status;
+}
+
+/* What there is to know of an orbit between two values: nothing, that it is born there and ends the
+   old state, or that it is there at both. */
+typedef enum birth { BIRTH_NONE, BIRTH_FOUND, BIRTH_EARLIER } birth;
+
 /*
  * Whether the orbit that the pendulum has gone to is born between the values, and the pendulum goes
- * to it there. *lasts: the orbit exists at both of them.
+ * to it there.
  */
-static pendres_status try_birth(search *w, pendres_jump *jump, int *lasts)
+static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
 {
   const double to = value_of(w), small = beside * pendres_parameter_scale(w->parameter);
-  const int direction = to > w->from ? 1 : -1;
   pendres_stretch s = pendres_stretch_none;
-  pendres_settled before, behind;
-  *lasts = 0;
+  *found = BIRTH_NONE;
   if (!pendres_settled_closed(&w->state->attractor) ||
       w->state->attractor.orbit.period > PENDRES_HYSTERESIS_PERIOD)
     return PENDRES_OK;
   pendres_status status =
     pendres_stretch_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, &s);
-  *lasts = status == PENDRES_OK && s.end == PENDRES_STRETCH_LIMIT;
+  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_LIMIT) *found = BIRTH_EARLIER;
   if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
       fabs(to - s.end_value) > small && fabs(w->from - s.end_value) > small) {
-    const pendres_pendulum p = pendulum_at(w, s.end_value - direction * small);
-    const pendres_pendulum q = pendulum_at(w, s.end_value + direction * small);
-    status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
-    if (status == PENDRES_OK)
-      status = pendres_settled_find(w->ctx, &q, w->old->x, w->old->v, &behind);
-    const pendres_orbit *born = &pendres_stretch_last(&s)->orbit;
-    if (status == PENDRES_OK && !pendres_settled_closed(&before.attractor) &&
-        pendres_settled_closed(&behind.attractor) &&
-        behind.attractor.orbit.period == born->period) {
+    int born = 0;
+    status = try_beside(w, &s, to > w->from ? 1 : -1, jump, &born);
+    if (status == PENDRES_OK && born) {
+      *found = BIRTH_FOUND;
       jump->kind = kind_of(s.bifurcation.kind);
       jump->value = s.end_value;
       jump->value_error = s.end_error;
-      jump->certain = 1;
-      jump->share = 1.0;
     }
   }
   pendres_stretch_free(&s);
@@ -159,14 +197,8 @@ static pendres_status leave_open(const search *w, pendres_jump *jump)
   const int direction = value_of(w) > w->from ? 1 : -1;
   const double step = 2.0 * jump->value_error, first = FURTHER * step;
   const double watched = w->before.attractor.watched_periods;
-  double xs[LIVES * APART + 1], vs[LIVES * APART + 1], x[LIVES], v[LIVES], near, far;
-  pendres_status status =
-    pendres_strobe_record(w->ctx, &w->before.pendulum, &(pendres_state){w->before.x, w->before.v},
-                          (long)LIVES * APART, 1, &(pendres_record){.x = xs, .v = vs});
-  for (int i = 0; i < LIVES && status == PENDRES_OK; i++) {
-    x[i] = xs[i * APART];
-    v[i] = vs[i * APART];
-  }
+  double x[LIVES], v[LIVES], near, far;
+  pendres_status status = spread(w, &w->before, LIVES, x, v);
   if (status == PENDRES_OK)
     status = mean_life(w, jump->value + direction * first, x, v, &near);
   if (status == PENDRES_OK)
@@ -184,16 +216,17 @@ pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter paramet
 {
   search w = {.ctx = ctx, .parameter = parameter, .old = old, .from = from, .before = *old,
               .state = state};
-  int lasts = 0;
+  birth found = BIRTH_NONE;
   jump->share = NAN;
   jump->certain = 0;
-  pendres_status status = try_birth(&w, jump, &lasts);
-  if (status == PENDRES_OK && !jump->certain) status = halve(&w, jump);
+  pendres_status status = try_birth(&w, jump, &found);
+  if (status == PENDRES_OK && found != BIRTH_FOUND) status = halve(&w, jump);
   jump->from = w.before.attractor.label;
-  if (status == PENDRES_OK && !jump->certain && jump->from == PENDRES_LABEL_CHAOTIC) {
-    status = try_birth(&w, jump, &lasts);
+  if (status == PENDRES_OK && found != BIRTH_FOUND && jump->from == PENDRES_LABEL_CHAOTIC) {
+    status = try_birth(&w, jump, &found);
     /* What is there all the while coexists with the chaos, which ends by itself. */
-    if (status == PENDRES_OK && (lasts || !pendres_settled_closed(&state->attractor))) {
+    if (status == PENDRES_OK &&
+        (found == BIRTH_EARLIER || !pendres_settled_closed(&state->attractor))) {
       jump->kind = PENDRES_JUMP_CRISIS;
       status = leave_open(&w, jump);
     }

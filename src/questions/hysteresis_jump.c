@@ -79,6 +79,7 @@ void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r
                             pendres_settled *out)
 {
   *out = pendres_settled_nothing_at(p, half_pi, r->v);
+  out->certain = 1;
   out->attractor.label = PENDRES_LABEL_RUNNING;
   out->attractor.lyapunov = out->attractor.lyapunov_error = 0.0;
   out->attractor.drift = r->mean_velocity / p->drive_frequency;
@@ -120,6 +121,7 @@ static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const s
   for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
     s[which[k]].x = x[k];
     s[which[k]].v = v[k];
+    s[which[k]].certain = l[k].certain;
     take_verdict(&l[k], &orbit[k], &s[which[k]]);
   }
   return status;
@@ -144,6 +146,7 @@ static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const s
     if (a != NULL) s[which[k]].attractor = *a;
     if (outcome[k].attractor == PENDRES_ATTRACTOR_ESCAPED)
       s[which[k]].attractor.label = PENDRES_LABEL_ESCAPE;
+    s[which[k]].certain = outcome[k].certain;
   }
   pendres_attractors_free(found);
   return status;
@@ -254,16 +257,11 @@ static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at,
   return status;
 }
 
-pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
-                                pendres_settled *to, pendres_jump *jump)
+/* Trials stand for what an experiment does not control, errors of the integration included: how
+   many of them agree tells how certain the jump is, whether each by itself is or not. */
+static pendres_status count(pendres_context *ctx, const pendres_settled went[TRIALS],
+                            pendres_settled *to, pendres_jump *jump)
 {
-  pendres_settled went[TRIALS];
-  double distance[TRIALS];
-  begin(at, direction, distance, went);
-  pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_ONCE, went);
-  if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
-  if (status != PENDRES_OK) return status;
-
   int best = 0, most = 0;
   for (int i = 0; i < TRIALS; i++) {
     int alike = 0;
@@ -279,4 +277,25 @@ pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation 
   jump->share = (double)most / TRIALS;
   jump->certain = most == TRIALS && to->attractor.label != PENDRES_LABEL_UNRESOLVED;
   return arrive(ctx, to);
+}
+
+pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
+                                pendres_settled *to, pendres_jump *jump)
+{
+  pendres_settled went[TRIALS];
+  double distance[TRIALS];
+  begin(at, direction, distance, went);
+  pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_ONCE, went);
+  if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
+  return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
+}
+
+pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
+                                     const double *x, const double *v, pendres_settled *to,
+                                     pendres_jump *jump)
+{
+  pendres_settled went[TRIALS];
+  for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
+  const pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_FULL, went);
+  return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
 }

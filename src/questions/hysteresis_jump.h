@@ -14,6 +14,7 @@ typedef struct pendres_settled {
   pendres_pendulum pendulum;
   pendres_attractor attractor; /* its label is UNRESOLVED if nothing is known of it */
   double x, v;                 /* a state on it, or on the way to it */
+  int certain;                 /* no error of the integration can have chosen it */
 } pendres_settled;
 
 /* Whether an attractor is an orbit that closes in drive periods. */
@@ -50,5 +51,10 @@ pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum
    end is known, *at has no orbit. Sets to, share and certain of the jump. */
 pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
                                 pendres_settled *to, pendres_jump *jump);
+
+/* The same of one pendulum from as many states as a jump has trials. */
+pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
+                                     const double *x, const double *v, pendres_settled *to,
+                                     pendres_jump *jump);
 
 #endif

@@ -26,6 +26,7 @@ void pendres_path_put(pendres_path *w, size_t i, const pendres_attractor *a)
   *p = (pendres_hysteresis_point){.value = w->value[i], .attractor = *a};
   p->x = closed ? a->orbit.x : w->state.x;
   p->v = closed ? a->orbit.v : w->state.v;
+  p->certain = w->certain && a->label != PENDRES_LABEL_UNRESOLVED;
   w->h->stretch[i] = w->h->stretches;
   if (closed) {
     const double turns = (double)a->orbit.winding / a->orbit.period;

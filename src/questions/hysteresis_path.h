@@ -20,6 +20,8 @@ typedef struct pendres_path {
   size_t n;
   const double *value; /* ... and those that are not left out */
   int settled;         /* whether the first of these values has been computed */
+  int known, certain;  /* whether the state is known that the path begins on, and whether no error
+                          of the integration can have chosen it */
   double most_slopes;  /* evaluations of the slope that one value may take; 0: the default */
   pendres_hysteresis *h;
   double at;               /* the present value of the parameter */
