@@ -4,7 +4,7 @@ import os
 import h5py
 import numpy as np
 
-from style import (EXACT, FREE, LA, SA, Run, around, drive_axis, figure, free_frequency,
+from style import (EXACT, FREE, LA, NARROW, SA, Run, around, drive_axis, figure, free_frequency,
                    frequency, legend, parameter_axis, plt, words)
 
 
@@ -108,7 +108,7 @@ def draw_response(h, path):
         top.plot(at, h["resonance_amplitude"][i], "o", ms=5, mfc="none", color=f"C{i % 6}")
         below.plot(at, h["resonance_phase_lag"][i] / np.pi, "o", ms=5, mfc="none",
                    color=f"C{i % 6}", label=f"resonance, {at:.4f}")
-    top.set(ylabel=r"amplitude $\langle x_0\rangle$ (rad)")
+    top.set(ylabel=amplitude_label(h, r"amplitude $\langle x_0\rangle$"))
     top.set_ylim(bottom=0)
     below.set(xlabel=label, ylabel=r"phase lag $\phi/\pi$", ylim=(0, 1))
     top.legend()
@@ -199,6 +199,11 @@ def draw_orbit(h, path):
     return fig
 
 
+def amplitude_label(h, symbol="amplitude $x_0$"):
+    """The label of an axis of amplitudes: only a pendulum's are angles."""
+    return symbol if "a1" in h else symbol + " (rad)"
+
+
 def column_of(name):
     """What an axis is called in the columns branch_..., fold_..., flip_..."""
     return "frequency" if name in ("drive_frequency", "drive_period") else name
@@ -215,38 +220,90 @@ def bifurcation_curves(h, what, x, y):
         yield named, h[f"{what}_{x}"][here], h[f"{what}_{y}"][here]
 
 
+def smooth(x, y, pieces=12):
+    """A curve through points in order, smooth in both coordinates: cubic in each interval, with the
+    slopes of the parabolas through neighbours along the chord. Each interval becomes `pieces`."""
+    points = np.column_stack([x, y]).astype(float)
+    size = np.ptp(points, axis=0)
+    chord = np.sqrt(np.sum((np.diff(points, axis=0) / np.where(size > 0, size, 1)) ** 2, axis=1))
+    points = points[np.append(True, chord > 0)]
+    chord = chord[chord > 0][:, None]
+    if len(points) < 3:
+        return points
+    rise = np.diff(points, axis=0) / chord
+    inner = (chord[1:] * rise[:-1] + chord[:-1] * rise[1:]) / (chord[1:] + chord[:-1])
+    slope = np.vstack([2 * rise[:1] - inner[:1], inner, 2 * rise[-1:] - inner[-1:]])
+    t = (np.arange(pieces) / pieces)[:, None, None]
+    curve = points[:-1] + t * chord * (slope[:-1] + t * (
+        3 * rise - 2 * slope[:-1] - slope[1:] + t * (slope[:-1] + slope[1:] - 2 * rise)))
+    return np.vstack([curve.transpose(1, 0, 2).reshape(-1, 2), points[-1:]])
+
+
+UNSTABLE = (0, (3.5, 1.5))
+BIFURCATION_MARKS = ((1, "o", "fold"), (2, "D", "period doubling"), (3, "s", "symmetry breaking"),
+                     (4, "^", "branch point"))
+
+
+def draw_branch(ax, x, y, stable, kind, colour):
+    """A branch as one smooth line, dashed where it is unstable. Stability changes at bifurcations,
+    which are points of the branch (kind > 0), so that the parts meet there."""
+    some = np.isfinite(x) & np.isfinite(y)
+    x, y, stable, kind = x[some], y[some], stable[some], kind[some]
+    if len(x) < 2:
+        return
+    apart = np.append(True, (np.diff(x) != 0) | (np.diff(y) != 0))
+    x, y, stable, kind = x[apart], y[apart], stable[apart], kind[apart]
+    holds = np.where(kind > 0, True, stable)
+    holds = holds[:-1] & holds[1:] & ((kind[:-1] == 0) | (kind[1:] == 0))  # of each interval
+    pieces = 12
+    curve = smooth(x, y, pieces)
+    turns = np.flatnonzero(np.diff(holds)) + 1
+    for first, last in zip(np.append(0, turns), np.append(turns, len(holds))):
+        part = curve[first * pieces:last * pieces + 1] if len(x) > 2 else curve
+        ax.plot(*part.T, ls="-" if holds[first] else UNSTABLE, color=colour,
+                lw=1.4 if holds[first] else 1.1)
+
+
 def draw_branches(h, path):
-    """Frequency, or whatever the branches are followed along, against amplitude."""
-    fig, ax = figure(h, 5.0, 4.6)
+    """Amplitude against the frequency, or against whatever the branches are followed along."""
+    fig, ax = figure(h, 5.4, 3.9)
     name = h.axis_of("mean_loop_amplitude", -1)
     rows = h.axis_of("mean_loop_amplitude", 0)
     axis, label = parameter_axis(h, h[name], name)
-    number, stable = h["branch_number"], h["branch_stable"] == 1
+    number, stable, kind = h["branch_number"], h["branch_stable"] == 1, h["branch_kind"]
     value, row = h[f"branch_{column_of(name)}"], h[f"branch_{column_of(rows)}"]
-    symbol = parameter_axis(h, [], rows)[1].split()[-1]
+    along = parameter_axis(h, value if name != "drive_period" else 2 * np.pi / value, name)[0]
+    symbol = parameter_axis(h, [], rows)[1].split()[-1].strip("$")
     for i, g in enumerate(h[rows]):
-        colour = f"C{i % 6}"
-        ax.plot(h["mean_loop_amplitude"][i], axis, ".", ms=3, color=colour,
-                label=f"{symbol} $= {g:g}$, ensemble")
-        for k in np.unique(number[abs(row - g) < 1e-9]):
+        for k in np.unique(number[abs(row - g) <= 1e-9 * max(1, abs(g))]):
             here = number == k
-            a, w = h["branch_amplitude"][here], parameter_axis(h, value[here], name)[0]
-            for mask, style in ((stable[here], "-"), (~stable[here], ":")):
-                ax.plot(np.where(mask, a, np.nan), w, style, color=colour)
-    for style, text in (("-", "stable"), (":", "unstable")):
-        ax.plot([], [], style, color="black", label="branches, " + text)
-    limits = around(axis, 0.0)
-    if name == "drive_frequency":
-        for named, amplitude, omega in bifurcation_curves(h, "fold", "amplitude", "frequency"):
+            draw_branch(ax, along[here], h["branch_amplitude"][here], stable[here], kind[here],
+                        f"C{i % 6}")
+        ax.plot([], [], color=f"C{i % 6}", label=f"${symbol} = {g:g}$")
+        if h.options.ensemble:
+            ax.plot(axis, h["mean_loop_amplitude"][i], ".", ms=3, color=f"C{i % 6}")
+    ax.plot([], [], ls=UNSTABLE, color="black", lw=1.1, label="unstable")
+    if h.options.ensemble:
+        ax.plot([], [], ".", ms=3, color="black", label="mean of the ensemble")
+    low, high = around(axis, 0.0)
+    for k, mark, text in BIFURCATION_MARKS:
+        here = (kind == k) & (along >= low) & (along <= high)
+        if np.any(here):
+            ax.plot(along[here], h["branch_amplitude"][here], mark, ms=3.5, mfc="white", mew=0.8,
+                    color="black", label=text, zorder=3)
+    if name == "drive_frequency" and h.options.boundary:
+        for named, omega, amplitude in bifurcation_curves(h, "fold", "frequency", "amplitude"):
             if named:
-                ax.plot(amplitude, frequency(h, omega)[0], color="black", lw=2.2, alpha=0.35,
-                        label="folds of all lines")
+                ax.plot(*smooth(frequency(h, omega)[0], amplitude).T, color="0.75", lw=0.8, zorder=1,
+                        label=f"folds, all ${symbol}$")
         if "free_amplitude" in h:
-            ax.plot(h["free_amplitude"], frequency(h, h["free_frequency"])[0], "--", color=FREE,
-                    lw=0.8, label="free pendulum")
-    amplitudes = np.concatenate([h["branch_amplitude"], h["mean_loop_amplitude"].ravel()])
-    ax.set(xlabel=r"amplitude $\langle x_0\rangle$ (rad)", ylabel=label, ylim=limits,
-           xlim=(0, around(amplitudes)[1]))
+            ax.plot(frequency(h, h["free_frequency"])[0], h["free_amplitude"], "-.", color=FREE,
+                    lw=0.8, zorder=1, label="free pendulum")
+    inside = (along >= low) & (along <= high)
+    shown = h["branch_amplitude"][inside] if np.any(inside) else h["mean_loop_amplitude"].ravel()
+    ax.set(xlabel=label, ylabel=amplitude_label(h), xlim=(low, high), ylim=(0, around(shown)[1]))
+    if ax.figure.get_size_inches()[0] < NARROW:
+        ax.locator_params(axis="x", nbins=5)
     legend(ax)
     return fig
 
@@ -275,7 +332,7 @@ def draw_switching(h, path):
         some = h[f"events_{what}"] > 0
         ax.errorbar(1 / t[some], rate[some], yerr=spread[:, some], fmt=marker, ms=4, mfc="none",
                     color=colour, label=text, capsize=2)
-    ax.set(xlabel="$1/T$", ylabel="switching rate a unit time", yscale="log")
+    ax.set(xlabel="$1/T$", ylabel="switching rate (in units of 1/time)", yscale="log")
     legend(ax)
     return fig
 
@@ -310,10 +367,53 @@ def draw_ramp(h, name):
     return fig
 
 
-def broken(x, y, ends):
-    """A curve with gaps where states end."""
-    at = [np.sum(x < end) for end in ends if x.min() < end < x.max()]
-    return np.insert(x, at, np.nan), np.insert(y, at, np.nan)
+def jumped(x, y, ends):
+    """A curve that goes on to where states end, a gap there, and the pieces that bridge the gaps:
+    from the state that ended to the next one at which the sweep stood, whatever lies between."""
+    at = np.searchsorted(x, ends)
+    xs, ys, gaps = [x[:1]], [y[:1]], []
+    for i in range(1, len(x)):
+        here = ends[at == i]
+        if len(here):
+            xs.append([here.min(), np.nan, here.max()])
+            ys.append([y[i - 1], np.nan, y[i]])
+            gaps.append((here.min(), here.max(), y[i - 1], y[i]))
+        xs.append(x[i:i + 1])
+        ys.append(y[i:i + 1])
+    return np.concatenate(xs), np.concatenate(ys), gaps
+
+
+def draw_jumps(ax, gaps, way, colour):
+    """Thin lines at the jumps, with an arrow on the large ones."""
+    span = np.ptp([y for gap in gaps for y in gap[2:] if np.isfinite(y)] or [0])
+    for a, b, before, after in gaps:
+        ax.plot([a, b], [before, after], color=colour, lw=0.6)
+        if abs(after - before) > 0.25 * span and span > 0:
+            start, end = ((a, before), (b, after))[::1 - 2 * way]
+            middle = np.add(start, end) / 2
+            ax.annotate("", middle + 0.1 * np.subtract(end, start), middle,
+                        arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 0.6,
+                                    "mutation_scale": 8})
+
+
+def write_steps(ax, h, x):
+    """The winding of each wide step of a junction, beside it: its voltage, drive frequencies."""
+    p, q = h["winding"], h["period"]
+    span, written = np.ptp(x), set()
+    for way in (1, 0):
+        turns = p[way] / q[way]
+        ends = np.flatnonzero(np.diff(turns) != 0) + 1
+        for first, last in zip(np.append(0, ends), np.append(ends, len(x))):
+            i = first
+            if not np.isfinite(turns[i]) or x[last - 1] - x[first] < 0.04 * span \
+                    or turns[i] in written:
+                continue
+            written.add(turns[i])
+            text = f"{p[way, i] / q[way, i]:g}" if turns[i] % 1 == 0 else \
+                f"{p[way, i]:g}/{q[way, i]:g}"
+            ax.annotate(text, ((x[first] + x[last - 1]) / 2, turns[i]), ha="center", va="bottom",
+                        xytext=(0, 2), textcoords="offset points",
+                        fontsize=plt.rcParams["legend.fontsize"])
 
 
 def draw_hysteresis(h, path):
@@ -330,24 +430,26 @@ def draw_hysteresis(h, path):
     fig, (top, below) = figure(h, 5.2, 4.8, 2, 1, sharex=True, height_ratios=(2, 1))
     gradual = h["jump_gradual"] if "jump_gradual" in h else np.zeros(len(h["jump_parameter"]))
     ends = parameter_axis(h, h["jump_parameter"], name)[0]
-    for way, marker in enumerate("^v"):
-        # Lines end where the state does; where both ways agree, their marks take turns. What has
-        # steps is left as points.
-        every = max(1, len(x) // 20)
-        style = dict(ms=4 if len(x) < 150 else 2, ls="") if steps else dict(
-            ms=4, lw=0.9, markevery=(way * every // 2, every))
+    order = slice(None) if len(x) < 2 or x[-1] > x[0] else slice(None, None, -1)
+    for way in range(2):
+        # Where both ways agree, the narrow line of the way down lies on the wide one of the way up.
         stops = ends[(h["jump_direction"] == way) & (gradual == 0)]
         for ax, values in (top, shown[way]), (below, h["lyapunov"][way]):
-            ax.plot(*broken(x, values, stops), marker=marker, mfc="none", color=f"C{way}", **style,
+            a, b, gaps = jumped(x[order], values[order], stops)
+            ax.plot(a, b, lw=(2.6, 0.9)[way], color=f"C{way}", marker="." if len(x) < 3 else None,
                     label=f"{words(name)} goes {('up', 'down')[way]}")
-    for end, way, slow in zip(ends, h["jump_direction"], gradual):
-        for ax in (top, below):
-            ax.axvline(end, color=f"C{way}", lw=0.8, ls=":" if slow else "-")
+            if ax is top:
+                draw_jumps(ax, gaps, way if order == slice(None) else 1 - way, f"C{way}")
     if runs and not steps:
         right = top.twinx()
-        right.plot(x, velocity.T, lw=0.8)
-        right.set_ylabel("mean velocity")
-    top.set_ylabel("mean velocity / drive frequency" if steps else "amplitude (rad)")
+        right.plot(x, velocity.T, lw=0.8, ls=":")
+        right.set_ylabel("mean velocity (dotted)")
+    if steps and "winding" in h:
+        write_steps(top, h, x)
+    top.set_ylabel("mean velocity /\ndrive frequency" if steps else amplitude_label(h))
+    for end, way, slow in zip(ends, h["jump_direction"], gradual):
+        if slow:  # nothing jumps: a tick at the axis
+            top.axvline(end, ymax=0.04, color=f"C{way}", lw=0.8)
     legend(top, under=below)
     below.axhline(0, color="0.7", lw=0.8)
     below.set(ylabel="Lyapunov\nexponent", xlabel=label)

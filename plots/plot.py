@@ -45,10 +45,10 @@ def size(text):
 
 
 def hertz(text):
-    found = re.fullmatch(r"([0-9.eE+-]+) *(m|k)?Hz", text)
+    found = re.fullmatch(r"([0-9.eE+-]+) *(m|k|M|G|T)?Hz", text)
     if not found or not float(found[1]) > 0:
         raise argparse.ArgumentTypeError(f"'{text}' is not a frequency such as 0.83Hz")
-    return float(found[1]) * {None: 1.0, "m": 1e-3, "k": 1e3}[found[2]]
+    return float(found[1]) * {None: 1.0, "m": 1e-3, "k": 1e3, "M": 1e6, "G": 1e9, "T": 1e12}[found[2]]
 
 
 def parse():
@@ -62,10 +62,12 @@ def parse():
     parser.add_argument("--frequency", action="store_true",
                         help="drive frequencies where a run has drive periods")
     parser.add_argument("--unit", type=hertz, metavar="F0",
-                        help="the pendulum's natural frequency, such as 0.83Hz: frequencies are "
-                             "drawn in Hz, periods in seconds")
+                        help="the natural frequency, such as 0.83Hz or 1.2MHz: frequencies are "
+                             "drawn in Hz, kHz, MHz or GHz, periods in seconds")
     parser.add_argument("--no-boundary", dest="boundary", action="store_false",
                         help="leave out boundaries of basins and curves of bifurcations")
+    parser.add_argument("--ensemble", action="store_true",
+                        help="beside branches, the mean amplitude of the ensemble")
     parser.add_argument("--surface", action="store_true",
                         help="draw a phase diagram's loop area as a surface")
     return parser.parse_args()

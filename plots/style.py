@@ -1,8 +1,10 @@
 """What all pictures share: colours, sizes, the file that is drawn, and the axes of frequency.
 
 Colours are those of Okabe and Ito, which the colour-blind tell apart; SA and LA have one each in
-every picture. tests/plots_check.py measures how far apart they are.
+every picture. tests/plots_colours.py measures how far apart they are.
 """
+import re
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -20,6 +22,7 @@ NAMED = ["SA", "LA", "periodic", "running", "chaotic", "unresolved", "escape",
 
 plt.rcParams.update({
     "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
+    "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 7),
     "legend.fontsize": 7.5, "lines.linewidth": 1.2, "savefig.bbox": None,
     "axes.prop_cycle": plt.cycler(color=[SA, LA, "#009E73", "#CC79A7", "#56B4E9", "#E69F00"]),
 })
@@ -78,13 +81,17 @@ def legend(ax, handles=None, under=None, **more):
     if not once:
         return
     if ax.figure.get_size_inches()[0] < NARROW:
+        longest = max(len(re.sub(r"\\[a-z]+", "x", text).replace("$", "")) for text in once)
         under, points = under or ax, ScaledTranslation(0, -0.42, ax.figure.dpi_scale_trans)
         more.update(loc="upper center", bbox_to_anchor=(0.5, 0), borderaxespad=0, frameon=False,
                     bbox_transform=under.transAxes + points,
-                    ncol=2 if max(map(len, once)) <= 22 else 1)
+                    ncol=3 if longest <= 13 else 2 if longest <= 22 else 1)
         more["title_fontsize"] = plt.rcParams["legend.fontsize"]
         ax = under
     ax.legend(*zip(*once.values()), **more)
+
+
+PREFIXES = ((1e12, "T", "p"), (1e9, "G", "n"), (1e6, "M", "µ"), (1e3, "k", "m"), (1, "", ""))
 
 
 def drive_axis(run, values, name):
@@ -94,9 +101,10 @@ def drive_axis(run, values, name):
     omega = values if name == "drive_frequency" else 2 * np.pi / values
     if unit is None:
         return (values, r"drive period $\tau$") if periods else (omega, r"drive frequency $\omega$")
+    power, prefix, inverse = next(p for p in PREFIXES if unit >= p[0] or p[0] == 1)
     if periods:
-        return 2 * np.pi / omega / unit, "drive period (s)"
-    return omega * unit, "drive frequency (Hz)"
+        return 2 * np.pi / omega / unit * power, f"drive period ({inverse}s)"
+    return omega * unit / power, f"drive frequency ({prefix}Hz)"
 
 
 def frequency(run, omega):

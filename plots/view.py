@@ -16,11 +16,12 @@ import h5py
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
+from curves import draw_branch
 from maps import REGIMES, add_bifurcations
 from style import LA, MORE, SA, Run, plt
 
 TOOLKITS = ["qtagg", "gtk3agg", "tkagg", "wxagg", "macosx"]
-WINDOW = (65, 48)  # starts of the picture of basins, in x and v
+WINDOW = (193, 144)  # starts of the picture of basins, in x and v
 
 
 class View:
@@ -97,12 +98,11 @@ class View:
         closed = table.orbit[np.isfinite(table.orbit.amplitude)]
         for branch in self.library.branches(closed, low, high) if len(closed) else []:
             orbit = branch.points.orbit
-            stable = np.where(orbit.stable != 0, orbit.amplitude, np.nan)
-            self.branches.plot(orbit.pendulum.drive_frequency, orbit.amplitude, ":", color="0.5")
-            self.branches.plot(orbit.pendulum.drive_frequency, stable, color="black")
+            draw_branch(self.branches, orbit.pendulum.drive_frequency, orbit.amplitude,
+                        orbit.stable != 0, branch.points.kind, "black")
         self.branches.axvline(omega, color="0.8", zorder=0)
         self.branches.set(xlabel=r"drive frequency $\omega$", ylabel="amplitude (rad)",
-                          title=rf"branches at $\gamma$ = {damping:.4g}; dotted: unstable")
+                          title=rf"branches at $\gamma$ = {damping:.4g}; dashed: unstable")
 
 
 def window():

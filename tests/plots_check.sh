@@ -59,7 +59,7 @@ deck ramp hysteresis "$p, damping = 0.15, temperature = 1e-3 / &sweep
 
 plot() { "$python" -W error::UserWarning "$top/plots/plot.py" "$@" >out 2>err; }
 plot ./*.h5 -o pictures || { cat err; exit 1; }
-plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 0.83Hz --frequency --no-boundary --surface ||
+plot ./*.h5 -o narrow -f svg --size 3.4,3 --unit 1.2MHz --frequency --no-boundary --ensemble --surface ||
   { cat err; exit 1; }
 [ "$(wc -l <out)" -eq "$(ls ./*.h5 | wc -l)" ] || { echo "not all were drawn"; exit 1; }
 
