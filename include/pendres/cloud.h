@@ -73,7 +73,7 @@ typedef struct pendres_cloud {
   pendres_langevin_bias bias;          /**< of the measured statistics by finite steps; 0 steps
                                             where nothing was followed */
   pendres_langevin_covariance linear;  /**< the covariance by linear noise theory */
-  double linear_error;                 /**< its error */
+  double linear_error;                 /**< its error, as in pendres_langevin_linear */
   pendres_cloud_verdict verdict;       /**< whether the two agree */
   double escape_exposure;              /**< time that trajectories were watched for escapes, added
                                             up, in units of 1/omega_0 */
