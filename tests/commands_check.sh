@@ -59,6 +59,19 @@ run()
   (PATH=$scratch/shims:$scratch:$PATH && eval "$2") >log 2>&1 || fail "$1: failed: $2"
 }
 
+# without_errors: numbers without what may differ on another processor, last digits and errors.
+without_errors()
+{
+  sed -e 's/ *+- [^ ,]*//g' -e 's/\(\.[0-9]\{8\}\)[0-9]*/\1/g' -e 's/  */ /g' -e 's/ $//'
+}
+
+# answers WORDS: what was printed is what README.md shows, in its lines that begin so.
+answers()
+{
+  without_errors <log >answer
+  sed '/^```text$/,/^```$/!d' README.md | grep -E "$1" | without_errors | cmp -s - answer
+}
+
 # The commands that a page prints as indented lines, without its equations and decks, and what the
 # program answers.
 commands_of()
@@ -74,12 +87,17 @@ try()
     apt-get*'make -j2 check') run "$1" "${2%check} -n check CHECKS=" ;;
     apt-get*'./resonance input/f02.nml') run "$1" "$2 $(settings_of f02.nml)"; [ -s f02.h5 ] ||
       fail "$1: no f02.h5" ;;
+    apt-get*'make -j2') run "$1" "$2" ;;
     'make install PREFIX='*)
       run "$1" "$2 DESTDIR=$scratch/stage LDCONFIG=:"
       [ -x stage/usr/local/bin/resonance ] || fail "$1: nothing installed by $2" ;;
     'make '*) goals="$goals $(echo "${2%%#*}" | tr ' ' '\n' | grep -v -e = -e '^-' -e '^make$')" ;;
+    './resonance input/duffing.nml')
+      run "$1" "$2 --quiet --force"
+      answers '^damping|^0|^cusp' || fail "README.md does not show what $2 prints" ;;
     './resonance input/'*.nml | 'resonance input/'*.nml)
       run "$1" "$2 --quiet --force $(settings_of "${2##*/}")" ;;
+    'resonance input/'*.nml' '*=*) run "$1" "$2 --quiet --force" ;;
     'resonance --resume --shard=3/8 deck.nml'*)
       printf "&scene kind = 'free_oscillation' /\n&sweep amplitude = 1, 2, 3 /\n" >deck.nml
       for shard in 1 2 3 4 5 6 7 8; do
@@ -98,7 +116,11 @@ try()
         *) text="$2 readme.py" ;;
       esac
       run "$1" "PYTHONDONTWRITEBYTECODE=1 PENDRES_LIBRARY=$shared $(echo "$text" |
-        sed "s|python3|$computing|")" ;;
+        sed "s|python3|$computing|")"
+      case $text in
+        *readme.py)
+          answers '^fold' || fail "README.md does not show what Python prints" ;;
+      esac ;;
     'pip install ./python') ;; # by python_check
     'cc '* | 'c++ '*) ;; # by install_check, beside an installed library
     'cd docs/auto' | 'for n in 10 20'*auto-07p* | 'python3 table.py'*) ;; # AUTO is in no test

@@ -107,7 +107,7 @@ TEXT
 version=$(sed -n 's/^#define PENDRES_VERSION "\(.*\)"/\1/p' include/pendres/version.h)
 [ "$($PKG_CONFIG --modversion pendres)" = "$version" ] || fail "pendres.pc has another version"
 
-sed -n '/^```c$/,/^```$/{/^```/!p}' README.md >"$scratch/readme.c"
+sed -n '/^```c$/,/^```$/{/^```/!p}' docs/install.md >"$scratch/page.c"
 cd "$scratch" || exit 1
 strict="-std=c11 -Wall -Wextra -Wpedantic -Werror"
 quiet $CC $strict stranger.c $($PKG_CONFIG --cflags --libs pendres) -o shared
@@ -117,12 +117,12 @@ for other in hdf5 sundials gsl; do
   readelf -d shared | grep -q "NEEDED.*$other" && fail "shared: must not name $other itself"
 done
 
-# The README's own program, as it stands there, by the README's own command.
-cp readme.c example.c
-command=$(sed -n 's/^    cc \(example\.c .*\)/\1/p' "$top/README.md")
-[ -n "$command" ] || fail "the README does not say how to compile its program"
+# The page's own program, as it stands there, by the page's own command.
+cp page.c example.c
+command=$(sed -n 's/^    cc \(example\.c .*\)/\1/p' "$top/docs/install.md")
+[ -n "$command" ] || fail "the page does not say how to compile its program"
 quiet sh -c "$CC $strict $command"
-grep -q '^after 50 drive periods: x = ' log || fail "the README's program says nothing"
+grep -q '^after 50 drive periods: x = ' log || fail "the page's program says nothing"
 
 # The examples, as they were installed: each compiles, in its language, runs and says something.
 for example in "$prefix"/share/pendres/examples/*.c "$prefix"/share/pendres/examples/*.cc; do
@@ -136,14 +136,14 @@ for example in "$prefix"/share/pendres/examples/*.c "$prefix"/share/pendres/exam
   [ -s log ] || fail "$example says nothing"
 done
 
-# Found at run time without a word to the session, as the README says.
-quiet $CC $strict readme.c $($PKG_CONFIG --cflags --libs pendres) \
+# Found at run time without a word to the session, as the page says.
+quiet $CC $strict page.c $($PKG_CONFIG --cflags --libs pendres) \
   -Wl,-rpath,"$($PKG_CONFIG --variable=libdir pendres)" -o rpath
 (unset LD_LIBRARY_PATH && quiet ./rpath) || exit 1
 
 # The archive in place of the shared library beside it, by the words of the documentation.
-words=$(cat "$top/README.md" "$top/docs/install.md" 2>/dev/null |
-  sed -n 's/.*`pkg-config \(--static [^`]* pendres\)`.*/\1/p' | head -n 1)
+words=$(sed -n 's/.*`pkg-config \(--static [^`]* pendres\)`.*/\1/p' "$top/docs/install.md" |
+  head -n 1)
 [ -n "$words" ] || fail "no page says how to link libpendres.a"
 static=$($PKG_CONFIG $words)
 quiet $CC $strict stranger.c $static -o static
