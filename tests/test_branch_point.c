@@ -173,6 +173,50 @@ static void equilibria_cross(void **state)
   pendres_context_free(ctx);
 }
 
+/*
+ * Rest at a1 = 0, come to from either side, where rounding leaves a1 at some 1e-19: its own branch
+ * goes on, and the other one, x = -a1/a2 or x^2 = -a1/a3 in closed form, is switched to there and
+ * led through or out of it.
+ */
+static void coefficient_that_vanishes(void **state)
+{
+  static const double from[2] = {0.2, -0.2};
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    const int cubic = k / 2;
+    pendres_context *ctx = context(1e-9);
+    pendres_pendulum p = {.damping = 0.3, .drive_frequency = 1.0,
+                          .force = PENDRES_FORCE_POLYNOMIAL,
+                          .force_coefficients = {from[k % 2], !cubic, cubic}};
+    const pendres_orbit rest = orbit_near(ctx, &p, 0.0, 0.0);
+    pendres_branch *b = followed(ctx, &rest, PENDRES_FORCE_COEFFICIENT_1, -0.3, 0.3);
+    assert_int_equal(pendres_branch_bifurcations(b), 1);
+    const pendres_bifurcation *at = pendres_branch_bifurcation(b, 0);
+    assert_int_equal(at->kind, cubic ? PENDRES_SYMMETRY_BREAKING : PENDRES_BRANCH_POINT);
+    check_near(at->value, 0.0, at->value_error);
+    pendres_orbit other;
+    check_ok(pendres_branch_switch(ctx, at, &other));
+    const double a1 = other.pendulum.force_coefficients[0];
+    if (cubic) check_near(other.x * other.x, -a1, 4.0 * fabs(other.x) * other.x_error);
+    else check_near(other.x, -a1, other.x_error);
+    pendres_branch *second = followed(ctx, &other, PENDRES_FORCE_COEFFICIENT_1, -0.3, 0.3);
+    double lowest = INFINITY, highest = -INFINITY;
+    for (size_t i = 0; i < pendres_branch_count(second); i++) {
+      const pendres_orbit *o = &pendres_branch_get(second, i)->orbit;
+      const double here = o->pendulum.force_coefficients[0];
+      check_near(cubic ? o->x * o->x : o->x, -here, 1e-8);
+      lowest = fmin(lowest, here);
+      highest = fmax(highest, here);
+    }
+    check_near(lowest, -0.3, 1e-12);
+    if (cubic) check_near(highest, 0.0, 1e-8);
+    else check_near(highest, 0.3, 1e-12);
+    pendres_branch_free(second);
+    pendres_branch_free(b);
+    pendres_context_free(ctx);
+  }
+}
+
 /* ---- the branch that crosses ---- */
 
 /* The mean of (m - 1)^2 of the two orbits that meet in a fold, m their larger multipliers: with a
@@ -355,6 +399,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(rest_exchanges_its_stability),
     cmocka_unit_test(equilibria_cross),
+    cmocka_unit_test(coefficient_that_vanishes),
     cmocka_unit_test(the_other_branch),
     cmocka_unit_test(nearly_crossing),
     cmocka_unit_test(sweeps_pass_through),

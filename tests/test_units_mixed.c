@@ -149,10 +149,42 @@ static void tolerances(void **state)
   pendres_context_free(m.ctx);
 }
 
+/*
+ * A coefficient that is lost beside the others is no scale: units are those without it. Other units
+ * follow a power of two exactly, and a pendulum in its own units has 1 and 1.
+ */
+static void negligible(void **state)
+{
+  static const double lost[] = {6e-19, -6e-19, 1e-15, 1e-3};
+  static const double rest[][3] = {{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.7, -0.4, 0.0},
+                                   {0.0, 3.0, 0.2}};
+  static const double drive[] = {0.3, 0.0};
+  (void)state;
+  for (int i = 0; i < 4 * 4 * 2; i++) {
+    const double *a = rest[i / 4 % 4];
+    pendres_pendulum p = {.damping = 0.25, .drive_amplitude = drive[i / 16],
+                          .drive_frequency = 1.0, .force = PENDRES_FORCE_POLYNOMIAL,
+                          .force_coefficients = {lost[i % 4], a[0], a[1], a[2]}};
+    const pendres_units u = pendres_units_of(&p);
+    for (int k = -30; k <= 30; k += 15) {
+      const units other = {ldexp(1.0, k), ldexp(1.0, 20 - k / 2)};
+      const pendres_pendulum q = in_units(p, other);
+      const pendres_units scaled = pendres_units_of(&q);
+      assert_true(scaled.length == u.length * other.length && scaled.time == u.time * other.time);
+    }
+    const pendres_pendulum own = in_units(p, (units){1.0 / u.length, 1.0 / u.time});
+    assert_true(pendres_units_of(&own).length == 1.0 && pendres_units_of(&own).time == 1.0);
+    p.force_coefficients[0] = 0.0;
+    const pendres_units without = pendres_units_of(&p);
+    assert_int_equal(without.length == u.length && without.time == u.time, i % 4 < 3);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(motions), cmocka_unit_test(attractors),
                                      cmocka_unit_test(noise), cmocka_unit_test(ensembles),
-                                     cmocka_unit_test(tolerances)};
+                                     cmocka_unit_test(tolerances),
+                                     cmocka_unit_test(negligible)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -124,10 +124,12 @@ typedef struct pendres_units {
 /**
  * The units in which a pendulum is computed, whatever those of its parameters are. A pendulum and a
  * force with a sine have 1 and 1. A polynomial has the power of two below the length at which its
- * lowest term equals its highest, and that next to the time 1/sqrt(f'(x)) at that length. A single
- * power, which has no such length, has that at which it equals the larger of drive and torque or,
- * without these, that at which its rate equals the damping; a linear force then 1. {1, 1} if p is
- * NULL, or its force is none.
+ * lowest term equals its highest, and that next to the time 1/sqrt(f'(x)) at that length. A lowest
+ * term that is below 2^-40 of another at the length that the others give is passed over, as one
+ * that rounding leaves where a coefficient moves through 0. A single power, which has no such
+ * length, has that at which it equals the larger of drive and torque or, without these, that at
+ * which its rate equals the damping; a linear force then 1. {1, 1} if p is NULL, or its force is
+ * none.
  *
  * Lengths of order one in this library's words are lengths of this unit: context.h tells how
  * tolerances depend on it. Multiplying a problem's units by powers of two multiplies all of its

@@ -367,6 +367,8 @@ pendres_status pendres_branch_follow(pendres_context *ctx, size_t n, const pendr
 {
   pendres_door d;
   pendres_door_open_many(&d, ctx, n, starts, sizeof *starts);
+  if (options != NULL)
+    pendres_door_range(&d, options->parameter, options->low, options->high);
   for (size_t i = 0; d.status == PENDRES_OK && out != NULL && i < n; i++) out[i] = NULL;
   while (pendres_door_next(&d)) {
     const size_t i = d.first, m = d.count;

@@ -141,13 +141,24 @@ static pendres_status branches_find(pendres_context *ctx, size_t n, const pendre
   return status;
 }
 
+/* The door for branches of a pendulum. */
+static void open_door(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
+                      const pendres_branch_options *options)
+{
+  if (options == NULL || p == NULL) {
+    pendres_door_open(d, ctx, p);
+    return;
+  }
+  const double ends[2] = {options->low, options->high};
+  pendres_door_open_along(d, ctx, p, options->parameter, 2, ends);
+}
+
 pendres_status pendres_branches_find(pendres_context *ctx, size_t n, const pendres_orbit *orbits,
                                      const pendres_branch_options *options, pendres_branches **out)
 {
   pendres_door d;
-  pendres_door_open(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL);
+  open_door(&d, ctx, n > 0 && orbits != NULL ? &orbits[0].pendulum : NULL, options);
   const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, n, orbits);
-  if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
   const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
   PENDRES_DOOR_CALL(&d, branches_find(ctx, n, from, o, out));
   if (d.status == PENDRES_OK) pendres_branches_leave(&d, *out);
@@ -195,10 +206,9 @@ pendres_status pendres_branches_extend(pendres_context *ctx, size_t n,
                                        pendres_branches *branches)
 {
   pendres_door d;
-  pendres_door_open(&d, ctx,
-                    n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL);
+  open_door(&d, ctx, n > 0 && bifurcations != NULL ? &bifurcations[0].orbit.pendulum : NULL,
+            options);
   const pendres_bifurcation *from = pendres_bifurcations_inside(&d, n, bifurcations);
-  if (options != NULL) pendres_door_move(&d, options->parameter, options->parameter);
   const pendres_branch_options *o = pendres_door_in(&d, &pendres_dim_branch_options, 1, options);
   pendres_branches_enter(&d, branches);
   PENDRES_DOOR_CALL(&d, branches_extend(ctx, n, from, o, branches));

@@ -91,16 +91,28 @@ void pendres_door_open(pendres_door *d, pendres_context *ctx, const pendres_pend
   pendres_door_open_in(d, ctx, pendres_units_of(p));
 }
 
+/* A pendulum with the value of a parameter that decides. */
+static pendres_pendulum moved_to(const pendres_pendulum *p, pendres_parameter moved, double largest)
+{
+  pendres_pendulum q = {.damping = 0.0};
+  if (p != NULL) q = *p;
+  if ((unsigned)moved < PENDRES_PARAMETER_COUNT)
+    memcpy((char *)&q + place_of(moved), &largest, sizeof largest);
+  return q;
+}
+
+static double largest_of(size_t n, const double *value)
+{
+  double largest = 0.0;
+  for (size_t i = 0; value != NULL && i < n; i++)
+    if (fabs(value[i]) > fabs(largest) && isfinite(value[i])) largest = value[i];
+  return largest;
+}
+
 void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendres_pendulum *p,
                              pendres_parameter moved, size_t n, const double *value)
 {
-  double largest = 0.0;
-  pendres_pendulum q = {.damping = 0.0};
-  if (p != NULL) q = *p;
-  for (size_t i = 0; value != NULL && i < n; i++)
-    if (fabs(value[i]) > fabs(largest) && isfinite(value[i])) largest = value[i];
-  if ((unsigned)moved < PENDRES_PARAMETER_COUNT)
-    memcpy((char *)&q + place_of(moved), &largest, sizeof largest);
+  const pendres_pendulum q = moved_to(p, moved, largest_of(n, value));
   pendres_door_open(d, ctx, &q);
   pendres_door_move(d, moved, moved);
 }
@@ -114,9 +126,21 @@ void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
   d->stride = stride;
 }
 
+void pendres_door_range(pendres_door *d, pendres_parameter moved, double low, double high)
+{
+  const double ends[2] = {low, high};
+  d->ranges = 1;
+  d->moved = moved;
+  d->largest = largest_of(2, ends);
+}
+
 static pendres_units units_at(const pendres_door *d, size_t i)
 {
-  return pendres_units_of((const pendres_pendulum *)(const void *)(d->pendulums + i * d->stride));
+  const pendres_pendulum *p =
+    (const pendres_pendulum *)(const void *)(d->pendulums + i * d->stride);
+  if (!d->ranges) return pendres_units_of(p);
+  const pendres_pendulum q = moved_to(p, d->moved, d->largest);
+  return pendres_units_of(&q);
 }
 
 int pendres_door_next(pendres_door *d)

@@ -28,6 +28,9 @@ typedef struct pendres_door {
   /* the rest is the door's own */
   int entered, outermost, begun;
   double tolerance; /* the caller's */
+  int ranges;       /* whether a parameter of the pendulums is moved: this one, ... */
+  pendres_parameter moved;
+  double largest;   /* ... and its value of the largest size */
   const char *pendulums;
   size_t n, stride;
   struct pendres_door_memory *memory;
@@ -58,6 +61,10 @@ void pendres_door_open_along(pendres_door *d, pendres_context *ctx, const pendre
 void pendres_door_open_many(pendres_door *d, pendres_context *ctx, size_t n,
                             const void *pendulums, size_t stride);
 int pendres_door_next(pendres_door *d);
+
+/* One of the parameters of all of them is moved in a range: as pendres_door_open_along(). To be
+   called before pendres_door_next(). */
+void pendres_door_range(pendres_door *d, pendres_parameter moved, double low, double high);
 
 /* The unit of a parameter that is moved, for records that hold values of it. */
 void pendres_door_move(pendres_door *d, pendres_parameter first, pendres_parameter second);

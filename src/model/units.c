@@ -3,8 +3,13 @@
 
 #include <math.h>
 
-/* Exponents of units beyond this are cut: products of a few of them stay far from overflow. */
-enum { FARTHEST = 120 };
+enum {
+  FARTHEST = 120,  /* exponents of units beyond this are cut: products of a few of them stay far
+                      from overflow */
+  NEGLIGIBLE = 40  /* a power that is smaller than another by so many bits is lost beside it at the
+                      tolerances that are asked for, as rounding leaves it of a coefficient that
+                      moves through 0 */
+};
 
 /* A positive number as m 2^e with 1 <= m < 2. */
 typedef struct binary {
@@ -66,6 +71,34 @@ static int length_of(const pendres_pendulum *p, int lowest, int highest)
   return share(over(square(binary_of(p->damping)), high).e, highest - 1);
 }
 
+/* The exponent of a power at a length, within a factor of two. */
+static int size_of(const pendres_pendulum *p, int k, int length)
+{
+  return binary_of(p->force_coefficients[k - 1]).e + (k - 1) * length;
+}
+
+/*
+ * The lowest power that counts. One that is negligible at the length that the others give is no
+ * scale: the others, the drive or the torque hold the pendulum there, or the damping. The highest
+ * one is a scale however small it is: it counts for a pendulum that is far out.
+ */
+static int lowest_that_counts(const pendres_pendulum *p, int lowest, int highest)
+{
+  const double *a = p->force_coefficients;
+  const int held = p->drive_amplitude != 0.0 || p->torque != 0.0 || p->damping > 0.0;
+  while (lowest < highest) {
+    int next = lowest + 1, counts = 1;
+    while (a[next - 1] == 0.0) next++;
+    if (next == highest && !held) break;
+    const int length = length_of(p, next, highest), size = size_of(p, lowest, length);
+    for (int k = next; k <= highest; k++)
+      if (a[k - 1] != 0.0 && size_of(p, k, length) > size + NEGLIGIBLE) counts = 0;
+    if (counts) break;
+    lowest = next;
+  }
+  return lowest;
+}
+
 pendres_units pendres_units_of(const pendres_pendulum *p)
 {
   pendres_units u = {1.0, 1.0};
@@ -79,10 +112,10 @@ pendres_units pendres_units_of(const pendres_pendulum *p)
     if (highest == 0) highest = k;
   }
   if (highest == 0) return u;
-  const int length = length_of(p, lowest, highest);
+  const int length = length_of(p, lowest_that_counts(p, lowest, highest), highest);
   for (int k = 1, any = 0; k <= PENDRES_FORCE_COEFFICIENTS; k++) {
     if (a[k - 1] == 0.0) continue;
-    const int e = binary_of(a[k - 1]).e + (k - 1) * length;
+    const int e = size_of(p, k, length);
     if (!any || e > rate) rate = e;
     any = 1;
   }
