@@ -62,7 +62,7 @@ if [ -n "$computing" ]; then
   told 'up .* 0\.617079 .* FOLD SA LA' printed
   told 'down 0\.5116.* SYMMETRY' printed
   told 'down 0\.50038.* FLIP LA' printed
-  told 'down 0\.498255 .* CRISIS CHAOTIC' printed
+  told 'down 0\.4982.* CRISIS CHAOTIC' printed
   told '0\.617079 .* a EDGE' printed
 fi
 cat printed
