@@ -287,6 +287,7 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
     .turns = confident(mean_of(v, PENDRES_WALKER_TURNS, &ratio)),
     .watched_periods = watched,
     .escape_rate_bound = -log(1.0 - escape_confidence) / watched};
+  m.growth.error += fabs(mean_of(v, PENDRES_WALKER_COARSE, &ratio).value);
   /* In the long run friction takes what the drives and the torque give. */
   const double other = mean_of(v, PENDRES_WALKER_OTHER, &ratio).value;
   const double imbalance = fabs(m.work.value + other - m.loss.value);

@@ -1,4 +1,4 @@
-/* chaos_walkers.c -- pendulums that carry a tangent vector along; see chaos_walkers.h. */
+/* chaos_walkers.c -- pendulums that carry tangent vectors along; see chaos_walkers.h. */
 #include "orbits/chaos_walkers.h"
 
 #include <math.h>
@@ -11,13 +11,18 @@
 #include "model/model.h"
 
 /* The error of a period that steps are chosen for. In chaos a single error is soon forgotten: it is
-   enough that means over time are off by less than their statistical errors. */
-static const double accuracy = 1e-7;
+   enough that means over time are off by less than their statistical errors, which tangent vectors,
+   of fourth order alone, ask more of than the states do. */
+static const double accuracy = 1e-8;
+/* Growth by steps twice as long has 16 times the error: so many times what is left to subtract. */
+static const double extrapolated = 15.0;
+/* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
+static const double longest = 1e100;
 
 pendres_walker pendres_walker_at(double y, double w)
 {
   return (pendres_walker){
-    .y = y, .w = w, .u = {0.6, 0.8}, .low = {y, y}, .high = {y, y}};
+    .y = y, .w = w, .u = {{0.6, 0.8}, {0.6, 0.8}}, .low = {y, y}, .high = {y, y}};
 }
 
 static int in_trap(const pendres_catalogue *c, const pendres_walker *a)
@@ -55,8 +60,8 @@ static double turning_angle(double spacing, double y0, double w0, double y1, dou
 
 static void reach(pendres_walker *a, double y)
 {
-  a->low[1] = fmin(a->low[1], y);
-  a->high[1] = fmax(a->high[1], y);
+  if (y < a->low[1]) a->low[1] = y;
+  if (y > a->high[1]) a->high[1] = y;
 }
 
 /*
@@ -107,17 +112,40 @@ static void watch(void *arg, int step, const pendres_rows *rows)
 
 /* ---- periods ---- */
 
-/* Take over what the flow has made of a walker in one period, and what the derivative of the map
-   makes of its tangent vector. */
+/* Put tangent vectors back to length one, and take their growth over. */
+static void shorten(pendres_walker *a)
+{
+  double growth[2];
+  for (int i = 0; i < 2; i++) {
+    const double length = hypot(a->u[i][0], a->u[i][1]);
+    growth[i] = log(length);
+    a->u[i][0] /= length;
+    a->u[i][1] /= length;
+  }
+  const double coarse = (growth[1] - growth[0]) / extrapolated;
+  a->sum[PENDRES_WALKER_GROWTH] += growth[0] - coarse;
+  a->sum[PENDRES_WALKER_COARSE] += coarse;
+}
+
+/* Tangent vectors after a period, which are put back to length one in the last one, and where they
+   must be. */
+static void turn(pendres_block *block, size_t lane, int last, pendres_walker *a)
+{
+  double size[2];
+  for (int i = 0; i < 2; i++) {
+    pendres_block_get_tangent(block, lane, i, a->u[i]);
+    size[i] = fabs(a->u[i][0]) + fabs(a->u[i][1]);
+  }
+  if (!last && fmax(size[0], size[1]) < longest && fmin(size[0], size[1]) > 1.0 / longest) return;
+  shorten(a);
+  for (int i = 0; i < 2; i++) pendres_block_put_tangent(block, lane, i, a->u[i]);
+}
+
+/* Take over what the flow has made of a walker in one period. */
 static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *rows, int watched,
                    pendres_walker *a)
 {
   const double y = pendres_rows_get(rows, PENDRES_ROW_Y, i);
-  double m[2][2];
-  pendres_rows_tangent(rows, i, m);
-  const double u = m[0][0] * a->u[0] + m[0][1] * a->u[1];
-  const double v = m[1][0] * a->u[0] + m[1][1] * a->u[1];
-  const double length = hypot(u, v);
   a->sum[PENDRES_WALKER_TURNS] += (y - a->y) / two_pi;
   a->y = y;
   a->w = pendres_rows_get(rows, PENDRES_ROW_W, i);
@@ -128,9 +156,6 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
     a->low[k] = watched ? a->low[k] + (a->y - y) : a->y;
     a->high[k] = watched ? a->high[k] + (a->y - y) : a->y;
   }
-  a->u[0] = u / length;
-  a->u[1] = v / length;
-  a->sum[PENDRES_WALKER_GROWTH] += log(length);
   a->periods++;
   /* What escapes is in no chaos any longer either. */
   if (a->trapped == 0 &&
@@ -138,20 +163,31 @@ static void arrive(const pendres_catalogue *c, size_t i, const pendres_rows *row
     a->trapped = a->periods;
 }
 
+static void load(pendres_block *block, const watched_block *b)
+{
+  pendres_block_resize(block, b->n);
+  for (size_t i = 0; i < b->n; i++) {
+    pendres_block_load(block, i, b->pendulum, b->a[i].y, b->a[i].w);
+    for (int k = 0; k < 2; k++) pendres_block_put_tangent(block, i, k, b->a[i].u[k]);
+  }
+}
+
 static pendres_status advance_block(pendres_block *block, watched_block *b,
-                                    const pendres_catalogue *c, int watched)
+                                    const pendres_catalogue *c, int watched, int last)
 {
   for (size_t i = 0; i < b->n; i++) {
-    pendres_walker *a = &b->a[i];
-    pendres_block_load(block, i, b->pendulum, a->y, a->w);
-    a->last_y = a->y;
-    a->last_w = a->w;
+    b->a[i].last_y = b->a[i].y;
+    b->a[i].last_w = b->a[i].w;
   }
   const pendres_status status =
     watched ? pendres_block_period_sampled(block, watch, b) : pendres_block_period(block);
   if (status != PENDRES_OK) return status;
   const pendres_rows rows = pendres_block_rows(block);
-  for (size_t i = 0; i < b->n; i++) arrive(c, i, &rows, watched, &b->a[i]);
+  for (size_t i = 0; i < b->n; i++) {
+    arrive(c, i, &rows, watched, &b->a[i]);
+    turn(block, i, last, &b->a[i]);
+    pendres_block_put_state(block, i, b->a[i].y, b->a[i].w);
+  }
   return status;
 }
 
@@ -171,23 +207,24 @@ pendres_status pendres_walkers_advance(pendres_context *ctx, const pendres_catal
   const double origin = pendres_model_origin(&c->pendulum), omega = c->pendulum.drive_frequency;
   for (size_t i = 0; i < n; i++)
     fastest = fmax(fastest, pendres_steps_speed(&c->pendulum, a[i].y + origin, a[i].w * omega));
-  pendres_status status = pendres_steps_choose(
-    ctx, &c->pendulum, fastest, accuracy, &steps);
-  if (status == PENDRES_OK)
-    status = pendres_block_open(ctx, PENDRES_FLOW_VARIATIONAL, steps, &block);
+  pendres_status status = pendres_steps_choose(ctx, &c->pendulum, fastest, accuracy, &steps);
+  steps += steps % 2; /* for tangents by steps twice as long */
+  if (status == PENDRES_OK) status = pendres_block_open(ctx, PENDRES_FLOW_STATE, steps, &block);
   if (status != PENDRES_OK) return status;
 
   const size_t capacity = pendres_block_capacity(&block);
+  status = pendres_block_carry_tangents(&block, 1);
   for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
     watched_block b = {.pendulum = &c->pendulum, .steps = steps, .a = a + first,
                        .n = n - first < capacity ? n - first : capacity};
-    pendres_block_resize(&block, b.n);
+    load(&block, &b);
     for (long k = 0; k < periods && status == PENDRES_OK; k++) {
-      status = advance_block(&block, &b, c, trace != NULL);
+      status = advance_block(&block, &b, c, trace != NULL, k == periods - 1);
       for (size_t i = 0; i < b.n && trace != NULL && status == PENDRES_OK; i++)
         record(trace, trace->filled + k, first + i, &b.a[i]);
     }
   }
+  (void)pendres_block_carry_tangents(&block, 0);
   if (trace != NULL) trace->filled += periods;
   return status;
 }

@@ -1,5 +1,5 @@
 /*
- * chaos_walkers.h -- walkers: pendulums that carry a tangent vector along.
+ * chaos_walkers.h -- walkers: pendulums that carry tangent vectors along.
  *
  * Owns: one drive period of such walkers, and sums over batches of periods.
  */
@@ -14,6 +14,7 @@ struct pendres_catalogue;
 /* What is summed over drive periods. */
 typedef enum pendres_walker_measure {
   PENDRES_WALKER_GROWTH,    /* of the logarithm of the tangent vector's length */
+  PENDRES_WALKER_COARSE,    /* what it has been corrected by: more than the error that is left */
   PENDRES_WALKER_WORK,      /* done by the drive: the loop area */
   PENDRES_WALKER_OTHER,     /* work done by the torque and the parametric drive */
   PENDRES_WALKER_LOSS,      /* of energy by friction */
@@ -24,7 +25,8 @@ typedef enum pendres_walker_measure {
 } pendres_walker_measure;
 
 typedef struct pendres_walker {
-  double y, w, u[2]; /* the angle within half a turn of zero; the tangent vector, of length one */
+  double y, w;       /* the angle within half a turn of zero */
+  double u[2][2];    /* tangent vectors of length one, by steps and by steps twice as long */
   long turns;        /* whole turns taken out of y */
   long periods;      /* so far */
   long trapped;      /* after so many periods it was first inside a trap, or escaped; 0: never */
