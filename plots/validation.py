@@ -45,7 +45,7 @@ def draw_work_precision(h, path):
 
 
 def draw_hard_cases(h, path):
-    """Figures, and the naive way's, over their bounds; several columns of cases side by side."""
+    """Figures of this program and of a naive one, over their bounds; several columns of cases side by side."""
     names, bound = strings(h["case_name"]), h["bound"]
     figures, naive = h["figure"], h["naive_figure"]
     unit = np.where(bound > 0, bound, 1)

@@ -65,7 +65,7 @@ run_without_locks()
   esac
 }
 
-# Every so-manieth, so that some twelve of each are tried; all, where that is asked for.
+# One call in so many, such that about twelve of each kind are tried; all where that is asked for.
 some=${FAULTS:-12}
 : >err
 for call in write fsync rename open; do

@@ -189,7 +189,7 @@ static void test_chained(void **state)
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-/* The stacks of so many threads do not fit: fewer do as well, and nothing ends the program. */
+/* The stacks of so many threads do not fit: fewer are enough, and nothing ends the program. */
 static void test_few_threads(void **state)
 {
   const rlim_t room = (rlim_t)1 << 30;

@@ -25,7 +25,7 @@ static int setup_seeded(void **state)
   return 0;
 }
 
-/* A torque that moves at a rate a unit time, from one value to another, and a start. */
+/* A torque that moves at a rate per unit time, from one value to another, and a start. */
 typedef struct plan {
   pendres_pendulum p;
   double from, to, rate, x, v;

@@ -137,7 +137,7 @@ static void an_edge_is_a_jump(void **state)
 /*
  * Two members that are on one state, up to its fold, and on another one beyond: neither point of a
  * gap has a state in common with the other, and for 6e-7 beyond the fold nothing settles. The peak
- * is at the fold, which the orbit itself tells; halving was led astray there, and said that the
+ * is at the fold, which the orbit itself tells; bisection was misled there, and said that the
  * peak is ragged, with no error at all.
  */
 static void all_change_at_once(void **state)

@@ -211,8 +211,8 @@ static void a_junction_slips(void **state)
 }
 
 /*
- * Where a junction may also rotate, and no attractor is that, what leaves would count as staying:
- * that is refused, on both sides of the least torque for that.
+ * Where a junction may also rotate, and no attractor is a rotation, trajectories that leave for it
+ * would not be counted: that is refused, on both sides of the least torque for that.
  */
 static void rotations_are_refused(void **state)
 {

@@ -107,7 +107,7 @@ void farm_set_journal(farm *f, struct journal *j);
 
 /* How tasks are shared out among several programs, each with a journal; all zero: not at all. */
 typedef struct farm_share {
-  size_t shard, shards; /* this one, from 0, of so many: every so-manieth task is its own */
+  size_t shard, shards; /* this one, from 0, of so many: one task in so many is its own */
   int complete;         /* put together from shards: the stage that they share must be there */
 } farm_share;
 

@@ -72,7 +72,7 @@ static row row_of(const pendres_lyapunov *l)
                                                               : SCENE_FAILURE_NONE};
 }
 
-/* Points from the first on; where their budget ends them, or one of them fails for its own sake,
+/* Points from the first on; where their budget ends them, or one of them fails by itself,
    their halves, down to single ones. */
 typedef struct some {
   size_t first, n;

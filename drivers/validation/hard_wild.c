@@ -36,7 +36,7 @@ enum {
 };
 
 typedef struct exponent {
-  double value, error; /* a unit time; one standard error */
+  double value, error; /* per unit time; one standard error */
 } exponent;
 
 /* Benettin's method on the extended-precision map and its derivative: batches of periods. */

@@ -79,7 +79,7 @@ typedef struct pendres_attractor {
   double trap_metric[3];    /**< P_yy, P_yw, P_ww of the trapping ellipse at the Poincaré point, in
                                  y = x and w = v/omega; largest semi-axis of P = 1 is one */
   double trap_radius;       /**< (z - z0)' P (z - z0) <= trap_radius^2 settles here */
-  double lyapunov;          /**< largest Lyapunov exponent a unit time */
+  double lyapunov;          /**< largest Lyapunov exponent per unit time */
   double lyapunov_error;    /**< a standard error if chaotic; of closed orbits the multiplier's */
   double drift;             /**< mean whole turns a drive period of a chaotic motion; NaN of closed
                                  orbits */

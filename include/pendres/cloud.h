@@ -77,7 +77,7 @@ typedef struct pendres_cloud {
   pendres_cloud_verdict verdict;       /**< whether the two agree */
   double escape_exposure;              /**< time that trajectories were watched for escapes, added
                                             up, in units of 1/omega_0 */
-  pendres_langevin_interval escape_rate; /**< escapes a unit time, with their 95 % interval */
+  pendres_langevin_interval escape_rate; /**< escapes per unit time, with their 95 % interval */
 } pendres_cloud;
 
 /**

@@ -71,7 +71,7 @@ pendres_status pendres_correlation_measure(pendres_context *ctx, const pendres_s
                                            double resolution, pendres_correlation *out);
 
 /**
- * The Lyapunov dimension of a pendulum's attractor from its largest exponent a unit time, by
+ * The Lyapunov dimension of a pendulum's attractor from its largest exponent per unit time, by
  * Kaplan and Yorke's formula. Areas shrink at the rate of the damping, so that the two exponents
  * add up to minus the damping, and an exponent L > 0 means a dimension 1 + L / (L + damping). It is
  * 0 where the exponent is negative: a periodic orbit.

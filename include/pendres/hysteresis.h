@@ -92,7 +92,7 @@ typedef struct pendres_hysteresis_point {
   double x;                    /**< position at drive phase 0: a state that the pendulum is in
                                     there, on its attractor as far as that is reached, ... */
   double v;                    /**< ... and the velocity */
-  double mean_velocity;        /**< of x, in rad a unit time */
+  double mean_velocity;        /**< of x, in rad per unit time */
   double mean_velocity_error;  /**< its error: rounding of closed orbits, whose mean is exact; of
                                     quasi-periodic rotations a bound; else it holds with a
                                     confidence of 99.9 % */

@@ -87,7 +87,7 @@ typedef struct pendres_lyapunov {
                               attractor.h; its numbers are NaN, but
                               for the exponent under a linear force) or UNRESOLVED; SA and LA are
                               not told apart */
-  double exponent;       /**< largest Lyapunov exponent a unit time */
+  double exponent;       /**< largest Lyapunov exponent per unit time */
   double exponent_error; /**< of orbits their multiplier's, else one standard error; if unresolved,
                               the exponent is the mean so far; of quasi-periodic rotations, whose
                               exponent is 0, what was found instead */

@@ -46,7 +46,7 @@ typedef struct pendres_orbit {
   pendres_pendulum pendulum; /**< the parameters at which the orbit exists */
   double x;                  /**< position of the Poincaré point at drive phase 0, in rad; the
                                   orbit's mean angle lies in the well number 0 */
-  double v;                  /**< velocity there, in rad a unit time */
+  double v;                  /**< velocity there, in rad per unit time */
   double x_error;            /**< error of x */
   double v_error;            /**< error of v */
   int period;                /**< q: drive periods until it closes */
@@ -112,7 +112,7 @@ const pendres_orbit_quantity *pendres_orbit_quantity_get(size_t number);
 typedef struct pendres_orbit_guess {
   pendres_pendulum pendulum; /**< the parameters */
   double x;    /**< position near the orbit's Poincaré point at drive phase 0, in rad */
-  double v;    /**< velocity there, in rad a unit time */
+  double v;    /**< velocity there, in rad per unit time */
   int period;  /**< q >= 1: drive periods until the orbit closes */
   int winding; /**< p: whole turns in them */
 } pendres_orbit_guess;

@@ -112,7 +112,7 @@ typedef struct pendres_pendulum {
 /** A state of a pendulum at drive phase 0. */
 typedef struct pendres_state {
   double x; /**< position, in rad */
-  double v; /**< velocity, in rad a unit time */
+  double v; /**< velocity, in rad per unit time */
 } pendres_state;
 
 /** What one canonical unit is in the units of a pendulum's parameters: both are powers of two. */

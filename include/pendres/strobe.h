@@ -55,7 +55,7 @@ pendres_status pendres_strobe_advance(pendres_context *ctx, size_t n,
 /** Where a motion is recorded: arrays of the caller. */
 typedef struct pendres_record {
   double *x;       /**< positions, in rad; not wrapped */
-  double *v;       /**< velocities, in rad a unit time */
+  double *v;       /**< velocities, in rad per unit time */
   double *x_error; /**< errors of x; NULL: not wanted */
   double *v_error; /**< errors of v; NULL where x_error is */
 } pendres_record;

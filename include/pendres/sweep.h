@@ -57,7 +57,7 @@ typedef enum pendres_quantity {
   PENDRES_QUANTITY_DRIVE_PERIOD,    /**< 2 pi over the drive frequency */
   PENDRES_QUANTITY_TEMPERATURE,     /**< T, in m g l */
   PENDRES_QUANTITY_X,               /**< initial position, in rad */
-  PENDRES_QUANTITY_V,               /**< initial velocity, in rad a unit time */
+  PENDRES_QUANTITY_V,               /**< initial velocity, in rad per unit time */
   PENDRES_QUANTITY_TORQUE,          /**< I, in m g l */
   PENDRES_QUANTITY_PARAMETRIC_AMPLITUDE, /**< b */
   PENDRES_QUANTITY_COUNT            /**< how many there are; not a quantity */
@@ -78,7 +78,7 @@ typedef struct pendres_axis {
 typedef struct pendres_sweep {
   pendres_pendulum pendulum; /**< parameters that no axis varies */
   double x;                  /**< initial position where no axis varies it, in rad */
-  double v;                  /**< initial velocity, likewise, in rad a unit time */
+  double v;                  /**< initial velocity, likewise, in rad per unit time */
   size_t axes;               /**< how many axes there are */
   pendres_axis axis[PENDRES_QUANTITY_COUNT]; /**< the last one runs fastest */
 } pendres_sweep;
@@ -116,7 +116,7 @@ typedef struct pendres_ensemble {
   size_t members;               /**< how many starts there are */
   double x_first;               /**< lower end of the positions, in rad */
   double x_last;                /**< their upper end, in rad */
-  double v;                     /**< velocity of a line; else the lowest, in rad a unit time */
+  double v;                     /**< velocity of a line; else the lowest, in rad per unit time */
   pendres_ensemble_shape shape; /**< how the starts lie */
   double v_last;                /**< the highest velocity; not of a line */
   size_t rows;                  /**< rows of a rectangle; a divisor of members */

@@ -102,7 +102,7 @@ pendres_status pendres_switching_count(pendres_context *ctx,
  *  the order in which tallies are added makes no difference. */
 void pendres_switching_add(pendres_switching_tally *into, const pendres_switching_tally *other);
 
-/** A rate of transitions, a unit time. */
+/** A rate of transitions, per unit time. */
 typedef struct pendres_switching_rate {
   double events;     /**< transitions counted */
   double exposure;   /**< time spent where they start, in units of 1/omega_0 */

@@ -9,7 +9,7 @@ from ._library import array, c
 def strobe_advance(p, x, v, periods, *, error=False, out=None, context=None):
     """Advance pendulums by whole drive periods: the new (x, v), or (x, v, error).
 
-    p: pendulums; x, v: positions (rad) and velocities (rad a unit time) at drive phase 0. All are
+    p: pendulums; x, v: positions (rad) and velocities (rad per unit time) at drive phase 0. All are
     broadcast. x keeps its whole turns. error=True gives an estimate of the larger of the errors of
     x and v beside them, for four to five times the work. out=(x, v), two contiguous arrays of
     doubles, which may be those given, takes the results without a copy.
@@ -31,7 +31,7 @@ def strobe_advance(p, x, v, periods, *, error=False, out=None, context=None):
 
 
 def strobe_record(p, x0, v0, periods, samples, *, error=False, context=None):
-    """One pendulum from (x0, v0) at drive phase 0 on, `samples` points a drive period: (x, v), or
+    """One pendulum from (x0, v0) at drive phase 0 on, `samples` points per drive period: (x, v), or
     (x, v, x_error, v_error), of periods * samples + 1 points, at drive phases 2 pi k / samples."""
     count = whole("periods", periods) * whole("samples", samples, 1) + 1
     arrays = [np.empty(count) for _ in range(4 if error else 2)]

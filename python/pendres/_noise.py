@@ -39,7 +39,7 @@ def cloud_request(p, x, v, *, trajectories=200, settle=20, record=50, **more):
 
 
 def cloud_steps(request, *, tolerance=0.05, context=None):
-    """The steps a period with which a cloud's biases stay below `tolerance` of its widths, with
+    """The steps per period with which a cloud's biases stay below `tolerance` of its widths, with
     these biases: a pendres_langevin_bias."""
     request = one("pendres_langevin_request", request)
     bias = array("pendres_langevin_bias")
@@ -83,7 +83,7 @@ def linear_noise(p, x, v, *, cycle=1):
 
 
 def rate(tally, start, end, *, level=0.95):
-    """The rate, a unit time, of switching from one attractor to another (end =
+    """The rate, per unit time, of switching from one attractor to another (end =
     pendres.SWITCHING_WELL: any other well): value, error, lower, upper, events, exposure, ..."""
     out = array("pendres_switching_rate")
     c.switching_rate_of(one("pendres_switching_tally", tally), start, end, level, out)

@@ -75,8 +75,8 @@ typedef struct pendres_arc_correction {
   int steps;                            /* a period */
   double u[PENDRES_U_COUNT];            /* where it is; replaced */
   double rounding;           /* becomes the error of the scaled unknowns by rounding; NaN where the
-                                correction failed, or led astray to orbits that the arc keeps apart
-                                from */
+                                correction failed, or converged to orbits that the arc keeps
+                                apart from */
 } pendres_arc_correction;
 
 /* Correct n points of one kind of curve: the arc's map, condition, unknowns and what it keeps apart

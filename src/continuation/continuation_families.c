@@ -77,7 +77,7 @@ static pendres_status add_curve(pendres_context *ctx, const pendres_bifurcation 
   pendres_curve *c = NULL;
   const pendres_status status = pendres_curve_follow(ctx, 1, &all[number], options, &c);
   if (status != PENDRES_OK) return status == PENDRES_NOT_CONVERGED ? PENDRES_OK : status;
-  /* Nothing can be followed from a bifurcation among wild orbits: it stands for itself. */
+  /* Nothing can be followed from a bifurcation among wild orbits: it stays a single point. */
   if (pendres_curve_count(c) < 3) {
     pendres_curve_free(c);
     return PENDRES_OK;

@@ -147,8 +147,8 @@ static const char *refuse(const pendres_switching_request *q)
   if (!pendres_model_same(&a->orbit.pendulum, &q->pendulum))
     return "these are attractors of another pendulum";
   if (rotates_elsewhere(q))
-    return "under this torque a pendulum may also rotate, which is none of the attractors: what "
-           "leaves them for good would count as staying";
+    return "under this torque a pendulum may also rotate, which is none of the attractors: one "
+           "that leaves them for such a rotation would not be counted as having left";
   return pendres_pendulum_leaves(&q->pendulum) ? NULL : pendres_noise_refuses(&q->pendulum);
 }
 

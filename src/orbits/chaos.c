@@ -18,7 +18,7 @@ enum {
   SUSPECT_PERIODS = 128, /* ... for so many periods */
   WALKERS = 64,          /* so many walkers are watched, once they have lost each other */
   WARM_UP = 200,         /* periods in which they lose each other */
-  ATTEMPTS = 3,          /* to send out walkers, as long as some of them leave the chaos at once */
+  ATTEMPTS = 3,          /* to send out walkers, while some leave the chaotic set immediately */
   BATCHES = 16,          /* that a walker's periods are parted into, an even number */
   BATCH = 120,           /* periods of a batch, at first. Walkers may visit the bands of an
                             attractor in turn, all in step: 120 periods are whole rounds of 2, 3, 4,

@@ -17,7 +17,7 @@ typedef struct pendres_linear {
     PENDRES_LINEAR_DECAYS,  /* for certain */
     PENDRES_LINEAR_BETWEEN  /* the exponent is zero within its error */
   } fate;
-  double exponent, error;   /* the largest Floquet exponent, a unit time */
+  double exponent, error;   /* the largest Floquet exponent, per unit time */
   pendres_orbit orbit;      /* that motions decay to */
 } pendres_linear;
 

@@ -54,7 +54,7 @@ static double distance(const pendres_orbit *o, const pendres_bifurcation *b)
 
 /*
  * A point's states at the bifurcation. state: the one that bifurcates, or one of those that branch
- * off, whose image does as well.
+ * off; its mirror image serves equally.
  */
 static pendres_status move_to(pendres_context *ctx, const pendres_scan_point *from,
                               const pendres_orbit *state, const pendres_bifurcation *b,
