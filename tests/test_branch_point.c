@@ -10,7 +10,7 @@
 
 #include <pendres/pendres.h>
 
-#include "check.h"
+#include "branch_fixture.h"
 
 /* The lopsided well x - 0.6 x^2 + x^3/2 under a parametric drive: rest is an orbit at every b. */
 static pendres_pendulum lopsided(double b, double torque)
@@ -46,19 +46,6 @@ static pendres_branch *followed(pendres_context *ctx, const pendres_orbit *start
   for (size_t i = 0; i < pendres_branch_count(b); i++)
     assert_int_equal(pendres_branch_get(b, i)->doubt, 0);
   return b;
-}
-
-/* The only bifurcation of a kind on a branch; NULL: there is none. */
-static const pendres_bifurcation *only(const pendres_branch *b, pendres_special kind)
-{
-  const pendres_bifurcation *found = NULL;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
-    if (f->kind != kind) continue;
-    assert_null(found);
-    found = f;
-  }
-  return found;
 }
 
 /* ---- rest ---- */

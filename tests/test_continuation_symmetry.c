@@ -12,7 +12,7 @@
 #include <pendres/continuation.h>
 #include <pendres/reference.h>
 
-#include "check.h"
+#include "branch_fixture.h"
 #include "continuation/continuation_branch.h"
 
 static const double half_pi = 1.57079632679489661923;
@@ -44,16 +44,10 @@ static size_t doubts_of(const pendres_branch *b)
   return doubts;
 }
 
-/* The only bifurcation of a kind on a branch. */
-static const pendres_bifurcation *only(const pendres_branch *b, pendres_special kind)
+/* The only bifurcation of a kind on a branch, which must have one. */
+static const pendres_bifurcation *the(const pendres_branch *b, pendres_special kind)
 {
-  const pendres_bifurcation *found = NULL;
-  for (size_t i = 0; i < pendres_branch_bifurcations(b); i++) {
-    const pendres_bifurcation *f = pendres_branch_bifurcation(b, i);
-    if (f->kind != kind) continue;
-    assert_null(found);
-    found = f;
-  }
+  const pendres_bifurcation *found = only(b, kind);
   assert_non_null(found);
   return found;
 }
@@ -81,9 +75,9 @@ static void period_three_loses_its_symmetry(void **state)
     ctx, (pendres_orbit_guess){.pendulum = p, .x = 7.032235, .v = 1.571260, .period = 3});
   assert_true(start.symmetric && start.stable);
   pendres_branch *b = followed(ctx, &start, 0.535, 0.55);
-  const pendres_bifurcation *at = only(b, PENDRES_SYMMETRY_BREAKING);
+  const pendres_bifurcation *at = the(b, PENDRES_SYMMETRY_BREAKING);
   assert_int_equal(doubts_of(b), 0);
-  assert_int_equal(only(b, PENDRES_FOLD)->orbit.period, 3);
+  assert_int_equal(the(b, PENDRES_FOLD)->orbit.period, 3);
   /* The symmetric orbit itself goes on beyond, unstable. The multiplier's zero is linear in the
      frequency but for its square, 1e-14 by 1e3 over its slope of 650. */
   const double h = 1e-7;
@@ -97,7 +91,7 @@ static void period_three_loses_its_symmetry(void **state)
   check_ok(pendres_branch_switch(ctx, at, &pair));
   assert_true(!pair.symmetric && pair.period == 3);
   pendres_branch *born = followed(ctx, &pair, 0.5345, 0.55);
-  const pendres_bifurcation *birth = only(born, PENDRES_SYMMETRY_BREAKING);
+  const pendres_bifurcation *birth = the(born, PENDRES_SYMMETRY_BREAKING);
   check_near(birth->value, at->value, birth->value_error + at->value_error);
   for (size_t i = 0; i < pendres_branch_bifurcations(born); i++)
     assert_true(pendres_branch_bifurcation(born, i)->kind != PENDRES_FOLD);
@@ -118,10 +112,10 @@ static void period_three_has_its_fold(void **state)
     ctx, (pendres_orbit_guess){.pendulum = p, .x = 0.027643, .v = 1.321870, .period = 3});
   assert_true(start.symmetric);
   pendres_branch *b = followed(ctx, &start, 0.66, 0.68);
-  const pendres_bifurcation *fold = only(b, PENDRES_FOLD);
+  const pendres_bifurcation *fold = the(b, PENDRES_FOLD);
   check_near(fold->value, 0.67054934211, fold->value_error + 5e-12);
   assert_true(fold->curvature < 0.0 && fold->orbit.period == 3);
-  (void)only(b, PENDRES_SYMMETRY_BREAKING);
+  (void)the(b, PENDRES_SYMMETRY_BREAKING);
   assert_int_equal(doubts_of(b), 0);
   pendres_branch_free(b);
   pendres_context_free(ctx);
@@ -258,7 +252,7 @@ static void what_cancels_by_right(void **state)
     const pendres_orbit la = refined(
       ctx, (pendres_orbit_guess){.pendulum = p, .x = 0.9008262, .v = 1.5702276, .period = 1});
     pendres_branch *b = followed(ctx, &la, 0.45, 0.79);
-    const pendres_bifurcation *at = only(b, PENDRES_SYMMETRY_BREAKING);
+    const pendres_bifurcation *at = the(b, PENDRES_SYMMETRY_BREAKING);
     if (k == 0) {
       pendres_reference_cycle want;
       check_ok(pendres_reference_symmetry_breaking(&p, at->value, at->orbit.x - half_pi,

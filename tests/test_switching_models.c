@@ -237,23 +237,6 @@ static void rotations_are_refused(void **state)
 
 /* ---- escape to infinity ---- */
 
-/* A number with the normal distribution, by a generator and a way of the test's own (xorshift,
-   Marsaglia's polar method). */
-static double normal(uint64_t *s)
-{
-  double u, w, q;
-  do {
-    double z[2];
-    for (int i = 0; i < 2; i++) {
-      *s ^= *s << 13, *s ^= *s >> 7, *s ^= *s << 17;
-      z[i] = 2.0 * (double)(*s >> 11) * 0x1p-53 - 1.0;
-    }
-    u = z[0], w = z[1];
-    q = u * u + w * w;
-  } while (q >= 1.0 || q == 0.0);
-  return u * sqrt(-2.0 * log(q) / q);
-}
-
 /*
  * The rate at which x'' + gamma x' + x - x^2 = F0 cos(omega t) with noise leaves for x > 4: from
  * rest, `runs` times, by steps B A O A B (B. Leimkuhler and C. Matthews, Applied Mathematics

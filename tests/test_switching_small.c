@@ -16,23 +16,6 @@ static pendres_pendulum resonator(double temperature)
                             .force_coefficients = {1.0, 0.0, 1.0}};
 }
 
-/* A number with the normal distribution, by a generator and a way of the test's own (xorshift,
-   Marsaglia's polar method). */
-static double normal(uint64_t *s)
-{
-  double u, w, q;
-  do {
-    double z[2];
-    for (int i = 0; i < 2; i++) {
-      *s ^= *s << 13, *s ^= *s >> 7, *s ^= *s << 17;
-      z[i] = 2.0 * (double)(*s >> 11) * 0x1p-53 - 1.0;
-    }
-    u = z[0], w = z[1];
-    q = u * u + w * w;
-  } while (q >= 1.0 || q == 0.0);
-  return u * sqrt(-2.0 * log(q) / q);
-}
-
 static void slope(const pendres_pendulum *p, double phase, const double s[2], double out[2])
 {
   out[0] = s[1];

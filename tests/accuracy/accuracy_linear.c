@@ -150,20 +150,10 @@ static void note(accuracy *a, const void *of, long number, void *tally)
     return;
   }
   accuracy_note(a, "x", o->x, o->x_error, e->y, how);
-  accuracy_note(a, "v", o->v, o->v_error, e->v, how);
-  accuracy_note(a, "dissipation", o->dissipation, o->dissipation_error, e->dissipation, how);
-  accuracy_note(a, "amplitude", o->amplitude, o->amplitude_error, e->amplitude, how);
-  accuracy_note(a, "first harmonic", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error,
-                e->first_harmonic_amplitude, how);
-  if (p->drive_amplitude != 0.0) {
-    accuracy_note(a, "phase lag", o->phase_lag, o->phase_lag_error, e->phase_lag, how);
-    accuracy_note(a, "loop area", o->loop_area, o->loop_area_error, e->loop_area, how);
-    accuracy_note(a, "mean power", o->mean_power, o->mean_power_error, e->mean_power, how);
+  accuracy_note_orbit(a, o, e, how);
+  if (p->drive_amplitude != 0.0)
     accuracy_note(a, "slope of the loop area", o->loop_area_slope, o->loop_area_slope_error,
                   e->loop_area_slope, how);
-  } else if (o->loop_area != 0.0 || o->mean_power != 0.0) {
-    accuracy_complain(a, "no drive, and a loop area", how);
-  }
   accuracy_note_error(a, "multipliers", accuracy_multipliers_apart(o, e), o->multiplier_error, how);
   accuracy_note_error(a, "advanced", (double)t->off,
                       t->claim * accuracy_near_units(t->units).length, how);

@@ -170,6 +170,26 @@ static void note_samples(accuracy *a, const item *t, const char *how)
   pendres_context_free(ctx);
 }
 
+void accuracy_note_orbit(accuracy *a, const pendres_orbit *o, const pendres_reference_cycle *e,
+                         const char *how)
+{
+  accuracy_note(a, "v", o->v, o->v_error, e->v, how);
+  accuracy_note(a, "dissipation", o->dissipation, o->dissipation_error, e->dissipation, how);
+  accuracy_note(a, "amplitude", o->amplitude, o->amplitude_error, e->amplitude, how);
+  accuracy_note(a, "first harmonic", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error,
+                e->first_harmonic_amplitude, how);
+  if (o->pendulum.drive_amplitude == 0.0) { /* all of these are known exactly */
+    if (o->loop_area != 0.0 || o->mean_power != 0.0)
+      accuracy_complain(a, "no drive, and a loop area", how);
+    return;
+  }
+  accuracy_note(a, "loop area", o->loop_area, o->loop_area_error, e->loop_area, how);
+  accuracy_note(a, "mean power", o->mean_power, o->mean_power_error, e->mean_power, how);
+  accuracy_note_error(a, "phase lag",
+                      fabs(remainder((double)(o->phase_lag - e->phase_lag), two_pi)),
+                      o->phase_lag_error, how);
+}
+
 static void note(accuracy *a, const void *of, long number, void *tally)
 {
   const item *t = of;
@@ -189,16 +209,7 @@ static void note(accuracy *a, const void *of, long number, void *tally)
   note_samples(a, t, how);
   const double turn = rint((double)((o->x - half_pi) - e->y) / two_pi) * two_pi;
   accuracy_note(a, "x", o->x - turn, o->x_error, e->y + half_pi, how);
-  accuracy_note(a, "v", o->v, o->v_error, e->v, how);
-  accuracy_note(a, "loop area", o->loop_area, o->loop_area_error, e->loop_area, how);
-  accuracy_note(a, "dissipation", o->dissipation, o->dissipation_error, e->dissipation, how);
-  accuracy_note(a, "mean power", o->mean_power, o->mean_power_error, e->mean_power, how);
-  accuracy_note(a, "amplitude", o->amplitude, o->amplitude_error, e->amplitude, how);
-  accuracy_note(a, "first harmonic", o->first_harmonic_amplitude, o->first_harmonic_amplitude_error,
-                e->first_harmonic_amplitude, how);
-  accuracy_note_error(a, "phase lag",
-                      fabs(remainder((double)(o->phase_lag - e->phase_lag), two_pi)),
-                      o->phase_lag_error, how);
+  accuracy_note_orbit(a, o, e, how);
   const int plain = t->want == PENDRES_ORBIT_PLAIN;
   accuracy_note_error(a, plain ? "multipliers" : "multipliers, with slopes",
                       accuracy_multipliers_apart(o, e), o->multiplier_error, how);
