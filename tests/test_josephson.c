@@ -66,6 +66,28 @@ static void step_and_rotation(void **state)
   pendres_hysteresis_free(h);
 }
 
+/* Up to a lock and back: it is born and ends in one fold, which is sought from its orbit. */
+static void lock_is_born(void **state)
+{
+  static const double value[] = {1.46, 1.47, 1.48, 1.49, 1.495, 1.502, 1.495, 1.49};
+  enum { N = sizeof value / sizeof *value };
+  pendres_hysteresis *h = NULL;
+  pendres_fold fold;
+  check_ok(pendres_hysteresis_follow(*state, &junction, &(pendres_state){1.6, 8.0},
+                                     &(pendres_hysteresis_path){PENDRES_TORQUE, N, value}, &h));
+  const pendres_orbit *lock = &pendres_hysteresis_get(h, 5)->attractor.orbit;
+  assert_int_equal(lock->period, 3);
+  check_ok(pendres_fold_find_along(*state, lock, PENDRES_TORQUE, &fold));
+  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  for (size_t i = 0; i < 2; i++) {
+    const pendres_jump *j = pendres_hysteresis_jump(h, i);
+    assert_int_equal(j->kind, PENDRES_JUMP_FOLD);
+    assert_int_equal(j->from, i == 0 ? PENDRES_LABEL_QUASI_PERIODIC : PENDRES_LABEL_RUNNING);
+    check_near(j->value, fold.value, j->value_error + fold.value_error);
+  }
+  pendres_hysteresis_free(h);
+}
+
 /* Between steps the mean velocity is that of an independent integration, within its error. */
 static void mean_velocity(void **state)
 {
@@ -191,6 +213,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(step_and_rotation, setup, teardown),
+    cmocka_unit_test_setup_teardown(lock_is_born, setup, teardown),
     cmocka_unit_test_setup_teardown(mean_velocity, setup, teardown),
     cmocka_unit_test_setup_teardown(slips, setup, teardown),
     cmocka_unit_test_setup_teardown(overdamped, setup, teardown),

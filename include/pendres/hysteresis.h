@@ -117,7 +117,9 @@ typedef struct pendres_hysteresis_point {
   X(HOMOCLINIC, "homoclinic")
 
 /**
- * How a state ends. PENDRES_JUMP_FOLD: the orbit meets an unstable one, and both vanish;
+ * How a state ends. PENDRES_JUMP_FOLD: the orbit meets an unstable one, and both vanish, or such a
+ * pair is born and takes the state's place: a rotation on a circle locks to the drive, chaos ends
+ * in a window;
  * PENDRES_JUMP_FLIP: period doubling; PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;
  * PENDRES_JUMP_OTHER: it ends within the error of the value, by what is not known;
  * PENDRES_JUMP_BRANCH_POINT: the orbit meets another branch and exchanges its stability with that

@@ -74,7 +74,8 @@ static pendres_status find_locks(const pendres_path *w, size_t n,
   return status;
 }
 
-/* The motion on the circle differs from that at the last value: find where it changes. */
+/* The motion on the circle differs from that at the last value: find where it changes. As long as
+   the circle lasts, locks are born and end by folds. */
 static pendres_status note_change(pendres_path *w, size_t step, const pendres_circles_verdict *v,
                                   const pendres_attractor *a)
 {
@@ -87,7 +88,7 @@ static pendres_status note_change(pendres_path *w, size_t step, const pendres_ci
   if (was && is && last.turn.period == v->turn.period && last.turn.winding == v->turn.winding)
     return PENDRES_OK;
   pendres_jump j = {.step = step, .direction = v->value > last.value ? 1 : -1,
-                    .kind = was ? PENDRES_JUMP_FOLD : PENDRES_JUMP_OTHER,
+                    .kind = PENDRES_JUMP_FOLD,
                     .from = was ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_QUASI_PERIODIC,
                     .to = a->label, .to_period = is ? v->turn.period : 0,
                     .share = 1.0, .certain = 1};
