@@ -304,7 +304,7 @@ const deck_key deck_table[] = {
   { INTEGER("lyapunov_map", "transient", lyapunov.transient), IN(MAP), RANGE(0, 1e9), .number = 0,
     SAYS(NULL, "drive periods before averages are taken; 0: 200, or more where damping is weak") },
   { INTEGER("lyapunov_map", "periods", lyapunov.periods), IN(MAP), RANGE(0, 1e9), .number = 0,
-    SAYS(NULL, "drive periods of an average; 0: 2048. What is not decided then is followed for "
+    SAYS(NULL, "drive periods of an average; 0: 512. What is not decided then is followed for "
          "longer") },
 
   { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,

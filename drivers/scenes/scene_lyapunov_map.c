@@ -14,7 +14,7 @@ enum {
   AXES = 2,
   /* Points of a task: enough for full blocks. The few that are followed for long fill them in large
      maps only, which have tasks enough for any number of threads. */
-  FEWEST = 2048, MOST = 8192, TASKS = 128
+  FEWEST = 4096, MOST = 8192, TASKS = 128
 };
 
 /* What is written of a point: NaN where it does not exist. */

@@ -50,15 +50,19 @@
  * where it is some 1e14 or more the point is unresolved.
  *
  * Chaos that ends, or goes over into another, later than it is followed is not distinguished from
- * chaos that lasts. By default that is after 2264 drive periods, 2048 of which are averaged; of
+ * chaos that lasts. By default that is after 2264 drive periods. Growth is averaged over 512 of
+ * them. For the last 1536 the state alone is followed, with an error of 1e-4 a period, which chaos
+ * forgets: where it comes to an orbit, or its turns or mean square velocities at the strobes differ
+ * from those before by more than chance, the average is taken again. Of
  * some 200 random chaotic pendulums that were followed for 32,768 periods one in a hundred changed
  * later than that. A verdict that is certain says nothing of this.
  *
  * The error of the integration is carried along from the start (attractor.h). Where it has grown so
- * large that it may have decided where the pendulum went, sixteen copies start next to it, as far
- * off as its errors are. Do they all do the same, the verdict is certain; a fate that one copy in
- * five has is missed once in thirty times. Otherwise the pendulum and its copies start again, with
- * errors of rounding's size. Where copies still differ the verdict is not certain: its errors hold
+ * large that it may have decided where the pendulum went, it starts again, with errors of
+ * rounding's size. Where that leaves a doubt, sixteen copies start next to it, as far off as errors
+ * are at the tolerance. Do they all do the same, the verdict is certain; a fate that one copy in
+ * five has is missed once in thirty times. Otherwise copies start as near as rounding, and as
+ * exactly as can be. Where these still differ the verdict is not certain: its errors hold
  * the exponents and the rotations of all copies, but periods and windings are those of one among
  * several motions. In chaos errors grow in any case. There they decide nothing if the motion comes
  * back, to a tenth of a radian, to the last state in which they were small. With adaptive steps, or
@@ -78,7 +82,8 @@ extern "C" {
 typedef struct pendres_lyapunov_options {
   long transient; /**< drive periods, at most, until an orbit is reached, and before averages are
                        taken; default 200, and more where damping is weak */
-  long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 2048 */
+  long periods;   /**< drive periods of an average, rounded up to a multiple of 16; default 512,
+                       after which chaos is followed for longer */
 } pendres_lyapunov_options;
 
 /** What a pendulum does in the long run. Plain data. */

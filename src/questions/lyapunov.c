@@ -13,9 +13,9 @@
 #include "questions/lyapunov_move.h"
 
 enum {
-  PERIODS = 2048,    /* of a first average, unless the caller says so */
+  PERIODS = 512,     /* of a first average, unless the caller says so */
+  LONGER = 3,        /* so many times that chaos is followed afterwards */
   ROUNDS = 4,        /* of averages, each twice as long as the one before */
-  SOME_PERIODS = 512, /* of one that is not to take long, ... */
   FEW_PERIODS = 128, /* ... and of the first one of what is known to be close to a rotation, ... */
   MORE_ROUNDS = 6    /* ... which has more rounds */
 };
@@ -32,13 +32,14 @@ pendres_status pendres_lyapunov_move(pendres_context *ctx, const pendres_lyapuno
                                      pendres_lyapunov_care care)
 {
   static const struct { long periods; int rounds; } looks[] = {
-    [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_ONCE] = {SOME_PERIODS, 1},
+    [PENDRES_CARE_FULL] = {PERIODS, ROUNDS}, [PENDRES_CARE_ONCE] = {PERIODS, 1},
     [PENDRES_CARE_CLOSE] = {FEW_PERIODS, MORE_ROUNDS}};
   const size_t n = m->n;
   const pendres_lyapunov_job j = {
     .n = n, .pendulum = m->pendulum, .x = m->x, .v = m->v, .out = m->out, .orbit = m->orbit,
     .accuracy = pendres_accuracy_to_average(ctx), .care = care, .periods = looks[care].periods,
-    .rounds = looks[care].rounds, .runner = malloc((n + 1) * sizeof *j.runner)};
+    .rounds = looks[care].rounds, .longer = care == PENDRES_CARE_FULL ? LONGER : 0,
+    .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);
   for (size_t i = 0; i < n; i++) m->orbit[i] = pendres_orbit_none(&m->pendulum[i]);
@@ -71,6 +72,7 @@ static pendres_status lyapunov_find(pendres_context *ctx, size_t n, const pendre
     .n = n, .pendulum = p, .x = x, .v = v, .out = out,
     .accuracy = pendres_accuracy_to_average(ctx), .transient = o->transient,
     .periods = o->periods > 0 ? o->periods : PERIODS, .asked = o->periods > 0, .rounds = ROUNDS,
+    .longer = o->periods > 0 ? 0 : LONGER,
     .care = PENDRES_CARE_FULL, .runner = malloc((n + 1) * sizeof *j.runner)};
   if (j.runner == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums", n);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "engine/accuracy.h"
 #include "engine/context_internal.h"
@@ -11,8 +12,7 @@
 enum {
   FEW = 4,        /* copies that are tried first: most of those that differ are seen by them */
   COPIES = 16,    /* what one copy in five does is missed by all of them once in thirty times */
-  PERIODS = 512,  /* of their averages: for as long as their pendulum they need not be followed */
-  AT_A_TIME = 128 /* pendulums with copies: they need memory */
+  AT_A_TIME = 1024 /* pendulums with copies: they need memory */
 };
 
 /* Verdicts of copies agree within so many times their errors. */
@@ -77,7 +77,7 @@ static pendres_status judge(pendres_context *ctx, const family *f, verdict *out)
     x[at] = f->job->x[i] + off * cos(angle);
     x[all + at] = f->job->v[i] + off * sin(angle);
   }
-  if (f->first > 0 && j.periods > PERIODS) j.periods = PERIODS;
+  if (f->first > 0) j.longer = 0; /* for as long as their pendulum they need not be followed */
   j.n = all;
   j.pendulum = p;
   j.x = x;
@@ -94,13 +94,15 @@ done:
 
 /* Compare pendulums with copies of them; those whose copies all do the same are certain. */
 static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
-                              size_t *which, int last)
+                              const size_t *those, int last)
 {
   static const size_t begin[] = {1, 1 + FEW, 1 + COPIES};
+  size_t which[AT_A_TIME]; /* that agree so far */
   verdict *copy = malloc((n * COPIES + 1) * sizeof *copy);
   pendres_status status = PENDRES_OK;
   if (copy == NULL)
     return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for copies");
+  memcpy(which, those, n * sizeof *which);
   for (int part = 0; part < 2 && n > 0 && status == PENDRES_OK; part++) {
     const size_t copies = begin[part + 1] - begin[part];
     size_t left = 0;
@@ -127,38 +129,47 @@ static pendres_status compare(pendres_context *ctx, const pendres_lyapunov_job *
 static pendres_status repeat(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
                              const size_t *which)
 {
-  verdict again[AT_A_TIME];
+  verdict *again = malloc((n + 1) * sizeof *again);
+  if (again == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu verdicts", n);
   const pendres_status status = judge(ctx, &(family){job, n, which, 0, 1}, again);
   for (size_t i = 0; i < n && status == PENDRES_OK; i++)
     if (again[i].label != PENDRES_LABEL_UNRESOLVED) job->out[which[i]] = again[i];
+  free(again);
   return status;
 }
 
-/* The next pendulums in doubt, from *from on. */
-static size_t gather(const pendres_lyapunov_job *job, size_t *from, size_t *which)
+/* Those of n pendulums that are in doubt come first; returns how many. */
+static size_t keep_doubtful(const pendres_lyapunov_job *job, size_t n, size_t *which)
 {
-  size_t n = 0;
-  for (; *from < job->n && n < AT_A_TIME; ++*from)
-    if (in_doubt(&job->out[*from])) which[n++] = *from;
-  return n;
+  size_t left = 0;
+  for (size_t i = 0; i < n; i++)
+    if (in_doubt(&job->out[which[i]])) which[left++] = which[i];
+  return left;
+}
+
+/* An exact run costs less than copies, and leaves few in doubt. */
+static pendres_status make_certain(pendres_context *ctx, const pendres_lyapunov_job *job, size_t n,
+                                   size_t *which)
+{
+  pendres_lyapunov_job exact = *job;
+  exact.accuracy = PENDRES_ACCURACY_TIGHTEST;
+  pendres_status status = repeat(ctx, &exact, n, which);
+  if (status == PENDRES_OK) n = keep_doubtful(job, n, which);
+  if (status == PENDRES_OK) status = compare(ctx, job, n, which, 0);
+  if (status == PENDRES_OK) n = keep_doubtful(job, n, which);
+  return status == PENDRES_OK ? compare(ctx, &exact, n, which, 1) : status;
 }
 
 pendres_status pendres_lyapunov_make_certain(pendres_context *ctx, const pendres_lyapunov_job *job)
 {
-  pendres_lyapunov_job exact = *job;
-  size_t which[AT_A_TIME], n, from = 0;
   pendres_status status = PENDRES_OK;
-  exact.accuracy = PENDRES_ACCURACY_TIGHTEST;
   if (!pendres_settle_carries(ctx)) return status;
-  while (status == PENDRES_OK && (n = gather(job, &from, which)) > 0)
-    status = compare(ctx, job, n, which, 0);
-  from = 0;
-  while (status == PENDRES_OK && (n = gather(job, &from, which)) > 0) {
-    size_t left = 0;
-    status = repeat(ctx, &exact, n, which);
-    for (size_t i = 0; i < n; i++)
-      if (in_doubt(&job->out[which[i]])) which[left++] = which[i];
-    if (status == PENDRES_OK) status = compare(ctx, &exact, left, which, 1);
+  for (size_t from = 0; from < job->n && status == PENDRES_OK;) {
+    size_t which[AT_A_TIME], n = 0;
+    for (; from < job->n && n < AT_A_TIME; from++)
+      if (in_doubt(&job->out[from])) which[n++] = from;
+    if (n > 0) status = make_certain(ctx, job, n, which);
   }
   return status;
 }

@@ -60,6 +60,12 @@ void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
   r->sure_w = l->w;
 }
 
+void pendres_runner_pass(runner *r, const pendres_strobe_lane *l)
+{
+  double across;
+  r->back = fmin(r->back, apart_by(l, r->sure_y, r->sure_w, &across));
+}
+
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
 {
   const long lag = l->period - r->ref_period;
@@ -117,7 +123,8 @@ static void put(const average_job *a, size_t lane, const runner *r)
 
 static void load(const average_job *a, size_t lane, runner *r)
 {
-  for (int b = 0; b < BATCHES; b++) r->growth[0][b] = r->growth[1][b] = r->turned[b] = 0.0;
+  for (int b = 0; b < BATCHES; b++)
+    r->growth[0][b] = r->growth[1][b] = r->turned[b] = r->square[b] = 0.0;
   r->smooth = (pendres_smooth){.length = 0.0};
   pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
   if (a->neighbour)
@@ -180,13 +187,13 @@ static void arrive(const average_job *a, size_t lane, long step, runner *r)
   l->w = pendres_rows_get(&rows, PENDRES_ROW_W, lane);
   const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
   if (step >= 0) r->turned[step / a->batch] += turned;
+  if (step >= 0) r->square[step / a->batch] += l->w * l->w;
   if (step >= 0 && r->rotates)
     pendres_smooth_add(&r->smooth, step, a->batch * BATCHES, growth, turned);
   pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
   l->period++;
   put(a, lane, r);
-  double across;
-  r->back = fmin(r->back, apart_by(l, r->sure_y, r->sure_w, &across));
+  pendres_runner_pass(r, l);
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_leaves(r, l)) return;
   if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_comes_back(r, l))
     r->state = PENDRES_RUNNER_CAUGHT;

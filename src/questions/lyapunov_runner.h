@@ -43,6 +43,7 @@ typedef struct pendres_runner {
                           both are the direction to it */
   /* Sums over the periods of each batch. */
   double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
+  double square[PENDRES_RUNNER_BATCHES]; /* of w */
   pendres_smooth smooth; /* of rotations */
 } pendres_runner;
 
@@ -52,6 +53,9 @@ pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near);
 
 /* Note the doubt of the latest strobe point. */
 void pendres_runner_trust(pendres_runner *r, const pendres_strobe_lane *l, double doubt);
+
+/* Note how near the latest strobe point is to the last sure state. */
+void pendres_runner_pass(pendres_runner *r, const pendres_strobe_lane *l);
 
 /* Whether the latest strobe point is next to the one that it is compared with. */
 int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l);

@@ -17,6 +17,7 @@
 #include "orbits/linear.h"
 #include "orbits/orbit_prime.h"
 #include "orbits/settle_lanes.h"
+#include "questions/lyapunov_watch.h"
 
 enum {
   BATCHES = PENDRES_RUNNER_BATCHES,
@@ -38,9 +39,6 @@ static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.0
 /* Chaos must stretch tangent vectors with steps twice as long, too. Their growth differs by this
    times what extrapolation takes off. */
 static const double carried_in_doubt = 15.0;
-/* Student's t of 14 degrees of freedom is beyond this once in 13,000 times: of thirteen places in
-   which batches can be parted, once in a thousand at most. */
-static const double apart_by_chance = 5.5;
 /* Next to where a lock has ended a rotation is slow in one place, and stretches a tangent vector as
    much there as it will shrink it again. The logarithm stays below this; in chaos it goes
    beyond. */
@@ -248,38 +246,6 @@ static pendres_status tell_linear(pendres_context *ctx, const job *j)
 
 /* ---- averages ------------------------------------------------------------------------------ */
 
-/* The mean of the batches' sums a period, and its standard error. */
-static double mean_of(const double sum[BATCHES], long batch, double *error)
-{
-  double mean = 0.0, square = 0.0;
-  for (int b = 0; b < BATCHES; b++) mean += sum[b] / (double)(batch * BATCHES);
-  for (int b = 0; b < BATCHES; b++) {
-    const double d = sum[b] / (double)batch - mean;
-    square += d * d;
-  }
-  *error = sqrt(square / (BATCHES * (BATCHES - 1.0)));
-  return mean;
-}
-
-/*
- * Whether batches before and after some one of them differ by more than chance makes them, by
- * Student's t of the means of both parts. Such a pendulum has gone from one chaotic motion to
- * another, and its mean is that of neither. Source: Worsley, Journal of the American Statistical
- * Association 74 (1979) 365.
- */
-static int changes(const double sum[BATCHES])
-{
-  double all = 0.0, first = 0.0, square = 0.0, between = 0.0;
-  for (int b = 0; b < BATCHES; b++) all += sum[b];
-  const double mean = all / BATCHES;
-  for (int b = 0; b < BATCHES; b++) square += (sum[b] - mean) * (sum[b] - mean);
-  for (int k = 1; k < BATCHES - 1; k++) {
-    first += sum[k - 1] - mean;
-    if (k > 1) between = fmax(between, first * first * BATCHES / (k * (BATCHES - k)));
-  }
-  return between * (BATCHES - 2) > apart_by_chance * apart_by_chance * (square - between);
-}
-
 /*
  * Whether a runner is on a rotation that is not locked to the drive, and then its mean. An error of
  * a period moves y by itself, and an error of the velocity moves y by omega/gamma times itself
@@ -319,12 +285,13 @@ static void judge(const job *j, long batch, double accuracy)
     if (r->state != PENDRES_RUNNER_MOVING) continue;
     const double rate = r->lane.pendulum->drive_frequency / two_pi;
     const double off = pendres_runner_extrapolate(r, batch);
-    const double growth = mean_of(r->growth[0], batch, &error);
-    const double turned = mean_of(r->turned, batch, &turned_error);
+    const double growth = pendres_batches_mean(r->growth[0], batch, &error);
+    const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
     double least = r->neighbour ? least_growth : least_carried;
     if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
     const int chaotic = growth > significance * error + carried_in_doubt * off &&
-                        growth > least && !changes(r->growth[0]) && forgets_start(j, &r->lane);
+                        growth > least && !pendres_batches_change(r->growth[0]) &&
+                        forgets_start(j, &r->lane);
     j->out[i] = (pendres_lyapunov){
       .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
       .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
@@ -426,6 +393,25 @@ static int is_certain(const pendres_runner *r, pendres_label label)
   return label == PENDRES_LABEL_CHAOTIC ? r->back < returned : r->doubt <= 1.0;
 }
 
+/* See whether chaos lasts; where it does not, what was said of it does not hold. */
+static pendres_status watch(pendres_context *ctx, const job *j, long batch)
+{
+  size_t n = 0;
+  size_t *which = malloc((j->n + 1) * sizeof *which);
+  if (which == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
+  for (size_t i = 0; i < j->n; i++)
+    if (j->runner[i].state == PENDRES_RUNNER_DONE && j->out[i].label == PENDRES_LABEL_CHAOTIC)
+      which[n++] = i;
+  pendres_status status = pendres_runners_watch(ctx, n, which, j->runner, batch, j->longer);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    if (j->runner[which[k]].state != PENDRES_RUNNER_DONE)
+      j->out[which[k]].label = PENDRES_LABEL_UNRESOLVED;
+  free(which);
+  if (status == PENDRES_OK) status = tell_away(ctx, j);
+  return status == PENDRES_OK ? settle_caught(ctx, j) : status;
+}
+
 pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
 {
   long batch = (j->periods + BATCHES - 1) / BATCHES;
@@ -444,6 +430,7 @@ pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapun
     if (status == PENDRES_OK) status = settle_caught(ctx, j);
     /* Runners whose orbit was not stable have averages of this round, and no result yet. */
     if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx));
+    if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);
   }
   for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
     j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);

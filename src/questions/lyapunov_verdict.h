@@ -17,6 +17,8 @@ typedef struct pendres_lyapunov_job {
   const double *x, *v;              /* starts */
   double accuracy;                  /* error a period on the way from the start */
   long transient, periods;          /* 0: as is best; of the first average */
+  long longer;                      /* chaos is followed without tangent vectors after its first
+                                       average, for so many times its periods */
   int asked;                        /* so many periods, by the caller */
   int rounds;
   pendres_lyapunov_care care;
