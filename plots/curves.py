@@ -396,24 +396,41 @@ def draw_jumps(ax, gaps, way, colour):
                                     "mutation_scale": 8})
 
 
-def write_steps(ax, h, x):
-    """The winding of each wide step of a junction, beside it: its voltage, drive frequencies."""
-    p, q = h["winding"], h["period"]
-    span, written = np.ptp(x), set()
-    for way in (1, 0):
-        turns = p[way] / q[way]
-        ends = np.flatnonzero(np.diff(turns) != 0) + 1
-        for first, last in zip(np.append(0, ends), np.append(ends, len(x))):
-            i = first
-            if not np.isfinite(turns[i]) or x[last - 1] - x[first] < 0.04 * span \
-                    or turns[i] in written:
+def locked_steps(h, x):
+    """The steps of a junction, by voltage: winding, period, the first and the last torque at which it
+    is seen, and its width, from where the way down leaves it to where the way up does (NaN if one
+    of them does not: where a sweep comes to a step is no end of it)."""
+    found, jumps = {}, h["jump_parameter"]
+    for way in range(2):
+        p, q = h["winding"][way], h["period"][way]
+        turns = p / q
+        cuts = np.flatnonzero(np.diff(turns) != 0) + 1
+        for first, last in zip(np.append(0, cuts), np.append(cuts, len(x)) - 1):
+            if not np.isfinite(turns[first]):
                 continue
-            written.add(turns[i])
-            text = f"{p[way, i] / q[way, i]:g}" if turns[i] % 1 == 0 else \
-                f"{p[way, i]:g}/{q[way, i]:g}"
-            ax.annotate(text, ((x[first] + x[last - 1]) / 2, turns[i]), ha="center", va="bottom",
-                        xytext=(0, 2), textcoords="offset points",
-                        fontsize=plt.rcParams["legend.fontsize"])
+            step = found.setdefault(turns[first], [p[first], q[first], np.inf, -np.inf, [], []])
+            step[2], step[3] = min(step[2], x[first]), max(step[3], x[last])
+            inner, outer = (x[first], x[first - 1]) if way else (x[last], x[min(last + 1, len(x) - 1)])
+            if first > 0 if way else last + 1 < len(x):
+                step[4 + way] += [e for e in jumps[h["jump_direction"] == way]
+                                  if min(inner, outer) <= e <= max(inner, outer)]
+    return {turns: (p, q, first, last, max(up) - min(down) if up and down else np.nan)
+            for turns, (p, q, first, last, up, down) in found.items()}
+
+
+def write_steps(ax, h, x):
+    """Above each wide step of a junction its voltage, in drive frequencies, and its width."""
+    for turns, (p, q, first, last, width) in locked_steps(h, x).items():
+        if last - first < 0.04 * np.ptp(x):
+            continue
+        text = f"{turns:g}" if turns % 1 == 0 else f"{p:g}/{q:g}"
+        if np.isfinite(width):
+            text += f" ({width:.4f})"
+            ax.plot([], [], " ", label="numbers: step (its width)")
+        wide = last - first > 0.15 * np.ptp(x)
+        ax.annotate(text, (first + 0.75 * (last - first) if wide else last, turns), ha="right",
+                    va="bottom", xytext=(0, 2), textcoords="offset points",
+                    fontsize=plt.rcParams["legend.fontsize"])
 
 
 def draw_hysteresis(h, path):
