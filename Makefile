@@ -11,6 +11,8 @@
 #   make bench      build and run the benchmarks, one after another, and compare their ratios and
 #                   counts with the last release's; make bench-baseline makes them the new ones
 #   make install    into DESTDIR and PREFIX (default /usr/local); make uninstall takes it back
+#   make wheel      a Python wheel that holds library and program, into build/dist; make sdist, the
+#                   sources as pip takes them
 #   make deps       install what is needed (Debian, Ubuntu); elsewhere say what is needed
 #   make deps-python   what the Python package needs; make deps-plots, what plots need; make
 #                   deps-fuzz, what make fuzz needs
@@ -87,7 +89,8 @@ FLAGS_avx512 := -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 # ---- Goals that need no compiler and no libraries --------------------------------------------
 
 GOALS := $(or $(MAKECMDGOALS),all)
-BUILDING := $(filter-out deps deps-fuzz deps-mpi deps-plots deps-python clean uninstall doc style gallery help,$(GOALS))
+BUILDING := $(filter-out deps deps-fuzz deps-mpi deps-plots deps-python clean uninstall doc style \
+              gallery sdist wheel help,$(GOALS))
 
 ifneq ($(BUILDING),)
 # For tests that compute much by themselves. Clang has the library for it in a package of its own;
@@ -196,7 +199,7 @@ FUZZ_SECONDS ?= 60
 
 .PHONY: all accuracy check check-run fuzz bench bench-baseline install uninstall deps deps-mpi \
         deps-fuzz deps-plots deps-python doc decks-reference style figures gallery clean \
-        help FORCE
+        help sdist wheel FORCE
 .SUFFIXES:
 .DELETE_ON_ERROR:
 
@@ -425,6 +428,9 @@ uninstall:
 	  "$(DESTDIR)$(MANDIR)/man1/resonance.1" "$(DESTDIR)$(MANDIR)/man3/pendres.3"
 	rm -rf "$(DESTDIR)$(INCLUDEDIR)/pendres" "$(DESTDIR)$(LIBDIR)/cmake/pendres" "$(DESTDIR)$(DATADIR)"
 	@test -n '$(DESTDIR)' || $(LDCONFIG) 2>/dev/null || true
+
+sdist wheel:
+	@packaging/wheel.sh $@
 
 doc:
 	@command -v doxygen >/dev/null || { echo 'make doc needs Doxygen (Debian: apt-get install' \

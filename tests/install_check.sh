@@ -189,6 +189,25 @@ assert o.loop_area > 0.1 and abs(o.loop_area - o.dissipation) < 1e-8'
   break
 done
 
+# So does one that holds the library, as wheels do, with neither tree nor installation nor pkg-config.
+for python in "${PYTHON:-python3}" /usr/bin/python3; do
+  "$python" -c 'import cffi, numpy' 2>/dev/null || continue
+  mkdir -p wheel/pendres
+  cp "$top"/python/pendres/*.py wheel/pendres
+  cp "$prefix/lib/libpendres.so" wheel/pendres
+  quiet env PYTHONPATH="$top/python/pendres" "$python" -B -c '
+import sys, _headers
+open("wheel/pendres/headers.txt", "w").write(_headers.folder_text(sys.argv[1]))' \
+    "$prefix/include/pendres"
+  (unset LD_LIBRARY_PATH PKG_CONFIG_PATH
+    quiet env PYTHONPATH=wheel "$python" -B -c '
+import pendres
+assert "wheel/pendres" in pendres.__file__
+assert "wheel/pendres/libpendres.so" in open("/proc/self/maps").read()
+assert pendres.free_frequency(0.0) == 1.0') || exit 1
+  break
+done
+
 if [ -x "$prefix/bin/resonance" ]; then
   "$prefix/bin/resonance" --version >"$scratch/log" 2>&1 || fail "resonance --version failed"
   grep -qF "$version" "$scratch/log" || fail "resonance --version does not say $version"

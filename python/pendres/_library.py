@@ -8,6 +8,7 @@ import enum
 import os
 import shutil
 import subprocess
+import sys
 
 import cffi
 import numpy as np
@@ -49,7 +50,10 @@ def _candidates(constants):
     yield os.environ.get("PENDRES_LIBRARY")
     if os.path.exists(os.path.join(TREE, "include", "pendres", "pendres.h")):
         yield os.path.join(TREE, "build", "libpendres.so")
+    if os.path.exists(os.path.join(HERE, "libpendres.so")):
+        yield os.path.join(HERE, "libpendres.so")
     yield name
+    yield os.path.join(sys.prefix, "lib", name)
     folder = _pkg_config("libdir")
     if folder:
         yield os.path.join(folder, name)
