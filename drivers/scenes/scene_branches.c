@@ -298,10 +298,10 @@ static pendres_status print_table(FILE *out, const scene_lines *l)
      .value = offsetof(part, branch)},
     {.heading = "period  ", .format = "%-6d  ", .type = SCENE_NUMBER,
      .value = offsetof(part, period)},
-    SCENE_CELL(part, value[0], from, "%.12f +- "),
+    SCENE_CELL(part, value[0], from, "%#.13g +- "),
     SCENE_CELL(part, error[0], "                  ", "%.0e "),
     {.heading = "to", .format = "%-17s  ", .type = SCENE_TEXT, .value = offsetof(part, why[0])},
-    SCENE_CELL(part, value[1], "", "%.12f +- "),
+    SCENE_CELL(part, value[1], "", "%#.13g +- "),
     SCENE_CELL(part, error[1], "", "%.0e "),
     {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
   };

@@ -407,7 +407,7 @@ void scene_lines_print(const scene_lines *l, FILE *out)
   const pendres_branch_point *p = NULL;
   const int32_t doubts = count_doubts(l, &p);
   if (c != NULL)
-    fprintf(out, "cusp: %s %.12f +- %.0e, %s %.12f +- %.0e\n", scene_lines_words(l->grid.across),
+    fprintf(out, "cusp: %s %#.13g +- %.0e, %s %#.13g +- %.0e\n", scene_lines_words(l->grid.across),
             c->value[1], c->value_error[1], scene_lines_words(l->grid.options.parameter),
             c->value[0], c->value_error[0]);
   if (doubts > 0)

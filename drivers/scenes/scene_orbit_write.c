@@ -274,7 +274,7 @@ void scene_orbit_tabulate(FILE *out, const orbit_work *w)
     for (char *at = words; *at != '\0'; at++)
       if (*at == '_') *at = ' ';
     if (is_shown(w, q))
-      fprintf(out, "%-26s %.12f +- %.0e\n", words, number_at(o, q->value),
+      fprintf(out, "%-26s %#.13g +- %.0e\n", words, number_at(o, q->value),
               error_of(o, q));
   }
   for (int i = 0; i < MULTIPLIERS; i++)
