@@ -294,8 +294,8 @@ def draw_branches(h, path):
     if name == "drive_frequency" and h.options.boundary:
         for named, omega, amplitude in bifurcation_curves(h, "fold", "frequency", "amplitude"):
             if named:
-                ax.plot(*smooth(frequency(h, omega)[0], amplitude).T, color="0.75", lw=0.8, zorder=1,
-                        label=f"folds, all ${symbol}$")
+                line = smooth(frequency(h, omega)[0], amplitude)
+                ax.plot(*line.T, color="0.75", lw=0.8, zorder=1, label=f"folds, all ${symbol}$")
         if "free_amplitude" in h:
             ax.plot(frequency(h, h["free_frequency"])[0], h["free_amplitude"], "-.", color=FREE,
                     lw=0.8, zorder=1, label="free pendulum")
@@ -332,7 +332,7 @@ def draw_switching(h, path):
         some = h[f"events_{what}"] > 0
         ax.errorbar(1 / t[some], rate[some], yerr=spread[:, some], fmt=marker, ms=4, mfc="none",
                     color=colour, label=text, capsize=2)
-    ax.set(xlabel="$1/T$", ylabel="switching rate (in units of 1/time)", yscale="log")
+    ax.set(xlabel="$1/T$", ylabel="switching rate (per unit of time)", yscale="log")
     legend(ax)
     return fig
 
@@ -397,8 +397,8 @@ def draw_jumps(ax, gaps, way, colour):
 
 
 def locked_steps(h, x):
-    """The steps of a junction, by voltage: winding, period, the first and the last torque at which it
-    is seen, and its width, from where the way down leaves it to where the way up does (NaN if one
+    """The steps of a junction, by voltage: winding, period, the first and the last torque at which
+    it is seen, and its width, from where the way down leaves it to where the way up does (NaN if one
     of them does not: where a sweep comes to a step is no end of it)."""
     found, jumps = {}, h["jump_parameter"]
     for way in range(2):
@@ -410,8 +410,9 @@ def locked_steps(h, x):
                 continue
             step = found.setdefault(turns[first], [p[first], q[first], np.inf, -np.inf, [], []])
             step[2], step[3] = min(step[2], x[first]), max(step[3], x[last])
-            inner, outer = (x[first], x[first - 1]) if way else (x[last], x[min(last + 1, len(x) - 1)])
-            if first > 0 if way else last + 1 < len(x):
+            inner, outer = (first, first - 1) if way else (last, last + 1)
+            if 0 <= outer < len(x):
+                inner, outer = x[inner], x[outer]
                 step[4 + way] += [e for e in jumps[h["jump_direction"] == way]
                                   if min(inner, outer) <= e <= max(inner, outer)]
     return {turns: (p, q, first, last, max(up) - min(down) if up and down else np.nan)

@@ -97,9 +97,8 @@ typedef struct pendres_hysteresis_point {
                                     quasi-periodic rotations a bound; else it holds with a
                                     confidence of 99.9 % */
   int certain;                 /**< 1: no error of the integration can have chosen the state on
-                                    which the path began, and from which the pendulum has come by
-                                    jumps that say of themselves whether they are certain; 0 also
-                                    if unresolved */
+                                    which the path began (each jump on the way has a mark of its
+                                    own); 0 also if unresolved */
   pendres_status outcome;      /**< PENDRES_OK; else why the path left the value out:
                                     PENDRES_TOLERANCE_UNREACHABLE, PENDRES_INTEGRATION_FAILED,
                                     PENDRES_NOT_CONVERGED, PENDRES_UNRESOLVED (the way there takes
@@ -121,7 +120,7 @@ typedef struct pendres_hysteresis_point {
  * pair is born and takes the state's place: a rotation on a circle locks to the drive, chaos ends
  * in a window;
  * PENDRES_JUMP_FLIP: period doubling; PENDRES_JUMP_SYMMETRY: loss of mirror symmetry;
- * PENDRES_JUMP_OTHER: it ends within the error of the value, by what is not known;
+ * PENDRES_JUMP_OTHER: it ends within the error of the value, for a reason that is not known;
  * PENDRES_JUMP_BRANCH_POINT: the orbit meets another branch and exchanges its stability with that
  * (transcritical); PENDRES_JUMP_CRISIS: a chaotic attractor meets an unstable orbit, or its stable
  * manifold; PENDRES_JUMP_HOMOCLINIC: a rotation without a drive meets the upper equilibrium.
@@ -162,7 +161,7 @@ typedef struct pendres_jump {
   int certain;               /**< 1: all of them did, mirror images not being told apart */
 } pendres_jump;
 
-/** Values of a parameter in the order in which they are come to: each is approached from the one
+/** Values of a parameter in the order in which they are reached: each is approached from the one
     before, slowly and monotonically. A sweep up and down is a list that ascends and then
     descends. */
 typedef struct pendres_hysteresis_path {
@@ -171,7 +170,7 @@ typedef struct pendres_hysteresis_path {
   const double *value;         /**< [n], not kept */
 } pendres_hysteresis_path;
 
-/** Opaque: what was met on a path. */
+/** Opaque: the states and jumps along a path. */
 typedef struct pendres_hysteresis pendres_hysteresis;
 
 /**

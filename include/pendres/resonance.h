@@ -126,12 +126,12 @@ typedef struct pendres_resonance_turn {
 
 /**
  * The damping at which the resonance frequency is largest, from parabolas through resonances at
- * three dampings, ever closer together. Errors are what the cubic term makes that a parabola lacks,
- * which the last four resonances tell, and what the errors of the resonances make.
+ * three dampings, ever closer together. The errors contain the effect of the cubic term, which a
+ * parabola lacks, as estimated from the last four resonances, and of the resonances' own errors.
  *
  * @param ctx      belongs to one thread at a time
  * @param near     a pendulum with a damping near it; its drive_frequency is not read
- * @param lowest   lowest drive frequency to which resonances are looked for
+ * @param lowest   lowest drive frequency at which resonances are searched for
  * @param highest  highest drive frequency
  * @param ensemble as in pendres_resonance_find_ensemble()
  * @param out      written; on failure all numbers are NaN
