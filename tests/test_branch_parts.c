@@ -1,0 +1,73 @@
+/*
+ * test_branch_parts.c -- the parts of branches that attract end where orbits lose their stability,
+ * wherever a branch starts: at the bifurcations themselves, too, beside which rounding decides
+ * whether a point of it is stable.
+ */
+#include <pendres/pendres.h>
+
+#include "context_fixture.h"
+
+static const double low = 0.74, high = 1.46;
+
+/* Begin and end of each part are bifurcations, or the range's ends. */
+static void check_parts(const pendres_branch *b)
+{
+  enum { MOST = 32 };
+  pendres_branch_part part[MOST];
+  const size_t n = pendres_branch_parts(b, MOST, part);
+  assert_true(n <= MOST);
+  for (size_t i = 0; i < n; i++) {
+    const double first = pendres_branch_get(b, part[i].first)->orbit.pendulum.drive_amplitude;
+    const double last = pendres_branch_get(b, part[i].last)->orbit.pendulum.drive_amplitude;
+    assert_true(part[i].begins != PENDRES_REGULAR || first == low || first == high);
+    assert_true(part[i].ends != PENDRES_REGULAR || last == low || last == high);
+  }
+}
+
+/*
+ * Duffing's two wells, x'' + x'/4 - x + x^3 = F cos t: folds, doublings and losses of symmetry. All
+ * but the doublings are starts.
+ */
+static void starts_at_bifurcations(void **state)
+{
+  static const double tolerance[] = {1e-6, 1e-7, 1e-8, 1e-9};
+  const pendres_branch_options options = {
+    .parameter = PENDRES_DRIVE_AMPLITUDE, .low = low, .high = high};
+  size_t parts = 0;
+  (void)state;
+  for (size_t t = 0; t < sizeof tolerance / sizeof *tolerance; t++)
+    for (int k = 0; k < 3; k++) {
+      pendres_context *ctx = context_with(&(pendres_options){.tolerance = tolerance[t]});
+      const pendres_pendulum p = {.damping = 0.25, .drive_amplitude = 1.19 + 0.03 * k,
+                                  .drive_frequency = 1.0, .force = PENDRES_FORCE_POLYNOMIAL,
+                                  .force_coefficients = {-1.0, 0.0, 1.0}};
+      pendres_attractors *set = NULL;
+      check_ok(pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set));
+      for (size_t i = 0; i < pendres_attractors_count(set); i++) {
+        const pendres_attractor *a = pendres_attractors_get(set, i);
+        pendres_branch *b = NULL;
+        if (a->orbit.period < 1) continue;
+        check_ok(pendres_branch_follow(ctx, 1, &a->orbit, &options, &b));
+        check_parts(b);
+        for (size_t m = 0; m < pendres_branch_bifurcations(b); m++) {
+          pendres_branch *from = NULL;
+          const pendres_bifurcation *f = pendres_branch_bifurcation(b, m);
+          if (f->kind == PENDRES_PERIOD_DOUBLING) continue;
+          check_ok(pendres_branch_follow(ctx, 1, &f->orbit, &options, &from));
+          check_parts(from);
+          parts += pendres_branch_parts(from, 0, NULL);
+          pendres_branch_free(from);
+        }
+        pendres_branch_free(b);
+      }
+      pendres_attractors_free(set);
+      pendres_context_free(ctx);
+    }
+  assert_true(parts > 12);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(starts_at_bifurcations)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
