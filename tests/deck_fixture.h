@@ -66,6 +66,7 @@ static inline void assert_deck_equal(const deck *a, const deck *b)
   assert_int_equal(a->precision.steps_per_period, b->precision.steps_per_period);
   assert_int_equal(a->precision.block_lanes, b->precision.block_lanes);
   assert_int_equal(a->precision.period_budget, b->precision.period_budget);
+  assert_memory_equal(&a->precision.exponent_error, &b->precision.exponent_error, sizeof(double));
   assert_string_equal(a->orbit.start, b->orbit.start);
   assert_memory_equal(&a->orbit.x, &b->orbit.x, 2 * sizeof(double));
   assert_int_equal(a->orbit.periods, b->orbit.periods);

@@ -58,6 +58,8 @@ static void bad_options(void **state)
     {{.steps_per_period = 1000001}, "steps"}, {{.block_lanes = 12}, "lanes"},
     {{.block_lanes = -8}, "lanes"},          {{.block_lanes = 4104}, "lanes"},
     {{.period_budget = -1}, "budget"},
+    {{.exponent_error = 1.1}, "exponents"},
+    {{.exponent_error = NAN}, "exponents"},
   };
   (void)state;
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -222,6 +222,44 @@ static void bifurcation_diagram(void **state)
   free(x), free(period), free(error), free(ends), free(cascade);
 }
 
+/* What is not asked for is not in the file, and what is has the same bytes. */
+static void only_what_is_asked(void **state)
+{
+#define DIAGRAM(more)                                                                            \
+  "&scene kind = 'bifurcation_diagram' /\n&pendulum damping = 0.5, drive_period = 9.42477796 /\n" \
+  "&sweep drive_amplitude = 1.05, 1.07, 1.0822 /\n"                                              \
+  "&bifurcation_diagram x = 1.6, strobes = 16 " more "/\n&precision tolerance = 1e-9 /\n"
+  static const struct {
+    const char *name, *deck, *variable[3];
+  } left_out[] = {
+    {"no_count", DIAGRAM(", attractors = F"), {"attractors", "attractors", "attractors"}},
+    {"no_ends", DIAGRAM(", bifurcations = F"),
+     {"bifurcation_parameter", "cascade_parameter", "cascade_limit"}},
+    {"no_exponents", DIAGRAM(", exponents = F"), {"lyapunov", "lyapunov_error", "lyapunov"}},
+  };
+  size_t n = 0, m = 0;
+  (void)state;
+  scene_run_deck(DIAGRAM(""), 1, "all");
+  pendres_store *all = scene_open("all");
+  double *whole = scene_values(all, "strobe_x", &n);
+  for (size_t i = 0; i < sizeof left_out / sizeof *left_out; i++) {
+    scene_run_deck(left_out[i].deck, 1, left_out[i].name);
+    pendres_store *some = scene_open(left_out[i].name);
+    double *x = scene_values(some, "strobe_x", &m);
+    assert_int_equal(m, n);
+    assert_memory_equal(x, whole, n * sizeof *x);
+    for (int k = 0; k < 3; k++) {
+      assert_true(pendres_store_has(all, "", left_out[i].variable[k]));
+      assert_false(pendres_store_has(some, "", left_out[i].variable[k]));
+    }
+    free(x);
+    pendres_store_free(some);
+  }
+  free(whole);
+  pendres_store_free(all);
+#undef DIAGRAM
+}
+
 /* One parameter is swept, no more and no less; a start is needed. */
 static void wrong_decks(void **state)
 {
@@ -306,6 +344,7 @@ int main(void)
     cmocka_unit_test(other_forces),
     cmocka_unit_test(torque_sweep),
     cmocka_unit_test(bifurcation_diagram),
+    cmocka_unit_test(only_what_is_asked),
     cmocka_unit_test(volume),
     cmocka_unit_test(wrong_decks),
   };

@@ -154,6 +154,7 @@ typedef struct deck {
     int64_t steps_per_period;
     int64_t block_lanes;
     int64_t period_budget;
+    double exponent_error;  /* of chaos, relative; 0: the library's */
   } precision;
 
   struct {
@@ -175,6 +176,7 @@ typedef struct deck {
 
   struct {
     int64_t strobes;        /* of the scene bifurcation_diagram, at each value */
+    int attractors, bifurcations, exponents; /* nonzero: find them */
   } diagram;
 
   struct {                  /* of the scene lyapunov_map; 0: the library's */

@@ -279,8 +279,7 @@ const deck_key deck_table[] = {
          "what the swept parameter moves by in a drive period: beside the sweep without end it "
          "is also moved in real time, up and then down") },
   { LIST("hysteresis", "protocol", ramp.protocol), IN(HYSTERESIS), RANGE(-BIG, 0x1p31),
-    SAYS(NULL,
-         "instead of 'rate': time, value, time, value, ... of the way up, with straight lines "
+    SAYS(NULL, "instead of 'rate': time, value, time, value, ... of the way up, straight lines "
          "between; times are whole drive periods from 0 on, values go from the first of the sweep "
          "to its last. The way down is the same backwards") },
   { INTEGER("hysteresis", "points", ramp.points), IN(HYSTERESIS), RANGE(1, DECK_MAX_COUNT),
@@ -294,8 +293,13 @@ const deck_key deck_table[] = {
   { REAL("bifurcation_diagram", "v", orbit.v), IN(DIAGRAM), RANGE(-BIG, BIG), .number = 0,
     .when = DECK_WITHOUT_START },
   { INTEGER("bifurcation_diagram", "strobes", diagram.strobes), IN(DIAGRAM),
-    RANGE(1, DECK_MAX_COUNT), .number = 200,
-    SAYS(NULL, "strobe points at each value") },
+    RANGE(1, DECK_MAX_COUNT), .number = 200, SAYS(NULL, "strobe points at each value") },
+  { LOGICAL("bifurcation_diagram", "attractors", diagram.attractors), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "count the attractors at each value") },
+  { LOGICAL("bifurcation_diagram", "bifurcations", diagram.bifurcations), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "write the bifurcations on the way, and find the cascade of doublings") },
+  { LOGICAL("bifurcation_diagram", "exponents", diagram.exponents), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "write Lyapunov exponents; without them chaos is only told, in less time") },
 
   { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PENDRES_PI / 2,
     SAYS("rad", "initial position of each pendulum, at the drive's maximum") },
@@ -317,8 +321,7 @@ const deck_key deck_table[] = {
   { CHOICE("basins", "by", basins.by), IN(BASINS), .choices = ends, .text = "attractor",
     SAYS(NULL, "what statistics and picture tell apart: attractors, or their wells, too") },
   { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT),
-    .number = 1000, .when = DECK_WITH_NOISE,
-    SAYS(NULL, "strobe points recorded of each cloud") },
+    .number = 1000, .when = DECK_WITH_NOISE, SAYS(NULL, "strobe points recorded of each cloud") },
   { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1,
     .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
   { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS),
@@ -351,8 +354,7 @@ const deck_key deck_table[] = {
          "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
          "and periods of the drive in s, beside ours") },
 
-  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE,
-    .number = 1e-8,
+  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE, .number = 1e-8,
     SAYS("1", "wanted error of the results: absolute, of lengths as x is and of what follows from "
          "them; 1e-13 to 1e-2 of the pendulum's unit of length, which is 1 but for polynomials "
          "(docs/models.md). Without it 1e-8 of that unit") },
@@ -369,9 +371,11 @@ const deck_key deck_table[] = {
     SAYS(NULL, "pendulums integrated side by side, a multiple of 8; 0: as many as are fast; "
          "results do not depend on it") },
   { INTEGER("precision", "period_budget", precision.period_budget), IN(SETTLING),
-    RANGE(0, 1e9), .number = 0,
-    SAYS(NULL, "drive periods after which a pendulum that has not settled is called unresolved; "
-         "0: from damping and tolerance") },
+    RANGE(0, 1e9), .number = 0, SAYS(NULL, "drive periods after which a pendulum that has not "
+         "settled is called unresolved; 0: from damping and tolerance") },
+  { REAL("precision", "exponent_error", precision.exponent_error), IN(DIAGRAM),
+    RANGE(1e-6, 1), .number = 0.01, SAYS("1", "wanted standard error of the exponents of chaos, as "
+         "a part of them; the longest averages have what error they have") },
   /* clang-format on */
 };
 

@@ -33,7 +33,8 @@ typedef struct work {
   size_t values, strobes;
   scene_along_path path;
   strobe *strobe; /* [values][strobes] */
-  int *attractors; /* [values]; NO_TIME: the budget has ended what was to be found there */
+  int *attractors; /* [values]; 0: not asked for; NO_TIME: the budget has ended what was to be
+                      found there */
   cascade_record cascade;
 } work;
 
@@ -91,13 +92,15 @@ static pendres_status find_cascade(const work *w, pendres_context *ctx, farm_rec
   return PENDRES_OK;
 }
 
-/* Find the attractors at a value, and strobe points of the one that the path is on. */
+/* Find the attractors at a value, if they are asked for, and strobe points of the one that the path
+   is on. */
 static pendres_status find_at(const work *w, size_t i, pendres_context *ctx, record *r, double *x)
 {
   const pendres_hysteresis_point *point = &w->path.point[i];
   const pendres_pendulum p = pendulum_at(w, i);
   pendres_attractors *set = NULL;
-  pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
+  pendres_status status = PENDRES_OK;
+  if (w->d->diagram.attractors) status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &set);
   r->attractors = (int64_t)pendres_attractors_count(set);
   pendres_attractors_free(set);
   if (status != PENDRES_OK || point->attractor.label == PENDRES_LABEL_UNRESOLVED ||
@@ -178,8 +181,11 @@ static const scene_column of_strobes[] = {
   STROBE(v, "velocity at drive phase 0"),
 };
 
-static const scene_column of_points[] = {
+static const scene_column of_exponents[] = {
   SCENE_ALONG_COLUMN(lyapunov, attractor.lyapunov, "largest Lyapunov exponent a unit time", "1"),
+};
+
+static const scene_column of_points[] = {
   SCENE_COLUMN(scene_along_row, period, "drive periods until the orbit closes", "1"),
 };
 
@@ -236,8 +242,11 @@ static pendres_status write_values(scene_run *run, const work *w)
   if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
   mark_late(run, w, rows);
   pendres_status status = SCENE_WRITE(run, &strobes, of_strobes);
+  if (status == PENDRES_OK && w->d->diagram.exponents)
+    status = SCENE_WRITE(run, &points, of_exponents);
   if (status == PENDRES_OK) status = SCENE_WRITE(run, &points, of_points);
-  if (status == PENDRES_OK) status = scene_columns_write(run, &counts, 1, &of_attractors);
+  if (status == PENDRES_OK && w->d->diagram.attractors)
+    status = scene_columns_write(run, &counts, 1, &of_attractors);
   if (status == PENDRES_OK)
     status = scene_along_write_verdicts(run, &w->path, &points);
   free(rows);
@@ -263,8 +272,8 @@ static pendres_status write_all(scene_run *run, const work *w)
   if (status == PENDRES_OK)
     status = scene_numbering(run, "strobe", w->strobes, "number of the strobe point");
   if (status == PENDRES_OK) status = write_values(run, w);
-  if (status == PENDRES_OK)
-    status = SCENE_ALONG_WRITE_JUMPS(run, &w->path, "bifurcation", of_bifurcations);
+  if (status != PENDRES_OK || !w->d->diagram.bifurcations) return status;
+  status = SCENE_ALONG_WRITE_JUMPS(run, &w->path, "bifurcation", of_bifurcations);
   return status == PENDRES_OK ? write_cascade(run, w) : status;
 }
 
@@ -272,7 +281,7 @@ static pendres_status write_all(scene_run *run, const work *w)
 
 static void tabulate(FILE *out, const work *w)
 {
-  if (out == NULL) return;
+  if (out == NULL || !w->d->diagram.bifurcations) return;
   fprintf(out, "%-10s %-28s %s\n", "ends by", deck_axis_name(w->axis), "period after");
   for (size_t i = 0; i < w->path.jumps && i < TABLE_ROWS; i++) {
     const pendres_jump *j = &w->path.jump[i];
@@ -289,9 +298,10 @@ static void tabulate(FILE *out, const work *w)
 
 static pendres_status compute(scene_run *run, work *w)
 {
+  const size_t tasks = w->values + (w->d->diagram.bifurcations != 0);
   const farm_stage path = {.what = "sweeps", .tasks = 1, .record_size = 1, .task = follow,
                            .check = check_path, .collect = collect_path, .arg = w};
-  const farm_stage strobes = {.what = "values", .last = 1, .tasks = w->values + 1,
+  const farm_stage strobes = {.what = "values", .last = 1, .tasks = tasks,
                               .record_size = 1, .task = find_strobes,
                               .check = check_strobes, .collect = collect_strobes, .arg = w};
   const pendres_status status = scene_compute(run, &path);
@@ -324,10 +334,13 @@ static void describe(const deck *d, FILE *out)
 {
   deck_axis_id axis;
   const deck_axis *a = scene_along_axis(d, &axis);
-  fprintf(out, "%lld strobe points at each of %zu values of %s from %g to %g, which grows slowly;\n"
-               "bifurcations on the way, and the cascade of doublings of the first orbit\n",
+  fprintf(out, "%lld strobe points at each of %zu values of %s from %g to %g, which grows "
+               "slowly\n",
           (long long)d->diagram.strobes, a->count, deck_axis_name(axis), a->value[0],
           a->value[a->count - 1]);
+  if (d->diagram.attractors) fprintf(out, "attractors at each value\n");
+  if (d->diagram.bifurcations)
+    fprintf(out, "bifurcations on the way, and the cascade of doublings of the first orbit\n");
 }
 
 const scene_kind scene_bifurcation_diagram = {

@@ -81,6 +81,10 @@ typedef struct pendres_options {
   int block_lanes;      /**< pendulums side by side, a multiple of 8; default 512 */
   long period_budget;   /**< drive periods after which a pendulum is unresolved; default
                              from damping and tolerance */
+  double exponent_error; /**< relative standard error of a chaotic attractor's exponent at which its
+                             averages may end, at most 1. What is told of the attractor then comes
+                             from fewer periods as well (watched_periods). Default: averages are as
+                             long as telling lasting chaos from chaos that ends takes */
   uint64_t seed;        /**< of all random numbers of noisy trajectories (langevin.h): any value;
                              zero is a seed like any other */
 } pendres_options;

@@ -51,6 +51,8 @@ static const char *resolve(pendres_options *o)
   if (o->block_lanes < 8 || o->block_lanes > MOST_LANES || o->block_lanes % 8 != 0)
     return "a block must have a multiple of 8 lanes, 8 to 4096";
   if (o->period_budget < 0) return "the budget of periods must be positive";
+  if (!(o->exponent_error >= 0.0 && o->exponent_error <= 1.0))
+    return "the wanted error of exponents must be between 0 and 1";
   return NULL;
 }
 

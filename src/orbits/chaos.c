@@ -298,6 +298,23 @@ static pendres_chaos_measures measures_of(const pendres_catalogue *c, const vigi
 
 /* ---- the verdict ---- */
 
+/*
+ * Whether nothing more is to be learned from walkers: they agree, and each by itself is chaotic.
+ * Before all of their batches are over, after a number of them that is the former one doubled, that
+ * takes an exponent as accurate as it is wanted.
+ */
+static int seen_enough(const pendres_context *ctx, const pendres_catalogue *c, const vigil *v)
+{
+  if (v->batches < BATCHES) {
+    if (v->batches != FEW_BATCHES && v->batches != BATCHES / 2) return 0;
+    const pendres_chaos_mean growth = measures_of(c, v).growth;
+    if (!(growth.error <= ctx->options.exponent_error * growth.value &&
+          growth.value > significance * growth.error && growth.value > least_growth))
+      return 0;
+  }
+  return alike(v) && calm_walkers(v) == 0;
+}
+
 /* The known chaotic attractor that more than half of the walkers' points lie on; NULL if none. */
 static pendres_cover *known_cover(const pendres_catalogue *c, const vigil *v)
 {
@@ -347,8 +364,9 @@ static pendres_status watch(pendres_context *ctx, pendres_catalogue *c, vigil *v
       v->batches = 0;
       v->trace.filled = 0;
     }
+    if (seen_enough(ctx, c, v)) break;
     if (v->batches < BATCHES) continue;
-    if ((alike(v) && calm_walkers(v) == 0) || v->length == LONGEST_BATCH) break;
+    if (v->length == LONGEST_BATCH) break;
     merge_batches(v);
   }
   const pendres_chaos_measures m = measures_of(c, v);

@@ -7,8 +7,8 @@
  *
  * Method: Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980) 9: a tangent vector is
  * advanced by the variational equation and rescaled to length one; the mean growth of its logarithm
- * is the exponent. It is carried along by a method of its own, of fourth order, which takes a tenth
- * of what a derivative of the map takes; a second one, by steps twice as long, tells its error.
+ * is the exponent. It is carried along by a method of its own, of fourth order, cheaper than
+ * derivatives of the map; a second one, by steps twice as long, tells its error.
  * Walkers are pendulums that started close together and have separated; they are followed side by
  * side. Chaos that ends is not an attractor: a walker has left it if it falls into a trap, or if
  * its tangent vector shrinks while it returns to its own past. Each walker's periods are divided
