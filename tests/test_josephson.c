@@ -66,6 +66,20 @@ static void step_and_rotation(void **state)
   pendres_hysteresis_free(h);
 }
 
+/* A value just beyond the end of a lock, where the rotation slips once in so many periods that only
+   long averages tell it: it is known what it is, as it is farther away. */
+static void just_beyond_a_step(void **state)
+{
+  pendres_hysteresis *h = sweep(*state, 2.7, 2.73, 4);
+  const pendres_jump *up = pendres_hysteresis_jump(h, 0);
+  for (size_t i = 2; i < 6; i++)
+    assert_int_equal(pendres_hysteresis_get(h, i)->attractor.label, PENDRES_LABEL_QUASI_PERIODIC);
+  assert_int_equal(pendres_hysteresis_jumps(h), 2);
+  assert_int_equal(up->kind, PENDRES_JUMP_FOLD);
+  assert_int_equal(up->to, PENDRES_LABEL_QUASI_PERIODIC);
+  pendres_hysteresis_free(h);
+}
+
 /* Up to a lock and back: it is born and ends in one fold, which is sought from its orbit. */
 static void lock_is_born(void **state)
 {
@@ -213,6 +227,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(step_and_rotation, setup, teardown),
+    cmocka_unit_test_setup_teardown(just_beyond_a_step, setup, teardown),
     cmocka_unit_test_setup_teardown(lock_is_born, setup, teardown),
     cmocka_unit_test_setup_teardown(mean_velocity, setup, teardown),
     cmocka_unit_test_setup_teardown(slips, setup, teardown),
