@@ -96,12 +96,14 @@ build_libraries()
     cp /usr/share/doc/zlib1g-dev/copyright "$static/licences/LICENSE.zlib"
     cp /usr/share/doc/librandom123-dev/copyright "$static/licences/LICENSE.Random123"
     mkdir -p "$work/hdf5"
-    # As in Debian, calls from several threads at once are safe.
+    # As in Debian, calls from several threads at once are safe. It asks for C++ without using it.
     (cd "$work/hdf5" && quiet hdf5-configure "$source/configure" --disable-shared --with-pic \
       --prefix="$static" --enable-build-mode=production --enable-threadsafe --enable-unsupported \
-      --with-default-api-version=v18 --with-zlib --without-szlib CFLAGS=-O2)
+      --with-default-api-version=v18 --with-zlib --without-szlib CFLAGS=-O2 \
+      CXX=gcc CXXCPP='gcc -E -x c')
     quiet hdf5 make -C "$work/hdf5/src" -j "$jobs" install
     quiet hdf5-hl make -C "$work/hdf5/hl/src" -j "$jobs" install
+    ln -sf "$(gcc -print-file-name=libz.a)" "$static/lib"
     mkdir -p "$static/lib/pkgconfig"
     printf '%s\n' 'Name: hdf5' 'Description: hdf5' 'Version: 1' 'Libs: -lhdf5 -lz -ldl -lm' \
       >"$static/lib/pkgconfig/hdf5.pc"
