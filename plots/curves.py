@@ -477,17 +477,22 @@ def draw_hysteresis(h, path):
 def draw_bifurcation_diagram(h, path):
     name = h.axis_of("strobe_x", 0)
     x, label = parameter_axis(h, h[name], name)
-    fig, (top, below) = figure(h, 6.0, 5.2, 2, 1, sharex=True, height_ratios=(3, 1))
+    if "lyapunov" in h:
+        fig, (top, below) = figure(h, 6.0, 5.2, 2, 1, sharex=True, height_ratios=(3, 1))
+        below.plot(x, h["lyapunov"], ".-", ms=3, lw=0.6)
+        below.axhline(0, color="0.7", lw=0.8)
+        below.set_ylabel("Lyapunov\nexponent")
+    else:
+        fig, top = figure(h, 6.0, 4.0)
+        below = top
     strobes = h["strobe_x"]
     top.plot(np.repeat(x, strobes.shape[1]), strobes.ravel(), ",", color="black", rasterized=True)
-    for value in h["cascade_parameter"]:
+    for value in h["cascade_parameter"] if "cascade_parameter" in h else ():
         top.axvline(parameter_axis(h, value, name)[0], color=SA, lw=0.6)
-    if np.isfinite(h["cascade_limit"]):
+    if "cascade_limit" in h and np.isfinite(h["cascade_limit"]):
         top.axvline(parameter_axis(h, h["cascade_limit"], name)[0], color=LA, lw=0.9, ls="--",
                     label="doublings accumulate")
         top.legend()
     top.set_ylabel("x at drive phase 0 (rad)")
-    below.plot(x, h["lyapunov"], ".-", ms=3, lw=0.6)
-    below.axhline(0, color="0.7", lw=0.8)
-    below.set(ylabel="Lyapunov\nexponent", xlabel=label)
+    below.set_xlabel(label)
     return fig

@@ -48,6 +48,9 @@ deck junction hysteresis "&pendulum drive_amplitude = 9, damping = 0.3, drive_fr
   &sweep torque_range = 1.88, 1.94, 4 / &hysteresis x = 1.6 /"
 deck doubling bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /
   &sweep drive_amplitude_range = 1.04, 1.07, 4 / &bifurcation_diagram x = 1.6, strobes = 5 /'
+deck points bifurcation_diagram '&pendulum damping = 0.5, drive_frequency = 0.6666666666666666 /
+  &sweep drive_amplitude_range = 1.04, 1.07, 4 /
+  &bifurcation_diagram x = 1.6, strobes = 5, attractors = F, bifurcations = F, exponents = F /'
 deck map lyapunov_map '&pendulum damping = 0.5 / &precision tolerance = 1e-4 /
   &sweep drive_amplitude_range = 0.9, 1.5, 6, drive_frequency_range = 0.6, 0.7, 4 /'
 deck rates switching "$p, damping = 0.12, drive_period = 7.7 / &sweep temperature = 0.02, 0.03 /
