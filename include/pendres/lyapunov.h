@@ -51,8 +51,8 @@
  *
  * Chaos that ends, or goes over into another, later than it is followed is not distinguished from
  * chaos that lasts. By default that is after 2264 drive periods. Growth is averaged over 512 of
- * them. For the last 1536 the state alone is followed, with an error of 1e-4 a period, which chaos
- * forgets: where it comes to an orbit, or its turns or mean square velocities at the strobes differ
+ * them. For the last 1536 the state alone is followed: where it comes to an orbit, or its turns
+ * or mean square velocities at the strobes differ
  * from those before by more than chance, the average is taken again. Of
  * some 200 random chaotic pendulums that were followed for 32,768 periods one in a hundred changed
  * later than that. A verdict that is certain says nothing of this.

@@ -39,11 +39,6 @@ double pendres_accuracy_to_average(const pendres_context *ctx)
   return fmax(1e-7, ctx->options.tolerance);
 }
 
-double pendres_accuracy_to_watch(const pendres_context *ctx)
-{
-  return fmax(1e-4, ctx->options.tolerance);
-}
-
 double pendres_accuracy_of_circles(const pendres_context *ctx)
 {
   return fmax(1e-11, ctx->options.tolerance);

@@ -45,11 +45,6 @@ double pendres_accuracy_to_sample(void);
    (chaos_walkers.c). */
 double pendres_accuracy_to_average(const pendres_context *ctx);
 
-/* Of chaotic pendulums whose exponent is known already, and of which only states are looked at, to
-   see whether they go on as they were. They take two thirds of the steps of the others; a
-   thousandth would take half. */
-double pendres_accuracy_to_watch(const pendres_context *ctx);
-
 /* Of the map on an invariant circle, which is interpolated: averages of it are as exact. */
 double pendres_accuracy_of_circles(const pendres_context *ctx);
 

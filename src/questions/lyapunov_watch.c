@@ -86,7 +86,8 @@ static int visit(void *arg, size_t index, const pendres_strobe_lane *l)
   return l->period >= k->from + BATCHES * k->batch || !(isfinite(l->y) && isfinite(l->w));
 }
 
-/* Begin to watch a runner, with steps that are as few as chaos allows. */
+/* Begin to watch a runner, with the steps of averages: with an error of 1e-4 a period
+   chaos was seen to miss its end in six of nineteen pendulums that leave it late. */
 static pendres_status begin(pendres_context *ctx, double accuracy, pendres_runner *r, long batch,
                             look *k, pendres_strobe_lane *lane)
 {
@@ -116,7 +117,7 @@ static void end(const look *k, const pendres_strobe_lane *lane, long batch)
 pendres_status pendres_runners_watch(pendres_context *ctx, size_t n, const size_t *which,
                                      pendres_runner *runners, long batch, long longer)
 {
-  const double accuracy = pendres_accuracy_to_watch(ctx);
+  const double accuracy = pendres_accuracy_to_average(ctx);
   pendres_status status = PENDRES_OUT_OF_MEMORY;
   look *looks = malloc((n + 1) * sizeof *looks);
   pendres_strobe_lane *lanes = malloc((n + 1) * sizeof *lanes);

@@ -2,9 +2,8 @@
  * lyapunov_watch.h -- whether chaos stays as it is.
  *
  * Owns: how sums of batches show a change in the course of time, and following chaotic pendulums on
- * after their exponent is known. That takes states alone, which need not be exact: chaos forgets
- * their errors. What has turned into something else has other mean squares of its velocity, or
- * turns by another angle.
+ * after their exponent is known. That takes states alone. What has turned into something else has
+ * another mean square of its velocity, or turns by another angle.
  */
 #ifndef PENDRES_LYAPUNOV_WATCH_H
 #define PENDRES_LYAPUNOV_WATCH_H
