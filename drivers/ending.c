@@ -98,10 +98,13 @@ int ending_watch(pendres_store *const *store)
 {
   struct sigaction action = { .sa_sigaction = at_fault, .sa_flags = SA_SIGINFO | SA_ONSTACK };
   const stack_t stack = { .ss_sp = signal_stack, .ss_size = sizeof signal_stack };
+  stack_t present = { .ss_flags = 0 };
   int bad = sigemptyset(&action.sa_mask);
   atomic_store(&whole, 0);
   if (atomic_exchange(&watched, store) != NULL) return 0;
-  bad |= sigaltstack(&stack, NULL);
+  /* A sanitizer has one of its own, which it frees. */
+  bad |= sigaltstack(NULL, &present);
+  if ((present.ss_flags & SS_DISABLE) != 0) bad |= sigaltstack(&stack, NULL);
   (void)gsl_set_error_handler_off(); /* which ends the program where GSL gets no memory */
   for (size_t i = 0; i < LENGTH(faults); i++) bad |= sigaction(faults[i], &action, &before[i]);
   bad |= atexit(at_exit);

@@ -43,9 +43,10 @@ pendres_status scene_precision(const deck *d, pendres_options *out, const char *
                             .steps_per_period = (int)d->precision.steps_per_period,
                             .block_lanes = (int)d->precision.block_lanes,
                             .period_budget = (long)d->precision.period_budget,
-                            .exponent_error = d->precision.exponent_error,
                             .seed = deck_seed(d) };
-  if (d->kind == DECK_BIFURCATION_DIAGRAM && !d->diagram.exponents) out->exponent_error = 1.0;
+  /* Other scenes ask how long chaos lasts, too: their averages are as long as the library's. */
+  if (d->kind == DECK_BIFURCATION_DIAGRAM)
+    out->exponent_error = d->diagram.exponents ? d->precision.exponent_error : 1.0;
   if (d->precision.method[0] != '\0') out->method = pendres_method_named(d->precision.method);
   if (d->precision.table[0] != '\0') out->table = pendres_table_named(d->precision.table);
   *why = pendres_options_check(out);

@@ -35,7 +35,7 @@
  *
  * A value that cannot be computed is left out, and the path goes on as if it had never been there.
  * This happens where too many steps are needed, an iteration fails, or the value would take more
- * than 2e9 evaluations of the slope, some ten seconds to a minute, or the search for the end of
+ * than 3e9 evaluations of the slope, some ten seconds to a minute, or the search for the end of
  * chaos before it would. Values that are far apart cost more than a path in smaller steps.
  *
  * Under a torque and a drive, or both drives, the pendulum may rotate without a lock to the drive.

@@ -8,8 +8,9 @@
 #include "engine/context_internal.h"
 
 /* Evaluations of the slope that one value may take. The most that was seen in sweeps of hundreds of
-   values, at a state that ends in a cascade of doublings, is a fifth of it. */
-static const double usual_slopes = 2e9;
+   values, at a state that ends in a cascade of doublings, is a fifth of it; a path of a few values
+   on which all of a cascade and a crisis lie between two of them takes two thirds. */
+static const double usual_slopes = 3e9;
 
 int pendres_path_own(pendres_status status)
 {
