@@ -284,16 +284,26 @@ static pendres_status prepare(pendres_context *ctx, const pendres_cloud_request 
   return pendres_noise_choose_steps(ctx, &r, PENDRES_LANGEVIN_CLOUD, bias_wanted, &c->bias);
 }
 
-pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_request *request,
-                                     pendres_cloud *cloud, double *x, double *v)
+/* What prepares or measures a whole cloud, in canonical units. */
+typedef pendres_status work(pendres_context *ctx, const pendres_cloud_request *q, pendres_cloud *c,
+                            double *x, double *v);
+
+static pendres_status behind_door(pendres_context *ctx, const pendres_cloud_request *request,
+                                  pendres_cloud *cloud, double *x, double *v, work *body)
 {
   pendres_door d;
   pendres_cloud_request inside;
   request = open_request(&d, ctx, request, &inside);
   announce(&d, request != NULL ? request->trajectories : 0, request, x, v);
   cloud = pendres_door_out(&d, &pendres_dim_whole_cloud, 1, cloud);
-  PENDRES_DOOR_CALL(&d, prepare(ctx, request, cloud, x, v));
+  PENDRES_DOOR_CALL(&d, body(ctx, request, cloud, x, v));
   return pendres_door_close(&d);
+}
+
+pendres_status pendres_cloud_prepare(pendres_context *ctx, const pendres_cloud_request *request,
+                                     pendres_cloud *cloud, double *x, double *v)
+{
+  return behind_door(ctx, request, cloud, x, v, prepare);
 }
 
 size_t pendres_cloud_parts(const pendres_cloud_request *request)
@@ -387,11 +397,5 @@ static pendres_status measure(pendres_context *ctx, const pendres_cloud_request 
 pendres_status pendres_cloud_measure(pendres_context *ctx, const pendres_cloud_request *request,
                                      pendres_cloud *cloud, double *x, double *v)
 {
-  pendres_door d;
-  pendres_cloud_request inside;
-  request = open_request(&d, ctx, request, &inside);
-  announce(&d, request != NULL ? request->trajectories : 0, request, x, v);
-  cloud = pendres_door_out(&d, &pendres_dim_whole_cloud, 1, cloud);
-  PENDRES_DOOR_CALL(&d, measure(ctx, request, cloud, x, v));
-  return pendres_door_close(&d);
+  return behind_door(ctx, request, cloud, x, v, measure);
 }

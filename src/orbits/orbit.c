@@ -155,12 +155,13 @@ static pendres_orbit_spectrum spectrum_of(const result *coarse, const result *fi
  * rounding comes in every period, be it the worst. Or all steps round alike: with A the rate of the
  * linear motion, a step of length h then leaves (1 - exp(A h))^-1 of what it rounds, some
  * 1/(h |A|), in place of the root of their number. A linear force has all of a pattern's
- * response at one frequency: half of the worst is seen where that is the drive's.
+ * response at one frequency: half of the worst is seen where that is the drive's. noise: the root
+ * of the number of steps.
  */
-static double at_rest(const pendres_newton_candidate *c, const result *fine, double last_place)
+static double excess_of_rounding(const pendres_newton_candidate *c, const result *fine,
+                                 double last_place, double noise)
 {
   static const double worst = 4.0;
-  const double noise = sqrt(c->steps * (double)c->guess->period);
   const pendres_pendulum *p = &c->guess->pendulum;
   double force, slope;
   const int swings = fine->measures.amplitude > worst * last_place * fine->noise.along;
@@ -177,7 +178,7 @@ static void fill(const pendres_newton_candidate *c, const result *coarse, const 
   const double noise = sqrt(c->steps * (double)c->guess->period); /* steps round at random */
   const double size = fmax(fine->measures.amplitude, fmax(fabs(fine->y), fabs(fine->w)));
   double last_place = fmax(rounding * size, DBL_TRUE_MIN);
-  last_place *= at_rest(c, fine, last_place);
+  last_place *= excess_of_rounding(c, fine, last_place, noise);
   const double there = hypot(fine->y - coarse->y, fine->w - coarse->w);
   const double along = pendres_orbit_measures_apart(&coarse->measures, &fine->measures,
                                                     c->guess->period);
