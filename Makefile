@@ -30,7 +30,7 @@
 # instruction sets).
 #
 # Conventions:
-# - src/*/*.c make the library. src/*/kernels*.c are compiled once for each instruction set, with
+# - All of src makes the library. src/*/kernels*.c are compiled once for each instruction set, with
 #   PENDRES_KERNELS set to its name; the program chooses when it runs. Nothing else is compiled
 #   for more than the baseline, so what was built here runs anywhere.
 # - Everything is hidden unless a public header says otherwise: each header in include/pendres
@@ -166,7 +166,7 @@ LINK = $(CC) $(CFLAGS) $(SANITIZER) $(LDFLAGS)
 # ---- Sources and products --------------------------------------------------------------------
 
 KERNEL_SOURCES := $(wildcard src/*/kernels*.c)
-LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c))
+LIBRARY_SOURCES := $(filter-out $(KERNEL_SOURCES),$(wildcard src/*/*.c src/*/*/*.c))
 # One of these is the program's: drivers/farm/ranks.h.
 RANKS := $(if $(filter-out 0,$(MPI)),mpi,serial)
 OTHER_RANKS := $(filter-out %_$(RANKS).c,$(wildcard drivers/farm/ranks_*.c))
@@ -222,7 +222,7 @@ $(BUILD)/flags: ;
 # What the program was made of, whatever the compiler and the folder: a journal of other sources is
 # refused.
 ifneq ($(BUILDING),)
-SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] drivers/*.[ch] drivers/*/*.[ch])) | cksum)
+SOURCES_SUM := $(shell cat $(sort $(HEADERS) $(wildcard src/*/*.[ch] src/*/*/*.[ch] drivers/*.[ch] drivers/*/*.[ch])) | cksum)
 ifneq ($(SOURCES_SUM),$(strip $(file <$(BUILD)/sources)))
 $(file >$(BUILD)/sources,$(SOURCES_SUM))
 endif
@@ -258,7 +258,8 @@ endef
 $(foreach s,$(SETS),$(eval $(call KERNEL_RULE,$(s))))
 
 # The list of members is a prerequisite too: a file taken away leaves the archive.
-ARCHIVE = @rm -f $@; echo "  AR  $@"; $(AR) rcs $@ $(filter %.o,$^)
+# Members may have one name, from different folders: they are appended, not replaced.
+ARCHIVE = @rm -f $@; echo "  AR  $@"; $(AR) qcs $@ $(filter %.o,$^)
 
 $(STATIC): $(LIBRARY_OBJECTS)
 	$(ARCHIVE)
@@ -328,7 +329,7 @@ $(SCRIPT_NAMES:%=run/%): run/%: tests/%.sh all
 	+@$(RUN_ENVIRONMENT) MAKE='$(MAKE)' tests/run.sh $(BUILD)/results/$* $(TEST_TIMEOUT) sh $<
 
 # Of the library and the program what reads, and no more: the rest would take minutes to compile.
-FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/questions/sweep.o \
+FUZZED_OBJECTS := $(filter $(addprefix $(OBJ)/,src/base/% src/model/% src/store/% src/analysis/sweeps/sweep.o \
   drivers/deck/% drivers/farm/journal% drivers/farm/record.o drivers/terminal/safe_text.o drivers/system/% \
   drivers/apart.o drivers/ending.o drivers/options.o drivers/shard.o drivers/verify.o), \
   $(LIBRARY_OBJECTS) $(DRIVER_OBJECTS))

@@ -108,7 +108,7 @@ static double estimate_memory(const deck *d, const farm_trial *t, int threads)
   double grid = size_of(d)->memory * points_of(d);
   /* Rows are written as they come; records that wait for their turn have this much (crew.c). */
   if (d->kind == DECK_BASINS && !d->basins.refine) grid = fmin(grid, 64e6);
-  /* Whole points are in memory as long as they are few (scene_spill.h). */
+  /* Whole points are in memory as long as they are few (scenes/spill.h). */
   if (d->kind == DECK_RESPONSE) grid += fmin(7e3 * points_of(d), 64e6);
   if (d->kind == DECK_PHASE_DIAGRAM && t != NULL) grid += record_memory * t->journal;
   return program_memory + thread_memory * threads + grid + 16.0 * strobes_of(d);

@@ -16,7 +16,7 @@
 #include "ending.h"
 #include "estimate.h"
 #include "farm/ranks.h"
-#include "deck/deck_explain.h"
+#include "deck/explain.h"
 #include "files.h"
 #include "options.h"
 #include "provenance.h"

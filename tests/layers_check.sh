@@ -10,7 +10,8 @@ complain()
 }
 
 # Layers from the bottom up. A file includes what is in its own folder or in one before it.
-src_layers='base model engine orbits noise continuation questions reference store'
+src_layers='base model engine orbits noise continuation analysis/basins analysis/resonance
+  analysis/phase_diagram analysis/chaos analysis/sweeps reference store'
 drivers_layers='system terminal farm validation deck scenes .'
 
 # Doors: the headers of a folder that other folders may include.
@@ -21,19 +22,20 @@ src_doors='base/angles.h base/grow.h base/guard.h base/instructions.h base/mix.h
   orbits/attractor_internal.h orbits/catalogue.h orbits/escape.h orbits/linear.h orbits/label.h orbits/orbit_error.h
   orbits/orbit_measure.h orbits/orbit_newton.h orbits/orbit_pair.h orbits/orbit_prime.h
   orbits/orbit_reading.h orbits/orbit_sample.h
-  orbits/settle.h orbits/settle_lanes.h
-  noise/langevin_moving.h noise/noise_common.h continuation/continuation_equations.h continuation/continuation_parameter.h
-  continuation/continuation_arc.h continuation/continuation_branch.h
-  continuation/continuation_families.h continuation/continuation_units.h'
+  orbits/settle.h orbits/settle_lanes.h orbits/small_end.h orbits/smooth.h
+  noise/langevin_moving.h noise/noise_common.h continuation/equations.h continuation/parameter.h
+  continuation/arc.h continuation/branch.h
+  continuation/families.h continuation/units.h
+  analysis/resonance/response_members.h analysis/chaos/lyapunov_move.h'
 drivers_doors='system/bytes.h system/clock.h system/grow.h system/own_file.h terminal/progress.h terminal/safe_text.h terminal/signals.h farm/farm.h farm/journal.h farm/ranks.h
-  farm/trial.h deck/deck.h deck/deck_explain.h scenes/scene.h validation/contest.h
+  farm/trial.h deck/deck.h deck/explain.h scenes/scene.h validation/contest.h
   validation/hard_cases.h'
 
 
 # includes TOP: "file header" for every header of TOP itself that a file of TOP includes.
 includes()
 {
-  (cd "$1" && for file in *.[ch] */*.[ch]; do
+  (cd "$1" && for file in *.[ch] */*.[ch] */*/*.[ch]; do
     [ -f "$file" ] && sed -n "s|^ *# *include \"\([^\"]*\)\".*|$file \1|p" "$file"
   done)
 }
@@ -42,7 +44,7 @@ includes()
 check_folders()
 {
   includes "$1" | awk -v top="$1" -v layers="$2" -v doors="$3" '
-    function folder(name) { return name ~ /\// ? substr(name, 1, index(name, "/") - 1) : "." }
+    function folder(name) { return name ~ /\// ? substr(name, 1, match(name, /\/[^\/]*$/) - 1) : "." }
     BEGIN {
       n = split(layers, layer); for (i = 1; i <= n; i++) height[layer[i]] = i
       n = split(doors, door); for (i = 1; i <= n; i++) open[door[i]] = 1
@@ -77,7 +79,7 @@ only()
 {
   pattern=$1
   shift
-  for file in $(grep -lE "^ *# *include *[<\"]($pattern)" src/*/*.[ch] include/pendres/*.h \
+  for file in $(grep -lE "^ *# *include *[<\"]($pattern)" src/*/*.[ch] src/*/*/*.[ch] include/pendres/*.h \
     drivers/*.[ch] drivers/*/*.[ch] 2>/dev/null); do
     for allowed in "$@"; do
       case $file in $allowed) continue 2 ;; esac

@@ -10,7 +10,7 @@
 #include <pendres/reference.h>
 
 #include "golden.h"
-#include "reference/reference_taylor.h"
+#include "reference/taylor.h"
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 

@@ -10,7 +10,7 @@
 #endif
 
 #include "check.h"
-#include "store/store_internal.h" /* to look at HDF5's own state */
+#include "store/internal.h" /* to look at HDF5's own state */
 
 #include <dirent.h>
 #include <stdlib.h>

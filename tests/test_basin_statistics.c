@@ -8,7 +8,7 @@
 
 #include <pendres/reference.h>
 
-#include "questions/basin_uncertainty.h"
+#include "analysis/basins/uncertainty.h"
 #include "engine/context_internal.h"
 
 /* ---- grids that are shifted by parts of a step ---- */

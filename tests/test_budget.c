@@ -12,7 +12,7 @@
 
 #include "farm/farm.h"
 #include "farm/journal.h"
-#include "scenes/scene_failed.h"
+#include "scenes/failed.h"
 
 enum { TASKS = 20, ENDLESS = 12 };
 

@@ -10,7 +10,7 @@
 #include <pendres/rotation.h>
 
 #include "context_fixture.h"
-#include "questions/circles.h"
+#include "analysis/sweeps/circles.h"
 #include "rotation_fixture.h"
 
 /* Circles over a range of torques, next to one of them; the caller frees. */

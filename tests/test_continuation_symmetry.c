@@ -13,7 +13,7 @@
 #include <pendres/reference.h>
 
 #include "branch_fixture.h"
-#include "continuation/continuation_branch.h"
+#include "continuation/branch.h"
 
 static const double half_pi = 1.57079632679489661923;
 

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck_explain.h"
-#include "deck/deck_table.h"
+#include "deck/explain.h"
+#include "deck/table.h"
 
 static char *explained(const char *word)
 {

@@ -11,7 +11,7 @@
 #include <pendres/strobe.h>
 
 #include "context_fixture.h"
-#include "questions/hysteresis_path.h"
+#include "analysis/sweeps/hysteresis_path.h"
 
 static int setup_exact(void **state)
 {

@@ -9,7 +9,7 @@
 #include <pendres/response.h>
 
 #include "context_fixture.h"
-#include "questions/hysteresis_jump.h"
+#include "analysis/sweeps/hysteresis_jump.h"
 
 /* A fractal boundary between two states: of the ensemble's members some are uncertain. */
 static const pendres_pendulum fractal = {.drive_amplitude = 0.3629997361386908,

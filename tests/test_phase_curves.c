@@ -5,7 +5,7 @@
 #include "phase_diagram_fixture.h"
 
 #include "oracle.h"
-#include "questions/phase_line.h"
+#include "analysis/phase_diagram/line.h"
 
 /* ---- what curves through other dampings know ---- */
 

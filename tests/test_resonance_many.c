@@ -9,7 +9,7 @@
 
 #include <pendres/pendres.h>
 
-#include "questions/resonance_work.h"
+#include "analysis/resonance/work.h"
 
 enum { MOST = 20 };
 

@@ -13,7 +13,7 @@
 #include <pendres/pendres.h>
 
 #include "engine/context_internal.h"
-#include "questions/resonance_work.h"
+#include "analysis/resonance/work.h"
 
 enum { FREQUENCIES = 100 };
 

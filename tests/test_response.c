@@ -9,9 +9,9 @@
 #include <pendres/pendres.h>
 #include <pendres/reference.h>
 
-#include "questions/response_internal.h"
+#include "analysis/resonance/response_internal.h"
 
-#include "questions/response_loop.h"
+#include "analysis/resonance/response_loop.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -4,7 +4,7 @@
  */
 #include "scene_fixture.h"
 
-#include "scenes/scene_failed.h"
+#include "scenes/failed.h"
 
 /* Codes of a variable. */
 static void get_codes(const char *file, const char *name, int *codes, size_t n)

@@ -6,10 +6,10 @@
 
 #include <pendres/pendres.h>
 
-#include "scenes/scene_basins.h"
-#include "scenes/scene_failed.h"
+#include "scenes/basins.h"
+#include "scenes/failed.h"
 
-/* Clouds alone, as scene_basins.c asks for them. */
+/* Clouds alone, as scenes/basins.c asks for them. */
 static pendres_status run_clouds(scene_run *run)
 {
   const pendres_pendulum p = { .damping = run->deck->pendulum.damping,

@@ -4,8 +4,8 @@
  */
 #include "scene_fixture.h"
 
-#include "scenes/scene_failed.h"
-#include "scenes/scene_peak.h"
+#include "scenes/failed.h"
+#include "scenes/peak.h"
 
 /* Asked for the `limit`-th time, the farm is told to stop. */
 typedef struct stopper {

@@ -5,7 +5,7 @@
  */
 #include "driver_run.h"
 
-#include "scenes/scene_spill.h"
+#include "scenes/spill.h"
 
 enum { ELEMENTS = 1000, SIZE = 24 };
 

@@ -2,8 +2,8 @@
  * deck.h -- what a run computes: a deck, checked and complete, as one plain struct.
  *
  * Owns: the meaning of groups and keys. namelist.h turns text into a tree; the table in
- * deck_table.c says which scene takes which key, of what type, in what range and with what
- * default; deck_check.c holds what concerns several keys at once.
+ * table.c says which scene takes which key, of what type, in what range and with what
+ * default; check.c holds what concerns several keys at once.
  *
  * Units are those of the dimensionless equation x'' + g x' - cos x = F0 cos wt + noise: see
  * <pendres/pendulum.h>. Thread safe: no state outside the arguments.

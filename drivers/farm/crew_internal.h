@@ -8,7 +8,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#include "farm/farm_internal.h"
+#include "farm/internal.h"
 
 /* A record that waits for its turn to be collected. */
 typedef struct kept {

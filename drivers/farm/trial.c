@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "farm/farm_internal.h"
+#include "farm/internal.h"
 #include "system/clock.h"
 
 /* Of a task's record in the journal, beside its data. */

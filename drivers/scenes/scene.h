@@ -25,7 +25,7 @@ typedef struct scene_run {
   pendres_store *store;
   FILE *table;          /* where the short table of results goes; NULL: nowhere */
   size_t failed_points; /* points without a result (marked in the file): exit code 3 */
-  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines about the first of them, see scene_failed.h */
+  char told[SCENE_MOST_TOLD][SCENE_TOLD]; /* lines about the first of them, see failed.h */
   size_t told_count;
   char message[512];    /* why run() failed */
 } scene_run;

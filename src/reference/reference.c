@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "reference/reference_taylor.h"
+#include "reference/taylor.h"
 
 static pendres_status check_start(const pendres_pendulum *p, long double y, long double v,
                                   long periods, pendres_reference_model *model)

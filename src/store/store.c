@@ -2,12 +2,12 @@
  * store.c -- the life of a store: create, open, flush, close, abandon; and its messages.
  *
  * Owns: the HDF5 file handle, the way into and out of each public call, and the root attributes.
- * A file is complete or absent: HDF5 writes PATH.part through store_driver.c, store_file.c makes
+ * A file is complete or absent: HDF5 writes PATH.part through driver.c, file.c makes
  * it PATH. HDF5 prints errors by itself unless told not to: each call silences that and puts the
  * setting of the caller back.
  * Source of the layout: CF Conventions 1.8; HDF5 Dimension Scale specification 1.0.
  */
-#include "store/store_internal.h"
+#include "store/internal.h"
 
 #include <stdarg.h>
 #include <stdio.h>

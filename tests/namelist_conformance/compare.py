@@ -145,7 +145,7 @@ def build(folder):
     sources = [os.path.join(HERE, 'ours.c')] + sorted(glob.glob(os.path.join(TOP, 'drivers', 'deck', '*.c')))
     sources.append(os.path.join(TOP, 'drivers', 'terminal', 'safe_text.c'))
     sources.append(os.path.join(TOP, 'drivers', 'system', 'grow.c'))
-    sources.append(os.path.join(TOP, 'src', 'questions', 'sweep.c'))  # what lists and ranges make of an axis
+    sources.append(os.path.join(TOP, 'src', 'analysis', 'sweeps', 'sweep.c'))  # what lists and ranges make of an axis
     sources.append(os.path.join(TOP, 'src', 'model', 'model.c'))  # which coefficients a force has
     sources += [os.path.join(TOP, 'src', 'model', f) for f in ('units.c', 'units_table.c')]  # a pendulum's units
     subprocess.run(cc + ['-std=c11', '-O1', '-I' + os.path.join(TOP, 'include'),

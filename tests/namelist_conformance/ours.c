@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "deck/deck_table.h"
+#include "deck/table.h"
 
 typedef enum kind { INTEGER, REAL, LOGICAL, STRING } kind;
 

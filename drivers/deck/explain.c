@@ -1,0 +1,440 @@
+/* explain.c -- the table of keys in words, for readers; see explain.h. */
+#include "deck/explain.h"
+#include "deck/table.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { COLUMNS = 96, SENTENCE = 1200 };
+
+/* ---- one key in words ---------------------------------------------------------------------- */
+
+/* Append to a text of SENTENCE bytes. */
+static void add(char *text, const char *more)
+{
+  const size_t n = strlen(text);
+  snprintf(text + n, SENTENCE - n, "%s", more);
+}
+
+static void add_number(char *text, double x)
+{
+  char number[DECK_DECIMAL];
+  if (x == floor(x) && fabs(x) < 1e6) snprintf(number, sizeof number, "%.0f", x);
+  else if (x == floor(x)) snprintf(number, sizeof number, "%.3g", x);
+  else deck_decimal(x, number);
+  add(text, number);
+}
+
+static int is_number(const deck_key *key)
+{
+  return key->type == DECK_REAL || key->type == DECK_INTEGER || key->type == DECK_BOUNDS ||
+         key->type == DECK_NUMBERS || key->type == DECK_LIST || key->type == DECK_SWEEP ||
+         key->type == DECK_SWEEP_VALUE;
+}
+
+/* "'sa', 'la'", without the empty choice, which stands for none. */
+static void add_choices(char *text, const deck_key *key)
+{
+  const char *comma = "";
+  for (size_t i = 0; key->choices[i] != NULL; i++) {
+    if (key->choices[i][0] == '\0') continue;
+    add(text, comma);
+    add(text, "'");
+    add(text, key->choices[i]);
+    add(text, "'");
+    comma = ", ";
+  }
+}
+
+/* What may stand behind the equals sign: "a number from 0 to 1e+06". */
+static void add_form(char *text, const deck_key *key)
+{
+  static const char *const form[] = {
+    [DECK_REAL] = "a number", [DECK_INTEGER] = "a whole number",
+    [DECK_LOGICAL] = ".true. or .false.", [DECK_STRING] = "a string", [DECK_CHOICE] = "one of ",
+    [DECK_CHOICES] = "some of ", [DECK_BOUNDS] = "two ascending numbers",
+    [DECK_NUMBERS] = "some numbers, each", [DECK_LIST] = "numbers, each", [DECK_SWEEP] = "numbers",
+    [DECK_SWEEP_VALUE] = "a number",
+  };
+  add(text, form[key->type]);
+  if (key->choices != NULL) add_choices(text, key);
+  if (!is_number(key)) return;
+  add(text, key->open ? " above " : " from ");
+  add_number(text, key->low);
+  add(text, key->open ? " and below " : " to ");
+  add_number(text, key->high);
+}
+
+static void add_unit(char *text, const deck_key *words)
+{
+  if (words->unit == NULL || strcmp(words->unit, "1") == 0) return;
+  add(text, ", in ");
+  add(text, words->unit);
+}
+
+static int is_by_drive(const deck_key *key)
+{
+  return key->when == DECK_BY_FREQUENCY || key->when == DECK_BY_PERIOD;
+}
+
+/* Add its default as decks write it; returns 0 if there is none. */
+static int add_default(char *text, const deck_key *key)
+{
+  if (key->type == DECK_LOGICAL) {
+    add(text, key->number != 0.0 ? ".true." : ".false.");
+  } else if (key->type == DECK_CHOICE && key->text != NULL) {
+    add(text, "'");
+    add(text, key->text);
+    add(text, "'");
+  } else if (key->type == DECK_BOUNDS) {
+    add_number(text, key->number);
+    add(text, ", ");
+    add_number(text, key->number2);
+  } else if ((key->type == DECK_REAL || key->type == DECK_INTEGER) && !isnan(key->number)) {
+    add_number(text, key->number);
+  } else {
+    return 0;
+  }
+  return 1;
+}
+
+/* For a parameter of &pendulum that may be an axis of &sweep, or the reverse: the other group, if
+   all these scenes take it there; else NULL. */
+static const char *other_group(const deck_key *key, unsigned scenes)
+{
+  const char *other = strcmp(key->group, "pendulum") == 0 ? "sweep"
+                      : strcmp(key->group, "sweep") == 0  ? "pendulum"
+                                                          : NULL;
+  unsigned taken = 0;
+  for (size_t i = 0; i < deck_table_size && other != NULL; i++)
+    if (strcmp(deck_table[i].group, other) == 0 && strcmp(deck_table[i].name, key->name) == 0)
+      taken |= deck_table[i].scenes;
+  return (taken & scenes) == scenes ? other : NULL;
+}
+
+/* Say that it must be given in that scene (0: in all scenes that take it), or else its default. */
+static void add_need(char *text, const deck_key *key, unsigned scene)
+{
+  const unsigned scenes = scene != 0 ? scene : key->scenes;
+  if ((key->needed & scenes) == scenes) {
+    add(text, "needed");
+    if (other_group(key, scenes) == NULL) return;
+    add(text, ", in &");
+    add(text, other_group(key, scenes));
+    add(text, " or here");
+  }
+  else if (is_by_drive(key)) add(text, "one of the two is needed");
+  else if (!add_default(text, key)) add(text, "none");
+}
+
+/* The condition under which a key has an effect, in words; NULL: always. */
+static const char *condition(const deck_key *key)
+{
+  switch (key->when) {
+  case DECK_WITH_NOISE: return "only with a temperature above 0";
+  case DECK_WITH_RAMP: return "only with 'rate' or 'protocol'";
+  case DECK_WITHOUT_START: return "only where 'start' is not given";
+  case DECK_OFF_LINE: return "only with shape = 'rectangle' or 'random'";
+  case DECK_IN_RECTANGLE: return "only with shape = 'rectangle'";
+  case DECK_AT_RANDOM: return "only with shape = 'random'";
+  case DECK_WITH_SEARCH: return "only where a resonance is looked for";
+  default: return NULL;
+  }
+}
+
+/* "drive_amplitude" or, for an axis that may be a range too, "damping, damping_range". */
+static void add_names(char *text, const deck_key *key, const char *quote)
+{
+  char names[4 * DECK_NAME];
+  snprintf(names, sizeof names,
+           deck_table_has_range(key) ? "%s%s%s, %s%s_range%s" : "%s%s%s", quote, key->name, quote,
+           quote, key->name, quote);
+  add(text, names);
+}
+
+static void add_scenes(char *text, unsigned scenes)
+{
+  const char *comma = "";
+  if (scenes == (1u << DECK_KIND_COUNT) - 1u) {
+    add(text, "all");
+    return;
+  }
+  for (int k = 0; k < DECK_KIND_COUNT; k++) {
+    if ((scenes & (1u << k)) == 0) continue;
+    add(text, comma);
+    add(text, deck_kind_name((deck_kind)k));
+    comma = ", ";
+  }
+}
+
+/* ---- paragraphs ---------------------------------------------------------------------------- */
+
+/* Write words in lines that begin with `margin`; repeated blanks are written as one. */
+static void write_wrapped(FILE *out, const char *margin, const char *words)
+{
+  size_t column = 0;
+  while (*words != '\0') {
+    const size_t n = strcspn(words, " ");
+    if (column == 0 || column + 1 + n > COLUMNS) {
+      fprintf(out, "%s%s%.*s", column == 0 ? "" : "\n", margin, (int)n, words);
+      column = strlen(margin) + n;
+    } else {
+      fprintf(out, " %.*s", (int)n, words);
+      column += 1 + n;
+    }
+    words += n + strspn(words + n, " ");
+  }
+  fprintf(out, "\n");
+}
+
+/* " damping = a number ..., in omega0; needed" and, indented, what it means. scene 0: all
+   scenes. */
+static void explain_key(FILE *out, const char *margin, const deck_key *key, unsigned scene)
+{
+  const deck_key *words = deck_table_words(key);
+  char text[SENTENCE] = "", inner[32];
+  snprintf(inner, sizeof inner, "%s    ", margin);
+  add_names(text, key, "");
+  add(text, " = ");
+  add_form(text, key);
+  add_unit(text, words);
+  add(text, "; ");
+  if ((key->needed & (scene != 0 ? scene : key->scenes)) == 0 && !is_by_drive(key))
+    add(text, "default ");
+  add_need(text, key, scene);
+  write_wrapped(out, margin, text);
+  write_wrapped(out, inner, words->meaning);
+  if (condition(key) != NULL) write_wrapped(out, inner, condition(key));
+  if (scene != 0) return;
+  snprintf(text, sizeof text, "scenes: ");
+  add_scenes(text, key->scenes);
+  write_wrapped(out, inner, text);
+}
+
+/* ---- kinds, groups, keys ------------------------------------------------------------------- */
+
+void deck_list(FILE *out)
+{
+  for (int k = 0; k < DECK_KIND_COUNT; k++)
+    fprintf(out, "%-17s %s\n", deck_kind_name((deck_kind)k), deck_kind_words((deck_kind)k));
+}
+
+static int find_kind(const char *word)
+{
+  for (int k = 0; k < DECK_KIND_COUNT; k++)
+    if (strcmp(word, deck_kind_name((deck_kind)k)) == 0) return k;
+  return -1;
+}
+
+static void explain_kind(FILE *out, int kind)
+{
+  const unsigned scene = 1u << kind;
+  const char *group = NULL;
+  fprintf(out, "%s: %s\n", deck_kind_name((deck_kind)kind), deck_kind_words((deck_kind)kind));
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if ((key->scenes & scene) == 0) continue;
+    if (group == NULL || strcmp(group, key->group) != 0) fprintf(out, "\n&%s\n", key->group);
+    group = key->group;
+    explain_key(out, "  ", key, scene);
+  }
+}
+
+/* Explain the rows of a group and a name, either of which may be NULL for any; returns how many. */
+static size_t explain_rows(FILE *out, const char *group, const char *name)
+{
+  const char *shown = NULL;
+  size_t found = 0;
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    int range = 0;
+    if (key->scenes == 0 || (group != NULL && strcmp(group, key->group) != 0)) continue;
+    if (name != NULL && !deck_table_matches(key, name, &range)) continue;
+    if (shown == NULL || strcmp(shown, key->group) != 0)
+      fprintf(out, "%s&%s\n", found > 0 ? "\n" : "", key->group);
+    shown = key->group;
+    explain_key(out, "  ", key, 0);
+    found++;
+  }
+  return found;
+}
+
+/* Report an unknown word, with the nearest known one. */
+static pendres_status unknown_word(const char *word, int only_kinds, char *why, size_t size)
+{
+  deck_suggestion s = { .word = word };
+  char hint[2 * DECK_NAME];
+  for (int k = 0; k < DECK_KIND_COUNT; k++) deck_suggest(&s, deck_kind_name((deck_kind)k));
+  for (size_t i = 0; i < deck_table_size && !only_kinds; i++)
+    if (deck_table[i].scenes != 0) deck_suggest(&s, deck_table[i].name);
+  if (s.best == NULL && !only_kinds) s.best = deck_synonym(word);
+  snprintf(why, size, "'%.60s' is no kind of scene%s%s; --list names the kinds", word,
+           only_kinds ? "" : ", group or key", deck_suggestion_text(&s, hint, sizeof hint));
+  return PENDRES_INVALID_ARGUMENT;
+}
+
+pendres_status deck_explain(const char *word, FILE *out, char *why, size_t size)
+{
+  const int kind = find_kind(word);
+  const char *dot = strchr(word, '.');
+  char group[DECK_NAME];
+  if (kind >= 0) {
+    explain_kind(out, kind);
+    return PENDRES_OK;
+  }
+  if (dot != NULL) {
+    snprintf(group, sizeof group, "%.*s", (int)(dot - word), word);
+    if (explain_rows(out, group, dot + 1) > 0) return PENDRES_OK;
+  } else if (explain_rows(out, word, NULL) > 0 || explain_rows(out, NULL, word) > 0) {
+    return PENDRES_OK;
+  }
+  return unknown_word(word, 0, why, size);
+}
+
+/* ---- a deck to start from ------------------------------------------------------------------ */
+
+/* "  ! meaning: what it takes, in its unit; when". */
+static void init_comment(FILE *out, const deck_key *key)
+{
+  const deck_key *words = deck_table_words(key);
+  char text[SENTENCE] = "";
+  add(text, words->meaning);
+  add(text, ": ");
+  if (deck_table_has_range(key))
+    add(text, key->example != NULL ? "first, last, count of " : "list of ");
+  add_form(text, key);
+  add_unit(text, words);
+  if (condition(key) != NULL) add(text, "; ");
+  if (condition(key) != NULL) add(text, condition(key));
+  fprintf(out, "\n");
+  write_wrapped(out, "  ! ", text);
+}
+
+static void init_key(FILE *out, const deck_key *key, int kind)
+{
+  const char *range = key->example != NULL && deck_table_has_range(key) ? "_range" : "";
+  char value[SENTENCE] = "";
+  init_comment(out, key);
+  if (key->offset == offsetof(deck, kind) && key->type == DECK_CHOICE)
+    fprintf(out, "  %s = '%s'\n", key->name, deck_kind_name((deck_kind)kind));
+  else if (key->example != NULL)
+    fprintf(out, "  %s%s = %s\n", key->name, range, key->example);
+  else
+    fprintf(out, "  ! %s = %s\n", key->name, add_default(value, key) ? value : "...");
+}
+
+pendres_status deck_init(const char *word, FILE *out, char *why, size_t size)
+{
+  const int kind = find_kind(word);
+  const char *group = NULL;
+  if (kind < 0) return unknown_word(word, 1, why, size);
+  fprintf(out, "! %s: %s.\n! Keys that are comments have the values that stand there by default.\n",
+          deck_kind_name((deck_kind)kind), deck_kind_words((deck_kind)kind));
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if ((key->scenes & 1u << kind) == 0) continue;
+    /* A key of &pendulum that holds one value of an axis is left out, unless it has an example. */
+    if (key->type == DECK_SWEEP_VALUE && key->example == NULL) continue;
+    if (group == NULL || strcmp(group, key->group) != 0)
+      fprintf(out, "%s\n&%s", group != NULL ? "/\n" : "", key->group);
+    group = key->group;
+    init_key(out, key, kind);
+  }
+  fprintf(out, "/\n");
+  return PENDRES_OK;
+}
+
+/* ---- the page of the reference ------------------------------------------------------------- */
+
+static const char page_head[] =
+  "# Decks: kinds and keys\n"
+  "\n"
+  "<!-- Written by `make decks-reference` from the table that the reader checks decks by: change\n"
+  "     drivers/deck/table.c instead. -->\n"
+  "\n"
+  "A deck is a Fortran namelist: groups `&name ... /` of keys, `name = value`. Comments start\n"
+  "with `!`. `resonance --list` names the kinds of scenes, `resonance --explain=damping` tells\n"
+  "what stands here of a kind, group or key, and `resonance --init=response` prints a deck to\n"
+  "start from.\n"
+  "\n"
+  "The pendulum obeys x'' + gamma x' - cos x = F0 cos(omega t) + noise. Times are in units of\n"
+  "1/omega0, where omega0 = sqrt(g/l) is the angular frequency of small oscillations without\n"
+  "drive; torques and energies are in units of m g l.\n"
+  "\n"
+  "An axis NAME of `&sweep` takes values, `NAME = v1, v2, ...`, a range, `NAME_range = first,\n"
+  "last, count`, or both, which are united.\n";
+
+/* In a cell of a table a bar would end the cell. */
+static void write_cell(FILE *out, const char *text)
+{
+  fputc(' ', out);
+  for (; *text != '\0'; text++) {
+    if (*text == '|') fputc('\\', out);
+    fputc(*text, out);
+  }
+  fputs(" |", out);
+}
+
+static void reference_kind(FILE *out, deck_kind kind)
+{
+  const unsigned scene = 1u << kind;
+  char needed[SENTENCE] = "", others[SENTENCE] = "";
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if ((key->scenes & scene) == 0 || strcmp(key->group, "scene") == 0) continue;
+    char *list = (key->needed & scene) != 0 ? needed : others;
+    add(list, list[0] == '\0' ? "`" : ", `");
+    add(list, key->group);
+    add(list, ".");
+    add(list, key->name);
+    add(list, "`");
+    if (list == others || other_group(key, scene) == NULL) continue;
+    add(list, " (or in `&");
+    add(list, other_group(key, scene));
+    add(list, "`)");
+  }
+  fprintf(out, "\n### %s\n\nComputes: %s.\n\n", deck_kind_name(kind), deck_kind_words(kind));
+  if (needed[0] != '\0') fprintf(out, "Needs %s.\n\n", needed);
+  fprintf(out, "Takes %s.\n", others);
+}
+
+static void reference_key(FILE *out, const deck_key *key)
+{
+  const deck_key *words = deck_table_words(key);
+  char cell[SENTENCE] = "";
+  fputs("|", out);
+  add_names(cell, key, "`");
+  write_cell(out, cell);
+  snprintf(cell, sizeof cell, "%s%s%s", words->meaning, condition(key) != NULL ? "; " : "",
+           condition(key) != NULL ? condition(key) : "");
+  write_cell(out, cell);
+  write_cell(out, words->unit != NULL ? words->unit : "");
+  cell[0] = '\0';
+  add_form(cell, key);
+  write_cell(out, cell);
+  cell[0] = '\0';
+  add_need(cell, key, 0);
+  write_cell(out, cell);
+  cell[0] = '\0';
+  add_scenes(cell, key->scenes);
+  write_cell(out, cell);
+  fputs("\n", out);
+}
+
+void deck_reference(FILE *out)
+{
+  const char *group = NULL;
+  fputs(page_head, out);
+  fputs("\n## Kinds\n", out);
+  for (int k = 0; k < DECK_KIND_COUNT; k++) reference_kind(out, (deck_kind)k);
+  fputs("\n## Keys\n", out);
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if (key->scenes == 0) continue;
+    if (group == NULL || strcmp(group, key->group) != 0)
+      fprintf(out, "\n### &%s\n\n| key | meaning | unit | takes | default | scenes |\n"
+                   "|---|---|---|---|---|---|\n", key->group);
+    group = key->group;
+    reference_key(out, key);
+  }
+}

@@ -1,0 +1,221 @@
+/* read.c -- from the tree of a namelist to a checked deck; see deck.h. */
+#include "deck/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void read_key(deck_builder *b, const namelist_group *g, const namelist_assignment *a,
+                     const char *group)
+{
+  namelist_array array = { 0 };
+  int range = 0;
+  const size_t row = deck_table_find(group, a->name, b->scene, &range);
+  if (b->nl->order == 0 && row < deck_table_size && deck_is_set(b, row)) return;
+  if (row == deck_table_size) {
+    if (deck_table_find(group, a->name, 0, &range) < deck_table_size)
+      deck_report_idle_key(b, a, group);
+    else
+      deck_report_unknown_key(b, a, group);
+    return;
+  }
+  /* Types and ranges depend on the scene; without one only the names can be checked. */
+  if (b->scene == 0 && strcmp(group, "scene") != 0) return;
+  if (namelist_array_get(b->nl, g, a->name, &array, b->errors) == PENDRES_OUT_OF_MEMORY)
+    b->out_of_memory = 1;
+  else
+    deck_key_apply(b, row, &array, range);
+  namelist_array_free(&array);
+}
+
+/* A name may occur several times with subscripts; all are read at the first. */
+static int came_before(const deck_builder *b, const namelist_group *g, size_t i)
+{
+  const namelist_assignment *a = &b->nl->assignment[g->begin];
+  for (size_t k = 0; k < i; k++)
+    if (strcmp(a[k].name, a[i].name) == 0) return 1;
+  return 0;
+}
+
+/* The keys of a group of the deck, or the one of a setting. */
+static void read_keys(deck_builder *b, const namelist_group *g, const char *group)
+{
+  if (b->scene != 0 && !deck_group_has_scene(group, b->scene)) {
+    deck_report_idle_group(b, g, group);
+    return;
+  }
+  for (size_t i = 0; i < g->count; i++)
+    if (!came_before(b, g, i)) read_key(b, g, &b->nl->assignment[g->begin + i], group);
+}
+
+static void read_group(deck_builder *b, const namelist_group *g, const char *group)
+{
+  for (size_t i = 0; i < deck_table_size; i++)
+    if (strcmp(deck_table[i].group, group) == 0) b->given[i].group = g;
+  read_keys(b, g, group);
+}
+
+static int is_scene(const char *group)
+{
+  return strcmp(group, "scene") == 0;
+}
+
+/* Settings of &scene, or all others. */
+static void read_settings(deck_builder *b, int scene)
+{
+  const namelist *text = b->nl;
+  for (size_t i = 0; i < b->setting_count; i++) {
+    b->nl = &b->settings[i];
+    if (b->nl->groups == 0 || b->nl->assignments == 0) continue; /* not understood, and reported */
+    const namelist_group *g = &b->nl->group[0];
+    if (is_scene(g->name) != scene) continue;
+    const char *group = deck_resolve_group(b, g);
+    if (group != NULL && !deck_is_set_before(b, i)) read_keys(b, g, group);
+  }
+  b->nl = text;
+}
+
+/* ---- the whole deck ------------------------------------------------------------------------ */
+
+static void check_kind(deck_builder *b, int found)
+{
+  int range = 0;
+  const namelist *nl = b->nl;
+  const deck_given *kind = &b->given[deck_table_find("scene", "kind", 0, &range)];
+  if (kind->given || kind->broken) return;
+  if (!found && (nl->groups > 0 || b->errors->count == 0))
+    namelist_error_at(nl, (namelist_place){ 1, 1, 1 }, b->errors,
+                      "the deck has no group &scene with a 'kind'");
+  else if (found && !kind->group->broken)
+    namelist_error_at(nl, (namelist_place){ b->kind_line, b->kind_column, 6 }, b->errors,
+                      "&scene needs a 'kind'");
+}
+
+/* &scene first, wherever it stands: all else depends on the kind. */
+static void read_groups(deck_builder *b)
+{
+  const char *name[NAMELIST_MAX_GROUPS] = { NULL };
+  const namelist *nl = b->nl;
+  int found = 0;
+  for (size_t i = 0; i < nl->groups; i++)
+    if (!nl->group[i].repeated) name[i] = deck_resolve_group(b, &nl->group[i]);
+  for (int scene = 1; scene >= 0; scene--) {
+    for (size_t i = 0; i < nl->groups; i++) {
+      if (name[i] == NULL || is_scene(name[i]) != scene) continue;
+      if (scene) {
+        b->kind_line = nl->group[i].line;
+        b->kind_column = nl->group[i].column;
+        found = 1;
+      }
+      read_group(b, &nl->group[i], name[i]);
+    }
+    read_settings(b, scene);
+    if (scene) check_kind(b, found);
+  }
+}
+
+/* The name of the deck without folder and extension, with .h5, in the working directory. */
+static void default_output(deck *d, const char *name)
+{
+  const char *slash = strrchr(name, '/');
+  const char *base = slash != NULL ? slash + 1 : name;
+  const char *dot = strrchr(base, '.');
+  size_t n = dot != NULL && dot > base ? (size_t)(dot - base) : strlen(base);
+  if (n == 0 || strcmp(base, "-") == 0) {
+    base = "resonance";
+    n = strlen(base);
+  }
+  if (n > DECK_PATH - 4) n = DECK_PATH - 4;
+  snprintf(d->output, sizeof d->output, "%.*s.h5", (int)n, base);
+}
+
+static pendres_status keep_text(deck *d, const namelist *nl, const namelist *settings, size_t count)
+{
+  size_t size = 1, used = 0;
+  for (size_t i = 0; i < count; i++) size += settings[i].length + 1;
+  d->name = malloc(strlen(nl->name) + 1);
+  d->text = malloc(nl->length + 1);
+  d->settings = malloc(size);
+  if (d->name == NULL || d->text == NULL || d->settings == NULL) return PENDRES_OUT_OF_MEMORY;
+  strcpy(d->name, nl->name);
+  memcpy(d->text, nl->text, nl->length + 1);
+  d->text_length = nl->length;
+  d->settings[0] = '\0';
+  for (size_t i = 0; i < count; i++)
+    used += (size_t)snprintf(d->settings + used, size - used, "%s%s", i > 0 ? " " : "",
+                             settings[i].text);
+  return PENDRES_OK;
+}
+
+/* nl may hold the remains of a text with errors: the rest of them is found here. */
+static pendres_status build(const namelist *nl, const namelist *settings, size_t count, deck *out,
+                            namelist_errors *errors)
+{
+  deck d = { 0 };
+  deck_builder b = { .nl = nl, .settings = settings, .setting_count = count, .errors = errors,
+                     .d = &d, .kind_nl = nl, .kind_line = 1, .kind_column = 1 };
+
+  deck_key_defaults(&d);
+  default_output(&d, nl->name);
+  read_groups(&b);
+  deck_check(&b);
+  namelist_errors_sort(errors);
+  if (b.out_of_memory || errors->out_of_memory) goto no_memory;
+  if (errors->count > 0) {
+    deck_free(&d);
+    return PENDRES_INVALID_ARGUMENT;
+  }
+  if (keep_text(&d, nl, settings, count) != PENDRES_OK) goto no_memory;
+  *out = d;
+  return PENDRES_OK;
+no_memory:
+  errors->out_of_memory = 1;
+  deck_free(&d);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+static pendres_status finish(pendres_status parsed, namelist *nl, const char *const *settings,
+                             size_t count, deck *out, namelist_errors *errors)
+{
+  pendres_status status = parsed;
+  *out = (deck){ 0 };
+  if (parsed == PENDRES_OK || (parsed == PENDRES_INVALID_ARGUMENT && nl->length > 0)) {
+    namelist *set = NULL;
+    status = deck_settings_parse(settings, count, &set, errors);
+    if (status != PENDRES_OUT_OF_MEMORY) status = build(nl, set, count, out, errors);
+    deck_settings_free(set, count);
+  }
+  namelist_free(nl);
+  return status;
+}
+
+pendres_status deck_read_set(const char *path, const char *const *settings, size_t count,
+                             deck *out, namelist_errors *errors)
+{
+  namelist nl = { 0 };
+  const pendres_status status = namelist_read(path, &nl, errors);
+  return finish(status, &nl, settings, count, out, errors);
+}
+
+pendres_status deck_read_memory(const char *name, const char *text, size_t length, deck *out,
+                                namelist_errors *errors)
+{
+  namelist nl = { 0 };
+  const pendres_status status = namelist_parse(name, text, length, &nl, errors);
+  return finish(status, &nl, NULL, 0, out, errors);
+}
+
+void deck_free(deck *d)
+{
+  if (d == NULL) return;
+  free(d->name);
+  free(d->text);
+  free(d->settings);
+  for (int i = 0; i < DECK_AXIS_COUNT; i++) {
+    free(d->axis[i].value);
+    free(d->axis[i].listed);
+  }
+  free(d->methods.name);
+  free(d->cases.name);
+  free(d->ramp.protocol.number);
+  *d = (deck){ 0 };
+}

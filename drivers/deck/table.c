@@ -1,0 +1,500 @@
+/*
+ * table.c -- the keys of all decks: one row a key holds what the reader checks and what
+ * --explain, --init and docs/decks.md say.
+ *
+ * To add a key: a field in struct deck and a row here with SAYS(unit, meaning). To give a scene a
+ * key: its bit in .scenes. One name may have several rows if they belong to different scenes; the
+ * first of them has the words. EXAMPLE makes --init write the key with that value instead of its
+ * default in a comment: needed keys have one. Rows of a group stand together, in the order in which
+ * deck_dump writes them. `make decks-reference` renews docs/decks.md.
+ *
+ * Units: omega0 = sqrt(g/l) is the angular frequency of small oscillations without drive.
+ */
+#include "deck/table.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <pendres/switching.h>
+
+#include "validation/hard_cases.h"
+
+#define BIT(kind) (1u << DECK_##kind)
+#define FREE BIT(FREE_OSCILLATION)
+#define CURVE BIT(RESONANCE_CURVE)
+#define RESPONSE BIT(RESPONSE)
+#define ORBIT BIT(ORBIT)
+#define BASINS BIT(BASINS)
+#define PHASE BIT(PHASE_DIAGRAM)
+#define BRANCHES BIT(BRANCHES)
+#define WORK BIT(WORK_PRECISION)
+#define HARD BIT(HARD_CASES)
+#define SWITCHING BIT(SWITCHING)
+#define HYSTERESIS BIT(HYSTERESIS)
+#define DIAGRAM BIT(BIFURCATION_DIAGRAM)
+#define MAP BIT(LYAPUNOV_MAP)
+
+#define ALL ((1u << DECK_KIND_COUNT) - 1u)
+#define DRIVEN (CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES | SWITCHING)
+#define MODELS (POINT | CURVE | RESPONSE | ALONG | GRID) /* torque, forces, ... */
+#define POINT (ORBIT | BASINS | SWITCHING)         /* one set of parameters */
+#define GRID (PHASE | BRANCHES)                    /* damping and drive frequency are axes */
+#define PATH (HYSTERESIS | DIAGRAM)                 /* one of the parameters is an axis */
+#define ALONG (PATH | MAP)                         /* one or two of the parameters are axes */
+#define SETTLING (ALONG | CURVE | RESPONSE | ORBIT | BASINS | PHASE | BRANCHES)
+#define MEMBERS (CURVE | RESPONSE | PHASE | BRANCHES)
+#define RESULTS (FREE | DRIVEN | ALONG)            /* scenes with one tolerance */
+
+#define FIELD(f) .offset = offsetof(deck, f), .size = sizeof(((deck *)0)->f)
+#define REAL(g, n, f) .group = g, .name = n, .type = DECK_REAL, FIELD(f)
+#define INTEGER(g, n, f) .group = g, .name = n, .type = DECK_INTEGER, FIELD(f)
+#define LOGICAL(g, n, f) .group = g, .name = n, .type = DECK_LOGICAL, FIELD(f)
+#define STRING(g, n, f) .group = g, .name = n, .type = DECK_STRING, FIELD(f)
+#define CHOICE(g, n, f) .group = g, .name = n, .type = DECK_CHOICE, FIELD(f)
+#define CHOICES(g, n, f) .group = g, .name = n, .type = DECK_CHOICES, FIELD(f)
+#define BOUNDS(g, n, f) .group = g, .name = n, .type = DECK_BOUNDS, FIELD(f)
+#define NUMBERS(g, n, f) .group = g, .name = n, .type = DECK_NUMBERS, FIELD(f)
+#define LIST(g, n, f) .group = g, .name = n, .type = DECK_LIST, FIELD(f)
+#define SWEEP(n, a) .group = "sweep", .name = n, .type = DECK_SWEEP, .axis = DECK_AXIS_##a
+#define VALUE(n, a) .group = "pendulum", .name = n, .type = DECK_SWEEP_VALUE, .axis = DECK_AXIS_##a
+#define IN(s) .scenes = (s)
+#define NEEDED_IN(s) .scenes = (s), .needed = (s)
+#define RANGE(l, h) .low = (l), .high = (h)
+#define POSITIVE .low = 0.0, .high = BIG, .open = 1
+#define NOT_NEGATIVE .low = 0.0, .high = BIG
+#define FREQUENCY .low = 1e-100, .high = BIG
+#define RATIO .low = -1e6, .high = 1e6
+#define UNLESS(a) .when = DECK_UNLESS_AXIS, .axis = DECK_AXIS_##a
+#define SAYS(u, words) .unit = u, .meaning = words
+#define EXAMPLE(values) .example = values
+
+/* Lengths and times may be of any size (units.c). */
+#define BIG 1e100
+
+static const char *const kinds[] = {
+#define KIND_NAME(code, name, words) name,
+  DECK_KIND_LIST(KIND_NAME)
+#undef KIND_NAME
+  NULL
+};
+/* Names of pendres_method and pendres_table, see <pendres/context.h>. */
+static const char *const methods[] = { "block_fixed", "block_adaptive", "single", "cvode_adams",
+                                       "cvode_bdf", NULL };
+static const char *const tables[] = { "tp8", "ev8", "vern8", "dop853", "tsit5", "vern9", "sh9",
+                                      "dp5", NULL };
+/* Ways that work_precision compares, peers outside of the library among them. */
+static const char *const compared[] = {
+  "block_fixed", "block_fixed_ev8", "block_fixed_vern8", "block_fixed_dop853", "block_fixed_tsit5",
+  "block_fixed_vern9", "block_fixed_sh9", "block_fixed_dp5",
+  "block_adaptive", "block_adaptive_ev8", "block_adaptive_vern8", "block_adaptive_dop853",
+  "block_adaptive_tsit5", "block_adaptive_vern9", "block_adaptive_sh9", "block_adaptive_dp5",
+  "single", "single_order8", "single_order5", "cvode_adams", "cvode_bdf", "gsl_rk8pd", "naive", NULL
+};
+static const char *const starts[] = { "", "sa", "la", "1", "2", "3", "4", "5", "6", "7", "8",
+                                      NULL };
+static const char *const cases[] = {
+#define CASE_NAME(name) #name,
+  HARD_CASE_LIST(CASE_NAME)
+#undef CASE_NAME
+  NULL
+};
+static const char *const shapes[] = { "line", "rectangle", "random", NULL }; /* as in sweep.h */
+static const char *const forces[] = { /* as in pendulum.h */
+  "pendulum", "polynomial",
+#define FORCE_NAME(code, name) #name,
+  PENDRES_FORCE_LIST(FORCE_NAME)
+#undef FORCE_NAME
+  NULL
+};
+static const char *const ends[] = { "attractor", "well", NULL }; /* as pendres_basin_end */
+static const char *const units[] = { "ensemble", "sweep", NULL };
+
+const deck_key deck_table[] = {
+  /* clang-format off */
+  { CHOICE("scene", "kind", kind), NEEDED_IN(ALL), .choices = kinds,
+    SAYS(NULL, "kind of scene: what is computed") },
+  { STRING("scene", "title", title), IN(ALL),
+    SAYS(NULL, "title of the file of results and of pictures") },
+  { STRING("scene", "output", output), IN(ALL),
+    SAYS(NULL, "file of results; without it the deck's name with .h5, in the working directory") },
+
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
+    NEEDED_IN(DRIVEN & ~(CURVE | RESPONSE | GRID)), NOT_NEGATIVE, .number = NAN,
+    EXAMPLE("0.2"),
+    SAYS("m g l", "amplitude F0 of the torque that drives the pendulum") },
+  { REAL("pendulum", "drive_amplitude", pendulum.drive_amplitude),
+    NEEDED_IN(CURVE | RESPONSE | GRID), NOT_NEGATIVE, .number = NAN, EXAMPLE("0.2"),
+    UNLESS(DRIVE_AMPLITUDE) },
+  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(ORBIT), NOT_NEGATIVE,
+    .number = NAN, EXAMPLE("0.12"),
+    SAYS("omega0", "friction coefficient gamma; 1/gamma is the quality factor Q") },
+  { REAL("pendulum", "damping", pendulum.damping), NEEDED_IN(BASINS | SWITCHING), POSITIVE,
+    .number = NAN, EXAMPLE("0.12") },
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(PATH), NOT_NEGATIVE,
+    EXAMPLE("0.2") },
+  { VALUE("drive_amplitude", DRIVE_AMPLITUDE), NEEDED_IN(MAP), NOT_NEGATIVE },
+  { VALUE("damping", DAMPING), IN(CURVE | RESPONSE | GRID), POSITIVE },
+  { VALUE("damping", DAMPING), NEEDED_IN(ALONG), POSITIVE, EXAMPLE("0.12") },
+  { REAL("pendulum", "drive_frequency", pendulum.drive_frequency), IN(POINT), FREQUENCY,
+    .number = NAN, .when = DECK_BY_FREQUENCY,
+    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period'") },
+  { REAL("pendulum", "drive_period", pendulum.drive_period), IN(POINT), FREQUENCY,
+    .number = NAN, .when = DECK_BY_PERIOD, EXAMPLE("8.0"),
+    SAYS("1/omega0", "period of the drive, 2 pi / drive_frequency; instead of 'drive_frequency'") },
+  { VALUE("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE | GRID | ALONG), FREQUENCY },
+  { VALUE("drive_period", DRIVE_PERIOD), IN(RESPONSE | ALONG), FREQUENCY },
+  { REAL("pendulum", "torque", pendulum.torque), IN(MODELS & ~ALONG), RANGE(-BIG, BIG),
+    UNLESS(TORQUE),
+    SAYS("m g l",
+         "constant torque I on the side of the drive; a Josephson junction's bias current") },
+  { REAL("pendulum", "parametric_amplitude", pendulum.parametric_amplitude), IN(MODELS & ~ALONG),
+    RATIO, UNLESS(PARAMETRIC_AMPLITUDE),
+    SAYS("1", "b: the force is multiplied by 1 + b cos(drive_frequency t)") },
+  { VALUE("torque", TORQUE), IN(ALONG), RANGE(-BIG, BIG) },
+  { VALUE("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(ALONG), RATIO },
+  { CHOICE("pendulum", "force", pendulum.force), IN(MODELS), .choices = forces,
+    .text = "pendulum",
+    SAYS(NULL, "f of x'' + damping x' + f = ...: -cos x, a polynomial of force_coefficients, or "
+         "another one (docs/models.md)") },
+  { NUMBERS("pendulum", "force_coefficients", pendulum.force_coefficients), IN(MODELS),
+    RANGE(-BIG, BIG),
+    SAYS(NULL, "a1, a2, ... a5 of the polynomial force f = a1 x + a2 x^2 + ... + a5 x^5; of "
+         "'squid' a1") },
+  { VALUE("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE,
+    SAYS("m g l / k", "temperature of the noise; the potential is 2 m g l deep; 0: no noise") },
+  { VALUE("temperature", TEMPERATURE), IN(SWITCHING), POSITIVE },
+
+  { SWEEP("amplitude", AMPLITUDE), NEEDED_IN(FREE), RANGE(0.0, PENDRES_PI), .open = 1,
+    EXAMPLE("0.1, 3.1, 31"), SAYS("rad", "amplitude of the angle") },
+  { SWEEP("damping", DAMPING), NEEDED_IN(CURVE | RESPONSE | GRID), POSITIVE,
+    EXAMPLE("0.1, 0.4, 4"),
+    SAYS("omega0", "friction coefficient gamma; one value may stand in &pendulum instead") },
+  { SWEEP("damping", DAMPING), IN(ALONG), POSITIVE },
+  { BOUNDS("sweep", "drive_frequency_range", search), IN(CURVE), FREQUENCY, .number = 0.5,
+    .number2 = 1.2, SAYS("omega0", "lowest and highest drive frequency where the resonance is "
+                         "looked for") },
+  { BOUNDS("sweep", "resonance_range", search), IN(RESPONSE), FREQUENCY, .number = 0.5,
+    .number2 = 1.2, .when = DECK_WITH_SEARCH,
+    SAYS("omega0", "lowest and highest drive frequency where the resonance of each line is looked "
+         "for; scene 'resonance_curve' has 'drive_frequency_range' for that. With a torque, a "
+         "parametric drive or another force none is looked for without this key") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(RESPONSE), FREQUENCY,
+    SAYS("omega0", "angular frequency of the drive; instead of 'drive_period' where both are "
+         "possible") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), NEEDED_IN(GRID), FREQUENCY,
+    EXAMPLE("0.7, 0.9, 21") },
+  { SWEEP("drive_frequency", DRIVE_FREQUENCY), IN(ALONG), FREQUENCY, EXAMPLE("0.7, 0.9, 21") },
+  { SWEEP("drive_period", DRIVE_PERIOD), IN(ALONG), FREQUENCY },
+  { SWEEP("drive_period", DRIVE_PERIOD), IN(RESPONSE), FREQUENCY, EXAMPLE("5.0, 12.0, 29"),
+    SAYS("1/omega0", "period of the drive; instead of 'drive_frequency'") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(PATH), NOT_NEGATIVE,
+    SAYS("m g l", "amplitude F0 of the drive; where results have two axes it is one of them "
+         "instead of the value in &pendulum, and the damping or the drive has one value") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(MAP), NOT_NEGATIVE, EXAMPLE("0.5, 1.5, 21") },
+  { SWEEP("drive_amplitude", DRIVE_AMPLITUDE), IN(CURVE | RESPONSE | GRID), POSITIVE },
+  { SWEEP("torque", TORQUE), IN(CURVE | RESPONSE | ALONG | GRID), RANGE(-BIG, BIG),
+    SAYS("m g l", "constant torque I; one value may stand in &pendulum instead") },
+  { SWEEP("parametric_amplitude", PARAMETRIC_AMPLITUDE), IN(CURVE | RESPONSE | ALONG | GRID),
+    RATIO,
+    SAYS("1", "amplitude b of the parametric drive; one value may stand in &pendulum instead") },
+  { SWEEP("x", X), NEEDED_IN(BASINS), RANGE(-BIG, BIG),
+    EXAMPLE("-1.5707963267948966, 4.71238898038469, 64"),
+    SAYS("rad", "initial position of the particle; the pendulum's angle is x - pi/2") },
+  { SWEEP("v", V), NEEDED_IN(BASINS), RANGE(-BIG, BIG), EXAMPLE("-2.5, 2.5, 64"),
+    SAYS("omega0", "initial velocity") },
+  { SWEEP("temperature", TEMPERATURE), IN(RESPONSE | BASINS | HYSTERESIS), NOT_NEGATIVE },
+  { SWEEP("temperature", TEMPERATURE), NEEDED_IN(SWITCHING), POSITIVE,
+    EXAMPLE("0.0125, 0.02, 3") },
+  { INTEGER("sweep", "resolution", resolution), IN(ALL & ~(HARD | WORK)), RANGE(1, DECK_MAX_COUNT),
+    .number = 1,
+    SAYS(NULL, "parts into which each step of the ranges of axes is divided: one key for a finer "
+         "grid over all of them") },
+  { SWEEP("tolerance", TOLERANCE), NEEDED_IN(WORK), RANGE(1e-14, 1e-2),
+    EXAMPLE("1e-4, 1e-6, 1e-8"), SAYS("1", "tolerances that each method is asked for") },
+  { CHOICES("sweep", "method", methods), NEEDED_IN(WORK), .choices = compared,
+    EXAMPLE("'block_fixed', 'block_adaptive'"),
+    SAYS(NULL, "methods compared; a Butcher table may follow a method of blocks; 'single_...' is "
+         "one ARKODE problem a pendulum, 'naive' ARKODE with all but its tolerance as it comes") },
+  { CHOICE("sweep", "unit", unit), IN(WORK), .choices = units, .text = "ensemble",
+    SAYS(NULL, "pendulums compared on: 200 starts of one, or 1000 different ones") },
+  { CHOICES("sweep", "case", cases), IN(HARD), .choices = cases, EXAMPLE("'separatrix'"),
+    SAYS(NULL, "cases to run; without it all") },
+
+  { INTEGER("ensemble", "members", ensemble.members), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
+    .number = 200, SAYS(NULL, "pendulums with different starts at each set of parameters") },
+  { CHOICE("ensemble", "shape", ensemble.shape), IN(MEMBERS), .choices = shapes, .text = "line",
+    SAYS(NULL, "how the starts lie: on a line of one velocity, on a grid that fills a rectangle of "
+         "x and v, or at random in such a rectangle; of the latter two, errors of shares and means "
+         "contain the sampling") },
+  { REAL("ensemble", "x_first", ensemble.x_first), IN(MEMBERS), RANGE(-BIG, BIG),
+    .number = -PENDRES_PI / 2,
+    SAYS("rad", "initial positions lie above this one, which a line leaves out; the default is in "
+         "the pendulum's unit of length, as that of 'x_last' and others") },
+  { REAL("ensemble", "x_last", ensemble.x_last), IN(MEMBERS), RANGE(-BIG, BIG),
+    .number = 3 * PENDRES_PI / 2,
+    SAYS("rad", "initial positions go up to this one, equally spaced") },
+  { REAL("ensemble", "v", ensemble.v), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
+    SAYS("omega0", "initial velocity, of a rectangle the lowest") },
+  { REAL("ensemble", "v_last", ensemble.v_last), IN(MEMBERS), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_OFF_LINE, SAYS("omega0", "highest initial velocity") },
+  { INTEGER("ensemble", "rows", ensemble.rows), IN(MEMBERS), RANGE(1, DECK_MAX_COUNT),
+    .number = 10, .when = DECK_IN_RECTANGLE,
+    SAYS(NULL, "velocities of the grid, a divisor of 'members'") },
+  { INTEGER("ensemble", "seed", ensemble.seed), IN(MEMBERS), RANGE(0, 0x1p63), .number = 1,
+    .when = DECK_AT_RANDOM, SAYS(NULL, "seed of the random starts") },
+
+  { CHOICE("orbit", "start", orbit.start), IN(ORBIT), .choices = starts, EXAMPLE("'sa'"),
+    SAYS(NULL, "attractor recorded: SA, LA, or its number in the order of amplitude; without it "
+         "the one reached from 'x', 'v'") },
+  { REAL("orbit", "x", orbit.x), IN(ORBIT), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+  { REAL("orbit", "v", orbit.v), IN(ORBIT), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+  { INTEGER("orbit", "periods", orbit.periods), IN(ORBIT), RANGE(1, DECK_MAX_COUNT),
+    .number = 4, SAYS(NULL, "drive periods recorded") },
+  { INTEGER("orbit", "samples", orbit.samples), IN(ORBIT), RANGE(1, 65536), .number = 256,
+    SAYS(NULL, "samples a drive period") },
+  { LOGICAL("orbit", "transient", orbit.transient), IN(ORBIT), .number = 0,
+    SAYS(NULL, "record from the start on instead of after settling") },
+  { LOGICAL("orbit", "dimension", orbit.dimension), IN(ORBIT), .number = 0,
+    SAYS(NULL, "measure the correlation and Lyapunov dimension of the record's strobe points") },
+  { LOGICAL("orbit", "spectrum", orbit.spectrum), IN(ORBIT), .number = 0,
+    SAYS(NULL, "measure the power spectrum of the record's velocity") },
+  { INTEGER("orbit", "segment", orbit.segment), IN(ORBIT), RANGE(0, DECK_MAX_COUNT), .number = 0,
+    SAYS(NULL,
+         "drive periods of a segment of the spectrum, which make its resolution; 0: a power of "
+         "two, at most a sixteenth of the record") },
+
+  { CHOICE("hysteresis", "start", orbit.start), IN(HYSTERESIS), .choices = starts,
+    EXAMPLE("'sa'"),
+    SAYS(NULL, "attractor at the first value that the pendulum is on: SA, LA, or its number in the "
+         "order of amplitude; without it the one reached from 'x', 'v'") },
+  { REAL("hysteresis", "x", orbit.x), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START, SAYS("rad", "initial position, at the drive's maximum") },
+  { REAL("hysteresis", "v", orbit.v), IN(HYSTERESIS), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START, SAYS("omega0", "initial velocity") },
+
+  { REAL("hysteresis", "rate", ramp.rate), IN(HYSTERESIS), POSITIVE, .number = NAN,
+    SAYS("1",
+         "what the swept parameter moves by in a drive period: beside the sweep without end it "
+         "is also moved in real time, up and then down") },
+  { LIST("hysteresis", "protocol", ramp.protocol), IN(HYSTERESIS), RANGE(-BIG, 0x1p31),
+    SAYS(NULL, "instead of 'rate': time, value, time, value, ... of the way up, straight lines "
+         "between; times are whole drive periods from 0 on, values go from the first of the sweep "
+         "to its last. The way down is the same backwards") },
+  { INTEGER("hysteresis", "points", ramp.points), IN(HYSTERESIS), RANGE(1, DECK_MAX_COUNT),
+    .number = 1000, .when = DECK_WITH_RAMP,
+    SAYS(NULL, "points recorded each way, at most") },
+
+  { CHOICE("bifurcation_diagram", "start", orbit.start), IN(DIAGRAM), .choices = starts,
+    EXAMPLE("'1'") },
+  { REAL("bifurcation_diagram", "x", orbit.x), IN(DIAGRAM), RANGE(-BIG, BIG), .number = NAN,
+    .when = DECK_WITHOUT_START },
+  { REAL("bifurcation_diagram", "v", orbit.v), IN(DIAGRAM), RANGE(-BIG, BIG), .number = 0,
+    .when = DECK_WITHOUT_START },
+  { INTEGER("bifurcation_diagram", "strobes", diagram.strobes), IN(DIAGRAM),
+    RANGE(1, DECK_MAX_COUNT), .number = 200, SAYS(NULL, "strobe points at each value") },
+  { LOGICAL("bifurcation_diagram", "attractors", diagram.attractors), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "count the attractors at each value") },
+  { LOGICAL("bifurcation_diagram", "bifurcations", diagram.bifurcations), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "write the bifurcations on the way, and find the cascade of doublings") },
+  { LOGICAL("bifurcation_diagram", "exponents", diagram.exponents), IN(DIAGRAM), .number = 1,
+    SAYS(NULL, "write Lyapunov exponents; without them chaos is only told, in less time") },
+
+  { REAL("lyapunov_map", "x", orbit.x), IN(MAP), RANGE(-BIG, BIG), .number = PENDRES_PI / 2,
+    SAYS("rad", "initial position of each pendulum, at the drive's maximum") },
+  { REAL("lyapunov_map", "v", orbit.v), IN(MAP), RANGE(-BIG, BIG), .number = 0,
+    SAYS("omega0", "initial velocity") },
+  { INTEGER("lyapunov_map", "transient", lyapunov.transient), IN(MAP), RANGE(0, 1e9), .number = 0,
+    SAYS(NULL, "drive periods before averages are taken; 0: 200, or more where damping is weak") },
+  { INTEGER("lyapunov_map", "periods", lyapunov.periods), IN(MAP), RANGE(0, 1e9), .number = 0,
+    SAYS(NULL, "drive periods of an average; 0: 512. What is not decided then is followed for "
+         "longer") },
+
+  { LOGICAL("basins", "refine", basins.refine), IN(BASINS), .number = 0,
+    SAYS(NULL, "integrate only starts near a boundary of basins, fill the others in, and check a "
+         "random sample of these") },
+  { LOGICAL("basins", "boundary", basins.boundary), IN(BASINS), .number = 0,
+    SAYS(NULL, "compute the boundary of the basins as a curve") },
+  { LOGICAL("basins", "statistics", basins.statistics), IN(BASINS), .number = 1,
+    SAYS(NULL, "estimate shares, entropy and uncertainty exponent of the basins") },
+  { CHOICE("basins", "by", basins.by), IN(BASINS), .choices = ends, .text = "attractor",
+    SAYS(NULL, "what statistics and picture tell apart: attractors, or their wells, too") },
+  { INTEGER("basins", "strobes", basins.strobes), IN(BASINS), RANGE(1, DECK_MAX_COUNT),
+    .number = 1000, .when = DECK_WITH_NOISE, SAYS(NULL, "strobe points recorded of each cloud") },
+  { INTEGER("basins", "seed", basins.seed), IN(BASINS), RANGE(0, 0x1p63), .number = 1,
+    .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
+  { INTEGER("basins", "trajectories", basins.trajectories), IN(BASINS),
+    RANGE(2, DECK_MAX_COUNT), .number = 192, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "independent noisy trajectories of each cloud") },
+
+  { INTEGER("switching", "from", switching.from), IN(SWITCHING),
+    RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
+    SAYS(NULL, "number of one state, in the order of amplitude from 1 on; 0: SA and LA. Without "
+         "'to': only how often it is left for another well, or for infinity where the force leads "
+         "there") },
+  { INTEGER("switching", "to", switching.to), IN(SWITCHING),
+    RANGE(0, PENDRES_SWITCHING_STATES), .number = 0,
+    SAYS(NULL, "number of the other state; with 'from'") },
+
+  { INTEGER("noise", "seed", noise.seed), IN(RESPONSE | SWITCHING | HYSTERESIS), RANGE(0, 0x1p63),
+    .number = 1, .when = DECK_WITH_NOISE, SAYS(NULL, "seed of the random numbers") },
+  { INTEGER("noise", "trajectories", noise.trajectories), IN(RESPONSE | SWITCHING),
+    RANGE(1, DECK_MAX_COUNT), .number = 1920, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "independent noisy trajectories at each temperature") },
+  { INTEGER("noise", "trajectories", noise.trajectories), IN(HYSTERESIS),
+    RANGE(1, DECK_MAX_COUNT), .number = 384, .when = DECK_WITH_NOISE },
+  { INTEGER("noise", "periods", noise.periods), IN(RESPONSE | SWITCHING), RANGE(1, 1e9),
+    .number = 1000, .when = DECK_WITH_NOISE,
+    SAYS(NULL, "drive periods over which each trajectory is followed") },
+
+  { REAL("units", "natural_frequency", units.natural_frequency), IN(FREE | DRIVEN | ALONG),
+    RANGE(0, 1e15), .open = 1, .number = NAN,
+    SAYS("Hz",
+         "frequency of small free oscillations, omega0 / (2 pi): frequencies then stand in Hz, "
+         "and periods of the drive in s, beside ours") },
+
+  { REAL("precision", "tolerance", precision.tolerance), IN(RESULTS), POSITIVE, .number = 1e-8,
+    SAYS("1", "wanted error of the results: absolute, of lengths as x is and of what follows from "
+         "them; 1e-13 to 1e-2 of the pendulum's unit of length, which is 1 but for polynomials "
+         "(docs/models.md). Without it 1e-8 of that unit") },
+  { CHOICE("precision", "method", precision.method), IN(RESULTS), .choices = methods,
+    .text = "block_fixed",
+    SAYS(NULL, "way to integrate; orbits and their measures are by 'block_fixed' throughout") },
+  { CHOICE("precision", "table", precision.table), IN(RESULTS), .choices = tables, .text = "tp8",
+    SAYS(NULL, "Butcher table of the Runge-Kutta methods") },
+  { INTEGER("precision", "steps_per_period", precision.steps_per_period), IN(RESULTS),
+    RANGE(0, DECK_MAX_COUNT), .number = 0,
+    SAYS(NULL, "steps a drive period; 0: as many as the tolerance needs") },
+  { INTEGER("precision", "block_lanes", precision.block_lanes), IN(RESULTS | WORK),
+    RANGE(0, 4096), .number = 0,
+    SAYS(NULL, "pendulums integrated side by side, a multiple of 8; 0: as many as are fast; "
+         "results do not depend on it") },
+  { INTEGER("precision", "period_budget", precision.period_budget), IN(SETTLING),
+    RANGE(0, 1e9), .number = 0, SAYS(NULL, "drive periods after which a pendulum that has not "
+         "settled is called unresolved; 0: from damping and tolerance") },
+  { REAL("precision", "exponent_error", precision.exponent_error), IN(DIAGRAM),
+    RANGE(1e-6, 1), .number = 0.01, SAYS("1", "wanted standard error of the exponents of chaos, as "
+         "a part of them; the longest averages have what error they have") },
+  /* clang-format on */
+};
+
+const size_t deck_table_size = sizeof deck_table / sizeof *deck_table;
+
+_Static_assert(sizeof deck_table / sizeof *deck_table <= DECK_MAX_KEYS, "raise DECK_MAX_KEYS");
+
+int deck_table_has_range(const deck_key *key)
+{
+  /* Tolerances are given as a list, since nobody spaces them evenly. */
+  return key->type == DECK_SWEEP && key->axis != DECK_AXIS_TOLERANCE;
+}
+
+int deck_table_matches(const deck_key *key, const char *name, int *range)
+{
+  const size_t n = strlen(key->name);
+  if (strncmp(key->name, name, n) != 0) return 0;
+  *range = name[n] != '\0';
+  return !*range || (deck_table_has_range(key) && strcmp(name + n, "_range") == 0);
+}
+
+size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range)
+{
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *key = &deck_table[i];
+    if (strcmp(key->group, group) != 0 || (scenes != 0 && (key->scenes & scenes) == 0)) continue;
+    if (deck_table_matches(key, name, range)) return i;
+  }
+  return deck_table_size;
+}
+
+const deck_key *deck_table_words(const deck_key *key)
+{
+  const deck_key *other = NULL;
+  if (key->meaning != NULL) return key;
+  for (size_t i = 0; i < deck_table_size; i++) {
+    const deck_key *k = &deck_table[i];
+    if (k->meaning == NULL || strcmp(k->name, key->name) != 0) continue;
+    if (strcmp(k->group, key->group) == 0) return k;
+    if (other == NULL) other = k;
+  }
+  return other;
+}
+
+int deck_moving(const deck *d, int room, deck_axis_id *axis)
+{
+  static const deck_axis_id parameters[] = { DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
+                                             DECK_AXIS_DRIVE_FREQUENCY, DECK_AXIS_DRIVE_PERIOD,
+                                             DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  int n = 0;
+  for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+    if (d->axis[parameters[i]].count < 2) continue;
+    if (n < room) axis[n] = parameters[i];
+    n++;
+  }
+  return n;
+}
+
+int deck_extra_axis(const deck *d, deck_axis_id *axis)
+{
+  static const deck_axis_id extra[] = { DECK_AXIS_DRIVE_AMPLITUDE, DECK_AXIS_TORQUE,
+                                        DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  for (size_t i = 0; i < sizeof extra / sizeof *extra; i++) {
+    if (d->axis[extra[i]].count == 0) continue;
+    *axis = extra[i];
+    return 1;
+  }
+  return 0;
+}
+
+int deck_searches(const deck *d)
+{
+  const deck_axis *along = d->axis[DECK_AXIS_DRIVE_PERIOD].count > 0
+                             ? &d->axis[DECK_AXIS_DRIVE_PERIOD]
+                             : &d->axis[DECK_AXIS_DRIVE_FREQUENCY];
+  deck_axis_id extra;
+  if (d->kind != DECK_RESPONSE) return d->kind == DECK_RESONANCE_CURVE;
+  /* Where another parameter is an axis, lines are along the drive if it has several values. */
+  return (deck_is_plain(d) || d->search_given) &&
+         (!deck_extra_axis(d, &extra) || along->count > 1);
+}
+
+int64_t deck_spectrum_least(const deck *d)
+{
+  const int64_t samples = d->orbit.samples;
+  return samples == 1 ? 4 : samples == 2 || samples % 2 != 0 ? 2 : 1;
+}
+
+int deck_is_plain(const deck *d)
+{
+  static const deck_axis_id others[] = { DECK_AXIS_TORQUE, DECK_AXIS_PARAMETRIC_AMPLITUDE };
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    for (size_t k = 0; k < d->axis[others[i]].count; k++)
+      if (d->axis[others[i]].value[k] != 0.0) return 0;
+  return d->pendulum.torque == 0.0 && d->pendulum.parametric_amplitude == 0.0 &&
+         strcmp(d->pendulum.force, "pendulum") == 0;
+}
+
+const char *deck_kind_words(deck_kind kind)
+{
+  static const char *const words[] = {
+#define KIND_WORDS(code, name, text) text,
+    DECK_KIND_LIST(KIND_WORDS)
+#undef KIND_WORDS
+  };
+  return (unsigned)kind < DECK_KIND_COUNT ? words[kind] : NULL;
+}
+
+const char *deck_kind_name(deck_kind kind)
+{
+  return (unsigned)kind < DECK_KIND_COUNT ? kinds[kind] : NULL;
+}
+
+const char *deck_axis_name(deck_axis_id axis)
+{
+  static const char *const names[] = {
+#define AXIS_NAME(code, name) name,
+    DECK_AXIS_LIST(AXIS_NAME)
+#undef AXIS_NAME
+  };
+  return (unsigned)axis < DECK_AXIS_COUNT ? names[axis] : NULL;
+}

@@ -1,0 +1,151 @@
+/*
+ * table.h -- the form of the table of keys, and what the parts of the deck reader share.
+ * Internal to deck*.c.
+ */
+#ifndef DECK_TABLE_H
+#define DECK_TABLE_H
+
+#include "deck/deck.h"
+
+typedef enum deck_type {
+  DECK_REAL,
+  DECK_INTEGER,
+  DECK_LOGICAL,
+  DECK_STRING,
+  DECK_CHOICE,     /* a string out of a list */
+  DECK_CHOICES,    /* several of them */
+  DECK_BOUNDS,     /* two ascending numbers */
+  DECK_NUMBERS,    /* as many numbers as the field holds, zero where none is given */
+  DECK_LIST,       /* any number of numbers */
+  DECK_SWEEP,      /* an axis: NAME = values, NAME_range = first, last, count */
+  DECK_SWEEP_VALUE /* one value of an axis, given in &pendulum */
+} deck_type;
+
+/* The condition, beside the kind of scene, under which a key has an effect. */
+typedef enum deck_when {
+  DECK_ALWAYS = 0,
+  DECK_WITH_NOISE,     /* only with a temperature above 0 */
+  DECK_WITH_RAMP,      /* only where a parameter moves in real time */
+  DECK_WITHOUT_START,  /* only where orbit.start names no attractor */
+  DECK_OFF_LINE,       /* only where ensemble.shape is not a line */
+  DECK_IN_RECTANGLE,   /* only where it is a rectangle */
+  DECK_AT_RANDOM,      /* only where it is random */
+  DECK_WITH_SEARCH,    /* only where resonances are searched for */
+  DECK_UNLESS_AXIS,    /* unless the key's axis has values in &sweep */
+  DECK_BY_FREQUENCY,   /* unless the drive is given by its period */
+  DECK_BY_PERIOD       /* the reverse */
+} deck_when;
+
+typedef struct deck_key {
+  const char *group;
+  const char *name;
+  deck_type type;
+  size_t offset, size;         /* of the field in struct deck; size of a string's buffer */
+  deck_axis_id axis;           /* of DECK_SWEEP and DECK_SWEEP_VALUE */
+  unsigned scenes;             /* scenes that use it: bits 1u << deck_kind */
+  unsigned needed;             /* scenes that need it */
+  double low, high;            /* numbers must lie between these */
+  int open;                    /* nonzero: low and high themselves are excluded */
+  const char *why;             /* for messages: where the range comes from; may be NULL */
+  double number;               /* default of a number or logical */
+  double number2;              /* second default of DECK_BOUNDS */
+  const char *text;            /* default of a string; NULL: "" */
+  const char *const *choices;  /* NULL-terminated */
+  deck_when when;
+  const char *unit;            /* NULL: a number of things, a name, a choice */
+  const char *meaning;         /* NULL: that of a row of the same name, see deck_table_words */
+  const char *example;         /* what --init writes for it, three values meaning NAME_range;
+                                  NULL: its default, as a comment */
+} deck_key;
+
+enum { DECK_MAX_KEYS = 160 };
+
+extern const deck_key deck_table[];
+extern const size_t deck_table_size;
+
+/*
+ * The row of a key in a scene (a set of bits; 0: in any), or deck_table_size. NAME_range finds the
+ * axis NAME and sets *range.
+ */
+size_t deck_table_find(const char *group, const char *name, unsigned scenes, int *range);
+
+/* Is that a name of the key: its own or, then *range is set, NAME_range where it has one? */
+int deck_table_matches(const deck_key *key, const char *name, int *range);
+int deck_table_has_range(const deck_key *key);
+
+/* What one key means and in which unit, also where its row leaves that to another row of the same
+   name, in the same group or, failing that, in any. Never NULL for a key of the table. */
+const deck_key *deck_table_words(const deck_key *key);
+
+/* Where and how a key was given. */
+typedef struct deck_given {
+  int given;  /* nonzero: with a value */
+  int broken; /* nonzero: with errors, which were reported */
+  const namelist *nl; /* the text that gives it: the deck or a setting */
+  int line, column;
+  const namelist_group *group; /* the group of the key, if the deck has it */
+} deck_given;
+
+/* A deck while it is read. */
+typedef struct deck_builder {
+  const namelist *nl;        /* the text being read: the deck, or for a while a setting */
+  const namelist *settings;  /* keys set outside of the deck, one each */
+  size_t setting_count;
+  namelist_errors *errors;
+  deck *d;
+  unsigned scene;            /* the bit of its kind; 0 if that is unknown */
+  const namelist *kind_nl;   /* for what concerns the whole deck: where its kind is given */
+  int kind_line, kind_column;
+  deck_given given[DECK_MAX_KEYS];
+  int out_of_memory;
+} deck_builder;
+
+/* setting.c: */
+/* Parse all settings into an array of so many, in any case to be freed by deck_settings_free.
+   Returns as namelist_parse does. */
+pendres_status deck_settings_parse(const char *const *text, size_t count, namelist **settings,
+                                   namelist_errors *errors);
+void deck_settings_free(namelist *settings, size_t count);
+/* Is what that row gives set outside of the deck? */
+int deck_is_set(const deck_builder *b, size_t row);
+/* Is the setting the second one of its key? Reports it. */
+int deck_is_set_before(deck_builder *b, size_t index);
+
+/* unknown.c: messages about names that do not exist, or have no effect in the scene. */
+const char *deck_resolve_group(deck_builder *b, const namelist_group *g);
+int deck_group_has_scene(const char *group, unsigned scene);
+void deck_report_idle_group(deck_builder *b, const namelist_group *g, const char *group);
+void deck_report_idle_key(deck_builder *b, const namelist_assignment *a, const char *group);
+void deck_report_unknown_key(deck_builder *b, const namelist_assignment *a, const char *group);
+
+/* key.c: take the values of one key over into the deck; range: it came as NAME_range. */
+void deck_key_apply(deck_builder *b, size_t row, const namelist_array *array, int range);
+/* Set the defaults of all keys. */
+void deck_key_defaults(deck *d);
+/* Does the key have an effect in this deck? */
+int deck_key_applies(const deck_key *key, const deck *d);
+
+/* decimal.c: the shortest decimal that reads back as x, in the C locale, with a point or an
+   exponent so that it is a real to the eye. */
+enum { DECK_DECIMAL = 40 };
+const char *deck_decimal(double x, char text[DECK_DECIMAL]);
+
+/* check.c: everything that concerns several keys; expands the axes. */
+void deck_check(deck_builder *b);
+
+/* units.c: brings defaults into the pendulum's units, in which it checks the tolerance. */
+void deck_check_units(deck_builder *b);
+
+/* suggest.c: the candidate nearest to a misspelt word, or NULL if none is near. */
+typedef struct deck_suggestion {
+  const char *word;
+  const char *best;
+  size_t distance;
+} deck_suggestion;
+void deck_suggest(deck_suggestion *s, const char *candidate);
+/* " (did you mean 'BEST'?)" or "", into a buffer. */
+const char *deck_suggestion_text(const deck_suggestion *s, char *buffer, size_t size);
+/* Names from the literature for what decks call otherwise (gamma, tau); NULL if it is none. */
+const char *deck_synonym(const char *word);
+
+#endif

@@ -1,0 +1,172 @@
+/* contexts.c -- a farm, its contexts and costs; see farm.h. crew.c runs its tasks. */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include <pthread.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "farm/internal.h"
+
+int farm_stop(const farm *f)
+{
+  if (f->trial != NULL && trial_over(f->trial)) return 1;
+  return f->options.stop != NULL && f->options.stop(f->options.stop_arg);
+}
+
+int farm_stopped(void *f)
+{
+  return farm_stop(f);
+}
+
+/* The processors that this process may use. */
+static int processors(void)
+{
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+  const long online = sysconf(_SC_NPROCESSORS_ONLN); /* there are more processors than the set has
+                                                        room for */
+  return online > 0 && online <= FARM_MOST_THREADS ? (int)online : 1;
+}
+
+pendres_status farm_create(const farm_options *options, farm **out)
+{
+  farm *f = calloc(1, sizeof *f);
+  *out = NULL;
+  if (f == NULL) return PENDRES_OUT_OF_MEMORY;
+  f->options = *options;
+  f->run = options->run;
+  f->threads = options->threads > 0 ? options->threads : processors();
+  f->context = calloc((size_t)f->threads, sizeof(pendres_context *));
+  if (f->context == NULL || pthread_mutex_init(&f->lock, NULL) != 0) {
+    free(f->context);
+    free(f);
+    return PENDRES_OUT_OF_MEMORY;
+  }
+  *out = f;
+  return PENDRES_OK;
+}
+
+void farm_free(farm *f)
+{
+  if (f == NULL) return;
+  for (int i = 0; i < f->threads; i++) pendres_context_free(f->context[i]);
+  free(f->context);
+  (void)pthread_mutex_destroy(&f->lock);
+  free(f);
+}
+
+pendres_status farm_context_of(farm *f, int thread, pendres_context **out)
+{
+  pendres_status status = PENDRES_OK;
+  if (f->context[thread] == NULL)
+    status = pendres_context_create(&f->options.library, &f->context[thread]);
+  *out = f->context[thread];
+  return status;
+}
+
+/* ---- costs --------------------------------------------------------------------------------- */
+
+static void add_cost(pendres_cost *sum, const pendres_cost *one)
+{
+  sum->pendulum_periods += one->pendulum_periods;
+  sum->rhs_evaluations += one->rhs_evaluations;
+  sum->steps += one->steps;
+  sum->newton_steps += one->newton_steps;
+  sum->settled_pendulums += one->settled_pendulums;
+}
+
+void farm_spend(farm *f, const pendres_cost *cost)
+{
+  pthread_mutex_lock(&f->lock);
+  add_cost(&f->spent, cost);
+  pthread_mutex_unlock(&f->lock);
+}
+
+int farm_start_thread(pthread_t *thread, void *(*run)(void *), void *arg)
+{
+  pthread_attr_t attributes;
+  int error = pthread_attr_init(&attributes);
+  if (error != 0) return error;
+  error = pthread_attr_setstacksize(&attributes, FARM_STACK);
+  if (error == 0) error = pthread_create(thread, &attributes, run, arg);
+  (void)pthread_attr_destroy(&attributes);
+  return error;
+}
+
+typedef struct errand {
+  int (*run)(void *arg);
+  void *arg;
+  int result;
+} errand;
+
+static void *errand_run(void *arg)
+{
+  errand *e = arg;
+  e->result = e->run(e->arg);
+  return NULL;
+}
+
+int farm_errand(int (*run)(void *arg), void *arg)
+{
+  errand e = { run, arg, 0 };
+  pthread_t thread;
+  if (farm_start_thread(&thread, errand_run, &e) != 0) return run(arg);
+  (void)pthread_join(thread, NULL);
+  return e.result;
+}
+
+void farm_set_journal(farm *f, journal *j)
+{
+  f->journal = j;
+}
+
+void farm_set_share(farm *f, farm_share share)
+{
+  f->share = share;
+}
+
+int farm_left(const farm *f)
+{
+  return f->left;
+}
+
+const char *farm_message(const farm *f)
+{
+  return f->message;
+}
+
+pendres_context *farm_context(farm *f)
+{
+  pendres_context *ctx = NULL;
+  if (farm_context_of(f, 0, &ctx) == PENDRES_OK)
+    pendres_context_set_interrupt(ctx, farm_stopped, f);
+  return ctx;
+}
+
+int farm_threads(const farm *f)
+{
+  return f->threads;
+}
+
+double farm_budget(const farm *f)
+{
+  return f->options.budget;
+}
+
+size_t farm_points_lost(const farm *f)
+{
+  return f->lost;
+}
+
+void farm_cost(const farm *f, pendres_cost *cost)
+{
+  *cost = f->spent;
+  for (int i = 0; i < f->threads; i++) {
+    pendres_cost one = { 0 };
+    if (f->context[i] == NULL) continue;
+    pendres_context_cost(f->context[i], &one);
+    add_cost(cost, &one);
+  }
+}

@@ -1,0 +1,348 @@
+/* along.c -- what scenes share in which parameters move; see along.h. */
+#include "scenes/along.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value)
+{
+  pendres_parameter_set(scene_parameter_of(axis)->parameter,
+                        axis == DECK_AXIS_DRIVE_PERIOD ? 2.0 * PENDRES_PI / value : value, p);
+}
+
+pendres_pendulum scene_along_pendulum(const deck *d)
+{
+  pendres_pendulum p = deck_pendulum(d);
+  for (int i = 0; i < SCENE_PARAMETERS; i++) {
+    const deck_axis *a = &d->axis[scene_parameters[i].axis];
+    if (a->count > 0) scene_along_set(&p, scene_parameters[i].axis, a->value[0]);
+  }
+  return p;
+}
+
+const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis)
+{
+  *axis = DECK_AXIS_DAMPING;
+  (void)deck_moving(d, 1, axis);
+  return &d->axis[*axis];
+}
+
+/* List the attractors that there are instead, as in "sa, la". */
+static void list_labels(const pendres_attractors *set, char *text, size_t size)
+{
+  text[0] = '\0';
+  for (size_t i = 0; i < pendres_attractors_count(set); i++)
+    snprintf(text + strlen(text), size - strlen(text), "%s%s", i > 0 ? ", " : "",
+             pendres_label_name(pendres_attractors_get(set, i)->label));
+}
+
+/* An attractor that is asked for by its name or number. */
+typedef struct request {
+  const char *start;
+  size_t found; /* how many attractors there are */
+  char *why;    /* says what is wrong, in ... */
+  size_t size;  /* ... so many bytes */
+} request;
+
+static pendres_status named(pendres_context *ctx, const pendres_pendulum *p, request *r,
+                            pendres_attractor *out)
+{
+  const char *start = r->start;
+  pendres_attractors *set = NULL;
+  pendres_status status = pendres_attractors_find(ctx, p, 0, NULL, NULL, &set);
+  if (status != PENDRES_OK) return status;
+  status = PENDRES_NOT_FOUND;
+  const long number = strtol(start, NULL, 10); /* 0: a name */
+  size_t chosen = 0;
+  for (size_t i = 0; i < pendres_attractors_count(set) && status != PENDRES_OK; i++) {
+    const pendres_attractor *a = pendres_attractors_get(set, i);
+    if (number > 0 ? (long)i + 1 != number : strcmp(pendres_label_name(a->label), start) != 0)
+      continue;
+    *out = *a;
+    chosen = i;
+    status = PENDRES_OK;
+  }
+  if (status == PENDRES_OK && out->label == PENDRES_LABEL_CHAOTIC) {
+    pendres_state point = {NAN, NAN};
+    status = pendres_attractors_point(ctx, set, chosen, &point);
+    out->orbit.x = point.x;
+    out->orbit.v = point.v;
+    if (status == PENDRES_NOT_FOUND)
+      snprintf(r->why, r->size, "no start is found that leads to the chaotic attractor '%s': give "
+               "one by 'x' and 'v'", start);
+  } else if (status != PENDRES_OK) {
+    char list[100];
+    list_labels(set, list, sizeof list);
+    snprintf(r->why, r->size, "no attractor '%s' is found at these parameters from the starts that "
+             "are tried; found: %s. Give a state that leads to it by 'x' and 'v'", start,
+             list[0] != '\0' ? list : "none");
+  }
+  r->found = pendres_attractors_count(set);
+  pendres_attractors_free(set);
+  return status;
+}
+
+pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
+                                 pendres_attractor *out, char *why, size_t size)
+{
+  request r = {.start = start, .why = why, .size = size};
+  return named(ctx, p, &r, out);
+}
+
+/* ---- paths --------------------------------------------------------------------------------- */
+
+/* A record: this, the points, the jumps. */
+typedef struct head {
+  uint64_t points, jumps;
+} head;
+
+void scene_along_path_free(scene_along_path *path)
+{
+  free(path->point);
+  free(path->jump);
+  *path = (scene_along_path){ .points = 0 };
+}
+
+/* Whether the path had not reached this value when its budget ended it. */
+static int not_reached(const pendres_hysteresis_point *p)
+{
+  return p->outcome == PENDRES_INTERRUPTED;
+}
+
+static pendres_status keep(const pendres_hysteresis *h, farm_record *out)
+{
+  const head n = { pendres_hysteresis_count(h), pendres_hysteresis_jumps(h) };
+  const size_t points = n.points * sizeof(pendres_hysteresis_point);
+  unsigned char *to = farm_record_resize(out, sizeof n + points + n.jumps * sizeof(pendres_jump));
+  if (to == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(to, &n, sizeof n);
+  to += sizeof n;
+  for (size_t i = 0; i < n.points; i++, to += sizeof(pendres_hysteresis_point))
+    memcpy(to, pendres_hysteresis_get(h, i), sizeof(pendres_hysteresis_point));
+  for (size_t i = 0; i < n.jumps; i++, to += sizeof(pendres_jump))
+    memcpy(to, pendres_hysteresis_jump(h, i), sizeof(pendres_jump));
+  return PENDRES_OK;
+}
+
+/* A path that its budget has ended keeps the points that it had reached. */
+static pendres_status leave_rest(const pendres_hysteresis *h, farm_record *out)
+{
+  size_t left = 0;
+  for (size_t i = 0; i < pendres_hysteresis_count(h); i++)
+    left += not_reached(pendres_hysteresis_get(h, i)) != 0;
+  farm_lost_some(out, left, NULL, 0);
+  return PENDRES_OK;
+}
+
+/* The attractor that a path starts on, at its first value at which something settles: the path
+   leaves out those before, but where it comes to them soon. */
+static pendres_status find_start(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                 pendres_attractor *start, farm_record *out)
+{
+  pendres_pendulum p = scene_along_pendulum(d);
+  pendres_status status = PENDRES_NOT_FOUND;
+  for (size_t i = 0; i < way->n; i++) {
+    char why[SCENE_TOLD];
+    request r = {
+      .start = d->orbit.start, .why = out->message, .size = sizeof out->message};
+    scene_along_set(&p, way->axis, way->value[i]);
+    if (scene_settling_too_long(d, &p, 1.0, why, sizeof why)) {
+      if (i == 0) snprintf(out->message, sizeof out->message, "%s", why);
+      continue;
+    }
+    status = named(ctx, &p, &r, start);
+    const int nothing = status == PENDRES_NOT_FOUND && r.found == 0;
+    if (!nothing && status != PENDRES_TOLERANCE_UNREACHABLE && status != PENDRES_INTEGRATION_FAILED)
+      break;
+  }
+  return status;
+}
+
+pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                  farm_record *out)
+{
+  const pendres_pendulum p = scene_along_pendulum(d);
+  double x = d->orbit.x, v = d->orbit.v;
+  pendres_hysteresis *h = NULL;
+  pendres_status status = PENDRES_OK;
+  if (d->orbit.start[0] != '\0') {
+    pendres_attractor start;
+    status = find_start(d, way, ctx, &start, out);
+    if (status != PENDRES_OK) return status;
+    x = start.orbit.x;
+    v = start.orbit.v;
+  }
+  farm_point(out, way->n, "the path of %zu values of %s from %.10g on", way->n,
+             deck_axis_name(way->axis), way->value[0]);
+  const pendres_hysteresis_path path = {scene_parameter_of(way->axis)->parameter, way->n,
+                                        way->value};
+  status = pendres_hysteresis_follow(ctx, &p, &(pendres_state){x, v}, &path, &h);
+  if (farm_gave_up(out, status)) status = leave_rest(h, out);
+  if (status == PENDRES_OK) status = keep(h, out);
+  pendres_hysteresis_free(h);
+  return status;
+}
+
+static int point_fits(const pendres_hysteresis_point *p)
+{
+  return scene_check_attractor(&p->attractor) &&
+         scene_check_code((int)p->outcome, PENDRES_STATUS_COUNT) &&
+         scene_check_code(p->certain, 2);
+}
+
+static int jump_fits(const pendres_jump *j, size_t points)
+{
+  return j->step < points && (j->direction == 1 || j->direction == -1) &&
+         scene_check_code((int)j->kind, PENDRES_JUMP_COUNT) &&
+         scene_check_code((int)j->from, PENDRES_LABEL_COUNT) &&
+         scene_check_code((int)j->to, PENDRES_LABEL_COUNT) && j->to_period >= 0 &&
+         scene_check_code(j->gradual, 2) && scene_check_code(j->certain, 2);
+}
+
+int scene_along_check(const farm_record *in, size_t points)
+{
+  const pendres_hysteresis_point *point;
+  const pendres_jump *jump;
+  head n;
+  if (in->size < sizeof n) return 0;
+  memcpy(&n, in->data, sizeof n);
+  if (n.points != points || n.points > (in->size - sizeof n) / sizeof *point) return 0;
+  const size_t rest = in->size - sizeof n - points * sizeof *point;
+  point = (const void *)((const char *)in->data + sizeof n);
+  jump = (const void *)(point + points);
+  int good = n.jumps == rest / sizeof *jump && rest % sizeof *jump == 0;
+  for (size_t i = 0; good && i < n.points; i++) good = point_fits(&point[i]);
+  for (size_t i = 0; good && i < n.jumps; i++) good = jump_fits(&jump[i], points);
+  return good;
+}
+
+pendres_status scene_along_take(const farm_record *in, scene_along_path *path)
+{
+  head n;
+  const unsigned char *from = in->data;
+  memcpy(&n, from, sizeof n);
+  from += sizeof n;
+  path->points = n.points;
+  path->jumps = n.jumps;
+  path->point = malloc((n.points + 1) * sizeof *path->point);
+  path->jump = malloc((n.jumps + 1) * sizeof *path->jump);
+  if (path->point == NULL || path->jump == NULL) return PENDRES_OUT_OF_MEMORY;
+  memcpy(path->point, from, n.points * sizeof *path->point);
+  memcpy(path->jump, from + n.points * sizeof *path->point, n.jumps * sizeof *path->jump);
+  return PENDRES_OK;
+}
+
+/* Why a point has no attractor; SCENE_FAILURE_NONE: it has one. */
+static scene_failure failure_of(const pendres_hysteresis_point *point)
+{
+  if (point->attractor.label != PENDRES_LABEL_UNRESOLVED) return SCENE_FAILURE_NONE;
+  if (not_reached(point)) return SCENE_FAILURE_OUT_OF_TIME;
+  if (point->outcome == PENDRES_OK) return SCENE_FAILURE_UNRESOLVED;
+  return point->outcome == PENDRES_UNRESOLVED ? SCENE_FAILURE_TOO_LONG
+                                              : scene_failure_of(point->outcome);
+}
+
+static int is_doubtful(const pendres_hysteresis_point *p)
+{
+  return p->attractor.label != PENDRES_LABEL_UNRESOLVED && !p->certain;
+}
+
+int scene_along_closed(const pendres_hysteresis_point *point)
+{
+  return point->attractor.orbit.period > 0;
+}
+
+scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path)
+{
+  scene_along_row *rows = scene_rows(run, path->points, sizeof *rows);
+  for (size_t i = 0; i < path->points && rows != NULL; i++) {
+    const pendres_hysteresis_point *p = &path->point[i];
+    const pendres_orbit *o = &p->attractor.orbit;
+    const double closed = scene_along_closed(p) ? 0.0 : NAN;
+    rows[i] = (scene_along_row){.of = *p, .period = o->period + closed, .period_error = closed,
+                                .winding = o->winding + closed, .winding_error = closed,
+                                .uncertain = is_doubtful(p), .failed = (int)failure_of(p)};
+  }
+  return rows;
+}
+
+pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
+                                       const char *what, size_t count,
+                                       const scene_column *columns)
+{
+  char words[60];
+  scene_along_jump *rows = scene_rows(run, path->jumps, sizeof *rows);
+  const scene_table table = {.dimensions = {what}, .prefix = what, .n = path->jumps,
+                             .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < path->jumps; i++) {
+    const pendres_jump *j = &path->jump[i];
+    rows[i] = (scene_along_jump){
+      .parameter = j->value, .parameter_error = j->value_error,
+      .period = j->to_period > 0 ? j->to_period : NAN,
+      .period_error = j->to_period > 0 ? 0.0 : NAN, .share = j->share,
+      .share_error = j->share_error,
+      .direction = j->direction < 0, .kind = (int)j->kind, .from = (int)j->from,
+      .to = (int)j->to, .gradual = j->gradual, .certain = j->certain, .to_period = j->to_period};
+  }
+  snprintf(words, sizeof words, "number of the %s", what);
+  pendres_status status = scene_numbering(run, what, table.n, words);
+  if (status == PENDRES_OK) status = scene_columns_write(run, &table, count, columns);
+  free(rows);
+  return status;
+}
+
+static const scene_column verdicts[] = {
+  { .name = "label", .long_name = "kind of attractor that the pendulum is on", .type = SCENE_FLAG,
+    .value = offsetof(scene_along_row, of.attractor.label), .names = scene_motion_names },
+  SCENE_CODE(scene_along_row, failed, "why there is no attractor", scene_failure_names),
+};
+
+/* Only where it is: files of starts that are sure have none. */
+static const scene_column doubts[] = {
+  { .name = "uncertain", .type = SCENE_FLAG, .value = offsetof(scene_along_row, uncertain),
+    .names = scene_doubt_names,
+    .long_name = "whether errors that the start amplifies may have chosen the state on which the "
+                 "path begins" },
+};
+
+int scene_along_uncertain(const scene_along_path *path)
+{
+  for (size_t i = 0; i < path->points; i++)
+    if (is_doubtful(&path->point[i])) return 1;
+  return 0;
+}
+
+pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                          const scene_table *table)
+{
+  const pendres_status status = SCENE_WRITE(run, table, verdicts);
+  return status == PENDRES_OK && scene_along_uncertain(path) ? SCENE_WRITE(run, table, doubts)
+                                                             : status;
+}
+
+/* Of values that a path has left out; NULL: what is said of all. */
+static const char *remedy_of(scene_failure failed)
+{
+  if (failed == SCENE_FAILURE_TOO_LONG)
+    return "left out: following the state there takes too much work; smaller steps of the "
+           "parameter on the way may do";
+  if (failed == SCENE_FAILURE_TOLERANCE)
+    return "left out: more steps a period are needed there than are taken; a looser "
+           "precision.tolerance may do";
+  return NULL;
+}
+
+void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways)
+{
+  static const char *const words[] = { "upwards", "downwards" };
+  const size_t values = path->points / (size_t)ways;
+  for (size_t i = 0; i < path->points; i++) {
+    const scene_failure failed = failure_of(&path->point[i]);
+    if (failed == SCENE_FAILURE_NONE) continue;
+    run->failed_points++;
+    scene_failure_tell(run, failed, remedy_of(failed), "%s %.10g, %s", deck_axis_name(axis),
+                       path->point[i].value, words[i / values]);
+  }
+}

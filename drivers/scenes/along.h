@@ -1,0 +1,102 @@
+/*
+ * along.h -- what scenes share in which parameters of the pendulum move.
+ *
+ * Owns: the pendulum whose parameters stand still, those that move, and the attractor that a start
+ * names.
+ */
+#ifndef SCENE_ALONG_H
+#define SCENE_ALONG_H
+
+#include "scenes/check.h"
+#include "scenes/columns.h"
+#include "scenes/failed.h"
+
+/* The deck's pendulum; a parameter that moves has its first value. */
+pendres_pendulum scene_along_pendulum(const deck *d);
+
+/* Set the quantity of an axis. */
+void scene_along_set(pendres_pendulum *p, deck_axis_id axis, double value);
+
+/* The axis that a deck moves, and its values. */
+const deck_axis *scene_along_axis(const deck *d, deck_axis_id *axis);
+
+/*
+ * The attractor that a deck's `start` names at some parameters: "sa", "la", or its number from 1
+ * on; of a chaotic one orbit.x and orbit.v are a point on it. PENDRES_NOT_FOUND if there is none;
+ * why[size] then says what there is.
+ */
+pendres_status scene_along_named(pendres_context *ctx, const pendres_pendulum *p, const char *start,
+                                 pendres_attractor *out, char *why, size_t size);
+
+/* A path and what was met on it. */
+typedef struct scene_along_path {
+  size_t points, jumps;
+  pendres_hysteresis_point *point; /* [points] in the order of the path */
+  pendres_jump *jump;              /* [jumps] */
+} scene_along_path;
+
+void scene_along_path_free(scene_along_path *path);
+
+/* Values of an axis in the order in which they are followed. */
+typedef struct scene_along_way {
+  deck_axis_id axis;
+  size_t n;
+  const double *value;
+} scene_along_way;
+
+/* Follow the deck's pendulum from its start along a way, and fill a record. The budget is of all
+   values together: where it ends the path, the rest of it stays unresolved. */
+pendres_status scene_along_follow(const deck *d, const scene_along_way *way, pendres_context *ctx,
+                                  farm_record *out);
+
+/* Can it be the record of a path of so many points? See farm_check. */
+int scene_along_check(const farm_record *in, size_t points);
+
+/* Take over such a record. */
+pendres_status scene_along_take(const farm_record *in, scene_along_path *path);
+
+/* Whether a point is on a closed orbit. */
+int scene_along_closed(const pendres_hysteresis_point *point);
+
+/* A point as a row of results, and columns of what it and its attractor and orbit have. */
+typedef struct scene_along_row {
+  pendres_hysteresis_point of;
+  double period, period_error, winding, winding_error; /* NaN unless the orbit closes */
+  int uncertain, failed;                               /* a scene_failure */
+} scene_along_row;
+
+#define SCENE_ALONG_COLUMN(label, field, words, unit)                                           \
+  {.name = #label, .long_name = words, .units = unit,                                            \
+   .value = offsetof(scene_along_row, of.field),                                                 \
+   .error = offsetof(scene_along_row, of.field##_error)}
+
+/* What ends a state, as a row of results. */
+typedef struct scene_along_jump {
+  double parameter, parameter_error, period, period_error; /* period: of the orbit jumped to; NaN */
+  double share, share_error;                               /* of trials: the binomial error */
+  int direction, kind, from, to, gradual, certain, to_period;
+} scene_along_jump;
+
+/* All points of a path as rows; see scene_rows(). */
+scene_along_row *scene_along_rows(scene_run *run, const scene_along_path *path);
+
+/* Write the jumps of a path as a table of scene_along_jump over a dimension `what`, which is before
+   all names, too. SCENE_ALONG_WRITE_JUMPS writes the columns of an array. */
+pendres_status scene_along_write_jumps(scene_run *run, const scene_along_path *path,
+                                       const char *what, size_t count,
+                                       const scene_column *columns);
+#define SCENE_ALONG_WRITE_JUMPS(run, path, what, columns) \
+  scene_along_write_jumps(run, path, what, sizeof columns / sizeof *columns, columns)
+
+/* Whether errors of the integration may have chosen the state that the path begins on. */
+int scene_along_uncertain(const scene_along_path *path);
+
+/* Write columns of a table of scene_along_row: `label`, `failed` and, if it is, `uncertain`. */
+pendres_status scene_along_write_verdicts(scene_run *run, const scene_along_path *path,
+                                          const scene_table *table);
+
+/* Count the points that failed, and tell the first of them. If there are two ways, points of the
+   way back are in the order of the axis, too. */
+void scene_along_tell(scene_run *run, deck_axis_id axis, const scene_along_path *path, int ways);
+
+#endif

@@ -1,0 +1,414 @@
+/* basins_write.c -- the file and the table of scene `basins`; see basins.h. */
+#include "scenes/basins.h"
+#include "scenes/columns.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { QUICK = 1 /* level of compression for the largest arrays: higher ones gain little */ };
+
+/* ---- states -------------------------------------------------------------------------------- */
+
+/* A state as a row of results. */
+typedef struct state_row {
+  int label, attractor, well, settling_periods, failed, uncertain;
+} state_row;
+
+static const scene_column of_states[BASINS_VARIABLES] = {
+  SCENE_CODE(state_row, label, "what the pendulum settles on", scene_label_names),
+  {.name = "attractor_index", .long_name = "number of the attractor that the pendulum settles on",
+   .type = SCENE_NUMBER, .value = offsetof(state_row, attractor), .comment = "-1: unresolved"},
+  {.name = "well", .long_name = "number of the well that the pendulum settles in",
+   .type = SCENE_NUMBER, .value = offsetof(state_row, well),
+   .comment = "0 for running and chaotic pendulums"},
+  {.name = "settling_periods", .type = SCENE_NUMBER, .value = offsetof(state_row, settling_periods),
+   .long_name = "drive periods until the pendulum is inside its attractor's trapping region",
+   .comment = "-1: unresolved; -2: filled in by refinement, not integrated; -3: ended by --budget"},
+  SCENE_CODE(state_row, failed, "why there is no label for the state", scene_failure_names),
+  {.name = "uncertain", .type = SCENE_FLAG, .value = offsetof(state_row, uncertain),
+   .names = scene_doubt_names,
+   .long_name = "whether the errors that the pendulum carried may change where it settles",
+   .comment = "no: they may not, or the state was not integrated"},
+};
+
+static void state_rows(size_t n, const pendres_basin_state *state, state_row *rows)
+{
+  for (size_t i = 0; i < n; i++) {
+    const pendres_basin_state *s = &state[i];
+    const int unknown = s->attractor == PENDRES_ATTRACTOR_UNKNOWN;
+    const int late = s->settling_periods == BASINS_GIVEN_UP;
+    rows[i] = (state_row){
+      .label = s->label, .attractor = s->attractor, .well = s->well,
+      .settling_periods = s->settling_periods,
+      .failed = late      ? SCENE_FAILURE_OUT_OF_TIME
+                : unknown ? SCENE_FAILURE_UNRESOLVED
+                          : SCENE_FAILURE_NONE,
+      .uncertain = s->how == PENDRES_BASIN_UNCERTAIN};
+  }
+}
+
+static scene_table state_table(const char *group, const char *second, size_t n,
+                               const state_row *rows)
+{
+  return (scene_table){.group = group, .dimensions = {"x", second}, .n = n,
+                       .stride = sizeof *rows, .rows = rows, .deflate = QUICK};
+}
+
+static scene_variables variables_of(basins *b)
+{
+  return (scene_variables){BASINS_VARIABLES, b->column, b->variable};
+}
+
+pendres_status basins_define(basins *b)
+{
+  const scene_table table = state_table("", "v", 0, NULL);
+  const scene_variables of = variables_of(b);
+  pendres_status status = scene_dimension(b->run, "", DECK_AXIS_X);
+  if (status == PENDRES_OK) status = scene_dimension(b->run, "", DECK_AXIS_V);
+  memcpy(b->column, of_states, sizeof of_states);
+  /* Where a force may drive pendulums to infinity, the first two columns have a value for that. */
+  if (strcmp(b->d->pendulum.force, "polynomial") == 0) {
+    b->column[0].names = scene_fate_names;
+    b->column[1].comment = "-1: unresolved; -2: escapes to infinity";
+  }
+  return status == PENDRES_OK ? scene_columns_define(b->run, &table, &of) : status;
+}
+
+pendres_status basins_write_rows(basins *b, size_t first, size_t rows,
+                                 const pendres_basin_state *state)
+{
+  enum { ROWS = 256 };
+  const size_t nv = b->grid.nv;
+  pendres_status status = PENDRES_OK;
+  const scene_variables of = variables_of(b);
+  state_row *some = scene_rows(b->run, (rows < ROWS ? rows : ROWS) * nv, sizeof *some);
+  if (some == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < rows && status == PENDRES_OK; i += ROWS) {
+    const size_t n = rows - i < ROWS ? rows - i : ROWS;
+    const scene_table table = state_table("", "v", n * nv, some);
+    state_rows(n * nv, state + i * nv, some);
+    status = scene_columns_write_rows(b->run, &table, first + i, n, &of);
+  }
+  free(some);
+  return status;
+}
+
+static pendres_status write_cut(basins *b)
+{
+  const size_t n = b->grid.nx;
+  pendres_status status = scene_dimension(b->run, "cut", DECK_AXIS_X);
+  if (status != PENDRES_OK) return status;
+  state_row *rows = scene_rows(b->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  const scene_table table = state_table("cut", NULL, n, rows);
+  state_rows(n, b->cut, rows);
+  status = SCENE_WRITE(b->run, &table, b->column);
+  free(rows);
+  if (status != PENDRES_OK) return status;
+  status = pendres_store_attribute_text(b->run->store, "cut", NULL, "description",
+                                        "the line v = 0");
+  return scene_stored(b->run, status);
+}
+
+/* ---- attractors ---------------------------------------------------------------------------- */
+
+/* An attractor and its share of the window. */
+typedef struct row {
+  size_t number;
+  pendres_attractor of;
+  double basin_fraction, basin_fraction_error;
+  double period, winding; /* of the orbit; NaN for chaos, which has none */
+} row;
+
+#define OF_ORBIT(field, words, unit)                                                  \
+  {.name = "attractor_" #field, .long_name = words, .units = unit,                    \
+   .value = offsetof(row, of.orbit.field), .error = offsetof(row, of.orbit.field##_error)}
+#define OF_ATTRACTOR(label, field, words)                                             \
+  {.name = "attractor_" #label, .long_name = words, .units = "1",                     \
+   .value = offsetof(row, of.field), .error = offsetof(row, of.field##_error)}
+#define PLAIN(label, what, field, words)                                              \
+  {.name = "attractor_" #label, .long_name = words, .type = what, .value = offsetof(row, of.field)}
+static const scene_column of_attractors[] = {
+  {.name = "attractor_label", .long_name = "kind of attractor", .type = SCENE_FLAG,
+   .value = offsetof(row, of.label), .names = scene_label_names},
+  PLAIN(period, SCENE_NUMBER, orbit.period, "drive periods until the orbit closes; 0: it does not"),
+  PLAIN(winding, SCENE_NUMBER, orbit.winding, "whole turns in that time"),
+  OF_ORBIT(x, "position at drive phase 0, in well 0", "rad"),
+  OF_ORBIT(v, "velocity at drive phase 0", "1"),
+  OF_ATTRACTOR(lyapunov, lyapunov, "largest Lyapunov exponent a unit time"),
+  OF_ATTRACTOR(drift, drift, "mean whole turns a drive period, of chaos"),
+  PLAIN(watched_periods, SCENE_PLAIN, watched_periods,
+        "drive periods that chaos was watched for without ending, all walkers together"),
+  PLAIN(escape_rate_bound, SCENE_PLAIN, escape_rate_bound,
+        "largest rate of ending of chaos, a drive period, that is not excluded at 95 %"),
+  {.name = "basin_fraction", .long_name = "share of the window's area", .units = "1",
+   .comment = "each state stands for what is nearest to it: ends of a range count half; plain "
+              "counts are basin_states",
+   .value = offsetof(row, basin_fraction), .error = offsetof(row, basin_fraction_error)},
+};
+
+static void make_rows(const basins *b, const double *fraction, const double *error, row *rows)
+{
+  for (size_t i = 0; i < pendres_attractors_count(b->set); i++) {
+    const pendres_attractor *a = pendres_attractors_get(b->set, i);
+    const int closed = a->orbit.period > 0;
+    rows[i] = (row){.number = i, .of = *a,
+                    .basin_fraction = fraction[i], .basin_fraction_error = error[i],
+                    .period = closed ? a->orbit.period : NAN,
+                    .winding = closed ? a->orbit.winding : NAN};
+  }
+}
+
+static pendres_status write_attractors(basins *b, size_t n, const row *rows)
+{
+  const scene_table table = {.dimensions = {"attractor"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
+  pendres_status status =
+    scene_numbering(b->run, "attractor", n, "attractor, by amplitude, then by position");
+  if (status == PENDRES_OK) status = SCENE_WRITE(b->run, &table, of_attractors);
+  const scene_table orbits = {.dimensions = {"attractor"}, .prefix = "attractor", .n = n,
+                              .stride = sizeof *rows, .rows = rows};
+  if (status == PENDRES_OK)
+    status = scene_columns_write_orbits(b->run, &orbits, offsetof(row, of.orbit));
+  if (status == PENDRES_OK) status = basins_write_wells(b, n);
+  return scene_stored(b->run, status);
+}
+
+/* ---- statistics ---------------------------------------------------------------------------- */
+
+static pendres_status look_closer(basins *b, pendres_basin_statistics *s)
+{
+  pendres_context *ctx = scene_context(b->run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  return scene_asked(b->run, pendres_basin_statistics_refine(ctx, b->set, &b->grid, s,
+                                                             &b->random_states));
+}
+
+#define STATISTIC(label, field, words)                                          \
+  {.name = #label, .long_name = words,                                          \
+   .value = offsetof(pendres_basin_statistics, field),                          \
+   .error = offsetof(pendres_basin_statistics, field##_error)}
+static const scene_column of_statistics[] = {
+  STATISTIC(basin_entropy, entropy, "basin entropy over boxes of 5 x 5 states"),
+  STATISTIC(boundary_basin_entropy, boundary_entropy,
+            "basin entropy over boxes with a boundary; above log 2 it is fractal"),
+  STATISTIC(uncertainty_exponent, uncertainty_exponent,
+            "exponent of the share of uncertain states over distance"),
+};
+
+/* Shares are arrays of the statistics, not one of structs: a step is that of their doubles. */
+static const scene_column of_distances =
+  STATISTIC(uncertain_fraction, uncertain, "share of states with an unlike one so far off");
+
+static pendres_status write_statistics(basins *b, const pendres_basin_statistics *s)
+{
+  static const scene_column random = {
+    .name = "uncertainty_random_states", .type = SCENE_COUNT,
+    .long_name = "random states that the exponent is from; 0: the states of the grid"};
+  const scene_table whole = {.n = 1, .stride = sizeof *s, .rows = s};
+  const scene_table states = {.n = 1, .stride = sizeof b->random_states, .rows = &b->random_states};
+  const scene_table distances = {.dimensions = {"distance"}, .n = (size_t)s->scales,
+                                 .stride = sizeof s->uncertain[0], .rows = s};
+  pendres_status status = SCENE_WRITE(b->run, &whole, of_statistics);
+  if (status == PENDRES_OK) status = scene_columns_write(b->run, &states, 1, &random);
+  if (status != PENDRES_OK || s->scales == 0) return status;
+  status = pendres_store_dimension(
+    b->run->store,
+    &(pendres_store_spec){.name = "distance", .long_name = "distance in initial velocity"},
+    (uint64_t)s->scales, s->distance);
+  return status == PENDRES_OK ? scene_columns_write(b->run, &distances, 1, &of_distances)
+                              : scene_stored(b->run, status);
+}
+
+/* How many states there are of each kind. */
+typedef struct counts {
+  size_t unresolved, uncertain, integrated, filled, verified, missed, suspected;
+} counts;
+
+#define STATES(label, field, words) \
+  {.name = #label, .long_name = words, .type = SCENE_COUNT, .value = offsetof(counts, field)}
+static const scene_column of_counts[] = {
+  STATES(unresolved_states, unresolved, "states without an attractor"),
+  STATES(uncertain_states, uncertain,
+         "integrated states that may go to another attractor, or well"),
+};
+static const scene_column of_refinement[] = {
+  STATES(integrated_states, integrated, "states that were integrated"),
+  STATES(filled_states, filled, "states that were filled in"),
+  STATES(verified_states, verified, "filled states that were integrated as a check"),
+  STATES(verification_misses, missed,
+         "verified states that had been filled in wrongly, and were put right with their "
+         "surroundings until a fresh sample was clean"),
+  STATES(suspected_states, suspected,
+         "filled states that may be wrong at most, with a confidence of 95 %"),
+};
+
+/* The states that go to infinity, where a force may drive them there. */
+static const scene_column of_escapes[] = {
+  {.name = "escaped_states", .long_name = "states that escape to infinity", .type = SCENE_COUNT,
+   .value = offsetof(pendres_basin_statistics, escaped)},
+  {.name = "escape_fraction", .long_name = "share of the window's area that escapes", .units = "1",
+   .value = offsetof(pendres_basin_statistics, escape_fraction),
+   .error = offsetof(pendres_basin_statistics, escape_fraction_error)},
+};
+
+static pendres_status write_escapes(basins *b, const pendres_basin_statistics *s)
+{
+  const scene_table table = {.n = 1, .stride = sizeof *s, .rows = s};
+  if (strcmp(b->d->pendulum.force, "polynomial") != 0) return PENDRES_OK;
+  return SCENE_WRITE(b->run, &table, of_escapes);
+}
+
+static pendres_status write_counts(basins *b)
+{
+  const counts of = {
+    .unresolved = b->unresolved, .uncertain = b->uncertain, .integrated = b->integrated,
+    .filled = b->grid.nx * b->grid.nv - b->integrated, .verified = b->verified,
+    .missed = b->missed,
+    .suspected = (size_t)ceil(pendres_basin_plan_suspected(b->filled, b->clean))};
+  const scene_table table = {.n = 1, .stride = sizeof of, .rows = &of};
+  const pendres_status status = SCENE_WRITE(b->run, &table, of_counts);
+  return status == PENDRES_OK && b->d->basins.refine ? SCENE_WRITE(b->run, &table, of_refinement)
+                                                     : status;
+}
+
+/* ---- what the paper says ------------------------------------------------------------------- */
+
+/* Share of the starts at rest between two positions that settle on `label` in well 0. */
+static double share_between(const basins *b, double low, double high, pendres_label label)
+{
+  size_t all = 0, there = 0;
+  for (size_t i = 0; i < b->grid.nx; i++) {
+    if (b->grid.x[i] < low || b->grid.x[i] > high) continue;
+    all++;
+    there += b->cut[i].label == (int8_t)label && (label != PENDRES_LABEL_SA || b->cut[i].well == 0);
+  }
+  return all > 0 ? (double)there / (double)all : NAN;
+}
+
+static pendres_status write_paper(basins *b)
+{
+  const pendres_pendulum *p = &b->pendulum;
+  if (fabs(p->damping - 0.12) > 1e-12 || fabs(p->drive_amplitude - 0.2) > 1e-12 ||
+      fabs(p->drive_frequency - 0.25 * PENDRES_PI) > 1e-12)
+    return PENDRES_OK;
+  const scene_printed values[] = {
+    {.name = "attractors", .printed = 2.0, .computed = (double)pendres_attractors_count(b->set)},
+    {.name = "share_sa_x_0.2pi_to_1.1pi", .printed = 1.0,
+     .computed = share_between(b, 0.2 * PENDRES_PI, 1.1 * PENDRES_PI, PENDRES_LABEL_SA)},
+    {.name = "share_la_x_-0.3pi_to_0", .printed = 1.0,
+     .computed = share_between(b, -0.3 * PENDRES_PI, 0.0, PENDRES_LABEL_LA)}};
+  return scene_write_paper(b->run, 3, values);
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+static const scene_cell cells[] = {
+  {.heading = "attractor   ", .format = "%2zu ", .type = SCENE_COUNT,
+   .value = offsetof(row, number)},
+  {.heading = "", .format = "%-10s", .type = SCENE_FLAG, .value = offsetof(row, of.label),
+   .names = scene_label_names},
+  {.heading = "period ", .format = "%4.0f ", .none = "   - ", .value = offsetof(row, period)},
+  {.heading = "winding ", .format = "%6.0f   ", .none = "     -   ",
+   .value = offsetof(row, winding)},
+  {.heading = "amplitude    ", .format = "%.8f   ", .none = "-            ",
+   .value = offsetof(row, of.orbit.amplitude)},
+  {.heading = "phase lag    ", .format = "%.8f   ", .none = "-            ",
+   .value = offsetof(row, of.orbit.phase_lag)},
+  SCENE_CELL(row, of.lyapunov, "Lyapunov exponent     ", "%9.6f +- "),
+  SCENE_CELL(row, of.lyapunov_error, "", "%.0e   "),
+  SCENE_CELL(row, basin_fraction, "share of the area", "%.6f +- "),
+  SCENE_CELL(row, basin_fraction_error, "", "%.0e"),
+};
+
+/* How long chaos was watched. */
+static void print_chaos(FILE *out, size_t n, const row *rows)
+{
+  for (size_t i = 0; i < n; i++)
+    if (rows[i].of.label == PENDRES_LABEL_CHAOTIC)
+      fprintf(out, "%2zu was watched for %.3g drive periods: chaos that ends at a rate above %.1e "
+                   "would have been seen to\n",
+              i, rows[i].of.watched_periods, rows[i].of.escape_rate_bound);
+}
+
+static void print_statistics(FILE *out, const pendres_basin_statistics *s, pendres_basin_end by)
+{
+  if (!(s->boundary_boxes > 0.0)) {
+    if (isnan(s->boundary_boxes)) fprintf(out, "too few states for statistics of the boundary\n");
+    else
+      fprintf(out, "no boundary between basins of different %s\n",
+              by == PENDRES_BASIN_BY_WELL ? "wells" : "attractors");
+    return;
+  }
+  fprintf(out, "boundary basin entropy %.4f +- %.4f, uncertainty exponent ", s->boundary_entropy,
+          s->boundary_entropy_error);
+  if (isnan(s->uncertainty_exponent))
+    fprintf(out, "unknown: boundary met too rarely, or nearly everywhere\n");
+  else fprintf(out, "%.3f +- %.3f\n", s->uncertainty_exponent, s->uncertainty_exponent_error);
+}
+
+static void print_table(const basins *b, const pendres_basin_statistics *s, size_t n,
+                        const row *rows)
+{
+  FILE *out = b->run->table;
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  if (out == NULL) return;
+  SCENE_PRINT(out, &table, n, cells, NULL);
+  if (s->escaped > 0)
+    fprintf(out, "%-13s%72s%.6f +- %.0e\n", "   escape", "", s->escape_fraction,
+            s->escape_fraction_error);
+  print_chaos(out, n, rows);
+  fprintf(out, "%zu states, %zu unresolved, %zu uncertain\n", s->states, b->unresolved,
+          s->uncertain_states);
+  if (b->d->basins.refine)
+    fprintf(out,
+            "integrated %zu (%.2f %%), filled in and verified %zu of them: %zu wrong%s,\n"
+            "of %zu that are filled in at most %.0f are wrong with a confidence of 95 %%\n",
+            b->integrated, 100.0 * (double)b->integrated / (double)s->states, b->verified,
+            b->missed, b->missed > 0 ? " and put right" : "", b->filled,
+            ceil(pendres_basin_plan_suspected(b->filled, b->clean)));
+  basins_print_wells(b, out);
+  if (b->d->basins.statistics) print_statistics(out, s, b->grid.by);
+  if (b->curve != NULL) fprintf(out, "boundary as a curve: %s\n", b->curve);
+}
+
+static pendres_status write_results(basins *b, pendres_basin_statistics *s, size_t n,
+                                    const row *rows)
+{
+  const int statistics = b->d->basins.statistics;
+  pendres_status status = statistics ? look_closer(b, s) : PENDRES_OK;
+  if (status == PENDRES_OK) status = write_attractors(b, n, rows);
+  if (status == PENDRES_OK) status = write_cut(b);
+  if (status == PENDRES_OK) status = write_counts(b);
+  if (status == PENDRES_OK) status = write_escapes(b, s);
+  if (status == PENDRES_OK && statistics) status = write_statistics(b, s);
+  if (status == PENDRES_OK && b->d->basins.boundary) status = basins_write_boundary(b);
+  return status == PENDRES_OK ? write_paper(b) : status;
+}
+
+pendres_status basins_write_results(basins *b)
+{
+  const size_t n = pendres_attractors_count(b->set);
+  pendres_basin_statistics s;
+  double *fraction = malloc((2 * n + 1) * sizeof *fraction);
+  row *rows = malloc((n + 1) * sizeof *rows);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (fraction == NULL || rows == NULL) {
+    (void)scene_fail(b->run, status, "out of memory for attractors");
+    goto done;
+  }
+  status = pendres_basin_sums_result(b->sums, &s, fraction, fraction + n);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(b->run, status, "there are no states");
+    goto done;
+  }
+  b->uncertain = s.uncertain_states;
+  make_rows(b, fraction, fraction + n, rows);
+  status = write_results(b, &s, n, rows);
+  if (status == PENDRES_OK) print_table(b, &s, n, rows);
+done:
+  free(fraction);
+  free(rows);
+  return status;
+}

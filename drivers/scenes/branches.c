@@ -1,0 +1,358 @@
+/*
+ * branches.c -- amplitudes of SA and LA along lines, with the branches between.
+ *
+ * The paper's Fig. 9. One task a damping. Beside the ensemble's means stand the branches
+ * themselves, unstable parts included, the curves of folds that bound the coexistence region (the
+ * figure's thick lines), and two backbones: the free pendulum's, and the driven one's at a lag of
+ * pi/2.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/curves.h"
+#include "scenes/rotations.h"
+
+enum { BACKBONE = 101, FREE = 156, MOST_PARTS = 64 };
+
+static void describe(const deck *d, FILE *out)
+{
+  fprintf(out, "amplitudes of ");
+  scene_lines_describe(d, out);
+  fprintf(out, "; the branches of orbits that they lie on, curves of folds, and backbones\n");
+}
+
+/* ---- the grid ------------------------------------------------------------------------------ */
+
+static const scene_column columns[] = {
+  SCENE_COLUMN(pendres_phase_point, sa_amplitude,
+               "amplitude of the small-amplitude orbit, reached by members or not", "rad"),
+  SCENE_COLUMN(pendres_phase_point, la_amplitude,
+               "amplitude of the large-amplitude orbit, reached by members or not", "rad"),
+  SCENE_COLUMN(pendres_phase_point, mean_loop_amplitude, "amplitude of the ensemble-averaged loop",
+               "rad"),
+  SCENE_COLUMN(pendres_phase_point, mean_loop_area, "mean loop area of the ensemble", "1"),
+  SCENE_COLUMN(pendres_phase_point, sa_fraction,
+               "share of the members on the small-amplitude state", "1"),
+  SCENE_COLUMN(pendres_phase_point, la_fraction,
+               "share of the members on the large-amplitude state", "1"),
+  SCENE_CODE(pendres_phase_point, regime, "states of motion that members settle on",
+             scene_regime_names),
+};
+
+/* ---- branches ------------------------------------------------------------------------------ */
+
+/* Points of all branches of all lines, one after another. */
+typedef struct row {
+  scene_place place;
+  pendres_orbit of;
+  double multiplier_error[2]; /* of both the same */
+  int kind, doubt, number;
+} row;
+
+static const char *stabilities(int value)
+{
+  static const char *const names[] = {"unstable", "stable"};
+  return value < 2 ? names[value] : NULL;
+}
+
+static const int8_t doubt_bits[] = {0, PENDRES_DOUBT_SIGN, PENDRES_DOUBT_TURN,
+                                    PENDRES_DOUBT_BIFURCATION};
+
+static const char *doubts(int value)
+{
+  if (value == 0) return "none";
+  return value < (int)sizeof doubt_bits ? pendres_doubt_name((pendres_doubt)doubt_bits[value])
+                                        : NULL;
+}
+
+static const scene_column of_points[] = {
+  {.name = "multiplier_re", .long_name = "real part of the Floquet multiplier", .pairs = 1,
+   .value = offsetof(row, of.multiplier_re), .error = offsetof(row, multiplier_error)},
+  {.name = "multiplier_im", .long_name = "imaginary part of the Floquet multiplier", .pairs = 1,
+   .value = offsetof(row, of.multiplier_im), .error = offsetof(row, multiplier_error)},
+  {.name = "stable", .long_name = "whether the orbit attracts", .type = SCENE_FLAG,
+   .value = offsetof(row, of.stable), .names = stabilities},
+  SCENE_CODE(row, kind, "what happens at the point", scene_special_names),
+  {.name = "doubt", .long_name = "what the bifurcations do not explain there: sum of the flags",
+   .type = SCENE_FLAG, .value = offsetof(row, doubt), .names = doubts,
+   .codes = doubt_bits},
+  {.name = "number", .long_name = "number of the branch", .type = SCENE_NUMBER,
+   .value = offsetof(row, number)},
+  {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
+   .value = offsetof(row, of.period)},
+};
+
+static row row_of(const scene_lines *l, const pendres_branch_point *p, int number)
+{
+  const pendres_orbit *o = &p->orbit;
+  const double error[2] = {p->parameter_error, 0.0};
+  return (row){.place = scene_lines_place(l, &o->pendulum, error), .of = *o,
+               .multiplier_error = {o->multiplier_error, o->multiplier_error},
+               .kind = (int)p->kind, .doubt = p->doubt, .number = number};
+}
+
+/* Their number; rows may be NULL. */
+static size_t take_points(const scene_lines *l, row *rows)
+{
+  size_t n = 0;
+  int number = 0;
+  for (size_t i = 0; i < l->grid.lines; i++) {
+    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    for (size_t k = 0; k < pendres_branches_count(all); k++, number++) {
+      const pendres_branch *b = pendres_branches_get(all, k);
+      for (size_t m = 0; m < pendres_branch_count(b); m++, n++)
+        if (rows != NULL) rows[n] = row_of(l, pendres_branch_get(b, m), number);
+    }
+  }
+  return n;
+}
+
+static pendres_status write_branches(const scene_lines *l)
+{
+  const size_t n = take_points(l, NULL);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  (void)take_points(l, rows);
+  const scene_table table = {.dimensions = {"point"}, .prefix = "branch", .inner = "multiplier",
+                             .n = n, .stride = sizeof *rows, .rows = rows};
+  pendres_status status =
+    scene_numbering(l->run, "point", n, "number of the point, in order along each branch");
+  if (status == PENDRES_OK)
+    status = scene_numbering(l->run, "multiplier", 2,
+                             "Floquet multiplier, the larger modulus first");
+  if (status == PENDRES_OK)
+    status = scene_lines_write_places(l, &table, NULL, sizeof of_points / sizeof *of_points,
+                                      of_points);
+  if (status == PENDRES_OK)
+    status = scene_columns_write_orbits(l->run, &table, offsetof(row, of));
+  free(rows);
+  return status;
+}
+
+/* ---- backbones ----------------------------------------------------------------------------- */
+
+typedef struct backbone_row {
+  double frequency, frequency_error, amplitude, amplitude_error, loop_area, loop_area_error;
+} backbone_row;
+
+static const scene_column of_backbone[] = {
+  SCENE_COLUMN(backbone_row, frequency, "drive frequency at which the orbit lags by a quarter turn",
+               "1"),
+  SCENE_COLUMN(backbone_row, amplitude, "amplitude of that orbit", "rad"),
+  SCENE_COLUMN(backbone_row, loop_area, "loop area of that orbit", "1"),
+};
+
+/* Dampings in a geometric series, from below where the backbone begins to twice the deck's own; but
+   not to where too many steps are needed, and the pendulum has long been a linear one. */
+static void backbone_dampings(const scene_lines *l, pendres_pendulum *p, double *damping)
+{
+  const double first = l->grid.line_value[0], last = l->grid.line_value[l->grid.lines - 1];
+  const double low = 0.5 * first;
+  const double high = fmax(fmax(1.0, 2.0 * first), fmin(2.0 * last, 100.0));
+  for (int i = 0; i < BACKBONE; i++) {
+    damping[i] = low * pow(high / low, i / (BACKBONE - 1.0));
+    p[i] = (pendres_pendulum){.damping = damping[i],
+                              .drive_amplitude = l->grid.pendulum.drive_amplitude};
+  }
+}
+
+/* Find the backbone at all dampings at once or, where that fails, at each of them alone. */
+static pendres_status find_backbone(pendres_context *ctx, const pendres_pendulum *p,
+                                    pendres_orbit *orbit, double *error, pendres_status *outcome)
+{
+  pendres_status status = pendres_backbone_find(ctx, BACKBONE, p, orbit, error, outcome);
+  if (scene_failure_of(status) == SCENE_FAILURE_NONE) return status;
+  status = PENDRES_OK;
+  for (int i = 0; i < BACKBONE && status == PENDRES_OK; i++) {
+    status = pendres_backbone_find(ctx, 1, &p[i], &orbit[i], &error[i], &outcome[i]);
+    if (scene_failure_of(status) == SCENE_FAILURE_NONE) continue;
+    outcome[i] = PENDRES_NOT_FOUND; /* the backbone ends, or cannot be followed, there */
+    status = PENDRES_OK;
+  }
+  return status;
+}
+
+static pendres_status put_backbone(const scene_lines *l, const double *damping,
+                                   const backbone_row *rows)
+{
+  const scene_table table = {.dimensions = {"backbone_damping"}, .prefix = "backbone",
+                             .n = BACKBONE, .stride = sizeof *rows, .rows = rows};
+  const pendres_status status =
+    pendres_store_dimension(
+      l->run->store,
+      &(pendres_store_spec){.name = "backbone_damping", .long_name = "friction coefficient"},
+      BACKBONE, damping);
+  if (status != PENDRES_OK) return scene_stored(l->run, status);
+  return SCENE_WRITE(l->run, &table, of_backbone);
+}
+
+static pendres_status write_backbone(const scene_lines *l)
+{
+  pendres_pendulum p[BACKBONE];
+  pendres_status outcome[BACKBONE], status = PENDRES_OUT_OF_MEMORY;
+  double error[BACKBONE], damping[BACKBONE];
+  backbone_row rows[BACKBONE];
+  pendres_context *ctx = farm_context(l->run->farm);
+  pendres_orbit *orbit = calloc(BACKBONE, sizeof *orbit);
+  if (ctx == NULL || orbit == NULL) {
+    (void)scene_fail(l->run, status, "out of memory for the backbone");
+    goto done;
+  }
+  backbone_dampings(l, p, damping);
+  status = find_backbone(ctx, p, orbit, error, outcome);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(l->run, status, "%s", pendres_context_message(ctx));
+    goto done;
+  }
+  for (int i = 0; i < BACKBONE; i++) {
+    const pendres_orbit *o = &orbit[i];
+    const int has = outcome[i] == PENDRES_OK || outcome[i] == PENDRES_TOLERANCE_UNREACHABLE;
+    rows[i] = has ? (backbone_row){o->pendulum.drive_frequency, error[i], o->amplitude,
+                                   o->amplitude_error, o->loop_area, o->loop_area_error}
+                  : (backbone_row){NAN, NAN, NAN, NAN, NAN, NAN};
+  }
+  status = put_backbone(l, damping, rows);
+done:
+  free(orbit);
+  return status;
+}
+
+/* The free pendulum, without damping and drive: exact. */
+static pendres_status write_free(scene_run *run)
+{
+  double amplitude[FREE], frequency[FREE], error[FREE];
+  const pendres_store_spec spec = {.name = "free_frequency", .dimensions = {"free_amplitude"},
+                                   .long_name = "frequency of the undamped, undriven pendulum",
+                                   .units = "1"};
+  for (int i = 0; i < FREE; i++) {
+    amplitude[i] = 0.02 * (i + 1);
+    frequency[i] = pendres_free_frequency(amplitude[i]);
+    error[i] = 2e-15 * frequency[i]; /* some units in the last place */
+  }
+  pendres_status status = pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.name = "free_amplitude", .long_name = "amplitude of the free pendulum",
+                          .units = "rad"}, FREE, amplitude);
+  if (status == PENDRES_OK)
+    status = pendres_store_put_result(run->store, &spec, frequency, error, FREE);
+  return scene_stored(run, status);
+}
+
+/* ---- the scene ----------------------------------------------------------------------------- */
+
+/* A part of a branch that attracts, from its lower value of the parameter to the higher one. */
+typedef struct part {
+  double line, value[2], error[2];
+  size_t branch;
+  int period;
+  char why[2][24]; /* it ends there */
+} part;
+
+static part part_of(const scene_lines *l, const pendres_branch *b, const pendres_branch_part *of)
+{
+  const pendres_branch_point *p[2] = {pendres_branch_get(b, of->first),
+                                      pendres_branch_get(b, of->last)};
+  const pendres_special kind[2] = {of->begins, of->ends};
+  const pendres_parameter along = l->grid.options.parameter;
+  const int back = pendres_parameter_get(along, &p[0]->orbit.pendulum) >
+                   pendres_parameter_get(along, &p[1]->orbit.pendulum);
+  part out = {.period = p[0]->orbit.period};
+  for (int i = 0; i < 2; i++) {
+    const int k = back ? 1 - i : i;
+    out.value[i] = pendres_parameter_get(along, &p[k]->orbit.pendulum);
+    out.error[i] = p[k]->parameter_error;
+    snprintf(out.why[i], sizeof out.why[i], "%s",
+             kind[k] != PENDRES_REGULAR ? pendres_special_name(kind[k])
+                                        : pendres_branch_end_name(pendres_branch_end_of(b, k)));
+  }
+  return out;
+}
+
+/* Take all parts of branches that attract; returns their number. rows may be NULL. */
+static size_t take_parts(const scene_lines *l, part *rows)
+{
+  size_t count = 0;
+  for (size_t i = 0; i < l->grid.lines; i++) {
+    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    for (size_t k = 0; k < pendres_branches_count(all); k++) {
+      const pendres_branch *b = pendres_branches_get(all, k);
+      pendres_branch_part found[MOST_PARTS];
+      const size_t n = pendres_branch_parts(b, MOST_PARTS, found);
+      for (size_t m = 0; m < n && m < MOST_PARTS; m++, count++) {
+        if (rows == NULL) continue;
+        rows[count] = part_of(l, b, &found[m]);
+        rows[count].line = l->grid.line_value[i];
+        rows[count].branch = k;
+      }
+    }
+  }
+  return count;
+}
+
+static pendres_status print_table(FILE *out, const scene_lines *l)
+{
+  char line[64], from[96];
+  const scene_cell cells[] = {
+    SCENE_CELL(part, line, line, "%-15.6g  "),
+    {.heading = "branch  ", .format = "%-6zu  ", .type = SCENE_COUNT,
+     .value = offsetof(part, branch)},
+    {.heading = "period  ", .format = "%-6d  ", .type = SCENE_NUMBER,
+     .value = offsetof(part, period)},
+    SCENE_CELL(part, value[0], from, "%#.13g +- "),
+    SCENE_CELL(part, error[0], "                  ", "%.0e "),
+    {.heading = "to", .format = "%-17s  ", .type = SCENE_TEXT, .value = offsetof(part, why[0])},
+    SCENE_CELL(part, value[1], "", "%#.13g +- "),
+    SCENE_CELL(part, error[1], "", "%.0e "),
+    {.heading = "", .format = "%-17s", .type = SCENE_TEXT, .value = offsetof(part, why[1])},
+  };
+  const size_t n = take_parts(l, NULL);
+  part *rows = scene_rows(l->run, n, sizeof *rows);
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  (void)take_parts(l, rows);
+  snprintf(line, sizeof line, "%-15s  ", scene_lines_words(l->grid.across));
+  snprintf(from, sizeof from, "attracts from %s", scene_lines_words(l->grid.options.parameter));
+  SCENE_PRINT(out, &table, n, cells, NULL);
+  free(rows);
+  scene_lines_print(l, out);
+  return PENDRES_OK;
+}
+
+static pendres_status write_results(const scene_lines *l)
+{
+  pendres_status status = scene_lines_write(l, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = scene_lines_write_doubtful(l);
+  if (status == PENDRES_OK && scene_rotations_are(l)) status = scene_rotations_write(l);
+  if (status == PENDRES_OK) status = write_branches(l);
+  if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
+  if (status == PENDRES_OK) status = scene_curves_write(l);
+  /* The backbone is one over damping, at one drive amplitude, of the plain pendulum as is the free
+     one. */
+  const int plain = deck_is_plain(l->run->deck);
+  if (status == PENDRES_OK && plain && l->axis[0] == DECK_AXIS_DAMPING &&
+      l->axis[1] == DECK_AXIS_DRIVE_FREQUENCY)
+    status = write_backbone(l);
+  if (status == PENDRES_OK && plain) status = write_free(l->run);
+  if (status == PENDRES_OK) status = scene_curves_write_paper(l);
+  return status;
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  scene_lines l;
+  pendres_status status = scene_lines_compute(run, 0.0, &l);
+  if (status == PENDRES_OK) status = write_results(&l);
+  if (status == PENDRES_OK && run->table != NULL) status = print_table(run->table, &l);
+  scene_lines_free(&l);
+  return status;
+}
+
+const scene_kind scene_branches = {
+  .kind = DECK_BRANCHES,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Fig. 9; Y. A. Kuznetsov, Elements of Applied Bifurcation Theory, "
+                "chapters 4, 9 and 10",
+  .budget = 1,
+  .size = {60e3, 470.0, 1e3, 2.0, 1.1, 2e-3},
+  .describe = describe,
+  .run = run_scene};

@@ -1,0 +1,60 @@
+/* check.c -- whether records can be what a task has written; see check.h. */
+#include "scenes/check.h"
+
+#include <string.h>
+
+enum { LONGEST_PERIOD = 1000000, MOST_STEPS = 100000000 };
+
+int scene_check_code(int code, int count)
+{
+  return code >= 0 && code < count;
+}
+
+int scene_check_text(const char *text, size_t room)
+{
+  return memchr(text, '\0', room) != NULL;
+}
+
+int scene_check_verdict(const scene_verdict *v)
+{
+  return scene_check_code(v->reason, SCENE_FAILURE_COUNT) &&
+         scene_check_text(v->words, sizeof v->words);
+}
+
+int scene_check_attractor(const pendres_attractor *a)
+{
+  const pendres_orbit *o = &a->orbit;
+  return scene_check_code((int)a->label, PENDRES_LABEL_COUNT) &&
+         scene_check_code((int)o->pendulum.force, PENDRES_FORCE_COUNT) &&
+         scene_check_code(o->period, LONGEST_PERIOD + 1) && scene_check_code(o->symmetric, 2) &&
+         scene_check_code(o->stable, 2) && scene_check_code(o->steps, MOST_STEPS);
+}
+
+int scene_check_response(const pendres_response *r)
+{
+  int good = r->states <= PENDRES_RESPONSE_STATES &&
+             scene_check_code((int)r->pendulum.force, PENDRES_FORCE_COUNT);
+  for (size_t i = 0; good && i < r->states; i++) good = scene_check_attractor(&r->state[i]);
+  return good;
+}
+
+/* What is not PENDRES_OK is not looked at any further. */
+int scene_check_resonance(const pendres_resonance *r, pendres_status outcome)
+{
+  if (outcome != PENDRES_OK) return scene_check_code((int)outcome, PENDRES_STATUS_COUNT);
+  return scene_check_code((int)r->peak, PENDRES_PEAK_COUNT) && scene_check_code(r->complete, 2) &&
+         scene_check_response(&r->response);
+}
+
+int scene_check_basin_states(size_t n, const pendres_basin_state *state, size_t attractors)
+{
+  int good = 1;
+  for (size_t i = 0; i < n && good; i++) {
+    const int number = state[i].attractor;
+    good = (number == PENDRES_ATTRACTOR_UNKNOWN || number == PENDRES_ATTRACTOR_ESCAPED ||
+            (number >= 0 && (size_t)number < attractors)) &&
+           scene_check_code(state[i].label, PENDRES_LABEL_COUNT) &&
+           scene_check_code(state[i].how, PENDRES_BASIN_HOW_COUNT);
+  }
+  return good;
+}

@@ -1,0 +1,319 @@
+/* columns.c -- tables of results from arrays of structs; see columns.h. */
+#include "scenes/columns.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/spill.h"
+
+/* Bytes of rows that are gathered at a time, or those of one value of the first dimension. */
+enum { PIECE = 1 << 20 };
+
+/* Room for a column, as it is stored. */
+typedef struct buffers {
+  double *value, *error;
+  int8_t *flag;
+  int32_t *number;
+  int64_t *count;
+  const char **text;
+} buffers;
+
+#define NAMES(function, call) \
+  const char *function(int value) { return call; }
+NAMES(scene_doubt_names, value == 0 ? "no" : value == 1 ? "yes" : NULL)
+NAMES(scene_motion_names, pendres_label_name((pendres_label)value))
+NAMES(scene_regime_names, pendres_regime_name((pendres_regime)value))
+NAMES(scene_special_names, pendres_special_name((pendres_special)value))
+NAMES(scene_jump_names, pendres_jump_kind_name((pendres_jump_kind)value))
+NAMES(scene_cloud_names, pendres_cloud_verdict_name((pendres_cloud_verdict)value))
+NAMES(scene_switching_names, pendres_switching_verdict_name((pendres_switching_verdict)value))
+
+/* The names without that of rotations which are not locked: only sweeps and maps tell those. */
+const char *scene_fate_names(int value)
+{
+  return value < PENDRES_LABEL_QUASI_PERIODIC ? scene_motion_names(value) : NULL;
+}
+
+/* What escapes is on no attractor. */
+const char *scene_label_names(int value)
+{
+  return value < PENDRES_LABEL_ESCAPE ? scene_fate_names(value) : NULL;
+}
+
+/* The names as a list for flag_meanings; how many. */
+enum { MOST_NAMES = 16 };
+static int meanings_of(scene_names names, const char *meanings[MOST_NAMES])
+{
+  int n = 0;
+  for (; n < MOST_NAMES && names(n) != NULL; n++) meanings[n] = names(n);
+  return n;
+}
+
+static const char *field(const scene_table *t, size_t row, size_t offset)
+{
+  return (const char *)t->rows + row * t->stride + offset;
+}
+
+static int missing(const scene_table *t, size_t row)
+{
+  return t->missing != NULL && t->missing[row] != 0;
+}
+
+static int is_real(scene_column_type type)
+{
+  return type == SCENE_REAL || type == SCENE_PLAIN;
+}
+
+static int is_count(scene_column_type type)
+{
+  return type == SCENE_COUNT || type == SCENE_COUNT32;
+}
+
+static void gather_reals(const scene_table *t, const scene_column *c, buffers *b)
+{
+  const size_t each = c->pairs ? 2 : 1;
+  for (size_t i = 0; i < t->n; i++) {
+    double *value = b->value + each * i, *error = b->error + each * i;
+    memcpy(value, field(t, i, c->value), each * sizeof *value);
+    if (c->type == SCENE_REAL) memcpy(error, field(t, i, c->error), each * sizeof *error);
+    for (size_t k = 0; k < each && missing(t, i); k++) value[k] = error[k] = NAN;
+  }
+}
+
+/* Into the one buffer that is stored: tables may have millions of rows. */
+static void gather_others(const scene_table *t, const scene_column *c, buffers *b)
+{
+  for (size_t i = 0; i < t->n; i++) {
+    const void *from = field(t, i, c->value);
+    int number = 0;
+    size_t count = 0;
+    if (is_count(c->type)) memcpy(&count, from, sizeof count);
+    else if (c->type != SCENE_TEXT) memcpy(&number, from, sizeof number);
+    switch (c->type) {
+    case SCENE_TEXT: b->text[i] = from; break;
+    case SCENE_FLAG: b->flag[i] = (int8_t)number; break;
+    case SCENE_COUNT: b->count[i] = missing(t, i) ? 0 : (int64_t)count; break;
+    case SCENE_COUNT32: b->number[i] = missing(t, i) ? 0 : (int32_t)count; break;
+    default: b->number[i] = missing(t, i) ? 0 : (int32_t)number;
+    }
+  }
+}
+
+/* A column's values in the type that is stored, and its errors. */
+static const void *gather(const scene_table *t, const scene_column *c, buffers *b)
+{
+  if (is_real(c->type)) gather_reals(t, c, b);
+  else gather_others(t, c, b);
+  switch (c->type) {
+  case SCENE_REAL:
+  case SCENE_PLAIN: return b->value;
+  case SCENE_NUMBER:
+  case SCENE_COUNT32: return b->number;
+  case SCENE_COUNT: return b->count;
+  case SCENE_FLAG: return b->flag;
+  default: return b->text;
+  }
+}
+
+/* A column as the store is told of it, with room for its words. */
+typedef struct variable {
+  char name[64], words[200];
+  const char *meanings[MOST_NAMES];
+  pendres_store_spec spec;
+} variable;
+
+static void describe(const scene_run *run, const scene_table *t, const scene_column *c, variable *v)
+{
+  static const pendres_store_type types[] = {[SCENE_REAL] = PENDRES_STORE_DOUBLE,
+                                             [SCENE_PLAIN] = PENDRES_STORE_DOUBLE,
+                                             [SCENE_NUMBER] = PENDRES_STORE_INT32,
+                                             [SCENE_COUNT] = PENDRES_STORE_INT64,
+                                             [SCENE_COUNT32] = PENDRES_STORE_INT32,
+                                             [SCENE_FLAG] = PENDRES_STORE_INT8,
+                                             [SCENE_TEXT] = PENDRES_STORE_STRING};
+  v->spec = (pendres_store_spec){
+    .group = t->group, .name = v->name, .type = types[c->type], .long_name = v->words,
+    .units = c->units, .comment = c->comment, .flag_meanings = v->meanings,
+    .flag_values = c->codes, .flag_bits = c->codes != NULL, .deflate = t->deflate};
+  const size_t before = strcspn(c->name, "*");
+  const int starred = c->name[before] != '\0';
+  (void)snprintf(v->name, sizeof v->name, "%s%s%.*s%s%s", t->prefix != NULL ? t->prefix : "",
+                 t->prefix != NULL ? "_" : "", (int)before, c->name,
+                 starred && t->star != NULL ? t->star : "", c->name + before + starred);
+  (void)snprintf(v->words, sizeof v->words, "%s%s%s", c->long_name, t->words != NULL ? " " : "",
+                 t->words != NULL ? t->words : "");
+  int k = 0;
+  for (; k < 3 && t->dimensions[k] != NULL; k++) v->spec.dimensions[k] = t->dimensions[k];
+  if (c->pairs) v->spec.dimensions[k] = t->inner;
+  const int plain = c->names == scene_motion_names && deck_is_plain(run->deck);
+  if (c->names != NULL)
+    v->spec.flag_count = meanings_of(plain ? scene_label_names : c->names, v->meanings);
+}
+
+/* The rows of some values of the first dimension, or all there is. */
+typedef struct piece {
+  size_t first, values;
+  scene_table table;
+} piece;
+
+/* `rows` has room for them. */
+static pendres_status take_piece(scene_run *run, const scene_table *t, void *rows, piece *p)
+{
+  const size_t each = t->n / (t->first > 0 ? t->first : 1), first = p->first * each;
+  char why[200];
+  p->table = *t;
+  p->table.n = p->values * each;
+  if (t->missing != NULL) p->table.missing = t->missing + first;
+  p->table.rows = t->spill != NULL ? rows : field(t, first, 0);
+  if (t->spill == NULL) return PENDRES_OK;
+  const pendres_status status =
+    scene_spill_get(t->spill, first, p->table.n, rows, why, sizeof why);
+  return status == PENDRES_OK ? status : scene_fail(run, status, "%s", why);
+}
+
+static pendres_status write_piece(scene_run *run, const piece *p, int pairs, int id,
+                                  const void *data)
+{
+  const size_t n = pairs ? 2 * p->table.n : p->table.n;
+  return p->table.first > 0
+           ? pendres_store_write_rows(run->store, id, p->first, p->values, data, n)
+           : pendres_store_write(run->store, id, data, n);
+}
+
+/* A column, `most` values of the first dimension at a time. */
+static pendres_status write_column(scene_run *run, const scene_table *t, size_t most,
+                                   const scene_column *c, void *rows, buffers *b)
+{
+  const size_t all = t->first > 0 ? t->first : 1;
+  variable v;
+  int id = -1, error_id = -1;
+  describe(run, t, c, &v);
+  pendres_status status = c->type == SCENE_REAL
+                            ? pendres_store_result(run->store, &v.spec, &id, &error_id)
+                            : pendres_store_variable(run->store, &v.spec, &id);
+  for (size_t at = 0; at < all && status == PENDRES_OK; at += most) {
+    piece p = {.first = at, .values = all - at < most ? all - at : most};
+    status = take_piece(run, t, rows, &p);
+    if (status == PENDRES_OK)
+      status = write_piece(run, &p, c->pairs, id, gather(&p.table, c, b));
+    if (status == PENDRES_OK && c->type == SCENE_REAL)
+      status = write_piece(run, &p, c->pairs, error_id, b->error);
+  }
+  return scene_stored(run, status);
+}
+
+static void release(buffers *b)
+{
+  free(b->value);
+  free(b->error);
+  free(b->flag);
+  free(b->number);
+  free(b->count);
+  free(b->text);
+}
+
+static pendres_status reserve(scene_run *run, size_t n, buffers *b)
+{
+  *b = (buffers){.value = malloc((2 * n + 1) * sizeof *b->value),
+                 .error = malloc((2 * n + 1) * sizeof *b->error),
+                 .flag = malloc(n + 1),
+                 .number = malloc((n + 1) * sizeof *b->number),
+                 .count = malloc((n + 1) * sizeof *b->count),
+                 .text = malloc((n + 1) * sizeof *b->text)};
+  if (b->value != NULL && b->error != NULL && b->flag != NULL && b->number != NULL &&
+      b->count != NULL && b->text != NULL)
+    return PENDRES_OK;
+  return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", n);
+}
+
+pendres_status scene_columns_write(scene_run *run, const scene_table *t, size_t count,
+                                   const scene_column *columns)
+{
+  const size_t each = t->first > 0 ? t->n / t->first : t->n, bytes = each * t->stride;
+  const size_t most = bytes > 0 && bytes < PIECE ? PIECE / bytes : 1;
+  const size_t room = most * each < t->n ? most * each : t->n;
+  buffers b;
+  char *rows = t->spill != NULL ? malloc(room * t->stride + 1) : NULL;
+  pendres_status status = reserve(run, room, &b);
+  if (status == PENDRES_OK && t->spill != NULL && rows == NULL)
+    status = scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu results", room);
+  for (size_t k = 0; k < count && status == PENDRES_OK; k++)
+    status = write_column(run, t, most, &columns[k], rows, &b);
+  free(rows);
+  release(&b);
+  return status;
+}
+
+pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *t, size_t orbit)
+{
+  const pendres_orbit_quantity *q;
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++) {
+    const int exact = q->error == PENDRES_ORBIT_EXACT;
+    const scene_column column = {.name = q->name, .long_name = q->long_name, .units = q->units,
+                                 .type = exact ? SCENE_PLAIN : SCENE_REAL,
+                                 .value = orbit + q->value,
+                                 .error = exact ? 0 : orbit + q->error};
+    if (q->principal) status = scene_columns_write(run, t, 1, &column);
+  }
+  return status;
+}
+
+pendres_status scene_columns_define(scene_run *run, const scene_table *t,
+                                    const scene_variables *of)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++) {
+    variable v;
+    describe(run, t, &of->column[k], &v);
+    status = pendres_store_variable(run->store, &v.spec, &of->number[k]);
+  }
+  return scene_stored(run, status);
+}
+
+pendres_status scene_columns_write_rows(scene_run *run, const scene_table *t, size_t first,
+                                        size_t rows, const scene_variables *of)
+{
+  buffers b;
+  pendres_status status = reserve(run, t->n, &b);
+  for (size_t k = 0; k < of->count && status == PENDRES_OK; k++)
+    status = scene_stored(run, pendres_store_write_rows(run->store, of->number[k], first, rows,
+                                                        gather(t, &of->column[k], &b), t->n));
+  release(&b);
+  return status;
+}
+
+/* ---- the short table ----------------------------------------------------------------------- */
+
+static void print_cell(FILE *out, const char *at, const scene_cell *cell)
+{
+  double value = 0.0;
+  size_t count = 0;
+  int number = 0;
+  if (is_real(cell->type)) memcpy(&value, at, sizeof value);
+  else if (is_count(cell->type)) memcpy(&count, at, sizeof count);
+  else if (cell->type != SCENE_TEXT) memcpy(&number, at, sizeof number);
+  if (is_real(cell->type) && isnan(value) && cell->none != NULL) fputs(cell->none, out);
+  else if (is_real(cell->type)) fprintf(out, cell->format, value);
+  else if (is_count(cell->type)) fprintf(out, cell->format, count);
+  else if (cell->type == SCENE_TEXT) fprintf(out, cell->format, at);
+  else if (cell->names != NULL) fprintf(out, cell->format, cell->names(number));
+  else fprintf(out, cell->format, number);
+}
+
+void scene_columns_print(FILE *out, const scene_table *t, size_t lines, size_t count,
+                         const scene_cell *cells, const char *(*instead)(const void *row))
+{
+  const size_t step = t->n > lines + lines / 5 ? t->n / lines + 1 : 1;
+  for (size_t k = 0; k < count; k++) fputs(cells[k].heading, out);
+  fputc('\n', out);
+  for (size_t i = 0; i < t->n; i++) {
+    if (i % step != 0 && i + 1 != t->n) continue;
+    const int whole = !missing(t, i);
+    for (size_t k = 0; k < (whole ? count : 1); k++)
+      print_cell(out, field(t, i, cells[k].value), &cells[k]);
+    if (!whole && instead != NULL) fputs(instead(field(t, i, 0)), out);
+    fputc('\n', out);
+  }
+}

@@ -1,0 +1,128 @@
+/*
+ * columns.h -- tables of results from arrays of structs.
+ *
+ * Owns: writing a table whose columns are fields of a struct, and printing a short one. A scene
+ * gives for each column its name, its words and the place of the field.
+ */
+#ifndef SCENE_COLUMNS_H
+#define SCENE_COLUMNS_H
+
+#include <stddef.h>
+
+#include "scenes/scene.h"
+
+typedef enum scene_column_type {
+  SCENE_REAL = 0, /* double, with an error beside it */
+  SCENE_PLAIN,    /* double, without an error */
+  SCENE_NUMBER,   /* int, stored as int32 */
+  SCENE_COUNT,    /* size_t, stored as int64, ... */
+  SCENE_COUNT32,  /* ... or as int32 */
+  SCENE_FLAG,     /* int or an enum, stored as int8 with the names of its values */
+  SCENE_TEXT      /* array of char */
+} scene_column_type;
+
+/* The name of a value; NULL beyond the last. */
+typedef const char *(*scene_names)(int value);
+
+typedef struct scene_column {
+  const char *name, *long_name, *units;
+  scene_column_type type;
+  size_t value, error;         /* offsets of the fields in a row; error: of a SCENE_REAL */
+  scene_names names;           /* of a SCENE_FLAG; NULL: it is a plain 0 or 1 */
+  const int8_t *codes;         /* of a SCENE_FLAG that is a sum of bits: these; names are those
+                                  of 0, 1, 2 ... */
+  int pairs;                   /* nonzero: two elements a row, over `inner` */
+  const char *comment;
+} scene_column;
+
+/* A column of a struct with the fields NAME and NAME_error. */
+#define SCENE_COLUMN(row, field, words, unit)                   \
+  {.name = #field, .long_name = words, .units = unit,           \
+   .value = offsetof(row, field), .error = offsetof(row, field##_error)}
+
+/* A column of another type than real, with the name of its field. */
+#define SCENE_COLUMN_OF(kind, row, field, words) \
+  {.name = #field, .long_name = words, .type = kind, .value = offsetof(row, field)}
+
+/* A column of an enum or a flag, with the names of its values. */
+#define SCENE_CODE(row, field, words, names_of)                   \
+  {.name = #field, .long_name = words, .type = SCENE_FLAG,        \
+   .value = offsetof(row, field), .names = names_of}
+
+/* The column that stands beside the means of an ensemble. */
+#define SCENE_UNCERTAIN(row, field)                                                             \
+  {.name = "uncertain_members", .long_name = "members that may belong to another state",       \
+   .type = SCENE_COUNT, .value = offsetof(row, field)}
+
+typedef struct scene_table {
+  const char *group;         /* NULL: the root */
+  const char *dimensions[3]; /* of the rows, slowest first; none: one row of scalars */
+  const char *prefix;        /* before all names, with an underscore between; may be NULL */
+  const char *star;          /* in the place of the * in names; may be NULL */
+  const char *words;         /* behind all long names, after a blank; may be NULL */
+  const char *inner;         /* of columns that are pairs */
+  size_t n, stride;          /* rows; bytes from one to the next */
+  const void *rows;
+  const struct scene_spill *spill; /* not NULL: in the place of `rows` */
+  size_t first;              /* values of the first dimension, written some at a time; 0: at once */
+  const int8_t *missing;     /* [n], not 0: the row has no results: NaN or 0; may be NULL */
+  int deflate;               /* level of compression; 0: as the file has it */
+} scene_table;
+
+/* Write all columns; their dimensions exist. SCENE_WRITE writes those of an array. */
+pendres_status scene_columns_write(scene_run *run, const scene_table *table, size_t count,
+                                   const scene_column *columns);
+#define SCENE_WRITE(run, table, columns) \
+  scene_columns_write(run, table, sizeof columns / sizeof *columns, columns)
+
+/* Write the principal measures of the orbits that stand at that offset in the rows. */
+pendres_status scene_columns_write_orbits(scene_run *run, const scene_table *table, size_t orbit);
+
+/* Columns of a table that comes in pieces, none of which has an error, and the store's numbers of
+   their variables. */
+typedef struct scene_variables {
+  size_t count;
+  const scene_column *column;
+  int *number;
+} scene_variables;
+
+/* Define the variables; then write pieces: table->rows are the n elements of `rows` values of the
+   first dimension, from number `first` on. */
+pendres_status scene_columns_define(scene_run *run, const scene_table *table,
+                                    const scene_variables *of);
+pendres_status scene_columns_write_rows(scene_run *run, const scene_table *table, size_t first,
+                                        size_t rows, const scene_variables *of);
+
+/* Names of values of the library's enums, as columns take them. */
+const char *scene_label_names(int value); /* of attractors */
+const char *scene_fate_names(int value);  /* of pendulums, which may escape, ... */
+const char *scene_motion_names(int value); /* ... or rotate without a lock to the drive */
+const char *scene_doubt_names(int value); /* "no", "yes" */
+const char *scene_regime_names(int value);
+const char *scene_special_names(int value);
+const char *scene_jump_names(int value);
+const char *scene_cloud_names(int value);
+const char *scene_switching_names(int value);
+
+/* A cell of a printed line: what stands above it, its format, and where its field stands. */
+typedef struct scene_cell {
+  const char *heading, *format; /* with the blanks between it and the next */
+  const char *none;             /* printed in the place of NaN; may be NULL */
+  scene_column_type type;
+  size_t value;
+  scene_names names; /* not NULL: the format is of the value's name */
+} scene_cell;
+
+/* A cell of a struct's double. */
+#define SCENE_CELL(row, field, words, form) \
+  {.heading = words, .format = form, .value = offsetof(row, field)}
+
+/* A line of headings and at most `lines` rows of the table, evenly chosen, with the last one; all
+   if there are not many more. A row that is missing has its first cell and the words instead.
+   SCENE_PRINT takes all cells of an array. */
+void scene_columns_print(FILE *out, const scene_table *table, size_t lines, size_t count,
+                         const scene_cell *cells, const char *(*instead)(const void *row));
+#define SCENE_PRINT(out, table, lines, cells, instead) \
+  scene_columns_print(out, table, lines, sizeof cells / sizeof *cells, cells, instead)
+
+#endif

@@ -1,0 +1,226 @@
+/* curves.c -- folds, flips and cusps of a diagram; see curves.h. */
+#include "scenes/curves.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Which branch ends at a fold. */
+static const char *endings(int value)
+{
+  static const char *const names[] = {"sa", "la", "other"};
+  return value < 3 ? names[value] : NULL;
+}
+
+/* ---- points of curves, and bifurcations along lines ---------------------------------------- */
+
+typedef struct row {
+  scene_place place;
+  double amplitude, amplitude_error;
+  double multiplier, other_multiplier, multiplier_error, curvature, curvature_error;
+  int curve, branch, kind, period;
+} row;
+
+static const scene_column columns[] = {
+  SCENE_COLUMN(row, amplitude, "amplitude of the orbit there", "rad"),
+  SCENE_COLUMN(row, multiplier, "Floquet multiplier of the larger modulus", "1"),
+  {.name = "other_multiplier", .long_name = "Floquet multiplier of the smaller modulus",
+   .units = "1", .value = offsetof(row, other_multiplier),
+   .error = offsetof(row, multiplier_error)},
+  {.name = "period", .long_name = "drive periods until the orbit closes", .type = SCENE_NUMBER,
+   .value = offsetof(row, period)},
+};
+
+static const scene_column of_folds[] = {
+  {.name = "curve", .long_name = "number of the curve; its points are in order",
+   .type = SCENE_NUMBER, .value = offsetof(row, curve)},
+  SCENE_CODE(row, branch, "which branch ends there", endings),
+};
+
+static const scene_column of_flips[] = {
+  {.name = "curve", .long_name = "number of the curve; its points are in order",
+   .type = SCENE_NUMBER, .value = offsetof(row, curve)},
+  SCENE_CODE(row, kind, "what happens there", scene_special_names),
+};
+
+static const scene_column of_bifurcations[] = {
+  SCENE_COLUMN(row, curvature, "of a fold: second derivative of the frequency by arclength in "
+               "(x, v); below 0: orbits exist below", "1"),
+  SCENE_CODE(row, kind, "what happens there", scene_special_names),
+  SCENE_CODE(row, branch, "which branch ends there", endings),
+};
+
+static row row_of(const scene_lines *l, const pendres_orbit *o, const double error[2],
+                  pendres_special kind, double curvature)
+{
+  const pendres_label ending = kind == PENDRES_FOLD
+                                 ? pendres_phase_diagram_ending(l->diagram, o, curvature)
+                                 : PENDRES_LABEL_PERIODIC;
+  return (row){.place = scene_lines_place(l, &o->pendulum, error),
+               .amplitude = o->amplitude,
+               .amplitude_error = o->amplitude_error,
+               .multiplier = o->multiplier_re[0],
+               .other_multiplier = o->multiplier_re[1],
+               .multiplier_error = o->multiplier_error,
+               .curvature = curvature,
+               .branch = ending == PENDRES_LABEL_SA ? 0 : ending == PENDRES_LABEL_LA ? 1 : 2,
+               .kind = (int)kind,
+               .period = o->period};
+}
+
+static pendres_status write_table(const scene_lines *l, const char *dimension, size_t n,
+                                  const row *rows)
+{
+  const scene_table table = {.dimensions = {dimension}, .prefix = dimension, .n = n,
+                             .stride = sizeof *rows, .rows = rows};
+  const scene_column *rest = dimension[0] == 'b' ? of_bifurcations
+                             : dimension[1] == 'o' ? of_folds
+                                                   : of_flips;
+  pendres_status status = scene_numbering(l->run, dimension, n, "number of the point");
+  if (status == PENDRES_OK)
+    status = scene_lines_write_places(l, &table, "there", sizeof columns / sizeof *columns,
+                                      columns);
+  return status == PENDRES_OK
+           ? scene_columns_write(l->run, &table, rest == of_bifurcations ? 3 : 2, rest)
+           : status;
+}
+
+/* All points of the curves of folds, or of the others. */
+static size_t take_curves(const scene_lines *l, int folds, row *rows)
+{
+  const pendres_curves *curves = pendres_phase_diagram_curves(l->diagram);
+  size_t n = 0;
+  int number = 0;
+  for (size_t i = 0; i < pendres_curves_count(curves); i++) {
+    const pendres_curve *curve = pendres_curves_get(curves, i);
+    const pendres_special kind = pendres_curve_kind(curve);
+    if ((kind == PENDRES_FOLD) != folds) continue;
+    for (size_t k = 0; k < pendres_curve_count(curve); k++, n++) {
+      const pendres_curve_point *p = pendres_curve_get(curve, k);
+      if (rows == NULL) continue;
+      rows[n] = row_of(l, &p->orbit, p->value_error, kind, p->curvature);
+      rows[n].curve = number;
+    }
+    number++;
+  }
+  return n;
+}
+
+static pendres_status write_curves(const scene_lines *l, int folds)
+{
+  const size_t n = take_curves(l, folds, NULL);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  (void)take_curves(l, folds, rows);
+  const pendres_status status = write_table(l, folds ? "fold" : "flip", n, rows);
+  free(rows);
+  return status;
+}
+
+/* The bifurcations met along the lines. */
+static pendres_status write_bifurcations(const scene_lines *l)
+{
+  size_t n = 0;
+  const pendres_bifurcation *b = pendres_phase_diagram_bifurcations(l->diagram, &n);
+  row *rows = scene_rows(l->run, n, sizeof *rows);
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) {
+    rows[i] = row_of(l, &b[i].orbit, (const double[2]){b[i].value_error, 0.0}, b[i].kind,
+                     b[i].curvature);
+    rows[i].curvature_error = b[i].curvature_error;
+  }
+  const pendres_status status = write_table(l, "bifurcation", n, rows);
+  free(rows);
+  return status;
+}
+
+/* ---- the cusp ------------------------------------------------------------------------------ */
+
+static pendres_status put_scalar(const scene_lines *l, const char *name, const char *long_name,
+                                 const char *units, const double value[2])
+{
+  const pendres_store_spec spec = {.name = name, .long_name = long_name, .units = units};
+  const pendres_status status =
+    pendres_store_put_result(l->run->store, &spec, &value[0], &value[1], 1);
+  return scene_stored(l->run, status);
+}
+
+static pendres_status write_cusp(const scene_lines *l)
+{
+  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const scene_place place =
+    c != NULL ? scene_lines_place(l, &c->orbit.pendulum, c->value_error) : (scene_place){0};
+  pendres_status status = PENDRES_OK;
+  for (size_t k = 0; k < SCENE_PLACES && status == PENDRES_OK; k++) {
+    const scene_parameter *of = &scene_parameters[k];
+    const double value[2] = {c != NULL ? place.value[k] : NAN, c != NULL ? place.error[k] : NAN};
+    char name[64], words[64];
+    if (!scene_lines_changes(l, of->axis)) continue;
+    (void)snprintf(name, sizeof name, "cusp_%s", of->name);
+    (void)snprintf(words, sizeof words, "%s %s", of->one,
+                   of->axis == DECK_AXIS_DAMPING ? "at which SA and LA become one" : "there");
+    status = put_scalar(l, name, words, "1", value);
+  }
+  const double amplitude[2] = {c != NULL ? c->orbit.amplitude : NAN,
+                               c != NULL ? c->orbit.amplitude_error : NAN};
+  return status == PENDRES_OK ? put_scalar(l, "cusp_amplitude", "amplitude of the orbit there",
+                                           "rad", amplitude)
+                              : status;
+}
+
+static pendres_status write_failed(const scene_lines *l)
+{
+  pendres_store_spec spec = {.name = "curves_failed",
+                             .long_name = "why the curves of bifurcations are not whole"};
+  const int8_t reason =
+    (int8_t)scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, NULL));
+  scene_failure_flags(&spec);
+  const pendres_status status = pendres_store_put(l->run->store, &spec, &reason, 1);
+  return scene_stored(l->run, status);
+}
+
+pendres_status scene_curves_write(const scene_lines *l)
+{
+  pendres_status status = write_curves(l, 1);
+  if (status == PENDRES_OK) status = write_curves(l, 0);
+  if (status == PENDRES_OK) status = write_bifurcations(l);
+  if (status == PENDRES_OK) status = write_cusp(l);
+  if (status == PENDRES_OK) status = write_failed(l);
+  return status;
+}
+
+/* ---- the paper ----------------------------------------------------------------------------- */
+
+/* The line of a damping; the number of lines if there is none. */
+static size_t line_at(const scene_lines *l, double damping)
+{
+  size_t i = 0;
+  while (i < l->grid.lines && fabs(l->grid.line_value[i] - damping) > 1e-9) i++;
+  return i;
+}
+
+pendres_status scene_curves_write_paper(const scene_lines *l)
+{
+  scene_printed values[4];
+  size_t n = 0;
+  if (l->axis[0] != DECK_AXIS_DAMPING || l->axis[1] != DECK_AXIS_DRIVE_FREQUENCY ||
+      !deck_is_plain(l->run->deck))
+    return PENDRES_OK;
+  const double f0 = l->grid.pendulum.drive_amplitude;
+  const int main_case = fabs(f0 - 0.2) < 1e-9, inset = fabs(f0 - 0.1) < 1e-9;
+  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  if (c != NULL && (main_case || inset))
+    values[n++] = (scene_printed){.name = "critical_damping",
+                                  .printed = main_case ? 0.164 : 0.099,
+                                  .computed = c->value[1],
+                                  .error = c->value_error[1]};
+  const size_t line = line_at(l, 0.13);
+  const pendres_bifurcation *la = pendres_phase_diagram_fold(l->diagram, line, PENDRES_LABEL_LA);
+  const pendres_bifurcation *sa = pendres_phase_diagram_fold(l->diagram, line, PENDRES_LABEL_SA);
+  if (main_case && la != NULL)
+    values[n++] = (scene_printed){.name = "sa_only_below_frequency_damping_0_13",
+                                  .printed = 0.74, .computed = la->value, .error = la->value_error};
+  if (main_case && sa != NULL)
+    values[n++] = (scene_printed){.name = "la_only_above_frequency_damping_0_13",
+                                  .printed = 0.85, .computed = sa->value, .error = sa->value_error};
+  return n > 0 ? scene_write_paper(l->run, n, values) : PENDRES_OK;
+}

@@ -1,0 +1,161 @@
+/*
+ * definitions.c -- what the measures in a file are: the attribute `comment` of each, in one
+ * place for all scenes. Units are those of the equation (docs/your_pendulum.md has a
+ * laboratory's).
+ */
+#include "scenes/scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Names of results that mean the same in every file, beside the measures of orbits that the library
+   defines; and what they are where x is no angle, if that is something else. */
+static const struct { const char *name, *definition, *no_angle; } definitions[] = {
+  { "x", "the particle's coordinate in the potential -sin x; the pendulum's angle from rest is "
+         "x - pi/2",
+    "the oscillator's coordinate, in the units of its equation" },
+  { "v", "dx/dt, in units of omega0",
+    "dx/dt" },
+  { "temperature", "T = k T / (m g l); the potential's barrier is 2",
+    "T, of the noise sqrt(2 damping T) xi(t)" },
+  { "mean_loop_area", "mean over the members of the work of the drive a drive cycle, the closed "
+                      "integral of F dx, in m g l",
+    "mean over the members of the work of the drive a drive cycle, the closed integral of F "
+    "dx" },
+  { "mean_loop_amplitude", "half peak to peak of the loop averaged over the members, each shifted "
+                           "to its own well, in rad. NaN where members rotate or escape",
+    "half peak to peak of the loop averaged over the members" },
+  { "mean_amplitude", "mean over the members of half peak to peak of the angle, in rad",
+    "mean over the members of half peak to peak of x" },
+  { "resonance_frequency", "drive frequency of the largest mean loop area, in omega0",
+    "drive frequency of the largest mean loop area" },
+  { "resonance_period", "2 pi over the frequency of the largest mean loop area, in 1/omega0",
+    "2 pi over the frequency of the largest mean loop area" },
+  { "sa_fraction", "share of members on SA: of the orbits of one drive period without winding that "
+                   "coexist, that of smallest amplitude. NaN where nothing coexists", NULL },
+  { "la_fraction", "share of members on LA: of the orbits of one drive period without winding that "
+                   "coexist, those of larger amplitude. NaN where nothing coexists", NULL },
+  { "regime", "sa, la: all members on that state; coexistence: some on either; single: all on one "
+              "state that continues neither, as beyond the cusp; other: some elsewhere, which "
+              "the variable `other` tells", NULL },
+  { "regime_exact", "as regime, of all attractors that exist, whether members reach them or not",
+    NULL },
+  { "other", "sum of the flags that hold: each of flag_values is a bit", NULL },
+  { "uncertain_members", "members whose state is not certain at the tolerance; errors allow for "
+                         "any state of theirs", NULL },
+  { "lyapunov_exponent", "rate at which neighbours part, in omega0",
+    "rate at which neighbours part" },
+  { "lyapunov", "rate at which neighbours part, in omega0; of closed orbits that of the larger "
+                "multiplier",
+    "rate at which neighbours part; of closed orbits that of the larger multiplier" },
+  { "lyapunov_dimension",
+    "1 + L / (L + damping) of the strobe points, L being the largest Lyapunov "
+                          "exponent; the motion in time has one more. Its error is a standard "
+                          "error", NULL },
+  { "correlation_dimension", "slope of log correlation_sum against log distance, of the strobe "
+                             "points; the motion in time has one more. Its error: two standard "
+                             "errors, and what the slope differs by within the range", NULL },
+  { "power_spectrum", "mean square of v that each unit of angular frequency holds, one-sided: the "
+                      "integral over frequency is the mean square of v; by Welch's method, with "
+                      "Hann windows. Its error is a standard error from the scatter of segments, "
+                      "infinite where there is one alone", NULL },
+  { "basin_entropy", "mean over boxes of 5 x 5 states of -sum p log p, p being shares of a box. "
+                     "Its error is from the scatter of rows of boxes, and NaN where there are "
+                     "fewer than four", NULL },
+  { "boundary_basin_entropy", "the same over the boxes that hold more than one basin; above log 2 "
+                              "the boundary is fractal. NaN where there is no such box", NULL },
+  { "uncertain_fraction", "share of pairs of states this far apart that settle differently. Its "
+                          "error is from the scatter between rows, and NaN where too few rows "
+                          "are there for one", NULL },
+  { "estimated_error", "largest over the members; infinite where the method says of one that "
+                       "nothing is known of it, NaN where the method makes no estimate", NULL },
+  { "seconds", "of the fastest of several runs. Its error is the distance to the next, and NaN "
+               "where one run took so long that it was the only one", NULL },
+  { "rotation", "mean whole turns of the angle a drive period", NULL },
+  { "mean_velocity", "mean of dx/dt in the long run, in omega0; of an orbit that closes after q "
+                     "drive periods but for p turns, p omega / q",
+    "mean of dx/dt in the long run" },
+};
+
+/* ---- where x is no angle ---- */
+
+/* Whether a variable is an angle all the same. */
+static int is_phase(const char *name)
+{
+  return strstr(name, "phase") != NULL;
+}
+
+/* Replaces "the angle" in a text; NULL if it has none or there is no memory. */
+static char *without_angle(const char *text)
+{
+  static const char angle[] = "the angle", instead[] = "x";
+  const char *at = strstr(text, angle);
+  char *out = at != NULL ? malloc(strlen(text) + 1) : NULL;
+  if (out == NULL) return NULL;
+  const size_t before = (size_t)(at - text);
+  memcpy(out, text, before);
+  strcpy(out + before, instead);
+  strcat(out, at + sizeof angle - 1);
+  return out;
+}
+
+/* The units and words of one variable. */
+static pendres_status rename_angle(pendres_store *store, const char *group, const char *name)
+{
+  char *text = NULL;
+  pendres_status status =
+    pendres_store_read_attribute_text(store, group, name, "units", &text);
+  if (status == PENDRES_OK && strcmp(text, "rad") == 0 && !is_phase(name))
+    status = pendres_store_attribute_text(store, group, name, "units", "1");
+  free(text);
+  text = NULL;
+  if (status == PENDRES_OK || status == PENDRES_NOT_FOUND)
+    status = pendres_store_read_attribute_text(store, group, name, "long_name", &text);
+  char *words = status == PENDRES_OK ? without_angle(text) : NULL;
+  if (words != NULL)
+    status = pendres_store_attribute_text(store, group, name, "long_name", words);
+  free(text);
+  free(words);
+  return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+}
+
+/* All variables of a group, and of the groups in it. */
+static pendres_status rename_angles(pendres_store *store, const char *group)
+{
+  pendres_status status = PENDRES_OK;
+  for (uint64_t i = 0; status == PENDRES_OK; i++) {
+    char *name = NULL;
+    pendres_store_type type;
+    status = pendres_store_member(store, group, i, &type, &name);
+    if (status == PENDRES_NOT_FOUND) return PENDRES_OK;
+    if (status == PENDRES_OK && type == PENDRES_STORE_DOUBLE)
+      status = rename_angle(store, group, name);
+    else if (status == PENDRES_OK && type == PENDRES_STORE_TYPE_COUNT && group[0] == '\0' &&
+             pendres_store_has(store, name, NULL))
+      status = rename_angles(store, name);
+    free(name);
+  }
+  return status;
+}
+
+/* Say what a variable is, if the file has it. */
+static pendres_status define(pendres_store *store, const char *name, const char *words)
+{
+  return words != NULL && pendres_store_has(store, "", name)
+           ? pendres_store_attribute_text(store, "", name, "comment", words) : PENDRES_OK;
+}
+
+pendres_status scene_define(scene_run *run)
+{
+  const int angle = pendres_model_of(deck_pendulum(run->deck).force)->angle;
+  const pendres_orbit_quantity *q;
+  pendres_status status = angle ? PENDRES_OK : rename_angles(run->store, "");
+  for (size_t k = 0; status == PENDRES_OK && (q = pendres_orbit_quantity_get(k)) != NULL; k++)
+    status = define(run->store, q->name,
+                    angle || q->coordinate == NULL ? q->definition : q->coordinate);
+  for (size_t i = 0; i < sizeof definitions / sizeof *definitions && status == PENDRES_OK; i++)
+    status = define(run->store, definitions[i].name,
+                    angle || definitions[i].no_angle == NULL ? definitions[i].definition
+                                                             : definitions[i].no_angle);
+  return scene_stored(run, status);
+}

@@ -1,0 +1,228 @@
+/* failed.c -- points without a whole result; see failed.h. */
+#include "scenes/failed.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+  const char *meaning, *words;
+} reasons[] = {
+#define REASON(code, meaning, words) { meaning, words },
+  SCENE_FAILURE_LIST(REASON)
+#undef REASON
+};
+
+scene_failure scene_failure_of(pendres_status status)
+{
+  switch (status) {
+  case PENDRES_UNRESOLVED: return SCENE_FAILURE_UNRESOLVED;
+  case PENDRES_INTEGRATION_FAILED: return SCENE_FAILURE_INTEGRATION;
+  case PENDRES_TOLERANCE_UNREACHABLE: return SCENE_FAILURE_TOLERANCE;
+  case PENDRES_NOT_CONVERGED: return SCENE_FAILURE_NOT_CONVERGED;
+  case PENDRES_NOT_FOUND: return SCENE_FAILURE_NOT_FOUND;
+  case PENDRES_INVALID_ARGUMENT: return SCENE_FAILURE_REFUSED;
+  default: return SCENE_FAILURE_NONE;
+  }
+}
+
+int scene_failure_too_long(const pendres_pendulum *p, double runs, char *words, size_t size)
+{
+  /* E-folding times after which 1e-8 of a start is left; the least number of periods of a
+     verdict. */
+  const double times = 18.0, periods = 20.0;
+  /* The steps of about a minute. At weak damping chaos lasts long, and labels take several runs: a
+     quarter of the steps is left for each. Slow drives settle within a period or two, of many
+     steps. */
+  /* In the pendulum's units: how fast it oscillates is of order one in them. */
+  const double time = pendres_units_of(p).time;
+  const double damping = time * p->damping, frequency = time * p->drive_frequency;
+  const int weak = damping < 2.0;
+  const double most_settling = weak ? 5e6 : 2e7, most = weak ? 2e9 : 2e7;
+  const double half = 0.5 * damping;
+  const double rate = half < 1.0 ? half : 1.0 / (half + sqrt(half * half - 1.0));
+  /* No less than the fewest steps that a period is integrated with. */
+  const double a_unit_time =
+    fmax(fmax(damping / 4.0, 1.0 / 1.5), 8.0 * frequency / (2.0 * PENDRES_PI));
+  const double settling = runs * a_unit_time * times / rate;
+  const double steps =
+    settling + runs * a_unit_time * periods * 2.0 * PENDRES_PI / frequency;
+  if (settling <= most_settling && steps <= most) return 0;
+  snprintf(words, size, "damping %g, drive_frequency %g ask for some %.1e steps of the integrator, "
+           "more than %.0e", p->damping, p->drive_frequency, steps,
+           settling > most_settling ? most_settling : most);
+  return 1;
+}
+
+int scene_settling_too_long(const deck *d, const pendres_pendulum *p, double runs, char *words,
+                            size_t size)
+{
+  char why[140];
+  if (d->precision.period_budget > 0 || p->damping == 0.0) return 0;
+  if (!scene_failure_too_long(p, runs, why, sizeof why)) return 0;
+  snprintf(words, size, "%s; precision.period_budget bounds them", why);
+  return 1;
+}
+
+pendres_status scene_failures_create(size_t n, scene_failures *out)
+{
+  *out = (scene_failures){ .n = n, .reason = calloc(n + 1, 1),
+                           .words = calloc(n + 1, sizeof *out->words) };
+  if (out->reason != NULL && out->words != NULL) return PENDRES_OK;
+  scene_failures_free(out);
+  return PENDRES_OUT_OF_MEMORY;
+}
+
+void scene_failures_free(scene_failures *f)
+{
+  for (size_t i = 0; f->words != NULL && i < f->n; i++) free(f->words[i]);
+  free(f->words);
+  free(f->reason);
+  *f = (scene_failures){ 0 };
+}
+
+void scene_failures_mark(scene_failures *f, size_t point, scene_failure reason, const char *words)
+{
+  char *copy = NULL;
+  if (words != NULL && words[0] != '\0') copy = malloc(strlen(words) + 1);
+  if (copy != NULL) strcpy(copy, words); /* else the list's own words do */
+  free(f->words[point]);
+  f->words[point] = copy;
+  f->reason[point] = (int8_t)reason;
+}
+
+void scene_failures_take(scene_failures *f, size_t point, const scene_verdict *v)
+{
+  if (v->reason != SCENE_FAILURE_NONE)
+    scene_failures_mark(f, point, (scene_failure)v->reason, v->words);
+}
+
+void scene_verdict_mark(scene_verdict *v, scene_failure reason, const char *words)
+{
+  v->reason = (int32_t)reason;
+  snprintf(v->words, sizeof v->words, "%s", words != NULL ? words : "");
+}
+
+pendres_status scene_verdict_note(scene_verdict *v, pendres_status status, const char *words)
+{
+  const scene_failure reason = scene_failure_of(status);
+  if (reason == SCENE_FAILURE_NONE) return status;
+  scene_verdict_mark(v, reason, words);
+  return PENDRES_OK;
+}
+
+void scene_point_name(const deck *d, size_t point, int axes, const deck_axis_id *axis, char *text,
+                      size_t size)
+{
+  size_t block = 1, used = 0;
+  text[0] = '\0';
+  for (int i = 1; i < axes; i++) block *= d->axis[axis[i]].count;
+  for (int i = 0; i < axes; i++) {
+    const deck_axis *a = &d->axis[axis[i]];
+    const int n = snprintf(text + used, size - used, "%s%s %.10g", i > 0 ? ", " : "",
+                           deck_axis_name(axis[i]), a->value[point / block % a->count]);
+    if (n < 0 || (size_t)n >= size - used) return;
+    used += (size_t)n;
+    if (i + 1 < axes) block /= d->axis[axis[i + 1]].count;
+  }
+}
+
+void scene_point_begin(farm_record *record, const deck *d, size_t first, size_t n, int axes,
+                       const deck_axis_id *axis)
+{
+  char name[120], more[40] = "";
+  scene_point_name(d, first, axes, axis, name, sizeof name);
+  if (n > 1) snprintf(more, sizeof more, " and %zu more", n - 1);
+  farm_point(record, n, "%s%s", name, more);
+}
+
+pendres_status scene_verdict_point(scene_verdict *v, pendres_status status, const char *words,
+                                   farm_record *record)
+{
+  char why[SCENE_TOLD];
+  if (!farm_gave_up(record, status)) return scene_verdict_note(v, status, words);
+  farm_lost(record, why, sizeof why);
+  scene_verdict_mark(v, SCENE_FAILURE_OUT_OF_TIME, why);
+  return PENDRES_OK;
+}
+
+/* What to do about pendulums that do not settle; a longer wait helps neither one that escapes nor
+   one that may rotate on no closed orbit. */
+static const char *advice(const deck *d)
+{
+  pendres_pendulum p = deck_pendulum(d);
+  if (isnan(p.parametric_amplitude)) p.parametric_amplitude = 0.0; /* an axis */
+  if (pendres_pendulum_leaves(&p) && d->kind != DECK_BASINS) /* which counts them */
+    return "they may escape to infinity, as scene 'basins' tells; if not, raise "
+           "precision.period_budget";
+  if (p.torque != 0.0 && pendres_model_of(p.force)->period > 0.0)
+    return "they may rotate without locking to the drive, as scene 'hysteresis' tells; if not, "
+           "raise precision.period_budget";
+  return "raise precision.period_budget";
+}
+
+void scene_failure_unsettled(const deck *d, size_t some, size_t all, const char *what,
+                             double multiplier, char words[SCENE_TOLD])
+{
+  char periods[80] = "the budget of periods that damping and tolerance make", weakest[60] = "";
+  if (d->precision.period_budget > 0)
+    snprintf(periods, sizeof periods, "%lld periods", (long long)d->precision.period_budget);
+  if (!isnan(multiplier))
+    snprintf(weakest, sizeof weakest, " (weakest multiplier %.4g)", multiplier);
+  snprintf(words, SCENE_TOLD, "%zu of %zu %s did not settle within %s%s: %s", some, all, what,
+           periods, weakest, advice(d));
+}
+
+/* ---- the terminal -------------------------------------------------------------------------- */
+
+void scene_failure_tell(scene_run *run, scene_failure reason, const char *words,
+                        const char *format, ...)
+{
+  if (run->told_count == SCENE_MOST_TOLD) return;
+  char *line = run->told[run->told_count++];
+  va_list args;
+  va_start(args, format);
+  (void)vsnprintf(line, SCENE_TOLD, format, args);
+  va_end(args);
+  const size_t used = strlen(line);
+  snprintf(line + used, SCENE_TOLD - used, ": %s", words != NULL ? words : reasons[reason].words);
+}
+
+/* ---- the file ------------------------------------------------------------------------------ */
+
+const char *scene_failure_names(int value)
+{
+  return value >= 0 && value < SCENE_FAILURE_COUNT ? reasons[value].meaning : NULL;
+}
+
+void scene_failure_flags(pendres_store_spec *spec)
+{
+  static const char *const meanings[] = {
+#define MEANING(code, meaning, words) meaning,
+    SCENE_FAILURE_LIST(MEANING)
+#undef MEANING
+  };
+  spec->type = PENDRES_STORE_INT8;
+  spec->flag_count = SCENE_FAILURE_COUNT;
+  spec->flag_meanings = meanings;
+}
+
+pendres_status scene_failures_write(scene_run *run, const scene_failures *f, const char *name,
+                                    const char *what, int axes, const deck_axis_id *axis)
+{
+  char words[80], where[200];
+  pendres_store_spec spec = { .name = name, .long_name = words };
+  snprintf(words, sizeof words, "why there is no whole result for the %s", what);
+  scene_failure_flags(&spec);
+  for (int i = 0; i < axes; i++) spec.dimensions[i] = deck_axis_name(axis[i]);
+  const pendres_status status = pendres_store_put(run->store, &spec, f->reason, f->n);
+  if (status != PENDRES_OK) return scene_stored(run, status);
+  for (size_t i = 0; i < f->n; i++) {
+    if (f->reason[i] == SCENE_FAILURE_NONE) continue;
+    run->failed_points++;
+    scene_point_name(run->deck, i, axes, axis, where, sizeof where);
+    scene_failure_tell(run, (scene_failure)f->reason[i], f->words[i], "%s at %s", what, where);
+  }
+  return PENDRES_OK;
+}

@@ -1,0 +1,420 @@
+/* lines.c -- lines of points and their branches; see lines.h. */
+#include "scenes/along.h"
+#include "scenes/lines.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/rotation.h>
+
+/* Following branches and curves through a point takes as long as settling its members again. */
+enum { RUNS_A_POINT = 5 };
+
+/* ---- axes ---------------------------------------------------------------------------------- */
+
+static pendres_phase_grid grid_of(const deck *d, const deck_axis_id axis[2], double spacing)
+{
+  static const deck_axis_id held[] = {DECK_AXIS_DAMPING, DECK_AXIS_DRIVE_AMPLITUDE,
+                                      DECK_AXIS_DRIVE_FREQUENCY};
+  const deck_axis *across = &d->axis[axis[0]], *along = &d->axis[axis[1]];
+  pendres_pendulum p = deck_pendulum(d);
+  for (size_t i = 0; i < sizeof held / sizeof *held; i++)
+    scene_along_set(&p, held[i], scene_fixed(d, held[i]));
+  return (pendres_phase_grid){.pendulum = p,
+                              .options = {.ensemble = scene_ensemble(d),
+                                          .parameter = scene_parameter_of(axis[1])->parameter,
+                                          .spacing = spacing},
+                              .values = along->count,
+                              .value = along->value,
+                              .across = scene_parameter_of(axis[0])->parameter,
+                              .lines = across->count,
+                              .line_value = across->value};
+}
+
+/* So many of them are in all tables. */
+enum { ALWAYS = 2 };
+
+const char *scene_lines_words(pendres_parameter parameter)
+{
+  const scene_parameter *of = scene_parameters;
+  for (int i = 0; i < SCENE_PLACES; i++)
+    if (of[i].parameter == parameter) return of[i].one;
+  return pendres_parameter_name(parameter);
+}
+
+void scene_lines_describe(const deck *d, FILE *out)
+{
+  const scene_parameter *of = scene_parameters;
+  deck_axis_id axis[2];
+  scene_plane(d, axis);
+  fprintf(out, "%lld members at ", (long long)d->ensemble.members);
+  for (int i = 0; i < 2; i++) {
+    const deck_axis *a = &d->axis[axis[i]];
+    fprintf(out, "%s%zu %s, %g to %g,%s", i == 0 ? "" : " and ", a->count,
+            scene_parameter_of(axis[i])->many, a->value[0], a->value[a->count - 1],
+            i == 0 ? "" : "\n");
+  }
+  for (int i = 0, held = 0; i < SCENE_PLACES; i++) {
+    const double value = scene_fixed(d, of[i].axis);
+    if (!isnan(value)) fprintf(out, "%s%s %g", held++ > 0 ? ", " : "", of[i].one, value);
+  }
+}
+
+int scene_lines_changes(const scene_lines *l, deck_axis_id axis)
+{
+  return l->axis[0] == axis || l->axis[1] == axis;
+}
+
+/* ---- tasks --------------------------------------------------------------------------------- */
+
+static pendres_status hand_over(pendres_status status, pendres_phase_record *r, farm_record *out)
+{
+  const size_t size = pendres_phase_record_size(r);
+  if (status == PENDRES_OK && farm_record_resize(out, size) == NULL) status = PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) memcpy(out->data, pendres_phase_record_bytes(r), size);
+  pendres_phase_record_free(r);
+  return status;
+}
+
+pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point)
+{
+  pendres_pendulum p = l->grid.pendulum;
+  pendres_parameter_set(l->grid.across, l->grid.line_value[point / l->grid.values], &p);
+  pendres_parameter_set(l->grid.options.parameter, l->grid.value[point % l->grid.values], &p);
+  return p;
+}
+
+/* Compute a line as a whole, in a diagram of its own; where its budget ends it, it has no
+   points. */
+static pendres_status compute_alone(const scene_lines *l, size_t task, pendres_context *ctx,
+                                    pendres_phase_diagram *alone, farm_record *out,
+                                    pendres_phase_record **r)
+{
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
+  pendres_status status = pendres_phase_diagram_compute_line(ctx, alone, 0, r);
+  if (!farm_gave_up(out, status)) return status;
+  farm_lost(out, NULL, 0);
+  for (size_t k = 0; k < l->grid.values; k++) (void)pendres_phase_diagram_leave_out(alone, k);
+  return pendres_phase_diagram_compute_line(ctx, alone, 0, r);
+}
+
+/* Compute a line that its budget has ended, without the points that use up a budget of their
+   own. */
+static pendres_status compute_by_points(const scene_lines *l, size_t task, pendres_context *ctx,
+                                        farm_record *out, pendres_phase_record **r)
+{
+  const size_t values = l->grid.values;
+  pendres_phase_diagram *alone = NULL;
+  pendres_phase_grid grid = l->grid;
+  grid.lines = 1;
+  grid.line_value = &l->grid.line_value[task];
+  pendres_status status = pendres_phase_diagram_create(&grid, &alone);
+  for (size_t k = 0; k < values && status == PENDRES_OK; k++) {
+    const size_t point = task * values + k;
+    const pendres_pendulum p = scene_lines_pendulum(l, point);
+    pendres_response response;
+    int left_out = l->failed.reason[point] != SCENE_FAILURE_NONE;
+    scene_point_begin(out, l->run->deck, point, 1, 2, l->axis);
+    if (!left_out)
+      status = pendres_response_compute(ctx, 1, &p, &grid.options.ensemble, &response);
+    if (farm_gave_up(out, status)) {
+      farm_lost(out, NULL, 0);
+      left_out = 1;
+    }
+    /* What fails otherwise is sorted out with the line. */
+    if (left_out || scene_failure_of(status) != SCENE_FAILURE_NONE) status = PENDRES_OK;
+    if (left_out) (void)pendres_phase_diagram_leave_out(alone, k);
+  }
+  if (status == PENDRES_OK) status = compute_alone(l, task, ctx, alone, out, r);
+  pendres_phase_diagram_free(alone);
+  return status;
+}
+
+static pendres_status compute(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const scene_lines *l = arg;
+  pendres_phase_record *r = NULL;
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
+  pendres_status status = pendres_phase_diagram_compute_line(ctx, l->diagram, task, &r);
+  if (farm_gave_up(out, status)) status = compute_by_points(l, task, ctx, out, &r);
+  return hand_over(status, r, out);
+}
+
+/* A line that its budget has ended stays as it was: its record is empty. */
+static pendres_status complete(const void *arg, size_t task, pendres_context *ctx,
+                               farm_record *out)
+{
+  const scene_lines *l = arg;
+  pendres_phase_record *r = NULL;
+  scene_point_begin(out, l->run->deck, task * l->grid.values, l->grid.values, 2, l->axis);
+  const pendres_status status = pendres_phase_diagram_complete_line(ctx, l->diagram, task, &r);
+  if (!farm_gave_up(out, status)) return hand_over(status, r, out);
+  farm_lost(out, NULL, 0);
+  return PENDRES_OK;
+}
+
+/* The library looks at its own bytes when it takes them. */
+static int check(const void *arg, size_t task, const farm_record *in)
+{
+  (void)arg;
+  (void)task;
+  return in->size > 0;
+}
+
+/* Points of the deck that a line's record leaves out were ended by their budget. */
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  scene_lines *l = arg;
+  const size_t first = task * l->grid.values;
+  pendres_status status = PENDRES_OK;
+  if (in->size > 0)
+    status = pendres_phase_diagram_take_line(l->diagram, task, in->size, in->data);
+  for (size_t i = first; i < first + l->grid.values && status == PENDRES_OK; i++) {
+    const int lost = in->size == 0 ||
+                     pendres_phase_diagram_outcome(l->diagram, i, NULL) == PENDRES_UNSUPPORTED;
+    if (lost && l->failed.reason[i] == SCENE_FAILURE_NONE)
+      scene_failures_mark(&l->failed, i, SCENE_FAILURE_OUT_OF_TIME, NULL);
+  }
+  return status;
+}
+
+static pendres_status follow_family(const void *arg, size_t task, pendres_context *ctx,
+                                    farm_record *out)
+{
+  const scene_lines *l = arg;
+  pendres_phase_record *r = NULL;
+  const pendres_status status = pendres_phase_diagram_follow_family(ctx, l->diagram, task, &r);
+  return hand_over(status, r, out);
+}
+
+static pendres_status take_family(void *arg, size_t task, const farm_record *in)
+{
+  const scene_lines *l = arg;
+  return pendres_phase_diagram_take_family(l->diagram, task, in->size, in->data);
+}
+
+/* Follow curves through the bifurcations of all lines, and complete the lines by them, until
+   nothing new is found. */
+static pendres_status follow_curves(scene_lines *l)
+{
+  for (;;) {
+    farm_stage curves = {.what = "families of curves", .cheap = 1, .record_size = 1,
+                         .task = follow_family, .check = check, .collect = take_family,
+                         .arg = l};
+    pendres_status status = pendres_phase_diagram_find_families(l->diagram, &curves.tasks);
+    if (status != PENDRES_OK) return scene_fail(l->run, status, "out of memory for bifurcations");
+    if (curves.tasks == 0) return PENDRES_OK;
+    status = scene_compute(l->run, &curves);
+    if (status == PENDRES_OK)
+      status = scene_compute(l->run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
+                                                   .task = complete, .check = check,
+                                                   .collect = collect,
+                                                   .arg = l});
+    if (status != PENDRES_OK) return status;
+  }
+}
+
+/* ---- failures ------------------------------------------------------------------------------ */
+
+/* Points that ask for too many steps are not computed. */
+static void leave_out(scene_lines *l)
+{
+  for (size_t i = 0; i < l->n; i++) {
+    char words[120];
+    const pendres_pendulum p = scene_lines_pendulum(l, i);
+    if (!scene_failure_too_long(&p, RUNS_A_POINT, words, sizeof words)) continue;
+    (void)pendres_phase_diagram_leave_out(l->diagram, i);
+    scene_failures_mark(&l->failed, i, SCENE_FAILURE_TOO_LONG, words);
+  }
+}
+
+static void judge(scene_lines *l)
+{
+  for (size_t i = 0; i < l->n; i++) {
+    char words[SCENE_TOLD];
+    const char *message = NULL;
+    const size_t unresolved = l->points[i].unresolved;
+    const pendres_status outcome = pendres_phase_diagram_outcome(l->diagram, i, &message);
+    const scene_failure reason = scene_failure_of(outcome);
+    if (reason != SCENE_FAILURE_NONE) {
+      scene_failures_mark(&l->failed, i, reason, message);
+    } else if (outcome == PENDRES_OK && unresolved > 0) {
+      const size_t members = l->grid.options.ensemble.members;
+      scene_failure_unsettled(l->run->deck, unresolved, members, "members",
+                              l->points[i].weakest_multiplier, words);
+      /* Which is refused where there is a drive. */
+      const pendres_pendulum p = scene_lines_pendulum(l, i);
+      pendres_rotation r;
+      if (pendres_rotation_find(&p, &r, NULL) == PENDRES_OK)
+        snprintf(words, sizeof words, "%zu of %zu members are on no orbit of the drive's clock: a "
+                 "rotation is there, which without a drive has a period of its own",
+                 unresolved, members);
+      scene_failures_mark(&l->failed, i, SCENE_FAILURE_UNRESOLVED, words);
+    }
+  }
+}
+
+/* Tell once that there may be more curves. */
+static void judge_curves(scene_lines *l)
+{
+  const char *message = NULL;
+  const scene_failure reason =
+    scene_failure_of(pendres_phase_diagram_curves_outcome(l->diagram, &message));
+  if (reason == SCENE_FAILURE_NONE) return;
+  l->run->failed_points++;
+  scene_failure_tell(l->run, reason, message, "curves of bifurcations");
+}
+
+/* ---- all of it ----------------------------------------------------------------------------- */
+
+pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l)
+{
+  *l = (scene_lines){.run = run};
+  scene_plane(run->deck, l->axis);
+  l->grid = grid_of(run->deck, l->axis, spacing);
+  l->n = l->grid.lines * l->grid.values;
+  l->points = malloc((l->n + 1) * sizeof *l->points);
+  pendres_status status = l->points != NULL ? scene_failures_create(l->n, &l->failed)
+                                            : PENDRES_OUT_OF_MEMORY;
+  if (status == PENDRES_OK) status = pendres_phase_diagram_create(&l->grid, &l->diagram);
+  if (status != PENDRES_OK)
+    return scene_fail(run, status, "a diagram of %zu points: %s", l->n,
+                      pendres_status_message(status));
+  leave_out(l);
+  status = scene_compute(run, &(farm_stage){.what = "lines", .tasks = l->grid.lines,
+                                            .task = compute, .check = check, .collect = collect,
+                                            .arg = l});
+  if (status == PENDRES_OK) status = follow_curves(l);
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < l->n; i++) l->points[i] = *pendres_phase_diagram_point(l->diagram, i);
+  judge_curves(l);
+  judge(l);
+  return PENDRES_OK;
+}
+
+void scene_lines_free(scene_lines *l)
+{
+  pendres_phase_diagram_free(l->diagram);
+  free(l->points);
+  scene_failures_free(&l->failed);
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+static scene_table table_of(const scene_lines *l)
+{
+  return (scene_table){.dimensions = {deck_axis_name(l->axis[0]), deck_axis_name(l->axis[1])},
+                       .n = l->n, .stride = sizeof *l->points, .rows = l->points};
+}
+
+pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns)
+{
+  const scene_table table = table_of(l);
+  pendres_status status = PENDRES_OK;
+  for (int i = 0; i < 2 && status == PENDRES_OK; i++)
+    status = scene_dimension(l->run, "", l->axis[i]);
+  return status == PENDRES_OK ? scene_columns_write(l->run, &table, count, columns) : status;
+}
+
+/* The error of a parameter: of the line's own [0], of that across the lines [1], or none. */
+static double error_of(const scene_lines *l, pendres_parameter parameter, const double error[2])
+{
+  if (parameter == l->grid.options.parameter) return error[0];
+  return parameter == l->grid.across ? error[1] : 0.0;
+}
+
+scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
+                              const double error[2])
+{
+  scene_place place;
+  for (int i = 0; i < SCENE_PLACES; i++) {
+    const pendres_parameter parameter = scene_parameters[i].parameter;
+    place.value[i] = pendres_parameter_get(parameter, p);
+    place.error[i] = error_of(l, parameter, error);
+  }
+  return place;
+}
+
+static scene_column column_of(int i)
+{
+  return (scene_column){.name = scene_parameters[i].name,
+                        .long_name = scene_parameters[i].long_name, .units = "1",
+                        .value = offsetof(scene_place, value) + (size_t)i * sizeof(double),
+                        .error = offsetof(scene_place, error) + (size_t)i * sizeof(double)};
+}
+
+pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
+                                        const char *words, size_t count,
+                                        const scene_column *columns)
+{
+  scene_table places = *table;
+  pendres_status status = PENDRES_OK;
+  places.words = words;
+  for (int i = 0; i < SCENE_PLACES && status == PENDRES_OK; i++) {
+    const scene_column column = column_of(i);
+    if (i == ALWAYS) status = scene_columns_write(l->run, table, count, columns);
+    if (status == PENDRES_OK && (i < ALWAYS || scene_lines_changes(l, scene_parameters[i].axis)))
+      status = scene_columns_write(l->run, &places, 1, &column);
+  }
+  return status;
+}
+
+pendres_status scene_lines_write_doubtful(const scene_lines *l)
+{
+  static const scene_column uncertain = SCENE_UNCERTAIN(pendres_phase_point, uncertain);
+  const scene_table table = table_of(l);
+  const pendres_status status = scene_columns_write(l->run, &table, 1, &uncertain);
+  return status == PENDRES_OK
+           ? scene_failures_write(l->run, &l->failed, "failed", "point", 2, l->axis)
+           : status;
+}
+
+/* Points that the branches' bifurcations do not explain; *first is one of them. */
+static int32_t count_doubts(const scene_lines *l, const pendres_branch_point **first)
+{
+  int32_t doubts = 0;
+  for (size_t i = 0; i < l->grid.lines; i++) {
+    const pendres_branches *all = pendres_phase_diagram_branches(l->diagram, i);
+    for (size_t k = 0; k < pendres_branches_count(all); k++) {
+      const pendres_branch *b = pendres_branches_get(all, k);
+      for (size_t m = 0; m < pendres_branch_count(b); m++) {
+        const pendres_branch_point *p = pendres_branch_get(b, m);
+        if (p->doubt == 0) continue;
+        if (doubts++ == 0) *first = p;
+      }
+    }
+  }
+  return doubts;
+}
+
+pendres_status scene_lines_write_doubts(const scene_lines *l)
+{
+  const pendres_branch_point *first = NULL;
+  const int32_t doubts = count_doubts(l, &first);
+  const pendres_store_spec spec = {
+    .name = "branch_doubts",
+    .type = PENDRES_STORE_INT32,
+    .long_name = "points of branches at which stability or turns and the bifurcations disagree"};
+  const pendres_status status = pendres_store_put(l->run->store, &spec, &doubts, 1);
+  return scene_stored(l->run, status);
+}
+
+void scene_lines_print(const scene_lines *l, FILE *out)
+{
+  const pendres_cusp *c = pendres_phase_diagram_cusp(l->diagram);
+  const pendres_branch_point *p = NULL;
+  const int32_t doubts = count_doubts(l, &p);
+  if (c != NULL)
+    fprintf(out, "cusp: %s %#.13g +- %.0e, %s %#.13g +- %.0e\n", scene_lines_words(l->grid.across),
+            c->value[1], c->value_error[1], scene_lines_words(l->grid.options.parameter),
+            c->value[0], c->value_error[0]);
+  if (doubts > 0)
+    fprintf(out, "branches disagree with their bifurcations at %ld points, one of them at damping "
+            "%.9g, drive amplitude %.9g, torque %.9g, parametric amplitude %.9g, drive frequency "
+            "%.9g (period %d): a bifurcation is missed or misnamed there\n", (long)doubts,
+            p->orbit.pendulum.damping, p->orbit.pendulum.drive_amplitude,
+            p->orbit.pendulum.torque, p->orbit.pendulum.parametric_amplitude,
+            p->orbit.pendulum.drive_frequency, p->orbit.period);
+}

@@ -1,0 +1,74 @@
+/*
+ * lines.h -- points over two parameters, line by line, with the branches that they lie on:
+ * what phase_diagram and branches both compute, with pendres_phase_diagram.
+ *
+ * Owns: the deck's axes as the diagram's, its lines as tasks, which points failed, and what both
+ * scenes write and print of the whole.
+ */
+#ifndef SCENE_LINES_H
+#define SCENE_LINES_H
+
+#include <pendres/phase_diagram.h>
+
+#include "scenes/columns.h"
+#include "scenes/failed.h"
+
+typedef struct scene_lines {
+  scene_run *run;
+  deck_axis_id axis[2];  /* across the lines and along them: the dimensions of results */
+  pendres_phase_grid grid;
+  pendres_phase_diagram *diagram;
+  pendres_phase_point *points; /* [lines][values] */
+  size_t n;                    /* points */
+  scene_failures failed;       /* [lines][values] */
+} scene_lines;
+
+/* Compute the diagram. spacing: of the points of branches, see phase_diagram.h. Free l in any
+   case. */
+pendres_status scene_lines_compute(scene_run *run, double spacing, scene_lines *l);
+
+void scene_lines_free(scene_lines *l);
+
+/* Define the dimensions of the points and write columns of pendres_phase_point. */
+pendres_status scene_lines_write(const scene_lines *l, size_t count, const scene_column *columns);
+
+/* Write which points failed, and how many members are uncertain: `failed`, `uncertain_members`. */
+pendres_status scene_lines_write_doubtful(const scene_lines *l);
+
+/* Print lines of the short table: the cusp, if there is one, and what branches do that their
+   bifurcations do not explain, if there is anything. */
+void scene_lines_print(const scene_lines *l, FILE *out);
+
+/* Write `branch_doubts`: at how many points branches and bifurcations disagree. */
+pendres_status scene_lines_write_doubts(const scene_lines *l);
+
+/* The parameters of an orbit with their errors, in the order of scene_parameters: how rows of such
+   tables begin. */
+typedef struct scene_place {
+  double value[SCENE_PLACES], error[SCENE_PLACES];
+} scene_place;
+
+/* error: of the parameter along the lines [0], and of the one across them [1]. */
+scene_place scene_lines_place(const scene_lines *l, const pendres_pendulum *p,
+                              const double error[2]);
+
+/* Write a table whose rows begin with a scene_place: damping and drive frequency, the given
+   columns, and the other parameters that are axes of the diagram. words (may be NULL) stand behind
+   the long names of parameters. */
+pendres_status scene_lines_write_places(const scene_lines *l, const scene_table *table,
+                                        const char *words, size_t count,
+                                        const scene_column *columns);
+
+/* The parameters of a point. */
+pendres_pendulum scene_lines_pendulum(const scene_lines *l, size_t point);
+
+/* Whether an axis of decks is one of the diagram's two. */
+int scene_lines_changes(const scene_lines *l, deck_axis_id axis);
+
+/* "damping", "drive amplitude", "drive frequency", "torque", "parametric amplitude". */
+const char *scene_lines_words(pendres_parameter parameter);
+
+/* One line on what is computed, for --dry-run: axes and what is fixed. */
+void scene_lines_describe(const deck *d, FILE *out);
+
+#endif

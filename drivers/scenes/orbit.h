@@ -1,0 +1,67 @@
+/*
+ * orbit.h -- what the files of the scene `orbit` share.
+ *
+ * Owns: what is found of the pendulum, and the record while it is made.
+ */
+#ifndef SCENE_ORBIT_H
+#define SCENE_ORBIT_H
+
+#include "scenes/check.h"
+#include "scenes/failed.h"
+
+/* What the first task finds of the pendulum. */
+typedef struct orbit_found {
+  pendres_label label;
+  long well, settling_periods;   /* -1: no start to settle from */
+  int closed;                    /* nonzero: there is a closed orbit */
+  int uncertain;                 /* nonzero: errors that the start amplifies may have chosen it */
+  int gone;                      /* nonzero: double precision can no longer say where the recorded
+                                    trajectory is on its way to infinity */
+  pendres_orbit orbit;
+  double lyapunov, lyapunov_error;
+  double drift, drift_error, watched_periods, escape_rate_bound; /* of chaos; NaN */
+  scene_verdict verdict;         /* the budget has ended the search */
+} orbit_found;
+
+/* Variables of the store that samples are written to, each with its error. */
+typedef struct orbit_variable {
+  int value, error;
+} orbit_variable;
+
+/* What a whole record is measured for, while it goes by. */
+typedef struct orbit_measures {
+  pendres_spectrum *spectrum; /* NULL: not asked for */
+  double *x, *v;              /* strobe points, at most `room` of them; NULL: not asked for */
+  size_t points, room;
+  long stride;                /* drive periods from one to the next */
+  pendres_correlation correlation;
+} orbit_measures;
+
+typedef struct orbit_work {
+  const deck *d;
+  scene_run *run;
+  pendres_pendulum pendulum;
+  int transient;
+  double start_x, start_v;     /* the deck's, or a point of the chaotic attractor that it names */
+  long chunk;                  /* drive periods of a task, the last one's may be fewer */
+  orbit_found found;
+  pendres_recording recording; /* of the chunks so far; unused on closed orbits */
+  orbit_variable phase, x, v, drive;
+  orbit_measures measures;
+} orbit_work;
+
+/* orbit_write.c: what was found, and variables for samples; samples of periods `first`, ...,
+   of which those of the last period's end are the next chunk's; the table. */
+pendres_status scene_orbit_put_found(orbit_work *w);
+pendres_status scene_orbit_put_samples(orbit_work *w, long first, long periods,
+                                       const pendres_record *s);
+void scene_orbit_tabulate(FILE *out, const orbit_work *w);
+
+/* orbit_measure.c: dimensions and spectrum. Begin before the first chunk, free always. */
+pendres_status scene_orbit_measure_begin(orbit_work *w);
+pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
+                                       const pendres_record *s);
+pendres_status scene_orbit_measure_put(orbit_work *w);
+void scene_orbit_measure_free(orbit_work *w);
+
+#endif

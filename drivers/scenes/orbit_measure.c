@@ -1,0 +1,181 @@
+/*
+ * orbit_measure.c -- what the scene `orbit` measures of a whole record while it goes by:
+ * dimensions of a chaotic attractor and the power spectrum.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/columns.h"
+#include "scenes/orbit.h"
+
+enum {
+  POINTS = 32768, /* strobe points that a dimension is measured from, at most */
+  SETTLED = 100,  /* drive periods of a transient that do not count for it */
+  SEGMENTS = 16,  /* of a spectrum, without overlap, if the deck does not say */
+  RESOLUTION = 100 /* tolerances: distances below are not looked at */
+};
+
+/* Drive periods of a segment: what the deck says, as far as the record goes. */
+static long segment_of(const deck *d)
+{
+  const long all = (long)d->orbit.periods, samples = (long)d->orbit.samples;
+  const long longest = PENDRES_SPECTRUM_LONGEST / samples;
+  long segment = (long)d->orbit.segment;
+  if (segment == 0)
+    for (segment = 1; 2 * segment * SEGMENTS <= all; segment *= 2) continue;
+  segment = segment < deck_spectrum_least(d) ? (long)deck_spectrum_least(d) : segment;
+  if (segment > all) segment = all;
+  if (segment > longest) segment = longest;
+  return segment - (segment * samples % 2);
+}
+
+pendres_status scene_orbit_measure_begin(orbit_work *w)
+{
+  orbit_measures *m = &w->measures;
+  const deck *d = w->d;
+  if (d->orbit.spectrum && (w->transient || w->found.label != PENDRES_LABEL_UNRESOLVED)) {
+    const size_t length = (size_t)segment_of(d) * (size_t)d->orbit.samples;
+    const double interval =
+      2.0 * PENDRES_PI / (w->pendulum.drive_frequency * (double)d->orbit.samples);
+    const pendres_status status = pendres_spectrum_create(length, interval, &m->spectrum);
+    if (status != PENDRES_OK)
+      return scene_fail(w->run, status, "no spectrum of segments of %zu samples: 4 or more, an "
+                        "even number, and what memory has room for", length);
+  }
+  if (d->orbit.dimension && w->found.label == PENDRES_LABEL_CHAOTIC) {
+    m->room = d->orbit.periods < POINTS ? (size_t)d->orbit.periods : POINTS;
+    m->stride = ((long)d->orbit.periods + POINTS - 1) / POINTS;
+    m->x = malloc(2 * m->room * sizeof *m->x);
+    if (m->x == NULL)
+      return scene_fail(w->run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", m->room);
+    m->v = m->x + m->room;
+  }
+  return PENDRES_OK;
+}
+
+pendres_status scene_orbit_measure_add(orbit_work *w, long first, long periods,
+                                       const pendres_record *s)
+{
+  orbit_measures *m = &w->measures;
+  const size_t samples = (size_t)w->d->orbit.samples;
+  for (long k = 0; k < periods && m->x != NULL; k++) {
+    const long period = first + k;
+    if (period % m->stride != 0 || (w->transient && period < SETTLED)) continue;
+    m->x[m->points] = s->x[(size_t)k * samples];
+    m->v[m->points++] = s->v[(size_t)k * samples];
+  }
+  if (m->spectrum == NULL) return PENDRES_OK;
+  const pendres_status status =
+    pendres_spectrum_add(m->spectrum, (size_t)periods * samples, s->v);
+  return status == PENDRES_OK ? status
+                              : scene_fail(w->run, status, "the spectrum cannot be measured");
+}
+
+void scene_orbit_measure_free(orbit_work *w)
+{
+  pendres_spectrum_free(w->measures.spectrum);
+  free(w->measures.x);
+}
+
+/* The correlation dimension of strobe points; that of closed orbits, which are points, is 0. */
+static pendres_status measure_correlation(orbit_work *w)
+{
+  orbit_measures *m = &w->measures;
+  pendres_correlation *c = &m->correlation;
+  pendres_context *ctx = scene_context(w->run);
+  *c = (pendres_correlation){ .dimension = NAN, .dimension_error = NAN };
+  if (w->found.closed) c->dimension = c->dimension_error = 0.0;
+  if (m->points < 2) return PENDRES_OK;
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  /* Distances are of x and of v times the unit of time. */
+  const double time = pendres_units_of(&w->pendulum).time;
+  for (size_t k = 0; k < m->points; k++) m->v[k] *= time;
+  const pendres_section section = { m->points, m->x, m->v,
+                                    pendres_model_of(w->pendulum.force)->period };
+  return scene_asked(w->run,
+                     pendres_correlation_measure(ctx, &section,
+                                                 RESOLUTION * w->d->precision.tolerance, c));
+}
+
+typedef struct dimensions {
+  double lyapunov_dimension, lyapunov_dimension_error;
+  double correlation_dimension, correlation_dimension_error;
+} dimensions;
+
+static const scene_column of_dimensions[] = {
+  SCENE_COLUMN(dimensions, lyapunov_dimension, "dimension of the section by Kaplan and Yorke", "1"),
+  SCENE_COLUMN(dimensions, correlation_dimension, "correlation dimension of the section", "1"),
+};
+
+/* What stands at each distance, or at each frequency. */
+typedef struct row {
+  double value, error;
+} row;
+
+static const scene_column of_distances[] = {
+  {.name = "correlation_sum", .long_name = "share of pairs of strobe points that are closer",
+   .units = "1", .value = offsetof(row, value), .error = offsetof(row, error)},
+};
+static const scene_column of_frequencies[] = {
+  {.name = "power_spectrum", .long_name = "power spectral density of the velocity", .units = "1",
+   .value = offsetof(row, value), .error = offsetof(row, error)},
+};
+
+/* A result over a dimension of its own. */
+static pendres_status put_over(scene_run *run, const scene_table *table, const char *words,
+                               const double *at, const scene_column *column)
+{
+  const pendres_store_spec spec = {.name = table->dimensions[0], .long_name = words};
+  const pendres_status status =
+    scene_stored(run, pendres_store_dimension(run->store, &spec, table->n, at));
+  return status == PENDRES_OK ? scene_columns_write(run, table, 1, column) : status;
+}
+
+static pendres_status put_dimensions(orbit_work *w)
+{
+  const pendres_correlation *c = &w->measures.correlation;
+  row rows[PENDRES_CORRELATION_SCALES];
+  dimensions d = {.lyapunov_dimension_error = NAN};
+  pendres_status status = measure_correlation(w);
+  d.lyapunov_dimension = pendres_lyapunov_dimension(
+    &w->pendulum, w->found.lyapunov, w->found.lyapunov_error, &d.lyapunov_dimension_error);
+  d.correlation_dimension = c->dimension;
+  d.correlation_dimension_error = c->dimension_error;
+  const scene_table table = {.n = 1, .stride = sizeof d, .rows = &d};
+  if (status == PENDRES_OK) status = SCENE_WRITE(w->run, &table, of_dimensions);
+  if (status != PENDRES_OK || c->scales == 0) return status;
+  for (int k = 0; k < c->scales; k++) rows[k] = (row){c->sum[k], c->sum_error[k]};
+  const scene_table scales = {.dimensions = {"distance"}, .n = (size_t)c->scales,
+                              .stride = sizeof *rows, .rows = rows};
+  return put_over(w->run, &scales, "distance of strobe points", c->distance, of_distances);
+}
+
+static pendres_status put_spectrum(orbit_work *w)
+{
+  const pendres_spectrum *s = w->measures.spectrum;
+  const size_t n = pendres_spectrum_count(s);
+  double *frequency = malloc(3 * n * sizeof *frequency);
+  row *rows = malloc(n * sizeof *rows);
+  const scene_table table = {.dimensions = {"frequency"}, .n = n, .stride = sizeof *rows,
+                             .rows = rows};
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (frequency != NULL && rows != NULL) {
+    status = pendres_spectrum_get(s, frequency, frequency + n, frequency + 2 * n);
+    for (size_t k = 0; k < n; k++) rows[k] = (row){frequency[n + k], frequency[2 * n + k]};
+  } else {
+    (void)scene_fail(w->run, status, "out of memory for %zu frequencies", n);
+  }
+  if (status == PENDRES_OK)
+    status = put_over(w->run, &table, "angular frequency", frequency, of_frequencies);
+  free(frequency);
+  free(rows);
+  return status;
+}
+
+pendres_status scene_orbit_measure_put(orbit_work *w)
+{
+  pendres_status status = PENDRES_OK;
+  if (w->d->orbit.dimension) status = put_dimensions(w);
+  if (status == PENDRES_OK && w->measures.spectrum != NULL) status = put_spectrum(w);
+  return status;
+}

@@ -1,0 +1,94 @@
+/*
+ * phase_diagram.c -- regimes over two parameters, by an ensemble and by curves.
+ *
+ * The paper's Fig. 8, and its loop area as a surface (section III D): pendres_phase_diagram, one
+ * task a line.
+ */
+#include "scenes/curves.h"
+
+static void describe(const deck *d, FILE *out)
+{
+  fprintf(out, "regimes of ");
+  scene_lines_describe(d, out);
+  fprintf(out, "; and the curves of folds and symmetry breakings, with their cusp\n");
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+static const int8_t other_bits[] = {0, PENDRES_OTHER_ASYMMETRIC, PENDRES_OTHER_PERIODIC,
+                                    PENDRES_OTHER_RUNNING, PENDRES_OTHER_CHAOTIC,
+                                    PENDRES_OTHER_UNRESOLVED};
+
+static const char *others(int value)
+{
+  if (value == 0) return "none";
+  return value < (int)sizeof other_bits ? pendres_other_name((pendres_other)other_bits[value])
+                                        : NULL;
+}
+
+static const scene_column columns[] = {
+  SCENE_CODE(pendres_phase_point, regime,
+             "state of motion that the members of the ensemble settle on", scene_regime_names),
+  {.name = "regime_exact", .long_name = "states of motion that exist as attractors, by the "
+                                        "branches, whether members reach them or not",
+   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, exact),
+   .names = scene_regime_names},
+  {.name = "other", .long_name = "what else members settle on: sum of the flags",
+   .type = SCENE_FLAG, .value = offsetof(pendres_phase_point, other), .names = others,
+   .codes = other_bits},
+  SCENE_COLUMN(pendres_phase_point, sa_fraction,
+               "share of the members on the small-amplitude state", NULL),
+  SCENE_COLUMN(pendres_phase_point, la_fraction,
+               "share of the members on the large-amplitude state", NULL),
+  SCENE_COLUMN(pendres_phase_point, mean_loop_area, "mean loop area of the ensemble", NULL),
+};
+
+static pendres_status write_results(const scene_lines *l)
+{
+  pendres_status status = scene_lines_write(l, sizeof columns / sizeof *columns, columns);
+  if (status == PENDRES_OK) status = scene_lines_write_doubtful(l);
+  if (status == PENDRES_OK) status = scene_lines_write_doubts(l);
+  if (status == PENDRES_OK) status = scene_curves_write(l);
+  if (status == PENDRES_OK) status = scene_curves_write_paper(l);
+  return status;
+}
+
+static void print_table(const scene_lines *l, FILE *out)
+{
+  size_t tally[PENDRES_REGIME_COUNT] = {0}, differ = 0, skipped = 0;
+  for (size_t i = 0; i < l->n; i++) {
+    const pendres_phase_point *p = &l->points[i];
+    tally[p->regime]++;
+    differ += p->regime != PENDRES_REGIME_OTHER && p->regime != p->exact;
+  }
+  for (size_t i = 0; i < l->grid.lines; i++)
+    skipped += pendres_branches_skipped(pendres_phase_diagram_branches(l->diagram, i));
+  fprintf(out, "regime        points\n");
+  for (int r = 0; r < PENDRES_REGIME_COUNT; r++)
+    fprintf(out, "%-12s  %zu\n", scene_regime_names(r), tally[r]);
+  fprintf(out, "members miss a state that exists at %zu of %zu points\n", differ, l->n);
+  if (skipped > 0) fprintf(out, "orbits without a branch: %zu\n", skipped);
+  scene_lines_print(l, out);
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  /* The branches themselves are not written: their points may be sparse. */
+  static const double sparse = 0.1;
+  scene_lines l;
+  pendres_status status = scene_lines_compute(run, sparse, &l);
+  if (status == PENDRES_OK) status = write_results(&l);
+  if (status == PENDRES_OK && run->table != NULL) print_table(&l, run->table);
+  scene_lines_free(&l);
+  return status;
+}
+
+const scene_kind scene_phase_diagram = {
+  .kind = DECK_PHASE_DIAGRAM,
+  .references = "D. Kharkongor and M. C. Mahato, Resonance oscillation of a damped driven simple "
+                "pendulum, Fig. 8 and section III D; Y. A. Kuznetsov, Elements of Applied "
+                "Bifurcation Theory, chapters 9 and 10",
+  .budget = 1,
+  .size = {60e3, 17.0, 300.0, 3.0, 1.2, 1e-3},
+  .describe = describe,
+  .run = run_scene};

@@ -1,0 +1,71 @@
+/* spill.c -- see spill.h. */
+#define _POSIX_C_SOURCE 200809L /* mkstemp */
+#include "scenes/spill.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "system/bytes.h"
+
+/* A file without a name, in TMPDIR or, without that, beside the output. */
+static pendres_status open_file(scene_run *run, scene_spill *s)
+{
+  char path[DECK_PATH + 32];
+  const char *folder = getenv("TMPDIR"), *output = run->deck->output;
+  const char *slash = strrchr(output, '/');
+  if (folder != NULL && *folder != '\0')
+    snprintf(path, sizeof path, "%.1000s/resonance-XXXXXX", folder);
+  else
+    snprintf(path, sizeof path, "%.*s.resonance-XXXXXX",
+             slash != NULL ? (int)(slash - output) + 1 : 0, output);
+  s->file = mkstemp(path);
+  if (s->file >= 0 && unlink(path) == 0) return PENDRES_OK;
+  return scene_fail(run, PENDRES_IO, "a temporary file, %s: %s", path, strerror(errno));
+}
+
+pendres_status scene_spill_create(scene_run *run, size_t n, size_t element, size_t memory,
+                                  scene_spill *out)
+{
+  *out = (scene_spill){.element = element, .file = -1};
+  if (n > memory / element) return open_file(run, out);
+  out->memory = calloc(n + 1, element);
+  return out->memory != NULL ? PENDRES_OK
+                             : scene_fail(run, PENDRES_OUT_OF_MEMORY,
+                                          "out of memory for %zu points", n);
+}
+
+void scene_spill_free(scene_spill *s)
+{
+  if (s->element == 0) return;
+  free(s->memory);
+  if (s->file >= 0) (void)close(s->file);
+  *s = (scene_spill){.element = 0};
+}
+
+static pendres_status conclude(int done, char *why, size_t size)
+{
+  if (!done) snprintf(why, size, "the temporary file of results: %s", strerror(errno));
+  return done ? PENDRES_OK : PENDRES_IO;
+}
+
+pendres_status scene_spill_put(const scene_spill *s, size_t first, size_t n, const void *data,
+                               char *why, size_t size)
+{
+  const size_t at = first * s->element, bytes = n * s->element;
+  if (s->memory == NULL)
+    return conclude(bytes_write(s->file, (off_t)at, data, bytes), why, size);
+  memcpy(s->memory + at, data, bytes);
+  return PENDRES_OK;
+}
+
+pendres_status scene_spill_get(const scene_spill *s, size_t first, size_t n, void *data, char *why,
+                               size_t size)
+{
+  const size_t at = first * s->element, bytes = n * s->element;
+  if (s->memory == NULL)
+    return conclude(bytes_read(s->file, (off_t)at, data, bytes), why, size);
+  memcpy(data, s->memory + at, bytes);
+  return PENDRES_OK;
+}

@@ -1,0 +1,476 @@
+/*
+ * switching.c -- how often noise carries a pendulum from the small-amplitude state to the
+ * large-amplitude one and back, against temperature, and the activation energies.
+ *
+ * There is one task for each state, which chooses the steps a period; then one for each temperature
+ * and part of the trajectories (switching.h). A temperature at which a part fails is marked and has
+ * no results; all are, if the steps of a state cannot be chosen.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "scenes/check.h"
+#include "scenes/columns.h"
+#include "scenes/failed.h"
+
+static const double level = 0.95;
+
+enum { SA, LA, STATES, WAYS = PENDRES_SWITCHING_WAYS };
+
+typedef struct work {
+  const deck *d;
+  pendres_attractors *set;
+  pendres_switching_survey survey;
+  size_t temperatures, parts;
+  int steps[STATES];                /* a drive period; 0 where there is no such state */
+  pendres_switching_tally *sums;    /* [temperature] */
+  pendres_switching_rates *rates;   /* [temperature] */
+  pendres_switching_activation activation[WAYS];
+  pendres_switching_way way[WAYS];  /* that there are: without wells none to another */
+  int ways, told;                   /* how many, and how many the table tells */
+  int escapes;                      /* to infinity; there are no other wells then */
+  scene_failures choices;           /* [state] of the steps */
+  scene_failures failed;            /* [temperature] */
+  char name[STATES][24], state[STATES][40]; /* of the states: "sa", "the small-amplitude state" */
+  char suffix[WAYS][56], words[WAYS][120];  /* of the ways */
+} work;
+
+/* Between both states, and from either to another well or to infinity; of one state alone the
+   latter. */
+static void choose_ways(work *w)
+{
+  const pendres_pendulum p = deck_pendulum(w->d);
+  const int alone = w->d->switching.from > 0 && w->d->switching.to == 0;
+  w->escapes = pendres_pendulum_leaves(&p);
+  const int wells = w->escapes || pendres_model_of(p.force)->period > 0.0;
+  for (int k = alone ? PENDRES_SWITCHING_FIRST_WELL : 0; k < (wells ? WAYS : STATES); k++)
+    if (!alone || k == PENDRES_SWITCHING_FIRST_WELL)
+      w->way[w->ways++] = (pendres_switching_way)k;
+  w->told = alone || w->escapes ? w->ways : STATES;
+}
+
+/* What the ways of switching are called: by the names of the states, or by their numbers. */
+static void name_ways(work *w)
+{
+  static const char *const sizes[STATES] = { "small", "large" };
+  static const struct { int from, to; } between[] = { { SA, LA }, { LA, SA } };
+  const long number[STATES] = { (long)w->d->switching.from, (long)w->d->switching.to };
+  choose_ways(w);
+  for (int s = 0; s < STATES; s++) {
+    if (number[SA] > 0) {
+      snprintf(w->name[s], sizeof w->name[s], "%ld", number[s]);
+      snprintf(w->state[s], sizeof w->state[s], "attractor %ld", number[s]);
+    } else {
+      snprintf(w->name[s], sizeof w->name[s], "%s", s == SA ? "sa" : "la");
+      snprintf(w->state[s], sizeof w->state[s], "the %s-amplitude state", sizes[s]);
+    }
+  }
+  for (int k = 0; k < STATES; k++) {
+    const int from = between[k].from, to = between[k].to, well = k + PENDRES_SWITCHING_FIRST_WELL;
+    snprintf(w->suffix[k], sizeof w->suffix[k], "%s_%s", w->name[from], w->name[to]);
+    snprintf(w->suffix[well], sizeof w->suffix[well], "%s_%s", w->escapes ? "escape" : "well",
+             w->name[from]);
+    snprintf(w->words[well], sizeof w->words[well], "from %s to %s", w->state[from],
+             w->escapes ? "infinity" : "another well");
+    if (number[SA] > 0)
+      snprintf(w->words[k], sizeof w->words[k], "from %s to %s", w->state[from], w->state[to]);
+    else
+      snprintf(w->words[k], sizeof w->words[k], "from the %s- to the %s-amplitude state",
+               sizes[from], sizes[to]);
+  }
+}
+
+static void describe(const deck *d, FILE *out)
+{
+  const deck_axis *t = &d->axis[DECK_AXIS_TEMPERATURE];
+  fprintf(out,
+          "switching at damping %g, drive period %g, drive amplitude %g, at %zu temperatures\n"
+          "%g to %g: %lld trajectories of %lld periods each, %.3g pendulum-periods in all\n",
+          d->pendulum.damping, d->pendulum.drive_period, d->pendulum.drive_amplitude, t->count,
+          t->value[0], t->value[t->count - 1], (long long)d->noise.trajectories,
+          (long long)d->noise.periods,
+          (double)t->count * (double)d->noise.trajectories * (double)d->noise.periods);
+}
+
+/* ---- tasks --------------------------------------------------------------------------------- */
+
+/* What the choice of a state's steps finds. */
+typedef struct choice {
+  int steps;
+  scene_verdict verdict;
+} choice;
+
+/* What is counted of a part. */
+typedef struct part {
+  pendres_switching_tally tally;
+  scene_verdict verdict;
+} part;
+
+static pendres_status choose(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const work *w = arg;
+  choice *c = out->data;
+  farm_point(out, 1, "steps for %s", w->state[task]);
+  const pendres_status status =
+    pendres_switching_choose_steps(ctx, &w->survey, (int)task, &c->steps);
+  return scene_verdict_point(&c->verdict, status, pendres_context_message(ctx), out);
+}
+
+static int check_choice(const void *arg, size_t task, const farm_record *in)
+{
+  const choice *c = in->data;
+  (void)arg;
+  (void)task;
+  return in->size == sizeof *c && scene_check_code(c->steps, 1000001) &&
+         scene_check_verdict(&c->verdict);
+}
+
+static int check_part(const void *arg, size_t task, const farm_record *in)
+{
+  const part *p = in->data;
+  (void)arg;
+  (void)task;
+  return in->size == sizeof *p && p->tally.states <= PENDRES_SWITCHING_STATES &&
+         scene_check_verdict(&p->verdict);
+}
+
+static pendres_status collect_choice(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const choice *c = in->data;
+  w->steps[task] = c->steps;
+  scene_failures_take(&w->choices, task, &c->verdict);
+  return PENDRES_OK;
+}
+
+static pendres_status count(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const work *w = arg;
+  part *p = out->data;
+  const double temperature = w->d->axis[DECK_AXIS_TEMPERATURE].value[task / w->parts];
+  if (w->survey.steps_per_period == 0) return PENDRES_OK; /* they could not be chosen */
+  farm_point(out, 1, "temperature %.10g, part %zu", temperature, task % w->parts + 1);
+  const pendres_status status =
+    pendres_switching_follow(ctx, &w->survey, temperature, task % w->parts, &p->tally);
+  return scene_verdict_point(&p->verdict, status, pendres_context_message(ctx), out);
+}
+
+/* A temperature of which parts fail is marked with the first failure. */
+static pendres_status collect_part(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  const part *p = in->data;
+  const size_t temperature = task / w->parts;
+  pendres_switching_add(&w->sums[temperature], &p->tally);
+  if (w->failed.reason[temperature] == SCENE_FAILURE_NONE)
+    scene_failures_take(&w->failed, temperature, &p->verdict);
+  return PENDRES_OK;
+}
+
+/* The states to switch between: those that the deck numbers in the order of amplitude, from 1 on,
+   or SA and LA. */
+static pendres_status find_states(scene_run *run, work *w)
+{
+  const deck *d = w->d;
+  const long wanted[STATES] = { (long)d->switching.from, (long)d->switching.to };
+  const pendres_pendulum p = deck_pendulum(d);
+  pendres_context *ctx = scene_context(run);
+  if (ctx == NULL) return PENDRES_OUT_OF_MEMORY;
+  const pendres_status status = pendres_attractors_find(ctx, &p, 0, NULL, NULL, &w->set);
+  if (status != PENDRES_OK)
+    return scene_fail(run, status, "attractors: %s", pendres_context_message(ctx));
+  const long count = (long)pendres_attractors_count(w->set);
+  w->survey = (pendres_switching_survey){ .set = w->set, .level = level,
+                                          .trajectories = (size_t)d->noise.trajectories,
+                                          .periods = (long)d->noise.periods };
+  pendres_switching_states(w->set, w->survey.state);
+  if (w->ways == 0)
+    return scene_fail(run, PENDRES_INVALID_ARGUMENT,
+                      "this force has no wells that are alike: 'from' needs 'to' in &switching");
+  for (int s = 0; s < STATES && wanted[SA] > 0; s++) {
+    if (wanted[s] > count)
+      return scene_fail(run, PENDRES_NOT_FOUND,
+                        "there is no attractor %ld at these parameters, but %ld", wanted[s], count);
+    w->survey.state[s] = (int)wanted[s] - 1;
+  }
+  if (w->survey.state[SA] < 0 && w->survey.state[LA] < 0)
+    return scene_fail(run, PENDRES_NOT_FOUND,
+                      "neither a small- nor a large-amplitude state exists at these parameters: "
+                      "'from' and 'to' in &switching take attractors by number");
+  return PENDRES_OK;
+}
+
+/* Steps for both states, since trajectories visit both; 0 if those of either are not known. */
+static int steps_of(const work *w)
+{
+  for (int s = 0; s < STATES; s++)
+    if (w->choices.reason[s] != SCENE_FAILURE_NONE) return 0;
+  return w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA];
+}
+
+/*
+ * Rates at one temperature: none where a part of its work failed, of which temperatures have the
+ * failure already, or the choice of steps, which is the failure of all. Where one state alone
+ * exists there is nothing to switch to, and that is said.
+ */
+static pendres_status conclude(work *w, size_t i)
+{
+  const int *state = w->survey.state;
+  for (int s = STATES - 1; s >= 0; s--)
+    if (w->choices.reason[s] != SCENE_FAILURE_NONE)
+      scene_failures_mark(&w->failed, i, (scene_failure)w->choices.reason[s],
+                          w->choices.words[s]);
+  const int broken = w->failed.reason[i] != SCENE_FAILURE_NONE;
+  const int both = w->way[0] == PENDRES_SWITCHING_FORTH;
+  if (!broken && both && (state[SA] < 0 || state[LA] < 0))
+    scene_failures_mark(&w->failed, i, SCENE_FAILURE_NOT_FOUND,
+                        state[SA] < 0 ? "there is no small-amplitude state"
+                                      : "there is no large-amplitude state");
+  return pendres_switching_conclude(&w->survey, w->d->axis[DECK_AXIS_TEMPERATURE].value[i],
+                                    broken ? NULL : &w->sums[i], &w->rates[i]);
+}
+
+static pendres_status compute(scene_run *run, work *w)
+{
+  w->parts = pendres_switching_parts(&w->survey);
+  w->sums = calloc(w->temperatures, sizeof *w->sums);
+  w->rates = calloc(w->temperatures, sizeof *w->rates);
+  if (w->sums == NULL || w->rates == NULL ||
+      scene_failures_create(STATES, &w->choices) != PENDRES_OK ||
+      scene_failures_create(w->temperatures, &w->failed) != PENDRES_OK)
+    return scene_fail(run, PENDRES_OUT_OF_MEMORY, "out of memory for %zu temperatures",
+                      w->temperatures);
+  pendres_status status =
+    scene_compute(run, &(farm_stage){ .what = "choices of steps", .tasks = STATES, .task = choose,
+                                      .cheap = 1,
+                                      .record_size = sizeof(choice), .check = check_choice,
+                                      .collect = collect_choice,
+                                      .arg = w });
+  w->survey.steps_per_period = steps_of(w);
+  if (status == PENDRES_OK)
+    status = scene_compute(run, &(farm_stage){ .what = "chunks", .last = 1, .task = count,
+                                               .tasks = w->temperatures * w->parts,
+                                               .record_size = sizeof(part), .check = check_part,
+                                               .collect = collect_part, .arg = w });
+  if (status != PENDRES_OK) return status;
+  for (size_t i = 0; i < w->temperatures && status == PENDRES_OK; i++) status = conclude(w, i);
+  if (status == PENDRES_OK)
+    status = pendres_switching_activate(&w->survey, w->temperatures, w->rates, w->activation);
+  if (status != PENDRES_OK) return scene_fail(run, status, "rates cannot be computed");
+  return status;
+}
+
+/* ---- results ------------------------------------------------------------------------------- */
+
+/* Of a rate, against temperature, and of a fit; * is the way, whose words follow. */
+#define RATE(label, words, what, field) \
+  {.name = label, .long_name = words, .type = what, \
+   .value = offsetof(pendres_switching_rate, field)}
+static const scene_column of_rates[] = {
+  {.name = "rate_*", .long_name = "transitions a unit time",
+   .value = offsetof(pendres_switching_rate, value),
+   .error = offsetof(pendres_switching_rate, error)},
+  RATE("rate_*_lower", "lower end of the rate's confidence interval,", SCENE_PLAIN, lower),
+  RATE("rate_*_upper", "upper end of the rate's confidence interval,", SCENE_PLAIN, upper),
+  RATE("events_*", "transitions counted", SCENE_PLAIN, events),
+  RATE("dispersion_*",
+       "variance of the trajectories' counts by that of independent events,", SCENE_PLAIN,
+       dispersion),
+};
+
+#define FIT(label, words, field)                                            \
+  {.name = label, .long_name = words,                                       \
+   .value = offsetof(pendres_switching_activation, field),                  \
+   .error = offsetof(pendres_switching_activation, field##_error)}
+#define OF_FIT(label, words, what, field)                  \
+  {.name = label, .long_name = words, .type = what,        \
+   .value = offsetof(pendres_switching_activation, field)}
+static const scene_column of_fits[] = {
+  FIT("activation_energy_*", "activation energy: rate = prefactor exp(-energy / temperature),",
+      energy),
+  FIT("log_prefactor_*", "ln of the rate's prefactor at the temperature of the fit,",
+      log_prefactor),
+  FIT("prefactor_exponent_*",
+      "power of the temperature in the prefactor (0 +- 1/2 where the rates do not tell),",
+      exponent),
+  OF_FIT("fit_temperature_*", "geometric mean of the fit's temperatures,", SCENE_PLAIN,
+         temperature),
+  OF_FIT("fit_chi2_*", "chi squared of the fit,", SCENE_PLAIN, chi2),
+  {.name = "fit_*", .long_name = "what became of the fit of ln rate against 1/temperature,",
+   .type = SCENE_FLAG, .value = offsetof(pendres_switching_activation, verdict),
+   .names = scene_switching_names},
+  OF_FIT("fit_points_*", "temperatures with 10 events or more,", SCENE_COUNT32, points),
+};
+
+/* What the table says of a fit, after its energy if there is one. */
+static const char *const verdicts[PENDRES_SWITCHING_VERDICTS] = {
+  [PENDRES_SWITCHING_STRAIGHT] = "",
+  [PENDRES_SWITCHING_BENT] = " (the rates scatter by more than their errors)",
+  [PENDRES_SWITCHING_UNCHECKED] = " (from two temperatures: nothing checks the law)",
+  [PENDRES_SWITCHING_TOO_FEW] = "too few events",
+  [PENDRES_SWITCHING_NO_STATE] = "there is no such state",
+  [PENDRES_SWITCHING_NO_BARRIER] =
+    " (less than twice the temperature, this one or the way back: no barrier to speak of)",
+  [PENDRES_SWITCHING_UNBALANCED] = " (the rates do not imply where trajectories end)",
+};
+
+/* Where trajectories end, by their basins and by the rates. */
+static pendres_status write_occupation(scene_run *run, const work *w, int state)
+{
+#define OF_STATE(what, field) \
+  (offsetof(pendres_switching_rates, what) + offsetof(pendres_langevin_estimate, field))
+  static const scene_column columns[] = {
+    {.name = "occupation_*", .long_name = "share of the trajectories that end in the basin of",
+     .value = OF_STATE(occupation, value), .error = OF_STATE(occupation, error)},
+    {.name = "implied_occupation_*",
+     .long_name = "the same as the rates imply it, from where trajectories started, for",
+     .value = OF_STATE(implied, value), .error = OF_STATE(implied, error)},
+  };
+  const char *first = (const char *)w->rates;
+  const scene_table table = {
+    .dimensions = {"temperature"}, .star = w->name[state], .words = w->state[state],
+    .n = w->temperatures, .stride = sizeof *w->rates,
+    .rows = first + (size_t)state * sizeof(pendres_langevin_estimate)};
+  return SCENE_WRITE(run, &table, columns);
+}
+
+/* Exposures, steps, and the interval's level. */
+static pendres_status write_circumstances(scene_run *run, const work *w)
+{
+  static const scene_column exposure = {
+    .name = "exposure_*", .long_name = "time spent on", .type = SCENE_PLAIN};
+  typedef struct whole {
+    double level;
+    int steps;
+  } whole;
+  static const scene_column confidence = {
+    .name = "confidence_level", .long_name = "level of the confidence intervals",
+    .type = SCENE_PLAIN, .value = offsetof(whole, level)};
+  static const scene_column steps = {
+    .name = "steps_per_period", .long_name = "steps a drive period of the noisy integrator",
+    .type = SCENE_NUMBER, .value = offsetof(whole, steps)};
+  const whole of = {level, w->steps[SA] > w->steps[LA] ? w->steps[SA] : w->steps[LA]};
+  const scene_table scalars = {.n = 1, .stride = sizeof of, .rows = &of};
+  pendres_status status = scene_columns_write(run, &scalars, 1, &confidence);
+  const int states = w->way[0] == PENDRES_SWITCHING_FORTH ? STATES : 1;
+  for (int s = 0; s < states && status == PENDRES_OK; s++) {
+    const scene_table table = {
+      .dimensions = {"temperature"}, .star = w->name[s], .words = w->state[s],
+      .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].exposure[s]};
+    status = scene_columns_write(run, &table, 1, &exposure);
+    if (status == PENDRES_OK) status = write_occupation(run, w, s);
+  }
+  return status == PENDRES_OK ? scene_columns_write(run, &scalars, 1, &steps) : status;
+}
+
+static pendres_status write_results(scene_run *run, const work *w)
+{
+  const deck_axis_id axes[] = { DECK_AXIS_TEMPERATURE };
+  pendres_status status = scene_dimension(run, "", DECK_AXIS_TEMPERATURE);
+  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+    const pendres_switching_way k = w->way[i];
+    const scene_table table = {
+      .dimensions = {"temperature"}, .star = w->suffix[k], .words = w->words[k],
+      .n = w->temperatures, .stride = sizeof *w->rates, .rows = &w->rates[0].way[k]};
+    status = SCENE_WRITE(run, &table, of_rates);
+  }
+  for (int i = 0; i < w->ways && status == PENDRES_OK; i++) {
+    const pendres_switching_way k = w->way[i];
+    const scene_table table = {.star = w->suffix[k], .words = w->words[k], .n = 1,
+                               .stride = sizeof *w->activation, .rows = &w->activation[k]};
+    status = SCENE_WRITE(run, &table, of_fits);
+  }
+  if (status == PENDRES_OK) status = write_circumstances(run, w);
+  return status == PENDRES_OK
+           ? scene_failures_write(run, &w->failed, "failed", "switching", 1, axes)
+           : status;
+}
+
+/* A line of the table: one way at one temperature. */
+typedef struct line {
+  pendres_switching_rate rate;
+  double temperature;
+  char way[64];
+  char mean_time[32], mean_time_error[32]; /* or, where nothing was seen, how long it is at least */
+} line;
+
+static line line_of(const work *w, pendres_switching_way k, size_t i)
+{
+  const pendres_switching_rate *r = &w->rates[i].way[k];
+  line out = {.rate = *r, .temperature = w->rates[i].temperature, .mean_time = "-",
+              .mean_time_error = "-"};
+  if (k >= PENDRES_SWITCHING_FIRST_WELL)
+    snprintf(out.way, sizeof out.way, "%s to %s", w->name[k - PENDRES_SWITCHING_FIRST_WELL],
+             w->escapes ? "infinity" : "a well");
+  else if (w->d->switching.from > 0)
+    snprintf(out.way, sizeof out.way, "%s to %s", w->name[k], w->name[1 - k]);
+  else
+    snprintf(out.way, sizeof out.way, "%s", k == PENDRES_SWITCHING_FORTH ? "SA to LA" : "LA to SA");
+  if (r->events > 0.0) {
+    snprintf(out.mean_time, sizeof out.mean_time, "%.4g", r->mean_time);
+    snprintf(out.mean_time_error, sizeof out.mean_time_error, "%.2g", r->mean_time_error);
+  } else if (r->upper > 0.0) {
+    snprintf(out.mean_time, sizeof out.mean_time, "> %.2g", 1.0 / r->upper);
+  }
+  return out;
+}
+
+static pendres_status print_table(scene_run *run, const work *w)
+{
+  static const scene_cell cells[] = {
+    SCENE_CELL(line, temperature, "temperature  ", "%-12.5g "),
+    {.heading = "transition  ", .format = "%-11s ", .type = SCENE_TEXT,
+     .value = offsetof(line, way)},
+    SCENE_CELL(line, rate.value, "rate         ", "%-12.4g "),
+    SCENE_CELL(line, rate.error, "+-        ", "%-9.2g "),
+    {.heading = "mean time    ", .format = "%-12s ", .type = SCENE_TEXT,
+     .value = offsetof(line, mean_time)},
+    {.heading = "+-        ", .format = "%-9s ", .type = SCENE_TEXT,
+     .value = offsetof(line, mean_time_error)},
+    SCENE_CELL(line, rate.events, "events", "%.0f"),
+  };
+  const size_t n = (size_t)w->told * w->temperatures;
+  line *rows = scene_rows(run, n, sizeof *rows);
+  const scene_table table = {.n = n, .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++)
+    rows[i] = line_of(w, w->way[i / w->temperatures], i % w->temperatures);
+  SCENE_PRINT(run->table, &table, n, cells, NULL);
+  free(rows);
+  for (int i = 0; i < w->ways; i++) {
+    const pendres_switching_way k = w->way[i];
+    const pendres_switching_activation *f = &w->activation[k];
+    fprintf(run->table, "activation energy %s: ", w->words[k]);
+    if (!isnan(f->energy)) fprintf(run->table, "%.5f +- %.5f", f->energy, f->energy_error);
+    fprintf(run->table, "%s\n", verdicts[f->verdict]);
+  }
+  return PENDRES_OK;
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  work w = { .d = run->deck, .temperatures = run->deck->axis[DECK_AXIS_TEMPERATURE].count };
+  name_ways(&w);
+  pendres_status status = find_states(run, &w);
+  if (status == PENDRES_OK) status = compute(run, &w);
+  if (status == PENDRES_OK) status = write_results(run, &w);
+  if (status == PENDRES_OK && run->table != NULL) status = print_table(run, &w);
+  pendres_attractors_free(w.set);
+  scene_failures_free(&w.choices);
+  scene_failures_free(&w.failed);
+  free(w.sums);
+  free(w.rates);
+  return status;
+}
+
+const scene_kind scene_switching = {
+  .kind = DECK_SWITCHING,
+  .references = "S. A. Chin, Phys. Lett. A 226 (1997) 344; H. A. Forbert and S. A. Chin, Phys. "
+                "Rev. E 63 (2000) 016703; J. K. Salmon et al., Parallel random numbers: as easy as "
+                "1, 2, 3, SC11 (2011); H. A. Kramers, Physica 7 (1940) 284; M. I. Dykman and M. A. "
+                "Krivoglaz, Sov. Phys. JETP 50 (1979) 30; N.-V. Buchete and G. Hummer, J. Phys. "
+                "Chem. B 112 (2008) 6057; F. Garwood, Biometrika 28 (1936) 437",
+  .budget = 1,
+  .size = {55e3, 400.0, 1e3, 1.0, 1.0, 2.0},
+  .describe = describe,
+  .run = run_scene };

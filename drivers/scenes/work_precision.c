@@ -1,0 +1,385 @@
+/*
+ * work_precision.c -- speed against error, of the library's methods and of a peer.
+ *
+ * Every method and tolerance advances the same pendulums by 100 drive periods; their errors then
+ * are known from extended precision (work_unit.h). contest.h says how each is run and timed: one
+ * after another, so that the one that is timed runs alone.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/columns.h"
+#include "system/clock.h"
+#include "validation/contest.h"
+
+enum { OTHERS = 5, ERRORS = 4 };
+
+static const double end_rounding = 1e-15; /* of x and v as doubles, in which errors are measured */
+
+/* Errors at which speeds are compared, and speeds of others there on the unit `ensemble`, million
+   pendulum-periods a second on one AVX-512 core. */
+static const double error_marks[ERRORS] = { 1e-6, 1e-8, 1e-10, 2e-14 };
+static const struct {
+  const char *name;
+  double speed[ERRORS];
+} others[OTHERS] = {
+  { "simd_taylor", { 1.34, 1.30, 1.25, 1.0 } },
+  { "simd_odeint", { 1.83, 1.15, 0.76, NAN } },
+  { "gsl_rk8pd", { 0.32, 0.21, 0.13, NAN } },
+  { "scipy_dop853", { 0.11, 0.09, 0.06, NAN } },
+  { "arkode_single", { 0.05, 0.03, 0.02, NAN } },
+};
+
+/* What it costs to find the attractor on which a pendulum settles, and the share of pendulums for
+   which it is found. */
+typedef struct settling {
+  double cost_periods, cost_periods_error, seconds, seconds_error, resolved, resolved_error;
+} settling;
+
+typedef struct work {
+  const deck *d;
+  farm *farm;
+  work_unit unit;
+  size_t methods, tolerances;
+  contest *contest; /* [method][tolerance] */
+  settling settled;
+} work;
+
+/* With the deck's own tolerance. */
+static pendres_status settle(const work *w, pendres_context *ctx, settling *out)
+{
+  const size_t n = w->unit.n;
+  pendres_outcome *outcome = malloc(n * sizeof *outcome);
+  double *v = calloc(n, sizeof *v), resolved = 0.0;
+  pendres_cost cost;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (outcome == NULL || v == NULL) goto done;
+  pendres_context_cost_reset(ctx);
+  const double start = clock_thread();
+  status = pendres_settle(ctx, n, w->unit.pendulum, w->unit.x, v, outcome, NULL);
+  const double took = clock_thread() - start;
+  if (status != PENDRES_OK) goto done;
+  pendres_context_cost(ctx, &cost);
+  for (size_t i = 0; i < n; i++) resolved += outcome[i].attractor >= 0;
+  *out = (settling){.cost_periods = cost.pendulum_periods / (double)n,
+                    .seconds = took / (double)n,
+                    .seconds_error = NAN,
+                    .resolved = resolved / (double)n};
+done:
+  free(outcome);
+  free(v);
+  return status;
+}
+
+/* A contest; the last task is settling. */
+static pendres_status measure(const void *arg, size_t task, pendres_context *ctx, farm_record *out)
+{
+  const work *w = arg;
+  if (task == w->methods * w->tolerances) {
+    settling *s = farm_record_resize(out, sizeof *s);
+    return s != NULL ? settle(w, ctx, s) : PENDRES_OUT_OF_MEMORY;
+  }
+  contest *c = farm_record_resize(out, sizeof *c);
+  if (c == NULL) return PENDRES_OUT_OF_MEMORY;
+  const contest_rules rules = {
+    .tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[task % w->tolerances],
+    .block_lanes = (int)w->d->precision.block_lanes, .stop = farm_stopped, .stop_arg = w->farm};
+  return contest_run(&w->unit, w->d->methods.name[task / w->tolerances], &rules, c);
+}
+
+static pendres_status collect(void *arg, size_t task, const farm_record *in)
+{
+  work *w = arg;
+  if (task == w->methods * w->tolerances) w->settled = *(const settling *)in->data;
+  else w->contest[task] = *(const contest *)in->data;
+  return PENDRES_OK;
+}
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+/*
+ * Speed at an error: between the tightest two neighbouring tolerances whose errors enclose it, on
+ * the logarithmic line (a looser one that is as good is luck); NaN outside.
+ */
+static double speed_at(const work *w, size_t method, double error)
+{
+  const contest *c = w->contest + method * w->tolerances;
+  const int last = WORK_UNIT_MARKS - 1;
+  for (size_t i = 0; i + 1 < w->tolerances; i++) {
+    const double a = c[i].error[last], b = c[i + 1].error[last];
+    if (!(a > 0.0 && b > 0.0 && a != b) || !(fmin(a, b) <= error && error <= fmax(a, b))) continue;
+    const double t = log(error / a) / log(b / a);
+    return exp((1.0 - t) * log(c[i].throughput) + t * log(c[i + 1].throughput));
+  }
+  return NAN;
+}
+
+/* A contest as a row of results. */
+typedef struct row {
+  char method[DECK_NAME], failure[sizeof((contest *)0)->failure];
+  double tolerance;
+  double error_10, error_10_error, error_100, error_100_error;
+  double estimated_error, estimated_error_error;
+  double steps_per_period, steps_per_period_error, rhs_per_period, rhs_per_period_error;
+  double seconds, seconds_error, throughput, throughput_error, millions;
+  double estimate_ratio_least, estimate_ratio_median, pendulums;
+} row;
+
+#define NOTE(field, words, unit)                                                    \
+  {.name = #field, .long_name = words, .units = unit, .type = SCENE_PLAIN,          \
+   .value = offsetof(row, field)}
+static const scene_column columns[] = {
+  SCENE_COLUMN(row, error_10, "largest error of x and v after 10 drive periods", "1"),
+  SCENE_COLUMN(row, error_100, "largest error of x and v after 100 drive periods", "1"),
+  SCENE_COLUMN(row, estimated_error, "largest estimate of the error after 100 drive periods", "1"),
+  SCENE_COLUMN(row, steps_per_period, "steps a pendulum and drive period", "1"),
+  SCENE_COLUMN(row, rhs_per_period, "right-hand sides a pendulum and drive period", "1"),
+  SCENE_COLUMN(row, seconds, "processor time of the best run", "s"),
+  SCENE_COLUMN(row, throughput, "pendulum-periods a second on one thread", "s-1"),
+  /* What is said about the figures: no results, so without errors. */
+  NOTE(estimate_ratio_least, "least estimate of a member's error over its true one", "1"),
+  NOTE(estimate_ratio_median, "median over members of estimate over true error", "1"),
+  NOTE(pendulums, "pendulums of the unit that were run", "1"),
+  SCENE_COLUMN_OF(SCENE_TEXT, row, failure, "why there are no figures; else empty"),
+};
+
+static row row_of(const work *w, size_t i)
+{
+  const contest *c = &w->contest[i];
+  row r = {.tolerance = w->d->axis[DECK_AXIS_TOLERANCE].value[i % w->tolerances],
+           .error_10 = c->error[0], .error_10_error = end_rounding,
+           .error_100 = c->error[1], .error_100_error = end_rounding,
+           .estimated_error = c->estimate,
+           .estimated_error_error =
+             isfinite(c->estimate) ? fabs(c->estimate - c->error[1]) : NAN,
+           .steps_per_period = c->steps, .rhs_per_period = c->rhs,
+           .seconds = c->seconds, .seconds_error = c->spread,
+           .throughput = c->throughput,
+           .throughput_error = c->throughput * (c->spread / c->seconds),
+           .millions = 1e-6 * c->throughput,
+           .estimate_ratio_least = c->honesty, .estimate_ratio_median = c->padding,
+           .pendulums = (double)c->pendulums};
+  memcpy(r.method, w->d->methods.name[i / w->tolerances], sizeof r.method);
+  memcpy(r.failure, c->failure, sizeof r.failure);
+  return r;
+}
+
+/* Members that no method could help; see contest.h. */
+static size_t left_out_of(const work *w, int mark)
+{
+  size_t some = 0;
+  for (size_t i = 0; i < w->unit.n; i++) some += !(w->unit.growth[mark][i] <= CONTEST_WILD);
+  return some;
+}
+
+static pendres_status write_left_out(scene_run *run, const work *w)
+{
+  static const scene_column column = {
+    .name = "left_out", .type = SCENE_PLAIN,
+    .long_name = "members left out of the largest errors: what was off at the start is 1000-fold "
+                 "there"};
+  double left_out[WORK_UNIT_MARKS];
+  const scene_table table = {.dimensions = {"mark"}, .n = WORK_UNIT_MARKS,
+                             .stride = sizeof *left_out, .rows = left_out};
+  for (int m = 0; m < WORK_UNIT_MARKS; m++) left_out[m] = (double)left_out_of(w, m);
+  const pendres_status status = pendres_store_dimension(
+    run->store,
+    &(pendres_store_spec){.name = "mark", .type = PENDRES_STORE_INT64,
+                          .long_name = "drive periods after which errors are measured"},
+    WORK_UNIT_MARKS, (const int64_t[]){10, 100});
+  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
+                              : scene_stored(run, status);
+}
+
+static pendres_status write_settling(scene_run *run, const settling *settled)
+{
+  static const scene_column about[] = {
+    SCENE_COLUMN(settling, cost_periods, "drive periods integrated for each pendulum that is asked "
+                 "what it settles on, search and proof of attractors included", "1"),
+    SCENE_COLUMN(settling, seconds, "time for each of them", "s"),
+    SCENE_COLUMN(settling, resolved, "share of them that got an answer", "1"),
+  };
+  const scene_table table = {.prefix = "settling", .n = 1, .stride = sizeof *settled,
+                             .rows = settled};
+  return SCENE_WRITE(run, &table, about);
+}
+
+/* Speeds at equal errors, [method][error], in a group of their own. */
+static pendres_status write_speeds(scene_run *run, const char *group, size_t methods,
+                                   const char *const *names, const double *speed,
+                                   const char *comment)
+{
+  const scene_column column = {.name = "throughput", .units = "s-1", .type = SCENE_PLAIN,
+                               .long_name = "pendulum-periods a second at an error",
+                               .comment = comment};
+  const scene_table table = {.group = group, .dimensions = {"method", "error"},
+                             .n = methods * ERRORS, .stride = sizeof *speed, .rows = speed};
+  pendres_status status =
+    pendres_store_dimension(
+      run->store,
+      &(pendres_store_spec){.group = group, .name = "method", .type = PENDRES_STORE_STRING,
+                            .long_name = "method"}, methods, names);
+  if (status == PENDRES_OK)
+    status = pendres_store_dimension(
+      run->store,
+      &(pendres_store_spec){.group = group, .name = "error",
+                            .long_name = "largest error after 100 drive periods"}, ERRORS,
+      error_marks);
+  return status == PENDRES_OK ? scene_columns_write(run, &table, 1, &column)
+                              : scene_stored(run, status);
+}
+
+static pendres_status write_ours(scene_run *run, const work *w)
+{
+  double *speed = malloc(w->methods * ERRORS * sizeof *speed);
+  const char **names = malloc(w->methods * sizeof *names);
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  if (speed == NULL || names == NULL) {
+    (void)scene_fail(run, status, "out of memory for %zu methods", w->methods);
+    goto done;
+  }
+  for (size_t m = 0; m < w->methods; m++) {
+    names[m] = w->d->methods.name[m];
+    for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = speed_at(w, m, error_marks[e]);
+  }
+  status = write_speeds(run, "at_error", w->methods, names, speed,
+                        "interpolated between the tightest tolerances whose errors enclose it");
+done:
+  free(speed);
+  free(names);
+  return status;
+}
+
+static pendres_status write_others(scene_run *run)
+{
+  const char *names[OTHERS];
+  double speed[OTHERS * ERRORS];
+  for (size_t m = 0; m < OTHERS; m++) {
+    names[m] = others[m].name;
+    for (size_t e = 0; e < ERRORS; e++) speed[m * ERRORS + e] = 1e6 * others[m].speed[e];
+  }
+  return write_speeds(run, "others", OTHERS, names, speed,
+                      "unit 'ensemble' on one AVX-512 core; arkode_single: one ARKODE problem a "
+                      "pendulum");
+}
+
+static pendres_status write_results(scene_run *run, const work *w, const scene_table *contests)
+{
+  static const scene_column name = {.name = "method_name", .long_name = "method",
+                                    .type = SCENE_TEXT};
+  const scene_table methods = {.dimensions = {"method"}, .n = w->methods,
+                               .stride = sizeof *w->d->methods.name, .rows = w->d->methods.name};
+  pendres_status status = scene_numbering(run, "method", w->methods, "method, by number");
+  if (status == PENDRES_OK) status = scene_columns_write(run, &methods, 1, &name);
+  if (status == PENDRES_OK) status = scene_dimension(run, NULL, DECK_AXIS_TOLERANCE);
+  if (status == PENDRES_OK) status = SCENE_WRITE(run, contests, columns);
+  if (status == PENDRES_OK) status = write_left_out(run, w);
+  if (status == PENDRES_OK)
+    status = scene_stored(run, pendres_store_put_text(run->store, NULL, "unit",
+                                                      "pendulums that were run", w->d->unit));
+  if (status == PENDRES_OK) status = write_settling(run, &w->settled);
+  if (status == PENDRES_OK) status = write_ours(run, w);
+  return status == PENDRES_OK ? write_others(run) : status;
+}
+
+/* ---- the scene ----------------------------------------------------------------------------- */
+
+static const scene_cell cells[] = {
+  {.heading = "method                ", .format = "%-21s ", .type = SCENE_TEXT,
+   .value = offsetof(row, method)},
+  SCENE_CELL(row, tolerance, "tolerance ", "%9.0e "),
+  SCENE_CELL(row, error_10, "error 10 ", "%8.1e "),
+  SCENE_CELL(row, error_100, "error 100 ", "%9.1e "),
+  SCENE_CELL(row, estimated_error, "estimate ", "%8.1e "),
+  SCENE_CELL(row, estimate_ratio_least, "   least ", "%8.2g "),
+  SCENE_CELL(row, steps_per_period, "  steps ", "%7.1f "),
+  SCENE_CELL(row, rhs_per_period, "    rhs ", "%7.1f "),
+  SCENE_CELL(row, millions, "     M/s ", "%8.4f "),
+  SCENE_CELL(row, pendulums, "   n", "%4.0f"),
+};
+
+static void print_table(FILE *out, const work *w, const scene_table *contests)
+{
+  const row *rows = contests->rows;
+  SCENE_PRINT(out, contests, contests->n, cells, NULL);
+  fprintf(out, "least: of estimate over true error, over all n members; %zu of %zu members are "
+               "left out of error 10\nand %zu of error 100, which grow whatever was off at the "
+               "start %d-fold. M/s: million pendulum-periods\na second of one thread.\n",
+          left_out_of(w, 0), w->unit.n, left_out_of(w, 1), CONTEST_WILD);
+  for (size_t i = 0; i < contests->n; i++)
+    if (rows[i].failure[0] != '\0')
+      fprintf(out, "%s at %g failed: %s\n", rows[i].method, rows[i].tolerance, rows[i].failure);
+  fprintf(out, "\n%-21s", "M/s at an error of");
+  for (int e = 0; e < ERRORS; e++) fprintf(out, " %9.0e", error_marks[e]);
+  for (size_t m = 0; m < w->methods; m++) {
+    fprintf(out, "\n%-21s", w->d->methods.name[m]);
+    for (int e = 0; e < ERRORS; e++) fprintf(out, " %9.4f", 1e-6 * speed_at(w, m, error_marks[e]));
+  }
+  fprintf(out,
+          "\n\nA pendulum that is asked what it settles on costs %.2f drive periods, %.2e s; "
+          "%.4g %% got an answer.\n",
+          w->settled.cost_periods, w->settled.seconds, 100.0 * w->settled.resolved);
+}
+
+static pendres_status tell(scene_run *run, const work *w)
+{
+  const size_t n = w->methods * w->tolerances;
+  row *rows = scene_rows(run, n, sizeof *rows);
+  const scene_table contests = {.dimensions = {"method", "tolerance"}, .n = n,
+                                .stride = sizeof *rows, .rows = rows};
+  if (rows == NULL) return PENDRES_OUT_OF_MEMORY;
+  for (size_t i = 0; i < n; i++) {
+    rows[i] = row_of(w, i);
+    run->failed_points += rows[i].failure[0] != '\0';
+  }
+  const pendres_status status = write_results(run, w, &contests);
+  if (status == PENDRES_OK && run->table != NULL) print_table(run->table, w, &contests);
+  free(rows);
+  return status;
+}
+
+static void describe(const deck *d, FILE *out)
+{
+  fprintf(out, "%zu methods by %zu tolerances on the unit '%s', one after another on one thread\n",
+          d->methods.count, d->axis[DECK_AXIS_TOLERANCE].count, d->unit);
+}
+
+static pendres_status run_scene(scene_run *run)
+{
+  const deck *d = run->deck;
+  work w = { .d = d, .farm = run->farm,
+             .methods = d->methods.count, .tolerances = d->axis[DECK_AXIS_TOLERANCE].count };
+  const size_t n = w.methods * w.tolerances;
+  pendres_status status = work_unit_make(d->unit, &w.unit);
+  if (status == PENDRES_OK) {
+    w.contest = calloc(n, sizeof *w.contest);
+    if (w.contest == NULL) status = PENDRES_OUT_OF_MEMORY;
+  }
+  if (status != PENDRES_OK) {
+    (void)scene_fail(run, status, "out of memory for the unit '%s'", d->unit);
+    goto done;
+  }
+  status = work_unit_refer(&w.unit, run->farm);
+  if (status != PENDRES_OK) {
+    (void)scene_fail(run, status, "%s", farm_message(run->farm));
+    goto done;
+  }
+  status = scene_compute(run, &(farm_stage){ .what = "runs", .last = 1, .tasks = n + 1,
+                                             .task = measure,
+                                             .timed = 1, .collect = collect, .arg = &w });
+  if (status == PENDRES_OK) status = tell(run, &w);
+done:
+  free(w.contest);
+  work_unit_free(&w.unit);
+  return status;
+}
+
+const scene_kind scene_work_precision = {
+  .kind = DECK_WORK_PRECISION,
+  .references = "E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations "
+                "I, section II.10",
+  .size = {45e3, 200.0, 1e3, 0.0, 1.0, 0.5},
+  .describe = describe,
+  .run = run_scene
+};

@@ -1,0 +1,282 @@
+/* boundary.c -- basin boundaries as curves; see boundary.h. */
+#include <pendres/boundary.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pendres/strobe.h>
+
+#include "base/angles.h"
+#include "base/grow.h"
+#include "analysis/basins/boundary_distance.h"
+#include "analysis/basins/boundary_grow.h"
+#include "engine/accuracy.h"
+#include "engine/context_internal.h"
+#include "engine/door.h"
+#include "model/model.h"
+#include "orbits/orbit_newton.h"
+#include "engine/steps.h"
+
+/* The least error of a point in (x, v): rounding near the saddle, which is not amplified on the way
+   back in time. */
+static const double rounding = 1e-12;
+
+struct pendres_boundary {
+  size_t count, capacity;
+  double *x, *v, *error;
+  int *piece;
+  int pieces, complete;
+  double bound;
+};
+
+void pendres_boundary_free(pendres_boundary *b)
+{
+  if (b == NULL) return;
+  free(b->x);
+  free(b->v);
+  free(b->error);
+  free(b->piece);
+  free(b);
+}
+
+size_t pendres_boundary_count(const pendres_boundary *b)
+{
+  return b != NULL ? b->count : 0;
+}
+
+const double *pendres_boundary_x(const pendres_boundary *b)
+{
+  return b != NULL ? b->x : NULL;
+}
+
+const double *pendres_boundary_v(const pendres_boundary *b)
+{
+  return b != NULL ? b->v : NULL;
+}
+
+const int *pendres_boundary_piece(const pendres_boundary *b)
+{
+  return b != NULL ? b->piece : NULL;
+}
+
+const double *pendres_boundary_error(const pendres_boundary *b)
+{
+  return b != NULL ? b->error : NULL;
+}
+
+double pendres_boundary_bound(const pendres_boundary *b)
+{
+  return b != NULL ? b->bound : 0.0;
+}
+
+int pendres_boundary_complete(const pendres_boundary *b)
+{
+  return b != NULL && b->complete;
+}
+
+/* ---- what is wanted ---- */
+
+static const char *resolve(const pendres_pendulum *p, pendres_boundary_options *o)
+{
+  if (o->x_low == 0.0 && o->x_high == 0.0) {
+    o->x_low = pendres_model_origin(p) - pi;
+    o->x_high = pendres_model_origin(p) + pi;
+  }
+  if (o->v_low == 0.0 && o->v_high == 0.0) {
+    o->v_low = -2.5;
+    o->v_high = 2.5;
+  }
+  if (o->spacing == 0.0) o->spacing = 0.05;
+  if (o->deviation == 0.0) o->deviation = 1e-5;
+  if (o->most_points == 0) o->most_points = 400000;
+  if (!(o->x_high > o->x_low && o->x_high - o->x_low < 1e4))
+    return "the window in x is empty or absurd";
+  if (!(o->v_high > o->v_low && fmax(-o->v_low, o->v_high) < 1e4))
+    return "the window in v is empty or absurd";
+  if (!(o->spacing > 0.0 && o->deviation > 0.0)) return "spacing and deviation must be positive";
+  return NULL;
+}
+
+/* ---- into the window ---- */
+
+static pendres_status append(pendres_context *ctx, pendres_boundary *b, double x, double v,
+                             double error)
+{
+  if (b->count == b->capacity) {
+    const size_t size = 2 * b->capacity + 256;
+    if (!pendres_regrow(&b->x, size, sizeof *b->x) ||
+        !pendres_regrow(&b->v, size, sizeof *b->v) ||
+        !pendres_regrow(&b->error, size, sizeof *b->error) ||
+        !pendres_regrow(&b->piece, size, sizeof *b->piece))
+      return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+    b->capacity = size;
+  }
+  b->x[b->count] = x;
+  b->v[b->count] = v;
+  b->error[b->count] = error;
+  b->piece[b->count++] = b->pieces;
+  b->bound = fmax(b->bound, error);
+  return PENDRES_OK;
+}
+
+/* A curve with the errors of its nodes. */
+typedef struct traced {
+  const pendres_boundary_node *node;
+  const double *x, *v, *error;
+  size_t count;
+} traced;
+
+/* Add the part of the curve, moved by `shift`, that is in the window: runs of nodes inside. */
+static pendres_status show(pendres_context *ctx, const traced *t, const pendres_boundary_options *o,
+                           double shift, pendres_boundary *b)
+{
+  int open = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < t->count && status == PENDRES_OK; i++) {
+    const double x = t->x[i] + shift, v = t->v[i];
+    const int inside = x >= o->x_low && x <= o->x_high && v >= o->v_low && v <= o->v_high;
+    const int goes_on = i > 0 && t->node[i].piece == t->node[i - 1].piece;
+    if (open && !(inside && goes_on)) {
+      b->pieces++;
+      open = 0;
+    }
+    /* Nodes may coincide where the curve is stretched to the limit of rounding. */
+    const int again = open && x == b->x[b->count - 1] && v == b->v[b->count - 1];
+    if (!inside || again) continue;
+    status = append(ctx, b, x, v, t->error[i]);
+    open = 1;
+  }
+  if (open) b->pieces++;
+  return status;
+}
+
+/*
+ * Trace the curve, and tell the errors of its nodes. Nodes are mapped forward with another number
+ * of steps, and their distance from the local manifold, mapped back, tells how far they are from
+ * the curve. What the curve bends by between two nodes is added.
+ */
+static pendres_status trace(pendres_context *ctx, const pendres_orbit *saddle,
+                            const pendres_boundary_options *o, int steps,
+                            const pendres_boundary_curve *curve, pendres_boundary *b)
+{
+  const size_t n = curve->count;
+  const double omega = saddle->pendulum.drive_frequency;
+  const double origin = pendres_model_origin(&saddle->pendulum);
+  pendres_boundary_seed coarse;
+  double *memory = malloc((3 * n + 1) * sizeof *memory);
+  if (memory == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  double *x = memory, *v = x + n, *error = v + n;
+  pendres_status status = pendres_boundary_grow_seed(ctx, saddle, steps, &coarse);
+  if (status == PENDRES_OK)
+    status = pendres_boundary_distance(ctx, &coarse, n, curve->node, error);
+  if (status != PENDRES_OK) goto done;
+  double low = INFINITY, high = -INFINITY;
+  for (size_t i = 0; i < n; i++) {
+    x[i] = curve->node[i].y + origin;
+    v[i] = curve->node[i].w * omega;
+    /* The coarser manifold is some fifteen times as far from the true one as the finer. */
+    error[i] = 0.25 * error[i] + 1.5 * curve->node[i].sagitta + rounding;
+    low = fmin(low, x[i]);
+    high = fmax(high, x[i]);
+  }
+  const traced t = {.node = curve->node, .x = x, .v = v, .error = error, .count = n};
+  /* For an angle, the curve moved by whole turns is a boundary, too. */
+  const double turn = pendres_model_of(saddle->pendulum.force)->period;
+  const double from = turn > 0.0 ? floor((o->x_low - high) / turn) : 0.0;
+  const double to = turn > 0.0 ? ceil((o->x_high - low) / turn) : 0.0;
+  for (double k = from; k <= to && status == PENDRES_OK; k++)
+    status = show(ctx, &t, o, k * turn, b);
+done:
+  free(memory);
+  return status;
+}
+
+/* Add the curve of one point of the saddle to the boundary. */
+static pendres_status add_point(pendres_context *ctx, const pendres_orbit *saddle,
+                                const pendres_boundary_options *o, pendres_boundary *b)
+{
+  pendres_boundary_seed seed;
+  pendres_boundary_curve curve = {.complete = 1};
+  int steps = 0;
+  const double v = fmax(fabs(o->v_low), fabs(o->v_high)), x = fmax(fabs(o->x_low), fabs(o->x_high));
+  const double speed = pendres_steps_speed(&saddle->pendulum, x, v);
+  pendres_status status = pendres_steps_choose(ctx, &saddle->pendulum, speed,
+                                               pendres_accuracy_first(ctx), &steps);
+  if (status == PENDRES_OK)
+    status = pendres_boundary_grow_seed(ctx, saddle, pendres_steps_rung((int)ceil(1.4 * steps)),
+                                        &seed);
+  if (status == PENDRES_OK) status = pendres_boundary_grow(ctx, &seed, o, &curve);
+  if (status == PENDRES_OK) status = trace(ctx, saddle, o, steps, &curve, b);
+  b->complete = b->complete && curve.complete;
+  pendres_boundary_grow_free(&curve);
+  return status;
+}
+
+static pendres_status boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                    const pendres_boundary_options *options, pendres_boundary **out)
+{
+  if (saddle == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "saddle and out");
+  const char *no_orbit = pendres_orbit_refuses(saddle);
+  if (no_orbit != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", no_orbit);
+  *out = NULL;
+  pendres_boundary_options o = {0};
+  const char *why = NULL;
+  if (options != NULL) o = *options;
+  why = resolve(&saddle->pendulum, &o);
+  if (why == NULL && !(saddle->pendulum.damping > 0.0)) why = "without damping there are no basins";
+  if (why == NULL && saddle->stable) why = "no curve of an attractor bounds its basin";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "boundary: %s", why);
+
+  pendres_boundary *b = calloc(1, sizeof *b);
+  if (b == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  b->complete = 1;
+  pendres_orbit point = *saddle;
+  pendres_status status = PENDRES_OK;
+  for (int j = 0; j < saddle->period && status == PENDRES_OK; j++) {
+    if (j > 0) {
+      pendres_status outcome = PENDRES_OK;
+      pendres_orbit_guess next = {.pendulum = saddle->pendulum,
+                                  .x = point.x,
+                                  .v = point.v,
+                                  .period = saddle->period,
+                                  .winding = saddle->winding};
+      status = pendres_strobe_advance(ctx, 1, &next.pendulum, &next.x, &next.v, 1, NULL);
+      if (status == PENDRES_OK)
+        status = pendres_orbit_refine(ctx, 1, &next, PENDRES_ORBIT_PLAIN, &point, &outcome);
+      if (status == PENDRES_OK && outcome == PENDRES_NOT_CONVERGED)
+        status = pendres_context_fail(ctx, outcome, "a point of the saddle could not be refined");
+      if (status != PENDRES_OK) break;
+    }
+    status = add_point(ctx, &point, &o, b);
+  }
+  if (status == PENDRES_OK) {
+    *out = b;
+    b = NULL;
+  }
+  pendres_boundary_free(b);
+  return status;
+}
+
+pendres_status pendres_boundary_find(pendres_context *ctx, const pendres_orbit *saddle,
+                                     const pendres_boundary_options *options,
+                                     pendres_boundary **out)
+{
+  pendres_door d;
+  pendres_door_open(&d, ctx, saddle != NULL ? &saddle->pendulum : NULL);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, saddle);
+  const pendres_boundary_options *o =
+    pendres_door_in(&d, &pendres_dim_boundary_options, 1, options);
+  PENDRES_DOOR_CALL(&d, boundary_find(ctx, from, o, out));
+  if (d.status == PENDRES_OK) {
+    pendres_boundary *b = *out;
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->x);
+    pendres_units_out(&d.scales, &pendres_dim_speed, b->count, b->v);
+    pendres_units_out(&d.scales, &pendres_dim_length, b->count, b->error);
+    pendres_units_out(&d.scales, &pendres_dim_length, 1, &b->bound);
+  }
+  return pendres_door_close(&d);
+}

@@ -1,0 +1,433 @@
+/* boundary_grow.c -- growing a stable manifold backwards in time; see boundary_grow.h. */
+#include "analysis/basins/boundary_grow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angles.h"
+#include "base/grow.h"
+#include "base/turns.h"
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "engine/strobe_run.h"
+#include "model/model.h"
+
+/* The distance from the saddle at which the manifold begins. Its expansion to second order is exact
+   to the cube of this, an error that maps shrink further; a seed parameter is exact to rounding
+   over this. */
+static const double start_distance = 2e-4;
+static const double far_before = -1e4; /* a seed parameter on the saddle */
+enum { FIRST_NODES = 5, MOST_GENERATIONS = 400, MOST_ROUNDS = 60 };
+/* The coordinate that stands for a place at infinity, beyond all windows. */
+static const double at_infinity = 1e9;
+/* Rounding moves seed parameters by 1e-12: closer than this their order along the curve is not
+   known. */
+static const double closest_seeds = 1e-9;
+
+void pendres_boundary_grow_free(pendres_boundary_curve *curve)
+{
+  free(curve->node);
+  *curve = (pendres_boundary_curve){0};
+}
+
+/* ---- the local manifold ---- */
+
+/* Unit eigenvector of the map's derivative for an eigenvalue, and of its transpose. */
+static void eigenvectors(const pendres_continuation_image *image, double eigenvalue,
+                         double right[2], double left[2])
+{
+  const double a = image->n[0][0] - eigenvalue, b = image->n[0][1];
+  const double c = image->n[1][0], d = image->n[1][1] - eigenvalue;
+  const int upper = hypot(a, b) > hypot(c, d), first = hypot(a, c) > hypot(b, d);
+  const double r = upper ? hypot(a, b) : hypot(c, d), l = first ? hypot(a, c) : hypot(b, d);
+  right[0] = (upper ? -b : -d) / r;
+  right[1] = (upper ? a : c) / r;
+  left[0] = (first ? -c : -d) / l;
+  left[1] = (first ? a : b) / l;
+}
+
+/* l . D2P(e, e) by central differences of the monodromy over h. */
+static pendres_status second_derivative(pendres_context *ctx,
+                                        const pendres_continuation_system *closing,
+                                        const double u[PENDRES_U_COUNT], const double e[2],
+                                        const double l[2], double *out)
+{
+  const double h = 1e-4;
+  double points[2][PENDRES_U_COUNT], sum = 0.0;
+  pendres_continuation_image image[2];
+  for (int i = 0; i < 2; i++) {
+    memcpy(points[i], u, sizeof points[i]);
+    points[i][PENDRES_U_Y] += (2 * i - 1) * h * e[0];
+    points[i][PENDRES_U_W] += (2 * i - 1) * h * e[1];
+  }
+  const pendres_status status = pendres_continuation_map_states(
+    ctx, closing->map, closing->steps, 2, (const double (*)[PENDRES_U_COUNT])points, image);
+  for (int i = 0; i < 2 && status == PENDRES_OK; i++)
+    for (int k = 0; k < 2; k++)
+      sum += l[i] * (image[1].n[i][k] - image[0].n[i][k]) / (2.0 * h) * e[k];
+  *out = sum;
+  return status;
+}
+
+pendres_status pendres_boundary_grow_seed(pendres_context *ctx, const pendres_orbit *saddle,
+                                          int steps, pendres_boundary_seed *seed)
+{
+  static const int unknown[] = {PENDRES_U_Y, PENDRES_U_W};
+  double u[PENDRES_U_COUNT], stable[2], unstable[2], left[2], unused[2], second = 0.0;
+  pendres_continuation_equations at;
+  (void)pendres_continuation_map_of(saddle, 2, unknown, u);
+  /* The map over the whole period, even where that over half of it would do. */
+  const pendres_continuation_map map = {
+    .force = saddle->pendulum.force, .period = saddle->period, .winding = saddle->winding};
+  pendres_continuation_system closing =
+    pendres_continuation_system_of(&map, PENDRES_CONDITION_NONE, unknown);
+  closing.steps = steps;
+  pendres_status status = pendres_continuation_equations_solve(ctx, &closing, 0.01, u, &at);
+  if (status == PENDRES_NOT_CONVERGED)
+    return pendres_context_fail(ctx, status, "the saddle is not an orbit at %d steps a period",
+                                steps);
+  if (status != PENDRES_OK) return status;
+  const double half = 0.5 * at.image.trace, product = at.image.determinant;
+  const double discriminant = half * half - product;
+  const double large = half + copysign(sqrt(fmax(discriminant, 0.0)), half);
+  const double small = product / large;
+  if (!(discriminant > 0.0 && fabs(large) > 1.0 && fabs(small) < 1.0))
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "the orbit with multipliers of modulus %g and %g is no saddle",
+                                fabs(large), fabs(small));
+  eigenvectors(&at.image, small, stable, unused);
+  eigenvectors(&at.image, large, unstable, left);
+  status = second_derivative(ctx, &closing, u, stable, left, &second);
+  if (status != PENDRES_OK) return status;
+
+  const double across[2] = {-stable[1], stable[0]};
+  const double l_across = left[0] * across[0] + left[1] * across[1];
+  *seed = (pendres_boundary_seed){
+    .backward = saddle->pendulum,
+    .iterates = saddle->period * (small < 0.0 ? 2 : 1),
+    .steps = steps,
+    .y = u[PENDRES_U_Y],
+    .w = -u[PENDRES_U_W],
+    .e = {stable[0], -stable[1]},
+    .f = {across[0], -across[1]},
+    /* Invariance under the map, second order in a, seen by the unstable left eigenvector. */
+    .bend = 0.5 * second / ((small * small - large) * l_across),
+    .start = start_distance,
+    .ratio = pow(1.0 / fabs(small), small < 0.0 ? 2.0 : 1.0)};
+  seed->backward.damping = -saddle->pendulum.damping;
+  return PENDRES_OK;
+}
+
+/* ---- mapping ---- */
+
+static void place(const pendres_boundary_seed *seed, double s, int side, double *y, double *w)
+{
+  const double a = side * seed->start * pow(seed->ratio, s);
+  *y = seed->y + a * (seed->e[0] + seed->bend * a * seed->f[0]);
+  *w = seed->w + a * (seed->e[1] + seed->bend * a * seed->f[1]);
+}
+
+static int mapped(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  /* A polynomial force may lead to infinity within some periods, back in time as forwards. */
+  return lane->period >= ((const long *)arg)[index] || !isfinite(lane->y) || !isfinite(lane->w);
+}
+
+/* Where a lane has come to, back in time. */
+static void take_back(const pendres_strobe_lane *lane, double *y, double *w)
+{
+  *y = lane->y + two_pi * (double)lane->turns;
+  *w = -lane->w;
+  if (isfinite(*y) && isfinite(*w)) return;
+  *y = at_infinity;
+  *w = at_infinity;
+}
+
+/* Where n nodes are, from their seeds. */
+static pendres_status map_seeds(pendres_context *ctx, const pendres_boundary_seed *seed, size_t n,
+                                const pendres_boundary_node *nodes, double *y, double *w)
+{
+  pendres_strobe_lane *lane = malloc((n + 1) * sizeof *lane);
+  long *periods = malloc((n + 1) * sizeof *periods);
+  size_t *index = malloc((n + 1) * sizeof *index), moving = 0;
+  pendres_status status = PENDRES_OK;
+  if (lane == NULL || periods == NULL || index == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+    goto done;
+  }
+  for (size_t i = 0; i < n; i++) {
+    place(seed, nodes[i].s, nodes[i].side, &y[i], &w[i]);
+    w[i] = -w[i];
+    if (nodes[i].generation == 0) continue;
+    lane[moving] = (pendres_strobe_lane){
+      .pendulum = &seed->backward, .y = y[i], .w = -w[i], .steps = seed->steps};
+    periods[moving] = (long)nodes[i].generation * seed->iterates;
+    index[moving++] = i;
+  }
+  status = pendres_strobe_run(ctx, moving, lane, mapped, periods);
+  for (size_t i = 0; i < moving && status == PENDRES_OK; i++)
+    take_back(&lane[i], &y[index[i]], &w[index[i]]);
+done:
+  free(lane);
+  free(periods);
+  free(index);
+  return status;
+}
+
+/* ---- refining ---- */
+
+typedef struct front {
+  const pendres_boundary_seed *seed;
+  const pendres_boundary_options *options;
+  /* Beyond this speed a state never comes back, going back in time; with another force states are
+     given up beyond these bounds, and may come back. */
+  double out_v, out_low, out_high;
+  size_t count, capacity;
+  pendres_boundary_node *node; /* of one side and generation, s ascending */
+} front;
+
+static int is_out(const front *f, const pendres_boundary_node *n)
+{
+  return fabs(n->w) * f->seed->backward.drive_frequency > f->out_v || n->y < f->out_low ||
+         n->y > f->out_high;
+}
+
+/* Room for n nodes. */
+static int reserve(pendres_boundary_node **node, size_t *capacity, size_t n)
+{
+  if (n <= *capacity) return 0;
+  const size_t size = n + n / 2 + 64;
+  if (!pendres_regrow(node, size, sizeof **node)) return -1;
+  *capacity = size;
+  return 0;
+}
+
+static double chord(const front *f, size_t i, double *dx, double *dv)
+{
+  *dx = f->node[i + 1].y - f->node[i].y;
+  *dv = (f->node[i + 1].w - f->node[i].w) * f->seed->backward.drive_frequency;
+  return hypot(*dx, *dv);
+}
+
+/* The largest distance of the arc from chord i, judged by the angles with the chords beside it. */
+static double sagitta(const front *f, size_t i)
+{
+  double dx, dv, ex, ev, turn = 0.0;
+  const double length = chord(f, i, &dx, &dv);
+  for (int side = -1; side <= 1; side += 2) {
+    if ((side < 0 && i == 0) || (side > 0 && i + 2 >= f->count)) continue;
+    const double other = chord(f, side < 0 ? i - 1 : i + 1, &ex, &ev);
+    if (!(length > 0.0 && other > 0.0)) continue;
+    const double angle = fabs(atan2(dx * ev - dv * ex, dx * ex + dv * ev));
+    /* The angle is spread over half of each of the two chords. */
+    turn = fmax(turn, angle * 2.0 * length / (length + other));
+  }
+  return turn * length / 8.0;
+}
+
+/* Whether a chord is longer or more bent than wanted; not asked of one that is out for good. */
+static int too_coarse(const front *f, size_t i)
+{
+  double dx, dv;
+  if (is_out(f, &f->node[i]) && is_out(f, &f->node[i + 1])) return 0;
+  (void)chord(f, i, &dx, &dv);
+  return fabs(dx) > f->options->spacing || fabs(dv) > f->options->spacing ||
+         sagitta(f, i) > f->options->deviation;
+}
+
+static int divisible(const front *f, size_t i)
+{
+  return f->node[i + 1].s - f->node[i].s > closest_seeds;
+}
+
+/* Neighbours i and i + 1 are not joined where both have left for good, nor where the curve is
+   stretched so much that what lies between them cannot be told. */
+static int joined(const front *f, size_t i)
+{
+  return i + 1 < f->count && !(is_out(f, &f->node[i]) && is_out(f, &f->node[i + 1])) &&
+         !too_coarse(f, i);
+}
+
+/* Put a node into the middle of every chord that is too long or too bent; *added counts them. */
+static pendres_status refine_once(pendres_context *ctx, front *f, size_t room, size_t *added)
+{
+  size_t coarse = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i + 1 < f->count; i++) coarse += (size_t)(too_coarse(f, i) && divisible(f, i));
+  if (coarse > room) coarse = room;
+  *added = coarse;
+  if (coarse == 0) return status;
+  pendres_boundary_node *more = malloc(coarse * sizeof *more);
+  double *y = malloc(coarse * sizeof *y), *w = malloc(coarse * sizeof *w);
+  if (more == NULL || y == NULL || w == NULL ||
+      reserve(&f->node, &f->capacity, f->count + coarse) != 0) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+    goto done;
+  }
+  size_t k = 0;
+  for (size_t i = 0; i + 1 < f->count && k < coarse; i++)
+    if (too_coarse(f, i) && divisible(f, i)) {
+      more[k] = f->node[i];
+      more[k++].s = 0.5 * (f->node[i].s + f->node[i + 1].s);
+    }
+  status = map_seeds(ctx, f->seed, coarse, more, y, w);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0; i < coarse; i++) {
+    more[i].y = y[i];
+    more[i].w = w[i];
+  }
+  /* Merge from the end, both lists ascending in s. */
+  size_t from = f->count, to = f->count + coarse;
+  for (k = coarse; to-- > 0;)
+    f->node[to] = k > 0 && (from == 0 || more[k - 1].s > f->node[from - 1].s) ? more[--k]
+                                                                              : f->node[--from];
+  f->count += coarse;
+done:
+  free(more);
+  free(y);
+  free(w);
+  return status;
+}
+
+/* ---- generations ---- */
+
+/* Map all nodes of the front back once more. */
+static pendres_status next_generation(pendres_context *ctx, front *f)
+{
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_strobe_lane *lane = malloc((f->count + 1) * sizeof *lane);
+  long *periods = malloc((f->count + 1) * sizeof *periods);
+  if (lane == NULL || periods == NULL) {
+    (void)pendres_context_fail(ctx, status, "out of memory for a boundary");
+    goto done;
+  }
+  for (size_t i = 0; i < f->count; i++) {
+    lane[i] = (pendres_strobe_lane){.pendulum = &f->seed->backward,
+                                    .y = f->node[i].y,
+                                    .w = -f->node[i].w,
+                                    .steps = f->seed->steps};
+    pendres_passage_wrap(lane[i].pendulum, &lane[i].y, &lane[i].turns);
+    periods[i] = f->seed->iterates;
+  }
+  status = pendres_strobe_run(ctx, f->count, lane, mapped, periods);
+  for (size_t i = 0; i < f->count && status == PENDRES_OK; i++) {
+    f->node[i].generation++;
+    take_back(&lane[i], &f->node[i].y, &f->node[i].w);
+  }
+done:
+  free(lane);
+  free(periods);
+  return status;
+}
+
+/* Append the front to the curve. A new piece begins where neighbours are not joined; the first
+   node of a generation is the last of the one before it. */
+static pendres_status deliver(pendres_context *ctx, const front *f, pendres_boundary_curve *curve)
+{
+  if (reserve(&curve->node, &curve->capacity, curve->count + f->count) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  for (size_t i = 0; i < f->count; i++) {
+    const int before = i > 0 && joined(f, i - 1), behind = joined(f, i);
+    if (i + 1 < f->count && too_coarse(f, i)) curve->complete = 0;
+    const int first = f->node[i].s == 0.0 && f->node[i].generation > 0;
+    if (!before && !behind) continue;
+    if (first) continue;
+    if (!before && f->node[i].generation > 0 && !(i == 1 && f->node[0].s == 0.0)) curve->pieces++;
+    pendres_boundary_node *n = &curve->node[curve->count++];
+    *n = f->node[i];
+    n->piece = curve->pieces;
+    n->sagitta = fmax(before ? sagitta(f, i - 1) : 0.0, behind ? sagitta(f, i) : 0.0);
+  }
+  return PENDRES_OK;
+}
+
+/* Drop the nodes that are joined to neither neighbour: nothing more comes from them. */
+static void prune(front *f)
+{
+  size_t kept = 0;
+  int before = 0;
+  for (size_t i = 0; i < f->count; i++) {
+    const int behind = joined(f, i);
+    const int keep = before || behind;
+    before = behind;
+    /* Nodes ahead are still in place: kept <= i. */
+    if (keep) f->node[kept++] = f->node[i];
+  }
+  f->count = kept;
+}
+
+static pendres_status grow_side(pendres_context *ctx, front *f, int side,
+                                pendres_boundary_curve *curve)
+{
+  pendres_status status = PENDRES_OK;
+  f->count = 0;
+  if (reserve(&f->node, &f->capacity, FIRST_NODES) != 0)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a boundary");
+  for (int i = 0; i < FIRST_NODES; i++) {
+    pendres_boundary_node *n = &f->node[f->count++];
+    *n = (pendres_boundary_node){.s = (double)i / (FIRST_NODES - 1), .side = side};
+    place(f->seed, n->s, side, &n->y, &n->w);
+    n->w = -n->w;
+  }
+  /* The curve begins at the saddle itself; from the next generation on at the segment's start. */
+  f->node[0].s = far_before;
+  place(f->seed, far_before, side, &f->node[0].y, &f->node[0].w);
+  f->node[0].w = -f->node[0].w;
+  status = deliver(ctx, f, curve);
+  f->node[0].s = 0.0;
+  place(f->seed, 0.0, side, &f->node[0].y, &f->node[0].w);
+  f->node[0].w = -f->node[0].w;
+  for (int generation = 1; f->count > 0 && status == PENDRES_OK; generation++) {
+    size_t added = 1;
+    status = next_generation(ctx, f);
+    for (int round = 0; round < MOST_ROUNDS && added > 0 && status == PENDRES_OK; round++) {
+      const size_t taken = curve->count + f->count;
+      const size_t room = taken < f->options->most_points ? f->options->most_points - taken : 0;
+      if (room == 0) break;
+      status = refine_once(ctx, f, room, &added);
+    }
+    if (status == PENDRES_OK) status = deliver(ctx, f, curve);
+    prune(f);
+    if (curve->count + f->count >= f->options->most_points || generation >= MOST_GENERATIONS) {
+      curve->complete = 0;
+      break;
+    }
+  }
+  curve->pieces++;
+  return status;
+}
+
+/*
+ * Going back in time, d(energy)/dt = damping v^2 -+ push v >= 0 while |v| >= push/damping, and the
+ * potential of a pendulum varies by 2: faster than out_v, |v| never falls below `speed` again. The
+ * push is what drive, torque and parametric drive can do at most. Other potentials vary by more, or
+ * without bound, and their states are followed to twice the window's size around it.
+ */
+static front front_of(const pendres_boundary_seed *seed, const pendres_boundary_options *o)
+{
+  const pendres_pendulum *p = &seed->backward;
+  const double most = fmax(fabs(o->v_low), fabs(o->v_high));
+  if (p->force != PENDRES_FORCE_PENDULUM) {
+    const double width = o->x_high - o->x_low;
+    return (front){.seed = seed, .options = o, .out_v = 2.0 * most,
+                   .out_low = o->x_low - 0.5 * width, .out_high = o->x_high + 0.5 * width};
+  }
+  const double push =
+    fabs(p->drive_amplitude) + fabs(p->torque) + fabs(p->parametric_amplitude);
+  const double speed = fmax(most, push / -p->damping);
+  return (front){.seed = seed, .options = o, .out_v = sqrt(speed * speed + 4.0),
+                 .out_low = -INFINITY, .out_high = INFINITY};
+}
+
+pendres_status pendres_boundary_grow(pendres_context *ctx, const pendres_boundary_seed *seed,
+                                     const pendres_boundary_options *o,
+                                     pendres_boundary_curve *curve)
+{
+  front f = front_of(seed, o);
+  if (seed->backward.force != PENDRES_FORCE_PENDULUM) curve->complete = 0;
+  pendres_status status = grow_side(ctx, &f, 1, curve);
+  if (status == PENDRES_OK) status = grow_side(ctx, &f, -1, curve);
+  free(f.node);
+  return status;
+}

@@ -1,0 +1,275 @@
+/* lyapunov_runner.c -- pendulums until they come back or are averaged; see lyapunov_runner.h. */
+#include "analysis/chaos/lyapunov_runner.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "engine/rank.h"
+#include "model/model.h"
+#include "orbits/escape.h"
+
+enum {
+  BATCHES = PENDRES_RUNNER_BATCHES,
+  WARM_UP = 16,        /* periods in which the tangent vector turns into the growing direction */
+  LONGEST_ORBIT = 128, /* drive periods of an orbit that is looked for */
+  EXTRAPOLATED = 15    /* steps twice as long differ by this times the error of the steps */
+};
+
+/* The distance of a neighbour. Both its rounding errors and its departure from the linear equation
+   are some 1e-8 of that distance. */
+static const double apart = 1e-8;
+/* Tangent vectors are put back to length one where they are longer, or shorter than its inverse. */
+static const double longest = 1e100;
+
+typedef pendres_runner runner;
+
+/* One block's averages. */
+typedef struct average_job {
+  pendres_block *block;
+  long batch;    /* periods */
+  int neighbour; /* beside each runner */
+} average_job;
+
+/* ---- coming back --------------------------------------------------------------------------- */
+
+static void look_from(runner *r, const pendres_strobe_lane *l)
+{
+  r->ref_y = l->y;
+  r->ref_w = l->w;
+  r->ref_turns = l->turns;
+  r->ref_period = l->period;
+}
+
+/* The distance of two strobe points, whole turns aside, which are *across. */
+static double apart_by(const pendres_strobe_lane *l, double y, double w, double *across)
+{
+  const double dy = l->y - y, turn = pendres_model_turn(l->pendulum);
+  *across = rint(dy / turn);
+  return hypot(dy - turn * *across, l->w - w);
+}
+
+void pendres_runner_trust(runner *r, const pendres_strobe_lane *l, double doubt)
+{
+  if (!(r->doubt <= 1.0)) return;
+  r->doubt = doubt;
+  if (!(doubt <= 1.0)) return;
+  r->sure_y = l->y;
+  r->sure_w = l->w;
+}
+
+void pendres_runner_pass(runner *r, const pendres_strobe_lane *l)
+{
+  double across;
+  r->back = fmin(r->back, apart_by(l, r->sure_y, r->sure_w, &across));
+}
+
+int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l)
+{
+  const long lag = l->period - r->ref_period;
+  double across;
+  const double distance = apart_by(l, r->ref_y, r->ref_w, &across);
+  /* The more periods, the more often points come back by chance. */
+  if (lag > 0 && lag <= LONGEST_ORBIT && (double)lag * distance < r->near) {
+    const double turns = (double)(l->turns - r->ref_turns) + across;
+    r->period = (int)lag;
+    r->winding = fabs(turns) < 1e6 ? (int)turns : 0;
+    return 1;
+  }
+  if (l->period >= r->next) {
+    look_from(r, l);
+    r->next = l->period + (l->period < 2 * LONGEST_ORBIT ? l->period : 2 * LONGEST_ORBIT);
+  }
+  return 0;
+}
+
+int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l)
+{
+  if (!r->open) return 0;
+  if (pendres_escape_lost(l->y, l->w)) {
+    r->state = PENDRES_RUNNER_LOST;
+    return 1;
+  }
+  r->before_y = l->y;
+  r->before_w = l->w;
+  if (!pendres_model_escapes(l->pendulum, l->y, l->w)) return 0;
+  r->state = PENDRES_RUNNER_AWAY;
+  return 1;
+}
+
+pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near)
+{
+  runner r = {.lane = *lane, .u = {{0.6, 0.8}, {0.6, 0.8}}, .near = near, .next = 8,
+              .open = pendres_escape_possible(lane->pendulum),
+              .before_y = lane->y, .before_w = lane->w,
+              .sure_y = lane->y, .sure_w = lane->w, .back = INFINITY};
+  look_from(&r, lane);
+  return r;
+}
+
+/* ---- averages ------------------------------------------------------------------------------ */
+
+/* Load a runner into a lane, and its neighbour, if it has one, into the next lane. */
+static void put(const average_job *a, size_t lane, const runner *r)
+{
+  const pendres_strobe_lane *l = &r->lane;
+  pendres_block_put_state(a->block, lane, l->y, l->w);
+  if (a->neighbour)
+    pendres_block_put_state(a->block, lane + 1, l->y + apart * r->u[0][0],
+                            l->w + apart * r->u[0][1]);
+}
+
+static void load(const average_job *a, size_t lane, runner *r)
+{
+  for (int b = 0; b < BATCHES; b++)
+    r->growth[0][b] = r->growth[1][b] = r->turned[b] = r->square[b] = 0.0;
+  r->smooth = (pendres_smooth){.length = 0.0};
+  pendres_block_load(a->block, lane, r->lane.pendulum, r->lane.y, r->lane.w);
+  if (a->neighbour)
+    pendres_block_load(a->block, lane + 1, r->lane.pendulum, r->lane.y, r->lane.w);
+  else
+    for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
+  put(a, lane, r);
+}
+
+/* Add the growth of the tangent vectors to a batch, if there is one, and put them back to length
+   one. Returns the growth of the second one. */
+static double shorten(runner *r, long in)
+{
+  double growth = 0.0;
+  for (int i = 0; i < 2; i++) {
+    double *u = r->u[i];
+    const double length = fmax(hypot(u[0], u[1]), DBL_MIN);
+    growth = log(length);
+    if (in >= 0) r->growth[i][in] += growth;
+    u[0] /= length;
+    u[1] /= length;
+  }
+  return growth;
+}
+
+/* Tangent vectors after a period, put back to length one at the end of a batch and where they must
+   be; the distance of a neighbour always, and what it has grown by is returned. */
+static double turn(const average_job *a, size_t lane, long step, runner *r)
+{
+  const long in = step >= 0 ? step / a->batch : -1;
+  if (a->neighbour) {
+    const pendres_rows rows = pendres_block_rows(a->block);
+    for (int k = 0; k < 2; k++)
+      r->u[0][k] = r->u[1][k] = (pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane + 1) -
+                                 pendres_rows_get(&rows, PENDRES_ROW_Y + k, lane)) / apart;
+    return shorten(r, in);
+  }
+  double size[2];
+  for (int i = 0; i < 2; i++) {
+    pendres_block_get_tangent(a->block, lane, i, r->u[i]);
+    size[i] = fabs(r->u[i][0]) + fabs(r->u[i][1]);
+  }
+  if ((step + 1) % a->batch != 0 && fmax(size[0], size[1]) < longest &&
+      fmin(size[0], size[1]) > 1.0 / longest)
+    return 0.0;
+  (void)shorten(r, in);
+  for (int i = 0; i < 2; i++) pendres_block_put_tangent(a->block, lane, i, r->u[i]);
+  return 0.0;
+}
+
+/* Take over the end of a period. step is its number in the batches; negative ones are the
+   warm-up. */
+static void arrive(const average_job *a, size_t lane, long step, runner *r)
+{
+  const pendres_rows rows = pendres_block_rows(a->block);
+  pendres_strobe_lane *l = &r->lane;
+  const double before = l->y;
+  const double growth = turn(a, lane, step, r);
+  l->y = pendres_rows_get(&rows, PENDRES_ROW_Y, lane);
+  l->w = pendres_rows_get(&rows, PENDRES_ROW_W, lane);
+  const double turned = (l->y - before) / pendres_model_turn(l->pendulum);
+  if (step >= 0) r->turned[step / a->batch] += turned;
+  if (step >= 0) r->square[step / a->batch] += l->w * l->w;
+  if (step >= 0 && r->rotates)
+    pendres_smooth_add(&r->smooth, step, a->batch * BATCHES, growth, turned);
+  pendres_passage_arrive(l->pendulum, &l->y, &l->w, &l->turns);
+  l->period++;
+  put(a, lane, r);
+  pendres_runner_pass(r, l);
+  if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_leaves(r, l)) return;
+  if (r->state == PENDRES_RUNNER_MOVING && pendres_runner_comes_back(r, l))
+    r->state = PENDRES_RUNNER_CAUGHT;
+}
+
+/* Some runners of equal steps, side by side, over WARM_UP periods and BATCHES batches. */
+static pendres_status average_block(const average_job *a, size_t n, const pendres_rank *rank,
+                                    runner *runners)
+{
+  pendres_status status = PENDRES_OK;
+  const size_t each = a->neighbour ? 2 : 1;
+  pendres_block_resize(a->block, each * n);
+  for (size_t i = 0; i < n; i++) load(a, each * i, &runners[rank[i].index]);
+  for (long k = -WARM_UP; k < a->batch * BATCHES && status == PENDRES_OK; k++) {
+    status = pendres_block_period(a->block);
+    for (size_t i = 0; i < n && status == PENDRES_OK; i++)
+      arrive(a, each * i, k, &runners[rank[i].index]);
+  }
+  return status;
+}
+
+/* Runners of equal steps, as many as a block holds: those of rank[0 ... *n - 1] at most. */
+static pendres_status average_class(pendres_context *ctx, runner *runners, long batch,
+                                    const pendres_rank *rank, size_t *n)
+{
+  pendres_block block;
+  const int neighbour = runners[rank[0].index].neighbour;
+  const average_job a = {.block = &block, .batch = batch, .neighbour = neighbour};
+  pendres_status status = pendres_block_open(ctx, PENDRES_FLOW_STATE, rank[0].steps, &block);
+  if (status != PENDRES_OK) return status;
+  const size_t most = pendres_block_capacity(&block) / (neighbour ? 2 : 1);
+  if (*n > most) *n = most;
+  if (!neighbour) status = pendres_block_carry_tangents(&block, 1);
+  if (status == PENDRES_OK) status = average_block(&a, *n, rank, runners);
+  if (!neighbour) (void)pendres_block_carry_tangents(&block, 0);
+  return status;
+}
+
+/* Those with neighbours, or those without. */
+static pendres_status average(pendres_context *ctx, size_t n, runner *runners, long batch,
+                              int neighbour)
+{
+  size_t count = 0;
+  pendres_status status = PENDRES_OK;
+  pendres_rank *rank = malloc((n + 1) * sizeof *rank);
+  if (rank == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", n);
+  for (size_t i = 0; i < n; i++)
+    if (runners[i].state == PENDRES_RUNNER_MOVING && runners[i].neighbour == neighbour)
+      rank[count++] = (pendres_rank){.steps = runners[i].lane.steps,
+                                     .model = pendres_model_kind(runners[i].lane.pendulum),
+                                     .index = i};
+  pendres_rank_order(count, rank);
+  for (size_t first = 0, some; first < count && status == PENDRES_OK; first += some) {
+    some = 1;
+    while (first + some < count && pendres_rank_equal(&rank[first + some], &rank[first])) some++;
+    status = average_class(ctx, runners, batch, rank + first, &some);
+  }
+  free(rank);
+  return status;
+}
+
+pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_runner *runners,
+                                       long batch)
+{
+  const pendres_status status = average(ctx, n, runners, batch, 0);
+  return status == PENDRES_OK ? average(ctx, n, runners, batch, 1) : status;
+}
+
+double pendres_runner_extrapolate(pendres_runner *r, long batch)
+{
+  double taken = 0.0;
+  for (int b = 0; b < BATCHES; b++) {
+    const double off = (r->growth[1][b] - r->growth[0][b]) / EXTRAPOLATED;
+    r->growth[0][b] -= off;
+    taken += off / (double)(batch * BATCHES);
+  }
+  return fabs(taken);
+}

@@ -1,0 +1,78 @@
+/*
+ * lyapunov_runner.h -- pendulums that run until their strobe points repeat, or averages are known.
+ *
+ * Owns: whether strobe points have repeated; the growth of tangent vectors and of distances to
+ * neighbours, and its averages, batch by batch, and with the smooth weights that rotations need.
+ */
+#ifndef PENDRES_LYAPUNOV_RUNNER_H
+#define PENDRES_LYAPUNOV_RUNNER_H
+
+#include <pendres/context.h>
+
+#include "engine/strobe_run.h"
+#include "orbits/smooth.h"
+
+enum { PENDRES_RUNNER_BATCHES = 16 };
+
+typedef enum pendres_runner_state {
+  PENDRES_RUNNER_MOVING,
+  PENDRES_RUNNER_CAUGHT, /* has come back next to where it was */
+  PENDRES_RUNNER_AWAY,   /* escapes to infinity for certain, ... */
+  PENDRES_RUNNER_LOST,   /* ... or is beyond all numbers: its last period tells then */
+  PENDRES_RUNNER_DONE
+} pendres_runner_state;
+
+typedef struct pendres_runner {
+  pendres_strobe_lane lane;
+  pendres_runner_state state;
+  /* Cycle detection: the strobe point that is compared with, and when the next takes its place. */
+  double ref_y, ref_w, near;
+  long ref_turns, ref_period, next;
+  int period, winding; /* of the orbit that it seems to be near */
+  int steps;           /* of averages, a period */
+  double doubt;        /* the error that it has carried so far, over the largest one that cannot
+                          change where it goes; NaN: not known */
+  double sure_y, sure_w; /* the last state before that was above 1, ... */
+  double back;           /* ... and the smallest distance to that in averages */
+  int open;            /* it may escape, */
+  double before_y, before_w; /* and was here a period ago */
+  int rotates;         /* it may be on a rotation that is not locked to the drive */
+  int neighbour;       /* it runs beside a neighbour, which takes the place of the tangent vectors:
+                          exact, at twice the cost */
+  double u[2][2];      /* tangent vectors by steps, and by steps twice as long; with a neighbour
+                          both are the direction to it */
+  /* Sums over the periods of each batch. */
+  double growth[2][PENDRES_RUNNER_BATCHES], turned[PENDRES_RUNNER_BATCHES];
+  double square[PENDRES_RUNNER_BATCHES]; /* of w */
+  pendres_smooth smooth; /* of rotations */
+} pendres_runner;
+
+/* A runner at its start, lane and steps, of which there must be an even number a period; points
+   that come back closer than `near` are next to an orbit. */
+pendres_runner pendres_runner_at(const pendres_strobe_lane *lane, double near);
+
+/* Note the doubt of the latest strobe point. */
+void pendres_runner_trust(pendres_runner *r, const pendres_strobe_lane *l, double doubt);
+
+/* Note how near the latest strobe point is to the last sure state. */
+void pendres_runner_pass(pendres_runner *r, const pendres_strobe_lane *l);
+
+/* Whether the latest strobe point is next to the one that it is compared with. */
+int pendres_runner_comes_back(pendres_runner *r, const pendres_strobe_lane *l);
+
+/* Whether the latest strobe point shows that a runner escapes, or is lost: its state says which. */
+int pendres_runner_leaves(pendres_runner *r, const pendres_strobe_lane *l);
+
+/* Averages of all of n runners that are moving, over so many periods a batch. Those that come back
+   meanwhile are caught, and run to the end all the same. */
+pendres_status pendres_runners_average(pendres_context *ctx, size_t n, pendres_runner *runners,
+                                       long batch);
+
+/*
+ * Growth found with steps twice as long has 16 times the error: a fifteenth of the difference is
+ * subtracted from r->growth[0]. Returns this correction for one period, which exceeds the error
+ * that is left; 0 for runners with neighbours.
+ */
+double pendres_runner_extrapolate(pendres_runner *r, long batch);
+
+#endif

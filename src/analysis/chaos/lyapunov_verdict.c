@@ -1,0 +1,438 @@
+/* lyapunov_verdict.c -- what each of many pendulums does; see lyapunov_verdict.h. */
+#include "analysis/chaos/lyapunov_verdict.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/angles.h"
+#include "base/turns.h"
+#include "engine/accuracy.h"
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "engine/steps.h"
+#include "engine/strobe_run.h"
+#include "model/model.h"
+#include "orbits/catalogue.h"
+#include "orbits/escape.h"
+#include "orbits/linear.h"
+#include "orbits/orbit_prime.h"
+#include "orbits/settle_lanes.h"
+#include "analysis/chaos/lyapunov_watch.h"
+
+enum {
+  BATCHES = PENDRES_RUNNER_BATCHES,
+  TRANSIENT = 200, /* drive periods, where damping is not weak */
+  LONG = 512,      /* an average of so many periods is not short */
+  SLIPS = 3        /* of a rotation by where a lock has ended, for its mean to be known */
+};
+
+/* A pendulum whose strobe point comes back this closely is taken to be next to an orbit: at first.
+   Each time that the orbit has turned out not to attract it, as the unstable one beside a fold does
+   not, it must come closer, by this factor. */
+static const double close_by = 1e-4, closer = 0.1;
+/* An orbit found further from the point that came back is another one. */
+static const double same_orbit = 0.02;
+/* An exponent of chaos is above zero by so many standard errors, and by so much growth a period. Up
+   to a growth of least_carried tangent vectors are not trusted without a neighbour: next to orbits
+   that are all but superstable they were seen to be off by 5e-3. */
+static const double significance = 5.0, least_growth = 1e-3, least_carried = 0.02;
+/* Chaos must stretch tangent vectors with steps twice as long, too. Their growth differs by this
+   times what extrapolation takes off. */
+static const double carried_in_doubt = 15.0;
+/* Next to where a lock has ended a rotation is slow in one place, and stretches a tangent vector as
+   much there as it will shrink it again. The logarithm stays below this; in chaos it goes
+   beyond. */
+static const double passing = 30.0;
+/* In a quasi-periodic motion averages over the two halves agree to this, a period, and distances to
+   neighbours grow or shrink by less than this. */
+static const double same_mean = 1e-5;
+
+/* Steps of a pendulum that a transient or an average is worth, unless the caller asks for more:
+   half a minute's where it is alone. */
+static const double most_steps = 5e7;
+/* A chaos that comes back this close to the last state that the pendulum was in for certain is the
+   one that its start leads to. The errors there are a hundredth at most. */
+static const double returned = 0.1;
+
+typedef pendres_lyapunov_job job;
+
+int pendres_lyapunov_may_rotate(const pendres_pendulum *p)
+{
+  const int driven = p->drive_amplitude != 0.0 || p->parametric_amplitude != 0.0;
+  const int pushed = p->torque != 0.0 || p->drive_amplitude != 0.0;
+  return pendres_model_kind(p) == PENDRES_MODEL_PENDULUM && driven && pushed;
+}
+
+/* ---- coming back --------------------------------------------------------------------------- */
+
+static double longest_transient(const pendres_strobe_lane *lane)
+{
+  return fmin(1e7, most_steps / lane->steps);
+}
+
+/* Distances shrink as exp(-gamma t / 2) at best; exp(-40) of them is below double precision. */
+static long transient_of(const job *j, const pendres_strobe_lane *lane)
+{
+  const pendres_pendulum *p = lane->pendulum;
+  if (j->transient > 0) return j->transient;
+  /* Across the curve of a rotation they shrink by all of the damping; to exp(-25), 1e-11, here. */
+  const double forgets = p->drive_frequency / (two_pi * p->damping);
+  if (j->care == PENDRES_CARE_CLOSE) return 16 + (long)(25.0 * forgets);
+  return (long)fmax(TRANSIENT, fmin(longest_transient(lane), 80.0 * forgets));
+}
+
+/* Whether the start is forgotten before averages begin. Where damping is so weak that it is not,
+   what looks like chaos may be a transient. */
+static int forgets_start(const job *j, const pendres_strobe_lane *lane)
+{
+  const pendres_pendulum *p = lane->pendulum;
+  return j->transient > 0 ||
+         80.0 * p->drive_frequency / (two_pi * p->damping) <= longest_transient(lane);
+}
+
+static int visit(void *arg, size_t index, const pendres_strobe_lane *lane)
+{
+  const job *j = arg;
+  pendres_runner *r = &j->runner[index];
+  pendres_runner_trust(r, lane,
+                       pendres_settle_doubt_on_way(lane->worst));
+  if (pendres_runner_leaves(r, lane)) return 1;
+  if (pendres_runner_comes_back(r, lane)) {
+    r->state = PENDRES_RUNNER_CAUGHT;
+    return 1;
+  }
+  return lane->period >= transient_of(j, lane) ||
+         !(isfinite(lane->y) && isfinite(lane->w));
+}
+
+/* ---- orbits -------------------------------------------------------------------------------- */
+
+static void take_orbit(const pendres_orbit *o, pendres_lyapunov *out)
+{
+  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  *out = (pendres_lyapunov){
+    .label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC,
+    .exponent = log(modulus) / time,
+    .exponent_error = o->multiplier_error / (modulus * time),
+    .rotation = (double)o->winding / o->period,
+    .rotation_error = 2.2e-16 * fabs((double)o->winding / o->period),
+    .period = o->period,
+    .winding = o->winding};
+}
+
+static int is_near(const pendres_orbit *o, const pendres_strobe_lane *l)
+{
+  const double dx = pendres_less_turns(o->x - (l->y + pendres_model_origin(l->pendulum)),
+                                       pendres_model_turn(l->pendulum));
+  return hypot(dx, o->v / o->pendulum.drive_frequency - l->w) < same_orbit;
+}
+
+/* Refine the orbits that caught runners are near, with their shortest periods. outcome[k] is
+   PENDRES_OK where the k-th of them is next to a stable orbit, and orbit[] has these alone. */
+static pendres_status orbits_of_caught(pendres_context *ctx, const job *j, size_t count,
+                                       pendres_orbit_guess *guess, pendres_orbit *orbit,
+                                       pendres_status *outcome)
+{
+  size_t k = 0, good = 0;
+  for (size_t i = 0; i < j->n; i++) {
+    const pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
+    pendres_orbit_guess *g = &guess[k++];
+    const pendres_place at = {.y = r->lane.y, .w = r->lane.w};
+    *g = (pendres_orbit_guess){
+      .pendulum = *r->lane.pendulum, .period = r->period, .winding = r->winding};
+    pendres_passage_out(r->lane.pendulum, &at, &g->x, &g->v);
+  }
+  const pendres_status status =
+    pendres_orbit_refine(ctx, count, guess, PENDRES_ORBIT_PLAIN, orbit, outcome);
+  if (status != PENDRES_OK) return status;
+  k = 0;
+  for (size_t i = 0; i < j->n; i++) {
+    const pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
+    const pendres_orbit *o = &orbit[k];
+    const int is = outcome[k] != PENDRES_NOT_CONVERGED && o->stable && is_near(o, &r->lane);
+    outcome[k++] = is ? PENDRES_OK : PENDRES_NOT_CONVERGED;
+    if (is) orbit[good++] = *o;
+  }
+  return pendres_orbits_to_prime(ctx, good, orbit);
+}
+
+/* Take the orbits that runners were caught near; a runner goes on where there is no stable orbit
+   near it. */
+static pendres_status settle_caught(pendres_context *ctx, const job *j)
+{
+  size_t count = 0, k = 0, good = 0;
+  for (size_t i = 0; i < j->n; i++) count += j->runner[i].state == PENDRES_RUNNER_CAUGHT;
+  if (count == 0) return PENDRES_OK;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_orbit_guess *guess = malloc(count * sizeof *guess);
+  pendres_orbit *orbit = malloc(count * sizeof *orbit);
+  pendres_status *outcome = malloc(count * sizeof *outcome);
+  if (guess == NULL || orbit == NULL || outcome == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu orbits", count);
+  else
+    status = orbits_of_caught(ctx, j, count, guess, orbit, outcome);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    pendres_runner *r = &j->runner[i];
+    if (r->state != PENDRES_RUNNER_CAUGHT) continue;
+    const int is = outcome[k++] == PENDRES_OK;
+    r->state = is ? PENDRES_RUNNER_DONE : PENDRES_RUNNER_MOVING;
+    if (!is) r->near *= closer;
+    if (!is) continue;
+    take_orbit(&orbit[good], &j->out[i]);
+    if (j->orbit != NULL) j->orbit[i] = orbit[good];
+    good++;
+  }
+  free(guess);
+  free(orbit);
+  free(outcome);
+  return status;
+}
+
+/* ---- escapes ---- */
+
+/* Those that are on their way to infinity, and those of which nothing more can be known. */
+static pendres_status tell_away(pendres_context *ctx, const job *j)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    pendres_runner *r = &j->runner[i];
+    int away = r->state == PENDRES_RUNNER_AWAY;
+    if (!away && r->state != PENDRES_RUNNER_LOST) continue;
+    if (!away) status = pendres_escape_within(ctx, &r->lane, r->before_y, r->before_w, &away);
+    r->state = PENDRES_RUNNER_DONE;
+    j->out[i] = (pendres_lyapunov){
+      .label = away ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+      .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+  }
+  return status;
+}
+
+/* ---- linear forces ---- */
+
+/* All motions of a linear oscillator grow, or decay to one orbit, as Floquet's theory says. */
+static void take_linear(const pendres_linear *l, pendres_runner *r, pendres_lyapunov *out)
+{
+  r->state = PENDRES_RUNNER_DONE;
+  r->doubt = 0.0;
+  if (l->fate == PENDRES_LINEAR_DECAYS) {
+    r->lane = pendres_strobe_lane_at(r->lane.pendulum, l->orbit.x, l->orbit.v);
+    take_orbit(&l->orbit, out);
+    return;
+  }
+  *out = (pendres_lyapunov){
+    .label = l->fate == PENDRES_LINEAR_GROWS ? PENDRES_LABEL_ESCAPE : PENDRES_LABEL_UNRESOLVED,
+    .exponent = l->exponent, .exponent_error = l->error, .rotation = NAN, .rotation_error = NAN};
+}
+
+static pendres_status tell_linear(pendres_context *ctx, const job *j)
+{
+  pendres_linear *linear = malloc((j->n + 1) * sizeof *linear);
+  if (linear == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu pendulums",
+                                j->n);
+  const pendres_status status = pendres_linear_find(ctx, j->n, j->pendulum, linear);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    if (linear[i].fate == PENDRES_LINEAR_NOT) continue;
+    take_linear(&linear[i], &j->runner[i], &j->out[i]);
+    if (j->orbit != NULL && linear[i].fate == PENDRES_LINEAR_DECAYS)
+      j->orbit[i] = linear[i].orbit;
+  }
+  free(linear);
+  return status;
+}
+
+/* ---- averages ------------------------------------------------------------------------------ */
+
+/*
+ * Whether a runner is on a rotation that is not locked to the drive, and then its mean. An error of
+ * a period moves y by itself, and an error of the velocity moves y by omega/gamma times itself
+ * until friction has damped it. What that does to the mean velocity depends on where on the
+ * invariant curve it happens: in the coordinate h in which the motion is uniform it is h' times as
+ * much, and the length of the tangent vector goes as 1/h'.
+ */
+static int quasi_periodic(const pendres_runner *r, long periods, double accuracy,
+                          pendres_lyapunov *out)
+{
+  const pendres_pendulum *p = r->lane.pendulum;
+  if (!r->rotates) return 0;
+  const pendres_smooth_means m = pendres_smooth_take(&r->smooth);
+  if (!(m.growth_apart < same_mean && m.turned_apart < same_mean && fabs(m.growth) < same_mean))
+    return 0;
+  /* Averages shorter than usual have to agree as well as the integration allows. */
+  if (periods < LONG && !(m.turned_apart < accuracy)) return 0;
+  /* A rotation that came back to where there is no orbit is slow there: what it does between slips
+     is not its mean. */
+  const double slips = fabs(m.turned * r->period - r->winding) * (double)periods;
+  if (r->near < close_by && slips < SLIPS) return 0;
+  const double rate = p->drive_frequency / two_pi;
+  const double period_error = accuracy * (1.0 + p->drive_frequency / p->damping) / two_pi;
+  *out = (pendres_lyapunov){
+    .label = PENDRES_LABEL_QUASI_PERIODIC,
+    .exponent_error = (fabs(m.growth) + m.growth_apart) * rate,
+    .rotation = m.turned, .rotation_error = m.turned_apart + m.uneven * period_error};
+  return 1;
+}
+
+/* Judge runners by their averages; those on chaos or on rotations that are not locked are done. */
+static void judge(const job *j, long batch, double accuracy)
+{
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    double error = 0.0, turned_error = 0.0;
+    if (r->state != PENDRES_RUNNER_MOVING) continue;
+    const double rate = r->lane.pendulum->drive_frequency / two_pi;
+    const double off = pendres_runner_extrapolate(r, batch);
+    const double growth = pendres_batches_mean(r->growth[0], batch, &error);
+    const double turned = pendres_batches_mean(r->turned, batch, &turned_error);
+    double least = r->neighbour ? least_growth : least_carried;
+    if (r->rotates) least = fmax(least, passing / (double)(batch * BATCHES));
+    const int chaotic = growth > significance * error + carried_in_doubt * off &&
+                        growth > least && !pendres_batches_change(r->growth[0]) &&
+                        forgets_start(j, &r->lane);
+    j->out[i] = (pendres_lyapunov){
+      .label = chaotic ? PENDRES_LABEL_CHAOTIC : PENDRES_LABEL_UNRESOLVED,
+      .exponent = growth * rate, .exponent_error = hypot(error, off) * rate,
+      .rotation = turned, .rotation_error = turned_error};
+    if (chaotic || quasi_periodic(r, batch * BATCHES, accuracy, &j->out[i]))
+      r->state = PENDRES_RUNNER_DONE;
+    r->neighbour = 1; /* those that are left run beside a neighbour from here on */
+  }
+}
+
+/* Runners whose averages would take too many steps go no further. */
+static void give_up(const job *j, long batch, int first)
+{
+  for (size_t i = 0; i < j->n && !j->asked; i++) {
+    pendres_runner *r = &j->runner[i];
+    const double steps = (double)(batch * BATCHES) * r->lane.steps;
+    if (r->state != PENDRES_RUNNER_MOVING || steps <= most_steps) continue;
+    r->state = PENDRES_RUNNER_DONE;
+    if (first)
+      j->out[i] = (pendres_lyapunov){.label = PENDRES_LABEL_UNRESOLVED, .exponent = NAN,
+                                  .exponent_error = NAN, .rotation = NAN, .rotation_error = NAN};
+  }
+}
+
+/* ---- the call ------------------------------------------------------------------------------ */
+
+/* Put a runner at its start, and choose its steps: those on the way, and those of averages. */
+static pendres_status load(pendres_context *ctx, const job *j, size_t i)
+{
+  const pendres_pendulum *p = &j->pendulum[i];
+  pendres_runner *r = &j->runner[i];
+  const pendres_strobe_lane lane = pendres_strobe_lane_at(p, j->x[i], j->v[i]);
+  const double usual = pendres_accuracy_to_average(ctx);
+  const double speed =
+    fmax(pendres_steps_speed(p, j->x[i], j->v[i]), pendres_steps_turning_speed(p));
+  *r = pendres_runner_at(&lane, close_by);
+  r->rotates = r->neighbour = pendres_lyapunov_may_rotate(p);
+  double accuracy = usual;
+  pendres_status status = pendres_steps_choose(ctx, p, speed, usual, &r->steps);
+  r->lane.steps = r->steps;
+  if (status == PENDRES_OK && j->accuracy < usual) {
+    status = pendres_steps_choose(ctx, p, speed, j->accuracy, &r->lane.steps);
+    if (status == PENDRES_OK) accuracy = j->accuracy;
+    if (status == PENDRES_TOLERANCE_UNREACHABLE) status = PENDRES_OK; /* it stays in doubt */
+  }
+  r->steps += r->steps % 2; /* for tangents by steps twice as long */
+  r->lane.steps += r->lane.steps % 2;
+  r->lane.added = pendres_settle_added(ctx, accuracy, r->lane.steps);
+  if (!pendres_settle_carries(ctx)) r->doubt = r->sure_y = NAN;
+  return status;
+}
+
+/* Run all lanes until they come back or their transient is over. */
+static pendres_status run_transient(pendres_context *ctx, const job *j)
+{
+  size_t moving = 0;
+  pendres_status status = PENDRES_OUT_OF_MEMORY;
+  pendres_strobe_lane *lanes = malloc((j->n + 1) * sizeof *lanes);
+  size_t *which = malloc((j->n + 1) * sizeof *which);
+  for (size_t i = 0; i < j->n && lanes != NULL && which != NULL; i++) {
+    lanes[i] = j->runner[i].lane;
+    if (j->runner[i].state == PENDRES_RUNNER_MOVING) which[moving++] = i;
+  }
+  if (lanes == NULL || which == NULL)
+    (void)pendres_context_fail(ctx, status, "out of memory for %zu lanes", j->n);
+  else
+    status = pendres_strobe_run_some(ctx, moving, which, lanes, visit, (void *)j);
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) {
+    j->runner[i].lane = lanes[i];
+    j->runner[i].lane.steps = j->runner[i].steps;
+  }
+  free(lanes);
+  free(which);
+  return status;
+}
+
+/* In averages errors are not carried along, but what they grow by is known. */
+static void grow_errors(const job *j)
+{
+  for (size_t i = 0; i < j->n; i++) {
+    pendres_runner *r = &j->runner[i];
+    double growth = 0.0, most = 0.0;
+    if (r->state == PENDRES_RUNNER_DONE) continue;
+    for (int b = 0; b < BATCHES; b++) {
+      growth += r->growth[0][b];
+      most = fmax(most, growth);
+    }
+    r->doubt *= exp(most);
+  }
+}
+
+/*
+ * An error decides nothing if it has stayed small on the way, or, in chaos, where it grows in any
+ * case, if the last state before it was large belongs to that chaos.
+ */
+static int is_certain(const pendres_runner *r, pendres_label label)
+{
+  if (label == PENDRES_LABEL_UNRESOLVED) return 0;
+  return label == PENDRES_LABEL_CHAOTIC ? r->back < returned : r->doubt <= 1.0;
+}
+
+/* See whether chaos lasts; where it does not, what was said of it does not hold. */
+static pendres_status watch(pendres_context *ctx, const job *j, long batch)
+{
+  size_t n = 0;
+  size_t *which = malloc((j->n + 1) * sizeof *which);
+  if (which == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu lanes", j->n);
+  for (size_t i = 0; i < j->n; i++)
+    if (j->runner[i].state == PENDRES_RUNNER_DONE && j->out[i].label == PENDRES_LABEL_CHAOTIC)
+      which[n++] = i;
+  pendres_status status = pendres_runners_watch(ctx, n, which, j->runner, batch, j->longer);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++)
+    if (j->runner[which[k]].state != PENDRES_RUNNER_DONE)
+      j->out[which[k]].label = PENDRES_LABEL_UNRESOLVED;
+  free(which);
+  if (status == PENDRES_OK) status = tell_away(ctx, j);
+  return status == PENDRES_OK ? settle_caught(ctx, j) : status;
+}
+
+pendres_status pendres_lyapunov_judge(pendres_context *ctx, const pendres_lyapunov_job *j)
+{
+  long batch = (j->periods + BATCHES - 1) / BATCHES;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++) status = load(ctx, j, i);
+  if (status == PENDRES_OK) status = tell_linear(ctx, j);
+  if (status == PENDRES_OK) status = run_transient(ctx, j);
+  if (status == PENDRES_OK) status = tell_away(ctx, j);
+  if (status == PENDRES_OK) status = settle_caught(ctx, j);
+  /* Chaos leaves no doubt in most cases, and tangent vectors show it at half the cost. */
+  for (int round = 0; round < j->rounds && status == PENDRES_OK; round++, batch *= 2) {
+    give_up(j, batch, round == 0);
+    status = pendres_runners_average(ctx, j->n, j->runner, batch);
+    grow_errors(j);
+    if (status == PENDRES_OK) status = tell_away(ctx, j);
+    if (status == PENDRES_OK) status = settle_caught(ctx, j);
+    /* Runners whose orbit was not stable have averages of this round, and no result yet. */
+    if (status == PENDRES_OK) judge(j, batch, pendres_accuracy_to_average(ctx));
+    if (status == PENDRES_OK && round == 0 && j->longer > 0) status = watch(ctx, j, batch);
+  }
+  for (size_t i = 0; i < j->n && status == PENDRES_OK; i++)
+    j->out[i].certain = is_certain(&j->runner[i], j->out[i].label);
+  return status;
+}

@@ -1,0 +1,493 @@
+/* line.c -- regimes along a line, by ensemble and by branches; see phase_diagram.h. */
+#include "analysis/phase_diagram/line.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "engine/context_internal.h"
+#include "continuation/units.h"
+#include "analysis/phase_diagram/door.h"
+#include "model/model.h"
+#include "analysis/resonance/response_members.h"
+#include "orbits/small_end.h"
+
+enum { MOST_CROSSINGS = 16 };
+
+/* ---- by the ensemble ---- */
+
+/* Whether SA and LA are told apart at a point with these states. */
+static int distinct(const pendres_small_end *end, const pendres_label_states *s)
+{
+  return end->known || s->count > 1;
+}
+
+static int other_of(const pendres_attractor *a)
+{
+  if (a->label == PENDRES_LABEL_CHAOTIC) return PENDRES_OTHER_CHAOTIC;
+  if (a->orbit.winding != 0) return PENDRES_OTHER_RUNNING;
+  if (a->orbit.period > 1) return PENDRES_OTHER_PERIODIC;
+  return pendres_phase_on_sheets(&a->orbit) ? 0 : PENDRES_OTHER_ASYMMETRIC;
+}
+
+static void judge_ensemble(const pendres_small_end *end, const pendres_label_states *known,
+                           const pendres_ensemble *e, const pendres_response *r,
+                           pendres_phase_point *p)
+{
+  size_t sa = 0, la = 0, others = r->unlisted;
+  const double all = (double)e->members;
+  const int names = distinct(end, known);
+  const pendres_label_border border = pendres_small_end_from(end, &p->pendulum);
+  p->weakest_multiplier = pendres_response_weakest_multiplier(r);
+  const size_t states = r->states < PENDRES_RESPONSE_STATES ? r->states : PENDRES_RESPONSE_STATES;
+  for (size_t i = 0; i < states; i++) {
+    const pendres_attractor *a = &r->state[i];
+    p->other |= other_of(a);
+    if (a->label == PENDRES_LABEL_CHAOTIC || !pendres_label_named(&a->orbit))
+      others += r->state_members[i];
+    else if (pendres_label_of(known, &border, &a->orbit) == PENDRES_LABEL_SA)
+      sa += r->state_members[i];
+    else
+      la += r->state_members[i];
+  }
+  if (r->unresolved > 0) p->other |= PENDRES_OTHER_UNRESOLVED;
+  p->unresolved = r->unresolved;
+  p->uncertain = r->uncertain;
+  if (others > 0 || sa + la == 0)
+    p->regime = PENDRES_REGIME_OTHER;
+  else if (!names)
+    p->regime = PENDRES_REGIME_SINGLE;
+  else
+    p->regime = sa > 0 && la > 0 ? PENDRES_REGIME_COEXISTENCE
+                : sa > 0         ? PENDRES_REGIME_SA
+                                 : PENDRES_REGIME_LA;
+  p->sa_fraction = names ? (double)sa / all : NAN;
+  p->la_fraction = names ? (double)la / all : NAN;
+  p->sa_fraction_error = p->la_fraction_error =
+    names ? (double)(r->unresolved + r->uncertain + r->unlisted) / all + r->sampling : NAN;
+  p->mean_loop_area = r->mean_loop_area;
+  p->mean_loop_area_error = r->mean_loop_area_error;
+  p->mean_loop_amplitude = r->mean_loop_amplitude;
+  p->mean_loop_amplitude_error = r->mean_loop_amplitude_error;
+}
+
+/* ---- by the branches ---- */
+
+/* A line whose points are judged. */
+typedef struct line {
+  pendres_context *ctx;
+  const pendres_phase_options *options;
+  const pendres_branches *branches;
+  pendres_small_end end;
+  pendres_orbit there[MOST_CROSSINGS]; /* room */
+} line;
+
+/* Amplitudes of SA and LA at a point, from the states that are known there. */
+static void judge_amplitudes(const pendres_small_end *end, const pendres_label_states *s,
+                             pendres_phase_point *p)
+{
+  const pendres_label_border border = pendres_small_end_from(end, &p->pendulum);
+  p->sa_amplitude = p->sa_amplitude_error = p->la_amplitude = p->la_amplitude_error = NAN;
+  p->exact = s->count > 0 ? PENDRES_REGIME_SINGLE : PENDRES_REGIME_OTHER;
+  if (s->count == 0 || !distinct(end, s)) return;
+  const size_t least = pendres_label_extreme(s, 0), most = pendres_label_extreme(s, 1);
+  const pendres_orbit orbit = {
+    .pendulum = p->pendulum, .period = 1, .amplitude = s->amplitude[least]};
+  const int sa = pendres_label_of(s, &border, &orbit) == PENDRES_LABEL_SA;
+  if (sa) {
+    p->sa_amplitude = s->amplitude[least];
+    p->sa_amplitude_error = s->error[least];
+  }
+  if (!sa || s->count > 1) {
+    p->la_amplitude = s->amplitude[most];
+    p->la_amplitude_error = s->error[most];
+  }
+  p->exact = s->count > 1 ? PENDRES_REGIME_COEXISTENCE
+             : sa         ? PENDRES_REGIME_SA
+                          : PENDRES_REGIME_LA;
+}
+
+/* Whether all states that can be SA or LA are known at a point: both of them, or the one that
+   exists beyond the fold at which SA ends, or the only one where the two are not told apart. */
+static int enough(const pendres_small_end *end, const pendres_label_states *s,
+                  const pendres_phase_point *p)
+{
+  if (!end->known) return s->count > 0;
+  return s->count > 1 || (s->count > 0 && pendres_small_end_from(end, &p->pendulum).beyond);
+}
+
+/* Look up on the branches from number `first` on what is not known yet of a point. */
+static pendres_status look_up(line *l, size_t first, pendres_label_states *s,
+                              pendres_phase_point *p)
+{
+  pendres_status status = PENDRES_OK;
+  const int known = enough(&l->end, s, p);
+  const double value = pendres_parameter_get(l->options->parameter, &p->pendulum);
+  for (size_t i = first; i < pendres_branches_count(l->branches) && !known; i++) {
+    size_t found = 0;
+    status = pendres_branch_cross(l->ctx, pendres_branches_get(l->branches, i), value,
+                                  MOST_CROSSINGS, l->there, &found);
+    if (status != PENDRES_OK) return status;
+    for (size_t k = 0; k < found && k < MOST_CROSSINGS; k++) pendres_label_note(s, &l->there[k]);
+  }
+  judge_amplitudes(&l->end, s, p);
+  return status;
+}
+
+/* Judge one point by all of its orbits: those that members reach, and those of the branches. */
+static pendres_status judge_branches(line *l, const pendres_response *r,
+                                     pendres_label_states *s, pendres_phase_point *p)
+{
+  *s = (pendres_label_states){.count = 0};
+  for (size_t i = 0; i < r->states && i < PENDRES_RESPONSE_STATES; i++)
+    if (r->state[i].label != PENDRES_LABEL_CHAOTIC) pendres_label_note(s, &r->state[i].orbit);
+  return look_up(l, 0, s, p);
+}
+
+/* ---- lines ---- */
+
+/* Whether two pendulums differ in nothing but the parameter of their line. */
+static int on_one_line(pendres_parameter parameter, const pendres_pendulum *p, pendres_pendulum q)
+{
+  pendres_parameter_set(parameter, pendres_parameter_get(parameter, p), &q);
+  for (int k = 0; k < PENDRES_PARAMETER_COUNT; k++)
+    if (pendres_parameter_get((pendres_parameter)k, p) !=
+        pendres_parameter_get((pendres_parameter)k, &q))
+      return 0;
+  return 1;
+}
+
+static const char *refused(size_t n, const pendres_pendulum *p, const pendres_phase_options *o)
+{
+  const pendres_ensemble *e = &o->ensemble;
+  const char *why = NULL;
+  if (!(o->spacing >= 0.0)) return "the spacing must not be negative";
+  if ((unsigned)o->parameter >= PENDRES_PARAMETER_COUNT) return "unknown parameter";
+  if (pendres_ensemble_check(e, &why) != PENDRES_OK) return why;
+  const int coefficient = (int)o->parameter - PENDRES_FORCE_COEFFICIENT_1;
+  for (size_t i = 0; i < n; i++) {
+    if (pendres_pendulum_check(&p[i], &why) != PENDRES_OK) return why;
+    if (coefficient >= pendres_model_of(p[i].force)->coefficients)
+      return "this force has no such coefficient";
+    why = pendres_response_refuses(&p[i], e);
+    if (why != NULL) return why;
+    if (!on_one_line(o->parameter, &p[0], p[i]))
+      return "the pendulums of a line differ in its parameter alone";
+    if (i > 0 && !(pendres_parameter_get(o->parameter, &p[i]) >
+                   pendres_parameter_get(o->parameter, &p[i - 1])))
+      return "the parameter of a line must ascend";
+  }
+  return NULL;
+}
+
+int pendres_phase_plain(const pendres_pendulum *p, pendres_parameter parameter)
+{
+  return pendres_model_kind(p) == PENDRES_MODEL_PLAIN && parameter <= PENDRES_DRIVE_AMPLITUDE;
+}
+
+/* Reach beyond a diagram by a tenth of its width, or of its value if there is only one. Frequencies
+   stay positive, and dampings do not become negative. */
+static void reach_beyond(pendres_parameter parameter, double first, double last, double *low,
+                         double *high)
+{
+  const double margin = 0.1 * (last > first ? last - first : fmax(fabs(first), 1.0));
+  *low = first - margin;
+  *high = last + margin;
+  if (parameter == PENDRES_DRIVE_FREQUENCY) *low = fmax(*low, 0.5 * first);
+  if (parameter == PENDRES_DAMPING) *low = fmax(*low, 0.5 * first);
+}
+
+void pendres_phase_reach(pendres_parameter parameter, int plain, double first, double last,
+                         double *low, double *high)
+{
+  if (!plain) {
+    reach_beyond(parameter, first, last, low, high);
+    return;
+  }
+  switch (parameter) {
+  case PENDRES_DRIVE_AMPLITUDE:
+    /* SA and LA part somewhere between the weakest drives and those that turn pendulums over. */
+    *low = fmin(0.5 * first, 0.01);
+    *high = fmax(1.5 * last, 0.5);
+    return;
+  case PENDRES_DAMPING:
+    /* Up as far as the cusp, wherever it is; down a little below the diagram's own. */
+    *low = fmin(0.06, 0.98 * first);
+    *high = fmax(2.0, last);
+    return;
+  default:
+    /* The fold at which SA ends lies below the frequency of small oscillations, 1. */
+    *low = fmin(0.8 * first, 0.7);
+    *high = fmax(1.1 * last, 1.1);
+  }
+}
+
+static pendres_branch_options options_of(const pendres_pendulum *first,
+                                         const pendres_pendulum *last,
+                                         const pendres_phase_options *o)
+{
+  pendres_branch_options options = {.parameter = o->parameter, .spacing = o->spacing};
+  const int plain =
+    pendres_phase_plain(first, o->parameter) && pendres_phase_plain(last, o->parameter);
+  pendres_phase_reach(o->parameter, plain, pendres_parameter_get(o->parameter, first),
+                      pendres_parameter_get(o->parameter, last), &options.low, &options.high);
+  return options;
+}
+
+/* Find the branches through the orbits of all responses; at each point, orbits with more members
+   come first. */
+static pendres_status find_branches(pendres_context *ctx, size_t n, const pendres_response *r,
+                                    const pendres_phase_options *o, pendres_branches **out)
+{
+  size_t count = 0;
+  const pendres_branch_options options = options_of(&r[0].pendulum, &r[n - 1].pendulum, o);
+  pendres_orbit *orbits = malloc((n * PENDRES_RESPONSE_STATES + 1) * sizeof *orbits);
+  if (orbits == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < r[i].states && k < PENDRES_RESPONSE_STATES; k++)
+      if (r[i].state[k].label != PENDRES_LABEL_CHAOTIC) orbits[count++] = r[i].state[k].orbit;
+  const pendres_status status = pendres_branches_find(ctx, count, orbits, &options, out);
+  free(orbits);
+  return status;
+}
+
+/* Judge all points of a line whose branches are known, from its responses. */
+static pendres_status judge_line(line *l, size_t n, const pendres_response *r,
+                                 pendres_phase_point *out)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    out[i] = (pendres_phase_point){.pendulum = r[i].pendulum};
+    pendres_label_states known;
+    status = judge_branches(l, &r[i], &known, &out[i]);
+    if (status == PENDRES_OK)
+      judge_ensemble(&l->end, &known, &l->options->ensemble, &r[i], &out[i]);
+  }
+  return status;
+}
+
+/* Compute the members of a line and judge its points by them and by its branches; those
+   are looked for if *branches is NULL. */
+static pendres_status compute_line(pendres_context *ctx, size_t n,
+                                   const pendres_pendulum *pendulums,
+                                   const pendres_phase_options *options, pendres_phase_point *out,
+                                   pendres_branches **branches)
+{
+  pendres_status status;
+  pendres_response *r = malloc(n * sizeof *r);
+  line *l = malloc(sizeof *l);
+  if (r == NULL || l == NULL) {
+    status = pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+    goto done;
+  }
+  status = pendres_response_compute(ctx, n, pendulums, &options->ensemble, r);
+  if (status == PENDRES_OK && *branches == NULL)
+    status = find_branches(ctx, n, r, options, branches);
+  if (status != PENDRES_OK) goto done;
+  *l = (line){.ctx = ctx, .options = options, .branches = *branches,
+              .end = pendres_phase_small_end(*branches)};
+  status = judge_line(l, n, r, out);
+done:
+  free(r);
+  free(l);
+  return status;
+}
+
+static pendres_status phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                 const pendres_phase_options *options, pendres_phase_point *out,
+                                 pendres_branches **branches)
+{
+  if (options == NULL || (n > 0 && (pendulums == NULL || out == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulums, options and points");
+  const char *why = refused(n, pendulums, options);
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
+  if (n == 0) return PENDRES_OK;
+  pendres_branches *found = NULL;
+  const pendres_status status = compute_line(ctx, n, pendulums, options, out, &found);
+  if (status == PENDRES_OK && branches != NULL) {
+    *branches = found;
+    found = NULL;
+  }
+  pendres_branches_free(found);
+  return status;
+}
+
+pendres_status pendres_phase_line(pendres_context *ctx, size_t n, const pendres_pendulum *pendulums,
+                                  const pendres_phase_options *options, pendres_phase_point *out,
+                                  pendres_branches **branches)
+{
+  if (branches != NULL) *branches = NULL;
+  pendres_door d;
+  pendres_phase_open(&d, ctx, options, n, n > 0 ? pendulums : NULL,
+            n > 0 && pendulums != NULL ? &pendulums[n - 1] : NULL);
+  pendulums = pendres_door_in(&d, &pendres_dim_pendulum, n, pendulums);
+  pendres_phase_options inside;
+  options = pendres_phase_options_inside(&d, options, &inside);
+  out = pendres_door_out(&d, &pendres_dim_phase_point, n, out);
+  PENDRES_DOOR_CALL(&d, phase_line(ctx, n, pendulums, options, out, branches));
+  if (branches != NULL) pendres_branches_leave(&d, *branches);
+  return pendres_door_close(&d);
+}
+
+/* ---- what neighbouring lines know ---- */
+
+/* Curves of folds and symmetry breakings at which orbits that can be SA or LA end or lose their
+   stability. */
+static int bounds_named(const pendres_curve *c)
+{
+  const pendres_special kind = pendres_curve_kind(c);
+  return (kind == PENDRES_FOLD || kind == PENDRES_SYMMETRY_BREAKING) &&
+         pendres_curve_count(c) > 0 && pendres_phase_on_sheets(&pendres_curve_get(c, 0)->orbit);
+}
+
+int pendres_phase_beyond(pendres_parameter across, double value, double cusp)
+{
+  if (across > PENDRES_DRIVE_AMPLITUDE) return 0;
+  return across == PENDRES_DRIVE_AMPLITUDE ? !(value > cusp) : !(value < cusp);
+}
+
+/* Beyond all cusps no small orbit ends, whatever folds there are. */
+static int beyond_cusps(const pendres_curves *curves, const pendres_pendulum *p)
+{
+  size_t cusps = 0;
+  for (size_t i = 0; i < pendres_curves_count(curves); i++) {
+    const pendres_curve *c = pendres_curves_get(curves, i);
+    for (size_t k = 0; bounds_named(c) && k < pendres_curve_cusps(c); k++, cusps++) {
+      const pendres_cusp *cusp = pendres_curve_cusp(c, k);
+      const pendres_parameter across = cusp->parameter[1];
+      if (!pendres_phase_beyond(across, pendres_parameter_get(across, p), cusp->value[1])) return 0;
+    }
+  }
+  return cusps > 0;
+}
+
+/* Add the branches through all points at which a curve crosses the line. */
+static pendres_status add_crossed(pendres_context *ctx, const pendres_curve *curve,
+                                  const pendres_pendulum *of_line,
+                                  const pendres_branch_options *options,
+                                  pendres_branches *branches)
+{
+  size_t found = 0;
+  const pendres_parameter across = pendres_curve_parameter(curve, 1);
+  pendres_bifurcation *at = malloc(MOST_CROSSINGS * sizeof *at);
+  if (at == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for bifurcations");
+  pendres_status status = pendres_curve_cross(ctx, curve, pendres_parameter_get(across, of_line),
+                                              MOST_CROSSINGS, at, &found);
+  if (found > MOST_CROSSINGS) found = MOST_CROSSINGS;
+  for (size_t i = 0; i < found && status == PENDRES_OK; i++)
+    if (at[i].parameter != options->parameter ||
+        !on_one_line(options->parameter, of_line, at[i].orbit.pendulum))
+      status = pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                    "phase diagram: the curves are not of the line's parameter, or "
+                                    "not of its pendulums");
+  if (status == PENDRES_OK) status = pendres_branches_extend(ctx, found, at, options, branches);
+  free(at);
+  return status;
+}
+
+/* The states that a point has been found to have, but for one without a name. */
+static pendres_label_states states_of(const pendres_phase_point *p)
+{
+  pendres_label_states s = {.count = 0};
+  pendres_orbit orbit = {.stable = 1, .period = 1};
+  const double amplitude[2] = {p->sa_amplitude, p->la_amplitude};
+  const double error[2] = {p->sa_amplitude_error, p->la_amplitude_error};
+  for (int i = 0; i < 2; i++) {
+    orbit.amplitude = amplitude[i];
+    orbit.amplitude_error = error[i];
+    if (!isnan(amplitude[i])) pendres_label_note(&s, &orbit);
+  }
+  return s;
+}
+
+/* Judge all points again, now that there are branches from number `first` on. */
+static pendres_status judge_again(line *l, size_t n, size_t first,
+                                  pendres_phase_point *points)
+{
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_label_states known = states_of(&points[i]);
+    /* Where there is one state without a name, nothing is missing. */
+    if (points[i].exact != PENDRES_REGIME_SINGLE) status = look_up(l, first, &known, &points[i]);
+  }
+  return status;
+}
+
+/* Judge all points anew, since the fold at which SA ends has become known. */
+static pendres_status compute_again(const line *l, size_t n, pendres_phase_point *points,
+                                    pendres_branches *branches)
+{
+  pendres_pendulum *p = malloc(n * sizeof *p);
+  if (p == NULL)
+    return pendres_context_fail(l->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu points", n);
+  for (size_t i = 0; i < n; i++) p[i] = points[i].pendulum;
+  const pendres_status status = compute_line(l->ctx, n, p, l->options, points, &branches);
+  free(p);
+  return status;
+}
+
+static pendres_status judge_by_curves(line *l, size_t n, const pendres_curves *curves,
+                                      pendres_phase_point *points, pendres_branches *branches)
+{
+  pendres_status status = PENDRES_OK;
+  const size_t first = pendres_branches_count(branches);
+  /* What the points were judged by: without that fold, those with one state have no names. */
+  pendres_small_end before = pendres_phase_small_end(branches);
+  for (size_t i = 0; i < n; i++)
+    if (isnan(points[i].sa_fraction)) before = (pendres_small_end){.known = 0};
+  const pendres_branch_options options =
+    options_of(&points[0].pendulum, &points[n - 1].pendulum, l->options);
+  for (size_t i = 0; i < pendres_curves_count(curves) && status == PENDRES_OK; i++) {
+    const pendres_curve *c = pendres_curves_get(curves, i);
+    if (bounds_named(c)) status = add_crossed(l->ctx, c, &points[0].pendulum, &options, branches);
+  }
+  if (status != PENDRES_OK || pendres_branches_count(branches) == first) return status;
+  l->end = beyond_cusps(curves, &points[0].pendulum) ? before : pendres_phase_small_end(branches);
+  if (l->end.known != before.known || l->end.value != before.value)
+    return compute_again(l, n, points, branches);
+  return judge_again(l, n, first, points);
+}
+
+static pendres_status phase_line_complete(pendres_context *ctx, size_t n,
+                                          const pendres_curves *curves,
+                                          const pendres_phase_options *options,
+                                          pendres_phase_point *points, pendres_branches *branches)
+{
+  if (options == NULL || (n > 0 && (points == NULL || branches == NULL)))
+    return PENDRES_CONTEXT_NULL(ctx, "options, points and branches");
+  if (n == 0) return PENDRES_OK;
+  for (size_t i = 0; i < n; i++) {
+    const char *why = refused(1, &points[i].pendulum, options);
+    if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "%s", why);
+  }
+  line *l = malloc(sizeof *l);
+  if (l == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for orbits");
+  *l = (line){.ctx = ctx, .options = options, .branches = branches};
+  const pendres_status status = judge_by_curves(l, n, curves, points, branches);
+  free(l);
+  return status;
+}
+
+pendres_status pendres_phase_line_complete(pendres_context *ctx, size_t n,
+                                           const pendres_curves *curves,
+                                           const pendres_phase_options *options,
+                                           pendres_phase_point *points,
+                                           pendres_branches *branches)
+{
+  pendres_door d;
+  pendres_phase_open(&d, ctx, options, n, n > 0 && points != NULL ? &points[0].pendulum : NULL,
+            n > 0 && points != NULL ? &points[n - 1].pendulum : NULL);
+  pendres_phase_options inside;
+  curves = pendres_curves_inside(&d, curves);
+  options = pendres_phase_options_inside(&d, options, &inside);
+  points = pendres_door_out(&d, &pendres_dim_phase_point, n, points);
+  if (d.status == PENDRES_OK) {
+    pendres_branches_enter(&d, branches);
+    PENDRES_DOOR_CALL(&d, phase_line_complete(ctx, n, curves, options, points, branches));
+    pendres_branches_leave(&d, branches);
+  }
+  return pendres_door_close(&d);
+}

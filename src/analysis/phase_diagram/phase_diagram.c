@@ -1,0 +1,392 @@
+/* phase_diagram.c -- whole phase diagrams: lines and curves; see phase_diagram.h. */
+#include "analysis/phase_diagram/internal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "engine/context_internal.h"
+#include "analysis/phase_diagram/line.h"
+
+const char *pendres_regime_name(pendres_regime regime)
+{
+  static const char *const names[PENDRES_REGIME_COUNT] = {
+#define REGIME_NAME(code, name) name,
+    PENDRES_REGIME_LIST(REGIME_NAME)
+#undef REGIME_NAME
+  };
+  return (unsigned)regime < PENDRES_REGIME_COUNT ? names[regime] : NULL;
+}
+
+const char *pendres_other_name(pendres_other bit)
+{
+  switch (bit) {
+  case PENDRES_OTHER_ASYMMETRIC: return "asymmetric";
+  case PENDRES_OTHER_PERIODIC: return "periodic";
+  case PENDRES_OTHER_RUNNING: return "running";
+  case PENDRES_OTHER_CHAOTIC: return "chaotic";
+  case PENDRES_OTHER_UNRESOLVED: return "unresolved";
+  default: return NULL;
+  }
+}
+
+/* ---- diagrams and marks ---- */
+
+static int ascends(size_t n, const double *value)
+{
+  for (size_t i = 1; i < n; i++)
+    if (!(value[i] > value[i - 1])) return 0;
+  return 1;
+}
+
+/* NULL, or what is wrong with a grid. What is wrong with a single point is found when it is
+   computed. */
+static const char *refused(const pendres_phase_grid *g)
+{
+  const pendres_parameter along = g->options.parameter;
+  if ((unsigned)along >= PENDRES_PARAMETER_COUNT) return "lines go along a parameter";
+  if ((unsigned)g->across >= PENDRES_PARAMETER_COUNT || g->across == along)
+    return "lines differ in another parameter than changes along them";
+  if (g->values == 0 || g->lines == 0 || g->value == NULL || g->line_value == NULL)
+    return "a diagram needs values of both its parameters";
+  if (g->lines > (size_t)-1 / 1024 / g->values) return "a diagram has too many points";
+  return ascends(g->values, g->value) && ascends(g->lines, g->line_value)
+           ? NULL
+           : "the values of a diagram's parameters must ascend";
+}
+
+void pendres_phase_diagram_free(pendres_phase_diagram *d)
+{
+  if (d == NULL) return;
+  for (size_t i = 0; d->line != NULL &&
+       i < d->grid.lines; i++) pendres_phase_done_free(&d->line[i]);
+  free(d->line);
+  free(d->first);
+  pendres_phase_curves_free(d);
+  free(d);
+}
+
+pendres_status pendres_phase_diagram_create(const pendres_phase_grid *grid,
+                                            pendres_phase_diagram **out)
+{
+  if (out != NULL) *out = NULL;
+  if (grid == NULL || out == NULL || refused(grid) != NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_phase_diagram *d = calloc(1, sizeof *d);
+  if (d == NULL) return PENDRES_OUT_OF_MEMORY;
+  d->grid = *grid;
+  d->nothing = (pendres_phase_point){
+    .regime = PENDRES_REGIME_OTHER, .exact = PENDRES_REGIME_OTHER,
+    .other = PENDRES_OTHER_UNRESOLVED, .unresolved = grid->options.ensemble.members,
+    .sa_fraction = NAN, .sa_fraction_error = NAN, .la_fraction = NAN, .la_fraction_error = NAN,
+    .mean_loop_area = NAN, .mean_loop_area_error = NAN, .mean_loop_amplitude = NAN,
+    .mean_loop_amplitude_error = NAN, .sa_amplitude = NAN, .sa_amplitude_error = NAN,
+    .la_amplitude = NAN, .la_amplitude_error = NAN, .weakest_multiplier = NAN};
+  d->line = calloc(grid->lines, sizeof *d->line);
+  d->first = calloc(grid->lines + 1, sizeof *d->first);
+  pendres_status status =
+    d->line == NULL || d->first == NULL ? PENDRES_OUT_OF_MEMORY : PENDRES_OK;
+  for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++)
+    status = pendres_phase_done_create(grid->values, &d->line[i]);
+  if (status != PENDRES_OK) pendres_phase_diagram_free(d);
+  else *out = d;
+  return status;
+}
+
+pendres_status pendres_phase_diagram_leave_out(pendres_phase_diagram *d, size_t point)
+{
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return PENDRES_INVALID_ARGUMENT;
+  d->line[point / d->grid.values].mark[point % d->grid.values].outcome = PENDRES_UNSUPPORTED;
+  return PENDRES_OK;
+}
+
+int pendres_phase_is_own(pendres_status status)
+{
+  switch (status) {
+  case PENDRES_INVALID_ARGUMENT:
+  case PENDRES_INTEGRATION_FAILED:
+  case PENDRES_TOLERANCE_UNREACHABLE:
+  case PENDRES_NOT_CONVERGED:
+  case PENDRES_NOT_FOUND:
+  case PENDRES_UNRESOLVED: return 1;
+  default: return 0;
+  }
+}
+
+/* Keep a failure that concerns one point or line, with the context's message on it; return any
+   other. */
+static pendres_status keep(const pendres_context *ctx, pendres_status status,
+                           pendres_phase_mark *m)
+{
+  if (!pendres_phase_is_own(status)) return status;
+  return pendres_phase_mark_set(m, status, pendres_context_message(ctx));
+}
+
+/* ---- a line ---- */
+
+static pendres_pendulum pendulum_of(const pendres_phase_grid *g, size_t line, size_t k)
+{
+  pendres_pendulum p = g->pendulum;
+  pendres_parameter_set(g->across, g->line_value[line], &p);
+  pendres_parameter_set(g->options.parameter, g->value[k], &p);
+  return p;
+}
+
+static pendres_status try_line(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                               pendres_phase_done *l)
+{
+  pendres_pendulum *p = malloc((g->values + 1) * sizeof *p);
+  pendres_branches_free(l->branches);
+  l->branches = NULL;
+  if (p == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for pendulums");
+  for (size_t k = 0; k < g->values; k++)
+    if (l->place[k] != PENDRES_PHASE_NOWHERE) p[l->place[k]] = pendulum_of(g, line, k);
+  const pendres_status status =
+    pendres_phase_line(ctx, l->count, p, &g->options, l->points, &l->branches);
+  free(p);
+  return status;
+}
+
+/* Find out which of a line's points can be computed at all, and mark the others. That is costly,
+   and done only where a line has failed. */
+static pendres_status sort_out(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                               pendres_phase_done *l)
+{
+  l->count = 0;
+  for (size_t k = 0; k < g->values; k++) {
+    if (l->place[k] == PENDRES_PHASE_NOWHERE) continue;
+    const pendres_pendulum p = pendulum_of(g, line, k);
+    pendres_response r;
+    const pendres_status status = pendres_response_compute(ctx, 1, &p, &g->options.ensemble, &r);
+    l->place[k] = status == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
+    const pendres_status rest = keep(ctx, status, &l->mark[k]);
+    if (rest != PENDRES_OK) return rest;
+  }
+  return PENDRES_OK;
+}
+
+/* Mark all points of a line that have results, which they keep. */
+static pendres_status mark_line(pendres_context *ctx, pendres_status status, pendres_phase_done *l)
+{
+  pendres_status rest = status;
+  for (size_t k = 0; k < l->values; k++)
+    if (l->place[k] != PENDRES_PHASE_NOWHERE) rest = keep(ctx, status, &l->mark[k]);
+  return rest;
+}
+
+static pendres_status fill_line(pendres_context *ctx, const pendres_phase_grid *g, size_t line,
+                                pendres_phase_done *l)
+{
+  l->count = 0;
+  for (size_t k = 0; k < l->values; k++)
+    l->place[k] = l->mark[k].outcome == PENDRES_OK ? l->count++ : PENDRES_PHASE_NOWHERE;
+  pendres_status status = try_line(ctx, g, line, l);
+  if (!pendres_phase_is_own(status)) return status;
+  status = sort_out(ctx, g, line, l);
+  if (status != PENDRES_OK) return status;
+  status = try_line(ctx, g, line, l);
+  if (!pendres_phase_is_own(status)) return status;
+  status = mark_line(ctx, status, l);
+  for (size_t k = 0; k < l->values; k++) l->place[k] = PENDRES_PHASE_NOWHERE;
+  l->count = 0;
+  return status;
+}
+
+/* Complete a line by what the curves tell of it; where that fails its points stay as they were. */
+static pendres_status complete(pendres_context *ctx, const pendres_phase_diagram *d,
+                               const pendres_phase_done *before, pendres_phase_done *l)
+{
+  if (l->count == 0) return PENDRES_OK;
+  const pendres_status status = pendres_phase_line_complete(
+    ctx, l->count, d->curves, &d->grid.options, l->points, l->branches);
+  if (!pendres_phase_is_own(status)) return status;
+  memcpy(l->points, before->points, l->count * sizeof *l->points);
+  return mark_line(ctx, status, l);
+}
+
+/* A line's record: computed from nothing, or completed by the curves. */
+static pendres_status record_line(pendres_context *ctx, const pendres_phase_diagram *d, size_t line,
+                                  int by_curves, pendres_phase_record **out)
+{
+  if (out != NULL) *out = NULL;
+  if (d == NULL || out == NULL || line >= d->grid.lines)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT,
+                                "phase diagram: no diagram, no such line, or no place for it");
+  pendres_phase_done l;
+  pendres_status status = pendres_phase_done_copy(&d->line[line], &l);
+  if (status == PENDRES_OK)
+    status = by_curves ? complete(ctx, d, &d->line[line], &l) : fill_line(ctx, &d->grid, line, &l);
+  if (status == PENDRES_OK) status = pendres_phase_done_pack(&l, out);
+  pendres_phase_done_free(&l);
+  return status;
+}
+
+pendres_status pendres_phase_diagram_compute_line(pendres_context *ctx,
+                                                  const pendres_phase_diagram *d, size_t line,
+                                                  pendres_phase_record **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 0, out));
+}
+
+pendres_status pendres_phase_diagram_complete_line(pendres_context *ctx,
+                                                   const pendres_phase_diagram *d, size_t line,
+                                                   pendres_phase_record **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, record_line(ctx, d, line, 1, out));
+}
+
+pendres_status pendres_phase_diagram_take_line(pendres_phase_diagram *d, size_t line, size_t size,
+                                               const void *bytes)
+{
+  if (d == NULL || line >= d->grid.lines || bytes == NULL) return PENDRES_INVALID_ARGUMENT;
+  pendres_phase_done l;
+  const pendres_status status = pendres_phase_done_unpack(d->grid.values, size, bytes, &l);
+  if (status != PENDRES_OK) return status;
+  pendres_phase_done_free(&d->line[line]);
+  d->line[line] = l;
+  return PENDRES_OK;
+}
+
+/* ---- all of it ---- */
+
+static pendres_status do_line(pendres_context *ctx, pendres_phase_diagram *d, size_t line,
+                              int by_curves)
+{
+  pendres_phase_record *r = NULL;
+  pendres_status status = record_line(ctx, d, line, by_curves, &r);
+  if (status == PENDRES_OK) {
+    const void *bytes = pendres_phase_record_bytes(r);
+    status = pendres_phase_diagram_take_line(d, line, pendres_phase_record_size(r), bytes);
+  }
+  pendres_phase_record_free(r);
+  return status;
+}
+
+static pendres_status do_family(pendres_context *ctx, pendres_phase_diagram *d, size_t family)
+{
+  pendres_phase_record *r = NULL;
+  pendres_status status = pendres_phase_diagram_follow_family(ctx, d, family, &r);
+  if (status == PENDRES_OK) {
+    const void *bytes = pendres_phase_record_bytes(r);
+    status = pendres_phase_diagram_take_family(d, family, pendres_phase_record_size(r), bytes);
+  }
+  pendres_phase_record_free(r);
+  return status;
+}
+
+/* Curves, and the lines that they complete, until they tell nothing more. */
+static pendres_status do_curves(pendres_context *ctx, pendres_phase_diagram *d)
+{
+  size_t families = 1;
+  pendres_status status = PENDRES_OK;
+  while (families > 0 && status == PENDRES_OK) {
+    status = pendres_phase_diagram_find_families(d, &families);
+    for (size_t i = 0; i < families && status == PENDRES_OK; i++) status = do_family(ctx, d, i);
+    for (size_t i = 0; i < d->grid.lines && families > 0 && status == PENDRES_OK; i++)
+      status = do_line(ctx, d, i, 1);
+  }
+  return status;
+}
+
+static pendres_status compute(pendres_context *ctx, const pendres_phase_grid *grid,
+                              pendres_phase_diagram **out)
+{
+  if (out != NULL) *out = NULL;
+  if (grid == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "grid and out");
+  const char *why = refused(grid);
+  if (why != NULL)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "phase diagram: %s", why);
+  pendres_phase_diagram *d = NULL;
+  pendres_status status = pendres_phase_diagram_create(grid, &d);
+  if (status != PENDRES_OK)
+    return pendres_context_fail(ctx, status, "out of memory for a phase diagram");
+  for (size_t i = 0; i < grid->lines && status == PENDRES_OK; i++) status = do_line(ctx, d, i, 0);
+  if (status == PENDRES_OK) status = do_curves(ctx, d);
+  if (status != PENDRES_OK) pendres_phase_diagram_free(d);
+  else *out = d;
+  return status;
+}
+
+pendres_status pendres_phase_diagram_compute(pendres_context *ctx, const pendres_phase_grid *grid,
+                                             pendres_phase_diagram **out)
+{
+  return PENDRES_CONTEXT_CALL(ctx, compute(ctx, grid, out));
+}
+
+/* ---- results ---- */
+
+const pendres_phase_point *pendres_phase_diagram_point(const pendres_phase_diagram *d, size_t point)
+{
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return NULL;
+  const pendres_phase_done *l = &d->line[point / d->grid.values];
+  const size_t place = l->place[point % d->grid.values];
+  return place != PENDRES_PHASE_NOWHERE ? &l->points[place] : &d->nothing;
+}
+
+static pendres_status outcome_of(const pendres_phase_mark *m, const char **message)
+{
+  if (message != NULL) *message = m->message;
+  return m->outcome;
+}
+
+pendres_status pendres_phase_diagram_outcome(const pendres_phase_diagram *d, size_t point,
+                                             const char **message)
+{
+  if (message != NULL) *message = NULL;
+  if (d == NULL || point >= d->grid.lines * d->grid.values) return PENDRES_INVALID_ARGUMENT;
+  return outcome_of(&d->line[point / d->grid.values].mark[point % d->grid.values], message);
+}
+
+const pendres_branches *pendres_phase_diagram_branches(const pendres_phase_diagram *d, size_t line)
+{
+  return d != NULL && line < d->grid.lines ? d->line[line].branches : NULL;
+}
+
+const pendres_curves *pendres_phase_diagram_curves(const pendres_phase_diagram *d)
+{
+  return d != NULL ? d->curves : NULL;
+}
+
+pendres_status pendres_phase_diagram_curves_outcome(const pendres_phase_diagram *d,
+                                                    const char **message)
+{
+  if (message != NULL) *message = NULL;
+  return d != NULL ? outcome_of(&d->curves_mark, message) : PENDRES_INVALID_ARGUMENT;
+}
+
+const pendres_bifurcation *pendres_phase_diagram_bifurcations(const pendres_phase_diagram *d,
+                                                              size_t *n)
+{
+  if (n != NULL) *n = d != NULL ? d->bifurcations : 0;
+  return d != NULL ? d->bifurcation : NULL;
+}
+
+const pendres_cusp *pendres_phase_diagram_cusp(const pendres_phase_diagram *d)
+{
+  return d != NULL && d->has_cusp ? &d->cusp : NULL;
+}
+
+pendres_label pendres_phase_diagram_ending(const pendres_phase_diagram *d, const pendres_orbit *o,
+                                           double curvature)
+{
+  if (d == NULL || o == NULL || !pendres_phase_on_sheets(o)) return PENDRES_LABEL_PERIODIC;
+  const int small = d->has_cusp ? o->amplitude < d->cusp.orbit.amplitude
+                                : (d->falling ? -curvature : curvature) < 0.0;
+  return small ? PENDRES_LABEL_SA : PENDRES_LABEL_LA;
+}
+
+const pendres_bifurcation *pendres_phase_diagram_fold(const pendres_phase_diagram *d, size_t line,
+                                                      pendres_label state)
+{
+  const pendres_bifurcation *best = NULL;
+  if (d == NULL || line >= d->grid.lines) return NULL;
+  for (size_t i = d->first[line]; i < d->first[line + 1]; i++) {
+    const pendres_bifurcation *b = &d->bifurcation[i];
+    if (b->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&b->orbit)) continue;
+    const double way = d->falling ? -1.0 : 1.0;
+    if ((way * b->curvature > 0.0) != (state == PENDRES_LABEL_LA)) continue;
+    /* If there are several on a line, the one next to the cusp is taken. */
+    if (best == NULL || way * b->value > way * best->value) best = b;
+  }
+  return best;
+}

@@ -1,0 +1,77 @@
+/* small.c -- the fold that tells SA from LA along a line; see line.h. */
+#include "analysis/phase_diagram/line.h"
+
+#include "model/model.h"
+
+/* Orbits on the sheets that fold over each other, whatever their stability. */
+int pendres_phase_on_sheets(const pendres_orbit *o)
+{
+  return pendres_label_named(o) && (o->symmetric || !pendres_pendulum_symmetric(&o->pendulum));
+}
+
+/* Whether it is the small state that ends at a fold, which is so if the unstable orbit that it
+   meets is the larger one, for any force and whichever way the resonance bends. point: the fold's
+   place on its branch. */
+static int ends_small(const pendres_branch *branch, size_t point)
+{
+  if (point == 0 || point + 1 >= pendres_branch_count(branch)) return 0;
+  const pendres_orbit *before = &pendres_branch_get(branch, point - 1)->orbit;
+  const pendres_orbit *behind = &pendres_branch_get(branch, point + 1)->orbit;
+  if (before->stable == behind->stable) return 0;
+  return before->stable ? behind->amplitude > before->amplitude
+                        : before->amplitude > behind->amplitude;
+}
+
+/* Find the fold of the largest amplitude at which the small state ends: that of the main
+   resonance. */
+static pendres_small_end find_any_small_end(const pendres_branches *branches)
+{
+  pendres_small_end end = {.known = 0};
+  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
+    const pendres_branch *branch = pendres_branches_get(branches, i);
+    for (size_t k = 0; k < pendres_branch_count(branch); k++) {
+      const pendres_branch_point *p = pendres_branch_get(branch, k);
+      if (p->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&p->orbit)) continue;
+      const pendres_bifurcation *f =
+        pendres_branch_bifurcation(branch, (size_t)p->bifurcation);
+      if (!ends_small(branch, k) || (end.known && f->orbit.amplitude <= end.amplitude)) continue;
+      end = (pendres_small_end){.known = 1,
+                                .parameter = f->parameter,
+                                .value = f->value,
+                                .amplitude = f->orbit.amplitude,
+                                .falling = f->curvature > 0.0};
+    }
+  }
+  return end;
+}
+
+/* For the plain pendulum, whose resonance bends to lower frequencies: find the fold of the smallest
+   amplitude among those below whose parameter two orbits exist. */
+static pendres_small_end find_plain_small_end(const pendres_branches *branches)
+{
+  pendres_small_end end = {.known = 0};
+  for (size_t i = 0; i < pendres_branches_count(branches); i++) {
+    const pendres_branch *branch = pendres_branches_get(branches, i);
+    for (size_t k = 0; k < pendres_branch_bifurcations(branch); k++) {
+      const pendres_bifurcation *f = pendres_branch_bifurcation(branch, k);
+      if (f->kind != PENDRES_FOLD || !pendres_phase_on_sheets(&f->orbit) ||
+          !(f->curvature < 0.0))
+        continue;
+      if (end.known && f->orbit.amplitude >= end.amplitude) continue;
+      end = (pendres_small_end){.known = 1,
+                                .parameter = f->parameter,
+                                .value = f->value,
+                                .amplitude = f->orbit.amplitude};
+    }
+  }
+  return end;
+}
+
+pendres_small_end pendres_phase_small_end(const pendres_branches *branches)
+{
+  const pendres_branch_point *p =
+    pendres_branch_get(pendres_branches_get(branches, 0), 0);
+  return p == NULL || pendres_model_kind(&p->orbit.pendulum) == PENDRES_MODEL_PLAIN
+           ? find_plain_small_end(branches)
+           : find_any_small_end(branches);
+}

@@ -1,0 +1,277 @@
+/* gap.c -- what may happen between two frequencies of a search; see gap.h. */
+#include "analysis/resonance/gap.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/model.h"
+#include "orbits/catalogue.h"
+
+enum { MOST_FAMILIES = 2 * PENDRES_RESPONSE_STATES };
+
+/* A state at one or both ends of a gap. */
+typedef struct family {
+  double area[2], slope[2];
+  double residual; /* how far its area may be from what the values and slopes at the ends say */
+  double middle;   /* its area in between, to compare it with others */
+} family;
+
+/* The states of a gap, and where those of its ends are among them. */
+typedef struct families {
+  size_t count;
+  family of[MOST_FAMILIES];
+  int at[2][PENDRES_RESPONSE_STATES];
+} families;
+
+/*
+ * Whether an orbit goes on from one frequency to the next: its Poincaré point has moved as the
+ * slopes at both ends say. On a branch that bends sharply it has not, and the gap is looked into.
+ * At a bifurcation there is no slope: states that branch off there go as the root of the distance,
+ * twice as far as the slope at the other end says.
+ */
+static int goes_on(const pendres_orbit *a, const pendres_orbit *b)
+{
+  const double step = b->pendulum.drive_frequency - a->pendulum.drive_frequency;
+  double by[2];
+  for (int k = 0; k < 2; k++) {
+    const double p = a->frequency_derivative[k], q = b->frequency_derivative[k];
+    by[k] = isnan(p) ? 2.0 * q : isnan(q) ? 2.0 * p : 0.5 * (p + q);
+  }
+  const double dx = step * by[0], dv = step * by[1];
+  const pendres_pendulum *p = &a->pendulum;
+  const double off = pendres_model_distance(p, b->x - a->x - dx, b->v - a->v - dv);
+  return a->period == b->period && a->winding == b->winding &&
+         off <= 0.05 + 0.25 * pendres_model_distance(p, dx, dv);
+}
+
+/* Chaos at both ends is taken for one attractor when its areas agree within their errors. */
+static int chaos_goes_on(const pendres_attractor *a, const pendres_attractor *b)
+{
+  return a->label == PENDRES_LABEL_CHAOTIC && b->label == PENDRES_LABEL_CHAOTIC &&
+         fabs(a->orbit.loop_area - b->orbit.loop_area) <=
+           3.0 * (a->orbit.loop_area_error + b->orbit.loop_area_error);
+}
+
+static family both_ends(const pendres_attractor *a, const pendres_attractor *b, double width)
+{
+  const pendres_orbit *p = &a->orbit, *q = &b->orbit;
+  family f = {.area = {p->loop_area, q->loop_area},
+              .slope = {p->loop_area_slope, q->loop_area_slope}};
+  if (a->label == PENDRES_LABEL_CHAOTIC) f.slope[0] = f.slope[1] = 0.0;
+  /* A slope that is not known is that of a parabola. */
+  for (int e = 0; e < 2; e++)
+    if (isnan(f.slope[e])) f.slope[e] = 2.0 * (f.area[1] - f.area[0]) / width - f.slope[1 - e];
+  f.residual = fabs(f.area[1] - f.area[0] - 0.5 * width * (f.slope[0] + f.slope[1]));
+  if (a->label == PENDRES_LABEL_CHAOTIC)
+    f.residual = 3.0 * (p->loop_area_error + q->loop_area_error);
+  f.middle = 0.5 * (f.area[0] + f.area[1]);
+  return f;
+}
+
+/*
+ * A state that is known at one end only. It is taken to grow as its slope says, and never to
+ * shrink; but by no more than a quarter, as the slope may be steep next to a fold.
+ */
+static family one_end(const pendres_orbit *o, int end, double width)
+{
+  family f = {.area = {o->loop_area, o->loop_area}};
+  const double most = 0.25 * fabs(o->loop_area);
+  double grown = most;
+  if (isfinite(o->loop_area_slope)) {
+    grown = fmin(fmax((end == 0 ? width : -width) * o->loop_area_slope, 0.0), most);
+    f.residual = fmin(0.25 * width * fabs(o->loop_area_slope), most);
+  }
+  f.area[1 - end] += grown;
+  f.slope[0] = f.slope[1] = (f.area[1] - f.area[0]) / width;
+  f.middle = 0.5 * (f.area[0] + f.area[1]);
+  return f;
+}
+
+/* A state whose mirror image comes before it in the list is that image: areas are the same. */
+static int image_of(const pendres_response *r, size_t i)
+{
+  if (!pendres_pendulum_symmetric(&r->pendulum)) return -1;
+  for (size_t k = 0; k < i; k++)
+    if (pendres_catalogue_are_images(&r->state[k].orbit, &r->state[i].orbit)) return (int)k;
+  return -1;
+}
+
+/* Have mirror images count as one state. */
+static void merge_images(const pendres_response *const of[2], families *all)
+{
+  for (int e = 0; e < 2; e++)
+    for (size_t i = 0; i < of[e]->states; i++) {
+      const int image = image_of(of[e], i);
+      if (image >= 0) all->at[e][i] = all->at[e][image];
+    }
+}
+
+/* The states of both ends; 1 if one with members is at one end only. */
+static int find_families(const pendres_response *a, const pendres_response *b, double width,
+                         families *all)
+{
+  int taken[PENDRES_RESPONSE_STATES] = {0}, alone = 0;
+  all->count = 0;
+  for (size_t i = 0; i < a->states; i++) {
+    int match = -1;
+    for (size_t j = 0; j < b->states && match < 0; j++)
+      if (!taken[j] && (goes_on(&a->state[i].orbit, &b->state[j].orbit) ||
+                        chaos_goes_on(&a->state[i], &b->state[j])))
+        match = (int)j;
+    if (match >= 0) {
+      taken[match] = 1;
+      all->at[1][match] = (int)all->count;
+      all->of[all->count] = both_ends(&a->state[i], &b->state[match], width);
+    } else {
+      alone = 1;
+      all->of[all->count] = one_end(&a->state[i].orbit, 0, width);
+    }
+    all->at[0][i] = (int)all->count++;
+  }
+  for (size_t j = 0; j < b->states; j++) {
+    if (taken[j]) continue;
+    alone = 1;
+    all->at[1][j] = (int)all->count;
+    all->of[all->count++] = one_end(&b->state[j].orbit, 1, width);
+  }
+  merge_images((const pendres_response *const[2]){a, b}, all);
+  for (size_t i = 0; i < all->count; i++)
+    if (!isfinite(all->of[i].middle)) all->of[i] = (family){.middle = -INFINITY};
+  return alone;
+}
+
+/* The family that member k is on at an end; -1: not known. */
+static int family_at(const families *all, const pendres_scan_point *p, int end, size_t k)
+{
+  const int state = p->where != NULL ? p->where[k] : -1;
+  const int f = state < 0 ? -1 : all->at[end][state];
+  return f < 0 || !isfinite(all->of[f].middle) ? -1 : f;
+}
+
+static int larger_of(const families *all, int f, int g)
+{
+  if (f < 0 || g < 0) return -1;
+  return all->of[g].middle > all->of[f].middle ? g : f;
+}
+
+/* A mean area at both ends with its slopes. */
+typedef struct curve {
+  double area[2], slope[2], residual;
+} curve;
+
+/* The largest value between the ends of a curve. */
+static double largest_between(const curve *c, double width)
+{
+  const double ends = fmax(c->area[0], c->area[1]), rise = c->area[1] - c->area[0];
+  const double a = c->slope[0], b = c->slope[1];
+  if (a > 0.0 && b < 0.0) {
+    const double t = (rise - b * width) / (a - b);
+    return t > 0.0 && t < width ? fmax(ends, c->area[0] + a * t) + c->residual
+                                : ends + c->residual;
+  }
+  /* Slopes of one sign, and none too steep for a cubic through both ends to be monotone: Fritsch
+     and Carlson, SIAM J. Numer. Anal. 17 (1980) 238. */
+  if (a * rise >= 0.0 && b * rise >= 0.0 && fabs(a * width) <= 3.0 * fabs(rise) &&
+      fabs(b * width) <= 3.0 * fabs(rise))
+    return ends;
+  if (a <= 0.0 && b >= 0.0 && c->residual <= 0.2 * width * (b - a)) return ends;
+  return ends + c->residual;
+}
+
+/* On whose states a member may be: its own; those of the members beside it, too, if these change
+   theirs; or in any case. */
+typedef enum reach { OWN, MOVED, BESIDE } reach;
+
+/* What the members do in a gap. */
+typedef struct census {
+  size_t on[MOST_FAMILIES]; /* each on the largest state that it may be on */
+  size_t unknown;
+  int up, down, loose;
+} census;
+
+/*
+ * Each member is on one of the two states that it is on at the ends. In a wide gap it may also be
+ * on a state of the members beside it, since a basin's boundary may have come by and gone back; in
+ * one that is not so wide, only where the boundary has moved. The members at a fold's own point,
+ * which lies on the far side of the jump, say nothing about the gap.
+ */
+static void count_members(const families *all, const pendres_scan_point *const end[2], reach far,
+                          const int asked[2], size_t members, census *c)
+{
+  const int wide = far != OWN;
+  *c = (census){.up = 0};
+  for (size_t k = 0; k < members; k++) {
+    int largest = -2, stays = -2, own[2];
+    for (int e = 0; e < 2; e++) {
+      own[e] = family_at(all, end[e], e, k);
+      if (!asked[e]) continue;
+      stays = stays == -2 ? own[e] : larger_of(all, stays, own[e]);
+      for (size_t j = wide && k > 0 ? k - 1 : k; j <= k + (size_t)wide && j < members; j++) {
+        const int f = family_at(all, end[e], e, j);
+        if (far == MOVED && j != k && f == family_at(all, end[1 - e], 1 - e, j)) continue;
+        largest = largest == -2 ? f : larger_of(all, largest, f);
+      }
+    }
+    if (own[0] != own[1]) {
+      const int most = larger_of(all, own[0], own[1]);
+      if (most < 0 || most != own[0]) c->up = 1;
+      if (most < 0 || most != own[1]) c->down = 1;
+    }
+    c->loose |= largest != stays;
+    if (largest < 0)
+      c->unknown++;
+    else
+      c->on[largest]++;
+  }
+}
+
+static double bound_of(const families *all, const census *c, size_t members, double width)
+{
+  curve mean = {.residual = 0.0};
+  int top = 0;
+  for (size_t i = 1; i < all->count; i++)
+    if (all->of[i].middle > all->of[top].middle) top = (int)i;
+  for (size_t i = 0; i < all->count; i++) {
+    const family *f = &all->of[i];
+    /* Members of which nothing is known may be on the largest state. */
+    const size_t on = c->on[i] + ((int)i == top ? c->unknown : 0);
+    const double share = (double)on / (double)members;
+    if (on == 0) continue;
+    for (int e = 0; e < 2; e++) {
+      mean.area[e] += share * f->area[e];
+      mean.slope[e] += share * f->slope[e];
+    }
+    mean.residual += share * f->residual;
+  }
+  return largest_between(&mean, width);
+}
+
+void pendres_gap_look(const pendres_scan_point *a, const pendres_scan_point *b, size_t members,
+                      pendres_gap *out)
+{
+  const pendres_scan_point *const end[2] = {a, b};
+  const double omega = pendres_scan_frequency(a), width = pendres_scan_frequency(b) - omega;
+  /* Over a fiftieth of the width over which the response changes boundaries move by the distance of
+     members; over a fifth they may turn back. */
+  const double change = pendres_search_width(&a->response.pendulum, omega);
+  const double narrow = 0.02 * change, wide = 0.2 * change;
+  const int at_fold = a->at_fold > 0 || b->at_fold < 0;
+  const int asked[2] = {a->at_fold <= 0, b->at_fold >= 0};
+  families all;
+  census c;
+  *out = (pendres_gap){.width = width};
+  if (!(width > 0.0)) {
+    out->bound = fmax(a->response.mean_loop_area, b->response.mean_loop_area);
+    return;
+  }
+  const int alone = find_families(&a->response, &b->response, width, &all);
+  count_members(&all, end, width > wide || at_fold ? BESIDE : width > narrow ? MOVED : OWN,
+                asked, members, &c);
+  out->bound = bound_of(&all, &c, members, width);
+  out->loose = c.loose && width > narrow;
+  out->mixed = c.up && c.down;
+  if (a->jump_to_next || alone || c.up || c.down)
+    out->kind = PENDRES_GAP_JUMP;
+  else
+    out->kind = a->slope > 0.0 && b->slope < 0.0 ? PENDRES_GAP_PEAK : PENDRES_GAP_PLAIN;
+}

@@ -1,0 +1,78 @@
+/*
+ * refine.h -- from a bracket to a resonance with its error.
+ */
+#ifndef PENDRES_RESONANCE_REFINE_H
+#define PENDRES_RESONANCE_REFINE_H
+
+#include <pendres/resonance.h>
+
+/* A frequency that was evaluated. */
+typedef struct pendres_scan_point {
+  pendres_response response; /* its states have their slopes by frequency */
+  double slope;              /* d(mean loop area)/domega with the members' states held */
+  int jump_to_next;          /* there is a jump before the next point, whatever the states say */
+  int fold_sought;           /* the gap to the next point was searched for a fold already */
+  int at_fold;               /* not 0: the point is at a fold, on the side without the state that
+                                ends there, which exists at lower (-1) or higher (1) omega; or at
+                                a kink, and belongs to what is on the other side */
+  double fold, fold_error;   /* NaN, and the error of the frequency, at a kink */
+  signed char *where;        /* the state that each member is on, -1: none; NULL: not asked for */
+} pendres_scan_point;
+
+/* Responses with slopes of n pendulums; where[n * members] may be NULL, and is not kept. */
+pendres_status pendres_scan_evaluate(pendres_context *ctx, size_t n,
+                                     const pendres_pendulum *pendulums,
+                                     const pendres_ensemble *ensemble, signed char *where,
+                                     pendres_scan_point *out);
+
+/* A point's states, with the same members, at a nearby frequency. */
+pendres_status pendres_scan_follow(pendres_context *ctx, const pendres_scan_point *from,
+                                   double omega, pendres_scan_point *to);
+
+/* Set the resonance's frequency, area and response to those of a point. */
+void pendres_resonance_take(pendres_resonance *r, const pendres_scan_point *at);
+
+/* Add to its errors the change along the branch within the error of the frequency, by means of a
+   nearby point `near`. */
+void pendres_resonance_add_error(pendres_resonance *r, const pendres_scan_point *near);
+
+/*
+ * The zero of the slope between a (rising) and b (falling), with the ensemble on the same states
+ * there. PENDRES_NOT_FOUND: there is none, so there is a jump.
+ */
+pendres_status pendres_resonance_refine_peak(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out);
+
+/* A fold that ends a state, and makes a jump by that. */
+typedef struct pendres_scan_fold {
+  int found;             /* 0: there is none, and nothing below */
+  pendres_scan_point at; /* the point at the fold without that state */
+  double beside;         /* a frequency on the side with it, close by */
+} pendres_scan_fold;
+
+/* The fold that ends a state between a and b, if one does. */
+pendres_status pendres_resonance_find_fold(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                           const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_fold *out);
+
+/* Where a state loses its mirror symmetry: the mean area goes on, and its slope jumps. */
+typedef struct pendres_scan_kink {
+  int found;                /* 0: there is none */
+  pendres_scan_point at[2]; /* with the states on the lower side, and those on the upper one */
+} pendres_scan_kink;
+
+/* The kink between a and b that the states of both tell of, if there is one. */
+pendres_status pendres_resonance_find_kink(pendres_context *ctx, const pendres_scan_point *a,
+                                           const pendres_scan_point *b, pendres_scan_kink *out);
+
+/* The resonance at a point at a fold or a kink. */
+pendres_status pendres_resonance_at_fold(pendres_context *ctx, const pendres_scan_point *at,
+                                         pendres_resonance *out);
+
+/* The jump between a and b, by halving, and the larger of the values at it. */
+pendres_status pendres_resonance_refine_edge(pendres_context *ctx, const pendres_ensemble *ensemble,
+                                             const pendres_scan_point *a,
+                                             const pendres_scan_point *b, pendres_resonance *out);
+
+#endif

@@ -1,0 +1,103 @@
+/* cascade.c -- doublings of a period, one after another; see cascade.h. */
+#include <pendres/cascade.h>
+
+#include <math.h>
+
+#include "engine/context_internal.h"
+#include "engine/door.h"
+#include "orbits/orbit_newton.h"
+#include "analysis/sweeps/stretch.h"
+
+/* Feigenbaum's first constant. */
+static const double feigenbaum = 4.66920160910299067;
+
+enum { MOST_FORKS = PENDRES_CASCADE_DOUBLINGS + 4 };
+
+/* The limit of the doublings, extrapolated from those up to this one. */
+static double extrapolate(const pendres_cascade *c, int last)
+{
+  return c->value[last] + (c->value[last] - c->value[last - 1]) / (feigenbaum - 1.0);
+}
+
+static double ratio_at(const pendres_cascade *c, int last)
+{
+  return (c->value[last - 1] - c->value[last - 2]) / (c->value[last] - c->value[last - 1]);
+}
+
+/*
+ * The limit and the ratio converge by Feigenbaum's factor or more from one doubling to the next.
+ * The latest change is therefore larger than the error that is left; the errors of the doublings
+ * are added.
+ */
+static void finish(pendres_cascade *c)
+{
+  const int last = c->doublings - 1;
+  c->limit = c->limit_error = c->ratio = c->ratio_error = NAN;
+  if (c->doublings < 4) return;
+  double off = 0.0;
+  for (int i = last - 2; i <= last; i++) off = fmax(off, c->value_error[i]);
+  c->limit = extrapolate(c, last);
+  c->limit_error = fabs(c->limit - extrapolate(c, last - 1)) + 2.0 * off;
+  c->ratio = ratio_at(c, last);
+  c->ratio_error = fabs(c->ratio - ratio_at(c, last - 1)) +
+                   4.0 * c->ratio * off / fabs(c->value[last] - c->value[last - 1]);
+}
+
+static void note(const pendres_bifurcation *b, pendres_cascade *c)
+{
+  c->period[c->doublings] = b->orbit.period;
+  c->x[c->doublings] = b->orbit.x;
+  c->v[c->doublings] = b->orbit.v;
+  c->value[c->doublings] = b->value;
+  c->value_error[c->doublings++] = b->value_error;
+}
+
+static pendres_status follow(pendres_context *ctx, const pendres_orbit *orbit,
+                             pendres_parameter parameter, double limit, pendres_cascade *out)
+{
+  pendres_stretch s = pendres_stretch_none;
+  pendres_status status = pendres_stretch_from(ctx, orbit, parameter, limit, &s);
+  for (int fork = 0; fork < MOST_FORKS && status == PENDRES_OK; fork++) {
+    const pendres_bifurcation end = s.bifurcation;
+    if (s.end != PENDRES_STRETCH_BIFURCATION || end.kind == PENDRES_FOLD) break;
+    if (end.kind == PENDRES_PERIOD_DOUBLING) note(&end, out);
+    if (out->doublings == PENDRES_CASCADE_DOUBLINGS) break;
+    pendres_stretch_free(&s);
+    status = pendres_stretch_born(ctx, &end, limit, &s);
+  }
+  pendres_stretch_free(&s);
+  return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+}
+
+static pendres_status cascade_find(pendres_context *ctx, const pendres_orbit *orbit,
+                                   pendres_parameter parameter, double limit, pendres_cascade *out)
+{
+  const char *why = NULL;
+  if (orbit == NULL || out == NULL) return PENDRES_CONTEXT_NULL(ctx, "orbit and out");
+  *out = (pendres_cascade){.doublings = 0};
+  finish(out);
+  why = pendres_orbit_refuses(orbit);
+  if (why == NULL && (unsigned)parameter >= PENDRES_PARAMETER_COUNT) why = "unknown parameter";
+  if (why == NULL && !orbit->stable) why = "the orbit must be stable";
+  if (why == NULL && !isfinite(limit)) why = "the limit must be finite";
+  if (why != NULL) return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "cascade: %s", why);
+  const pendres_status status = follow(ctx, orbit, parameter, limit, out);
+  finish(out);
+  if (status == PENDRES_OK && out->doublings == 0)
+    return pendres_context_fail(ctx, PENDRES_NOT_FOUND,
+                                "the orbit does not double its period in the range");
+  return status;
+}
+
+pendres_status pendres_cascade_find(pendres_context *ctx, const pendres_orbit *orbit,
+                                    pendres_parameter parameter, double limit,
+                                    pendres_cascade *out)
+{
+  pendres_door d;
+  pendres_door_open(&d, ctx, orbit != NULL ? &orbit->pendulum : NULL);
+  pendres_door_move(&d, parameter, parameter);
+  const pendres_orbit *from = pendres_door_in(&d, &pendres_dim_orbit, 1, orbit);
+  out = pendres_door_out(&d, &pendres_dim_cascade, 1, out);
+  PENDRES_DOOR_CALL(&d, cascade_find(ctx, from, parameter, limit / d.scales.first, out));
+  return pendres_door_close(&d);
+}

@@ -1,0 +1,301 @@
+/* hysteresis.c -- the state of a pendulum along a path of a parameter; see hysteresis.h. */
+#include <pendres/hysteresis.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "continuation/parameter.h"
+#include "engine/context_internal.h"
+#include "engine/door.h"
+#include "analysis/sweeps/hysteresis_chaos.h"
+#include "analysis/sweeps/hysteresis_circle.h"
+#include "analysis/sweeps/hysteresis_left.h"
+#include "analysis/sweeps/hysteresis_orbit.h"
+#include "analysis/sweeps/hysteresis_rotation.h"
+#include "analysis/chaos/lyapunov_move.h"
+#include "model/model.h"
+
+enum { MOST_TRIES = 4 /* to come from chaos to an orbit on the way from one value to the next */ };
+
+/* Rotations without a lock are computed side by side at values this close, in the parameter's
+   scale. */
+static const double close_by = 0.1;
+
+const char *pendres_jump_kind_name(pendres_jump_kind kind)
+{
+  static const char *const names[PENDRES_JUMP_COUNT] = {
+#define NAME(code, name) name,
+    PENDRES_JUMP_LIST(NAME)
+#undef NAME
+  };
+  return (unsigned)kind < PENDRES_JUMP_COUNT ? names[kind] : NULL;
+}
+
+void pendres_hysteresis_free(pendres_hysteresis *h)
+{
+  if (h == NULL) return;
+  free(h->point);
+  free(h->jump);
+  free(h->stretch);
+  free(h->jump_from);
+  free(h->jump_to);
+  free(h);
+}
+
+size_t pendres_hysteresis_count(const pendres_hysteresis *h)
+{
+  return h != NULL ? h->count : 0;
+}
+
+const pendres_hysteresis_point *pendres_hysteresis_get(const pendres_hysteresis *h, size_t i)
+{
+  return h != NULL && i < h->count ? &h->point[i] : NULL;
+}
+
+size_t pendres_hysteresis_jumps(const pendres_hysteresis *h)
+{
+  return h != NULL ? h->jumps : 0;
+}
+
+const pendres_jump *pendres_hysteresis_jump(const pendres_hysteresis *h, size_t i)
+{
+  return h != NULL && i < h->jumps ? &h->jump[i] : NULL;
+}
+
+/* ---- along the path ---- */
+
+typedef pendres_path path;
+
+/* Whether it is a rotation without a drive. */
+static int rotates_freely(const pendres_attractor *a)
+{
+  return a->label == PENDRES_LABEL_RUNNING && !pendres_settled_closed(a);
+}
+
+/* Chaos has ended between the last value and this one, at which the pendulum is on an orbit.
+   w->state becomes the first orbit that it goes to, at this value or an earlier one. */
+static pendres_status end_chaos(path *w, size_t step, const pendres_settled *old)
+{
+  const double to = w->value[step];
+  pendres_jump j = {
+    .step = step, .direction = pendres_path_direction(w, step), .kind = PENDRES_JUMP_OTHER,
+    .share = NAN};
+  pendres_status status = PENDRES_OK;
+  const int back = (to - w->at) * j.direction <= 0.0; /* from trials beyond the value */
+  if (w->tries <= MOST_TRIES && !(back && pendres_settled_closed(&old->attractor))) {
+    status = pendres_chaos_end(w->ctx, w->parameter, old, w->at, &w->state, &j);
+  } else { /* chaos and windows of orbits in turn, or one orbit and another: somewhere between */
+    j.from = old->attractor.label;
+    j.to = w->state.attractor.label;
+    j.to_period = w->state.attractor.orbit.period;
+    j.value = 0.5 * (w->at + to);
+    j.value_error = 0.5 * fabs(to - w->at);
+  }
+  return status == PENDRES_OK ? pendres_path_note(w, &j) : status;
+}
+
+/*
+ * A pendulum on a rotation that is not locked to the drive: the close values from number *i on are
+ * computed side by side, as long as it stays on such a rotation. There is at most one at each
+ * value, so that a start on one leads to the next.
+ */
+static pendres_status follow_rotation(path *w, size_t *i)
+{
+  const double most = close_by * pendres_parameter_scale(w->parameter);
+  pendres_settled s[PENDRES_HYSTERESIS_TRIALS];
+  size_t n = 0;
+  for (; n < PENDRES_HYSTERESIS_TRIALS && *i + n < w->n; n++) {
+    if (n > 0 && fabs(w->value[*i + n] - w->at) > most) break;
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i + n]);
+    s[n] = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  }
+  const pendres_status status = pendres_settled_rotations(w->ctx, n, s);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++, (*i)++) {
+    if (s[k].attractor.label != PENDRES_LABEL_QUASI_PERIODIC) break;
+    w->state = s[k];
+    w->at = w->value[*i];
+    pendres_path_put(w, *i, &s[k].attractor);
+  }
+  return status;
+}
+
+/* A pendulum that has escaped does not return, whatever the parameter does. */
+static void stay_away(path *w, size_t *i)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
+  w->state = pendres_settled_nothing_at(&p, w->state.x, w->state.v);
+  w->state.attractor.label = PENDRES_LABEL_ESCAPE;
+  w->at = w->value[*i];
+  pendres_path_put(w, (*i)++, &w->state.attractor);
+}
+
+/* The path begins on the state that has been found. Whether averages alone are certain is known
+   only where errors stay small; where they grow, copies tell. */
+static pendres_status begin_path(path *w, double x, double v)
+{
+  const pendres_settled *s = &w->state;
+  const int closed = pendres_settled_closed(&s->attractor);
+  pendres_lyapunov l;
+  if (w->known || s->attractor.label == PENDRES_LABEL_UNRESOLVED) return PENDRES_OK;
+  w->known = 1;
+  w->certain = s->certain;
+  if (w->certain || !pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK;
+  const pendres_status status =
+    pendres_lyapunov_find(w->ctx, 1, &s->pendulum, &x, &v, NULL, &l);
+  w->certain = status == PENDRES_OK && l.certain && l.label == s->attractor.label &&
+               (!closed || (l.period == s->attractor.orbit.period &&
+                            l.winding == s->attractor.orbit.winding));
+  return status;
+}
+
+/* Find what the pendulum settles on at value number *i, from its present state, or the orbit that
+   it goes to on the way there, which is to be followed first. */
+static pendres_status settle_at(path *w, size_t *i)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
+  const pendres_settled old = w->state;
+  pendres_status status = pendres_settled_find(w->ctx, &p, old.x, old.v, &w->state);
+  if (status == PENDRES_OK) status = begin_path(w, old.x, old.v);
+  if (status == PENDRES_OK && w->settled &&
+      pendres_chaos_ends(&old.attractor, &w->state.attractor)) {
+    if (w->tried != *i) w->tries = 0;
+    w->tried = *i;
+    w->tries++;
+    pendres_path_allow(w); /* where it ended is a question of its own */
+    status = end_chaos(w, *i, &old);
+    pendres_path_leave(w);
+  }
+  w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
+  if (status == PENDRES_OK && w->at == w->value[*i])
+    pendres_path_put(w, (*i)++, &w->state.attractor);
+  return status;
+}
+
+/* One step of the path: to value number *i, beyond it, or nearer to it. */
+static pendres_status go_on(path *w, size_t *i)
+{
+  const size_t before = *i;
+  pendres_status status = pendres_context_poll(w->ctx);
+  if (status != PENDRES_OK || !w->settled) return status == PENDRES_OK ? settle_at(w, i) : status;
+  if (w->value[*i] == w->value[*i - 1]) {
+    pendres_path_put(w, *i, &w->h->point[*i - 1].attractor);
+    ++*i;
+    return PENDRES_OK;
+  }
+  const int rotates = w->state.attractor.label == PENDRES_LABEL_QUASI_PERIODIC;
+  if (rotates_freely(&w->state.attractor)) return pendres_path_rotation(w, i);
+  if (w->on_circle || rotates) status = pendres_path_circle(w, i);
+  if (status != PENDRES_OK || *i > before) return status;
+  if (w->state.attractor.label == PENDRES_LABEL_ESCAPE) {
+    stay_away(w, i);
+    return PENDRES_OK;
+  }
+  if (pendres_path_short(&w->state.attractor)) status = pendres_path_orbit(w, i);
+  else if (rotates) status = follow_rotation(w, i);
+  if (status != PENDRES_OK || *i > before || rotates_freely(&w->state.attractor)) return status;
+  return settle_at(w, i);
+}
+
+static pendres_status follow_path(path *w, pendres_path_left *left)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_path_mark mark = pendres_path_mark_here(w);
+  size_t at = 0;
+  pendres_path_allow(w);
+  for (size_t i = 0; i < w->n && status == PENDRES_OK;) {
+    status = go_on(w, &i);
+    const int came = pendres_path_came(w, left, &mark, at, &status);
+    if (!came) i = at;
+    if (came && i == at) continue;
+    w->settled = i > 0;
+    at = i;
+    mark = pendres_path_mark_here(w);
+    pendres_path_allow(w);
+  }
+  pendres_path_allow_all(w);
+  pendres_stretch_free(&w->stretch);
+  pendres_circles_free(w->circles);
+  pendres_rotation_table_free(w->rotations);
+  return status;
+}
+
+/* ---- the call ---- */
+
+static pendres_hysteresis *create(size_t n)
+{
+  pendres_hysteresis *h = calloc(1, sizeof *h);
+  if (h == NULL) return NULL;
+  h->count = n;
+  h->point = calloc(n + 1, sizeof *h->point);
+  h->stretch = calloc(n + 1, sizeof *h->stretch);
+  for (size_t i = 0; i < n && h->point != NULL; i++) h->point[i].value = NAN; /* not reached */
+  if (h->point != NULL && h->stretch != NULL) return h;
+  pendres_hysteresis_free(h);
+  return NULL;
+}
+
+pendres_status pendres_path_run(pendres_path *w, double x, double v, pendres_hysteresis **out)
+{
+  w->state = (pendres_settled){.x = x, .v = v};
+  for (size_t i = 0; i < w->n; i++) {
+    const char *why = NULL;
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[i]);
+    if (pendres_pendulum_check(&p, &why) == PENDRES_OK && p.damping == 0.0)
+      why = "without damping nothing settles";
+    if (why != NULL)
+      return pendres_context_fail(w->ctx, PENDRES_INVALID_ARGUMENT, "value %zu of the path: %s", i,
+                                  why);
+  }
+  w->h = create(w->n);
+  if (w->h == NULL)
+    return pendres_context_fail(w->ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu values",
+                                w->n);
+  pendres_path_left left;
+  pendres_status status = pendres_path_left_open(w, &left);
+  if (status == PENDRES_OK) status = follow_path(w, &left);
+  const int interrupted = status == PENDRES_INTERRUPTED;
+  if (status == PENDRES_OK || interrupted) {
+    pendres_path_number(w, &left);
+    const pendres_status named = pendres_hysteresis_name(w->ctx, w->h);
+    if (named != PENDRES_OK) status = named;
+  }
+  if (status == PENDRES_OK || status == PENDRES_INTERRUPTED) *out = w->h;
+  else pendres_hysteresis_free(w->h);
+  pendres_path_left_close(&left);
+  return status;
+}
+
+static pendres_status checked(pendres_context *ctx, const pendres_pendulum *p,
+                              const pendres_state *start, const pendres_hysteresis_path *along,
+                              pendres_hysteresis **out)
+{
+  if (p == NULL || start == NULL || along == NULL || out == NULL ||
+      (along->n > 0 && along->value == NULL))
+    return PENDRES_CONTEXT_NULL(ctx, "pendulum, start, path, its values and out");
+  *out = NULL;
+  if ((unsigned)along->parameter >= PENDRES_PARAMETER_COUNT)
+    return pendres_context_fail(ctx, PENDRES_INVALID_ARGUMENT, "unknown parameter");
+  path w = {.ctx = ctx, .pendulum = *p, .parameter = along->parameter, .all = along->value,
+            .n = along->n, .value = along->value};
+  return pendres_path_run(&w, start->x, start->v, out);
+}
+
+pendres_status pendres_hysteresis_follow(pendres_context *ctx, const pendres_pendulum *p,
+                                         const pendres_state *start,
+                                         const pendres_hysteresis_path *along,
+                                         pendres_hysteresis **out)
+{
+  pendres_door d;
+  pendres_hysteresis_path inside = {.n = 0};
+  if (along != NULL) inside = *along;
+  pendres_door_open_along(&d, ctx, p, inside.parameter, inside.n, inside.value);
+  p = pendres_door_in(&d, &pendres_dim_pendulum, 1, p);
+  start = pendres_door_in(&d, &pendres_dim_state, 1, start);
+  inside.value = pendres_door_in(&d, &pendres_dim_first, inside.n, inside.value);
+  PENDRES_DOOR_CALL(&d, checked(ctx, p, start, along != NULL ? &inside : NULL, out));
+  if ((d.status == PENDRES_OK || d.status == PENDRES_INTERRUPTED) && *out != NULL) {
+    pendres_units_out(&d.scales, &pendres_dim_hysteresis_point, (*out)->count, (*out)->point);
+    pendres_units_out(&d.scales, &pendres_dim_jump, (*out)->jumps, (*out)->jump);
+  }
+  return pendres_door_close(&d);
+}

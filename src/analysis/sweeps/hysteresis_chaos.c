@@ -1,0 +1,237 @@
+/* hysteresis_chaos.c -- from chaos to something else; see hysteresis_chaos.h. */
+#include "analysis/sweeps/hysteresis_chaos.h"
+
+#include <math.h>
+
+#include <pendres/strobe.h>
+
+#include "continuation/parameter.h"
+#include "analysis/sweeps/stretch.h"
+
+enum {
+  HALVINGS = 8,    /* of the distance of two values between which chaos ends */
+  LIVES = 32,      /* pendulums whose lives in chaos that ends are averaged */
+  APART = 8,       /* periods after which chaos has lost its memory, for their starts */
+  FURTHER = 4      /* lives are measured so far from the end, and so much farther still, in what
+                      halving has left of the interval */
+};
+
+/* The distance of trials from the birth of an orbit, in the parameter's scale. */
+static const double beside = 1e-4;
+/* Lives in chaos grow as a power of the distance from its end, of at least this (Grebogi, Ott and
+   Yorke, Physical Review Letters 57 (1986) 1284). */
+static const double least_power = 0.5;
+/* Chaos that was watched for so many lives without an end has been seen to end, but for one case in
+   twenty: e^-3. */
+static const double lives_watched = 3.0;
+
+int pendres_chaos_ends(const pendres_attractor *old, const pendres_attractor *there)
+{
+  if (there->label == PENDRES_LABEL_ESCAPE) return 1;
+  if (pendres_settled_closed(there)) return !pendres_settled_alike(there, old);
+  return pendres_settled_closed(old) && old->orbit.period <= PENDRES_HYSTERESIS_PERIOD &&
+         there->label != PENDRES_LABEL_UNRESOLVED;
+}
+
+/* A search for the end of a state between two values of a parameter. */
+typedef struct search {
+  pendres_context *ctx;
+  pendres_parameter parameter;
+  const pendres_settled *old;
+  double from;            /* the last value at which the state is known to last, ... */
+  pendres_settled before; /* ... and the state there */
+  pendres_settled *state; /* the first one known to be another, at a value beyond the end */
+} search;
+
+static pendres_pendulum pendulum_at(const search *s, double value)
+{
+  return pendres_parameter_with(&s->state->pendulum, s->parameter, value);
+}
+
+static double value_of(const search *s)
+{
+  return pendres_parameter_get(s->parameter, &s->state->pendulum);
+}
+
+static pendres_jump_kind kind_of(pendres_special kind)
+{
+  switch (kind) {
+  case PENDRES_FOLD: return PENDRES_JUMP_FOLD;
+  case PENDRES_PERIOD_DOUBLING: return PENDRES_JUMP_FLIP;
+  case PENDRES_SYMMETRY_BREAKING: return PENDRES_JUMP_SYMMETRY;
+  case PENDRES_BRANCH_POINT: return PENDRES_JUMP_BRANCH_POINT;
+  default: return PENDRES_JUMP_OTHER;
+  }
+}
+
+/* States that a pendulum comes through, far enough apart for chaos to have lost its memory. */
+static pendres_status spread(const search *w, const pendres_settled *from, int n, double *x,
+                             double *v)
+{
+  double xs[LIVES * APART + 1], vs[LIVES * APART + 1];
+  const pendres_status status =
+    pendres_strobe_record(w->ctx, &from->pendulum, &(pendres_state){from->x, from->v},
+                          (long)n * APART, 1, &(pendres_record){.x = xs, .v = vs});
+  for (int i = 0; i < n && status == PENDRES_OK; i++) {
+    x[i] = xs[i * APART];
+    v[i] = vs[i * APART];
+  }
+  return status;
+}
+
+/* Whether the pendulum stays in the old state just before an orbit's birth, and most trials from
+   there go to that orbit just behind it. Sets share and certain of the jump. */
+static pendres_status try_beside(const search *w, const pendres_stretch *s, int direction,
+                                 pendres_jump *jump, int *born)
+{
+  const double small = direction * beside * pendres_parameter_scale(w->parameter);
+  const pendres_orbit *first = &pendres_stretch_last(s)->orbit;
+  const pendres_pendulum p = pendulum_at(w, s->end_value - small);
+  const pendres_pendulum q = pendulum_at(w, s->end_value + small);
+  pendres_settled before, behind;
+  pendres_jump there = {.share = NAN};
+  double x[PENDRES_HYSTERESIS_TRIALS], v[PENDRES_HYSTERESIS_TRIALS];
+  pendres_status status = pendres_settled_find(w->ctx, &p, w->old->x, w->old->v, &before);
+  *born = 0;
+  if (status != PENDRES_OK || pendres_settled_closed(&before.attractor) ||
+      before.attractor.label == PENDRES_LABEL_ESCAPE)
+    return status;
+  status = spread(w, &before, PENDRES_HYSTERESIS_TRIALS, x, v);
+  if (status == PENDRES_OK) status = pendres_jump_try_from(w->ctx, &q, x, v, &behind, &there);
+  if (status != PENDRES_OK) return status;
+  *born = pendres_settled_closed(&behind.attractor) &&
+          behind.attractor.orbit.period == first->period;
+  if (!*born) return status;
+  jump->share = there.share;
+  jump->certain = there.certain;
+  return status;
+}
+
+/* What there is to know of an orbit between two values: nothing, that it is born there and ends the
+   old state, or that it is there at both. */
+typedef enum birth { BIRTH_NONE, BIRTH_FOUND, BIRTH_EARLIER } birth;
+
+/*
+ * Whether the orbit that the pendulum has gone to is born between the values, and the pendulum goes
+ * to it there.
+ */
+static pendres_status try_birth(search *w, pendres_jump *jump, birth *found)
+{
+  const double to = value_of(w), small = beside * pendres_parameter_scale(w->parameter);
+  pendres_stretch s = pendres_stretch_none;
+  *found = BIRTH_NONE;
+  if (!pendres_settled_closed(&w->state->attractor) ||
+      w->state->attractor.orbit.period > PENDRES_HYSTERESIS_PERIOD)
+    return PENDRES_OK;
+  pendres_status status =
+    pendres_stretch_from(w->ctx, &w->state->attractor.orbit, w->parameter, w->from, &s);
+  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_LIMIT) *found = BIRTH_EARLIER;
+  if (status == PENDRES_OK && s.end == PENDRES_STRETCH_BIFURCATION &&
+      fabs(to - s.end_value) > small && fabs(w->from - s.end_value) > small) {
+    int born = 0;
+    status = try_beside(w, &s, to > w->from ? 1 : -1, jump, &born);
+    if (status == PENDRES_OK && born) {
+      *found = BIRTH_FOUND;
+      jump->kind = kind_of(s.bifurcation.kind);
+      jump->value = s.end_value;
+      jump->value_error = s.end_error;
+    }
+  }
+  pendres_stretch_free(&s);
+  return status;
+}
+
+/* Halve the interval from the last value known to be before the end to the first known to be after
+   it. Where a pendulum has neither left nor is known to stay, the end is on either side. */
+static pendres_status halve(search *w, pendres_jump *jump)
+{
+  double from = w->from, to = value_of(w);
+  pendres_settled last = w->before;
+  pendres_status status = PENDRES_OK;
+  for (int k = 0; k < HALVINGS && status == PENDRES_OK; k++) {
+    const double middle = 0.5 * (from + to);
+    const pendres_pendulum p = pendulum_at(w, middle);
+    pendres_settled there;
+    status = pendres_settled_find(w->ctx, &p, last.x, last.v, &there);
+    if (status != PENDRES_OK) break;
+    if (pendres_chaos_ends(&w->old->attractor, &there.attractor)) {
+      to = middle;
+      *w->state = there;
+      continue;
+    }
+    from = middle;
+    last = there;
+    if (there.attractor.label == PENDRES_LABEL_UNRESOLVED) continue;
+    w->from = middle;
+    w->before = there;
+  }
+  jump->value = 0.5 * (w->from + to);
+  jump->value_error = 0.5 * fabs(to - w->from);
+  return status;
+}
+
+/* The mean number of periods that pendulums from starts on a chaotic attractor take to leave it at
+   a value at which it has ended; infinite where some do not within their budget. */
+static pendres_status mean_life(const search *w, double value, const double *x, const double *v,
+                                double *life)
+{
+  pendres_pendulum p[LIVES];
+  pendres_outcome outcome[LIVES];
+  *life = 0.0;
+  for (int i = 0; i < LIVES; i++) p[i] = pendulum_at(w, value);
+  const pendres_status status = pendres_settle(w->ctx, LIVES, p, x, v, outcome, NULL);
+  for (int i = 0; i < LIVES && status == PENDRES_OK; i++)
+    *life += outcome[i].settling_periods > 0 && outcome[i].label != PENDRES_LABEL_CHAOTIC
+               ? (double)outcome[i].settling_periods / LIVES
+               : INFINITY;
+  return status;
+}
+
+/*
+ * Chaos that ends in a crisis lasts the longer the closer to that, so that it seems to last a
+ * little beyond. How far beyond follows from lives at two distances, as a power law tells, and for
+ * how long the chaos was watched that was thought to last. It is added to the error.
+ */
+static pendres_status leave_open(const search *w, pendres_jump *jump)
+{
+  const int direction = value_of(w) > w->from ? 1 : -1;
+  const double step = 2.0 * jump->value_error, first = FURTHER * step;
+  const double watched = w->before.attractor.watched_periods;
+  double x[LIVES], v[LIVES], near, far;
+  pendres_status status = spread(w, &w->before, LIVES, x, v);
+  if (status == PENDRES_OK)
+    status = mean_life(w, jump->value + direction * first, x, v, &near);
+  if (status == PENDRES_OK)
+    status = mean_life(w, jump->value + FURTHER * direction * first, x, v, &far);
+  if (status != PENDRES_OK) return status;
+  const double power = fmax(least_power, log(near / far) / log(FURTHER));
+  const double open = first * pow(lives_watched * near / watched, 1.0 / power);
+  jump->value_error += open < step ? open : step; /* the step where that is not known */
+  return status;
+}
+
+pendres_status pendres_chaos_end(pendres_context *ctx, pendres_parameter parameter,
+                                 const pendres_settled *old, double from, pendres_settled *state,
+                                 pendres_jump *jump)
+{
+  search w = {.ctx = ctx, .parameter = parameter, .old = old, .from = from, .before = *old,
+              .state = state};
+  birth found = BIRTH_NONE;
+  jump->share = NAN;
+  jump->certain = 0;
+  pendres_status status = try_birth(&w, jump, &found);
+  if (status == PENDRES_OK && found != BIRTH_FOUND) status = halve(&w, jump);
+  jump->from = w.before.attractor.label;
+  if (status == PENDRES_OK && found != BIRTH_FOUND && jump->from == PENDRES_LABEL_CHAOTIC) {
+    status = try_birth(&w, jump, &found);
+    /* What is there all the while coexists with the chaos, which ends by itself. */
+    if (status == PENDRES_OK &&
+        (found == BIRTH_EARLIER || !pendres_settled_closed(&state->attractor))) {
+      jump->kind = PENDRES_JUMP_CRISIS;
+      status = leave_open(&w, jump);
+    }
+  }
+  jump->to = state->attractor.label;
+  jump->to_period = pendres_settled_closed(&state->attractor) ? state->attractor.orbit.period : 0;
+  return status;
+}

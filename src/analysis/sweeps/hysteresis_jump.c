@@ -1,0 +1,301 @@
+/* hysteresis_jump.c -- where a pendulum goes when its state ends; see hysteresis_jump.h. */
+#include "analysis/sweeps/hysteresis_jump.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <pendres/strobe.h>
+
+#include "base/angles.h"
+#include "continuation/parameter.h"
+#include "engine/context_internal.h"
+#include "model/model.h"
+#include "orbits/catalogue.h"
+#include "analysis/chaos/lyapunov_move.h"
+#include "analysis/sweeps/rotation_table.h"
+
+enum {
+  TRIALS = PENDRES_HYSTERESIS_TRIALS,
+  ROUNDS = 3,      /* of trials, each further beyond the end than the one before */
+  ON_THE_WAY = 500 /* periods after which a pendulum on no closed orbit is on its attractor */
+};
+
+/* The distances of trials beyond a bifurcation, in the parameter's scale: one for half of them, one
+   for the others. Within each half they vary by a factor of 1.5. The time to pass a fold goes as
+   one over the root of the distance, and so differs by a fifth, which is many periods. */
+static const double beyond[2] = {1e-4, 1e-5};
+static const double further = 10.0;
+/* Trials start this far from an orbit that has become unstable, where deviations grow fast. */
+static const double away = 0.03;
+/* Amplitudes of the same state at adjacent parameters differ by less than this. */
+static const double same_amplitude = 0.02;
+/* Student's t for sixteen batches, at 99.9 %. */
+static const double batches_sure = 4.073;
+
+int pendres_settled_closed(const pendres_attractor *a)
+{
+  return a->label != PENDRES_LABEL_CHAOTIC && a->label != PENDRES_LABEL_UNRESOLVED &&
+         a->label != PENDRES_LABEL_ESCAPE && a->label != PENDRES_LABEL_QUASI_PERIODIC &&
+         a->orbit.period > 0;
+}
+
+int pendres_settled_alike(const pendres_attractor *a, const pendres_attractor *b)
+{
+  if (!pendres_settled_closed(a) || !pendres_settled_closed(b)) return a->label == b->label;
+  return a->orbit.period == b->orbit.period &&
+         abs(a->orbit.winding) == abs(b->orbit.winding) &&
+         fabs(a->orbit.amplitude - b->orbit.amplitude) < same_amplitude;
+}
+
+pendres_attractor pendres_settled_nothing(const pendres_pendulum *p)
+{
+  pendres_attractor a = {.label = PENDRES_LABEL_UNRESOLVED};
+  a.orbit = pendres_orbit_none(p);
+  a.trap_metric[0] = a.trap_metric[1] = a.trap_metric[2] = a.trap_radius = NAN;
+  a.lyapunov = a.lyapunov_error = a.drift = a.drift_error = NAN;
+  a.watched_periods = a.escape_rate_bound = NAN;
+  return a;
+}
+
+pendres_settled pendres_settled_nothing_at(const pendres_pendulum *p, double x, double v)
+{
+  return (pendres_settled){
+    .pendulum = *p, .attractor = pendres_settled_nothing(p), .x = x, .v = v};
+}
+
+pendres_attractor pendres_settled_orbit(const pendres_orbit *o)
+{
+  pendres_attractor a = pendres_settled_nothing(&o->pendulum);
+  const double modulus = hypot(o->multiplier_re[0], o->multiplier_im[0]);
+  const double time = two_pi * o->period / o->pendulum.drive_frequency;
+  a.orbit = *o;
+  a.label = o->winding != 0 ? PENDRES_LABEL_RUNNING : PENDRES_LABEL_PERIODIC;
+  a.lyapunov = log(modulus) / time;
+  a.lyapunov_error = o->multiplier_error / (modulus * time);
+  return a;
+}
+
+void pendres_settled_rotate(const pendres_pendulum *p, const pendres_rotation *r,
+                            pendres_settled *out)
+{
+  *out = pendres_settled_nothing_at(p, half_pi, r->v);
+  out->certain = 1;
+  out->attractor.label = PENDRES_LABEL_RUNNING;
+  out->attractor.lyapunov = out->attractor.lyapunov_error = 0.0;
+  out->attractor.drift = r->mean_velocity / p->drive_frequency;
+  out->attractor.drift_error = r->mean_velocity_error / p->drive_frequency;
+}
+
+/* The attractor of a pendulum whose averages are known. */
+static void take_verdict(const pendres_lyapunov *l, const pendres_orbit *orbit, pendres_settled *s)
+{
+  if (orbit->period > 0) {
+    s->attractor = pendres_settled_orbit(orbit);
+    s->x = orbit->x;
+    s->v = orbit->v;
+  }
+  if (l->label != PENDRES_LABEL_QUASI_PERIODIC && l->label != PENDRES_LABEL_CHAOTIC) return;
+  s->attractor.label = l->label;
+  s->attractor.lyapunov = l->exponent;
+  s->attractor.lyapunov_error = l->exponent_error;
+  s->attractor.drift = l->rotation;
+  s->attractor.drift_error =
+    l->label == PENDRES_LABEL_CHAOTIC ? batches_sure * l->rotation_error : l->rotation_error;
+}
+
+static pendres_status settle_by_averages(pendres_context *ctx, size_t n, const size_t *which,
+                                         pendres_lyapunov_care care, pendres_settled *s)
+{
+  pendres_pendulum p[TRIALS] = {{0}};
+  pendres_lyapunov l[TRIALS];
+  pendres_orbit orbit[TRIALS];
+  double x[TRIALS] = {0.0}, v[TRIALS] = {0.0};
+  for (size_t k = 0; k < n; k++) {
+    p[k] = s[which[k]].pendulum;
+    x[k] = s[which[k]].x;
+    v[k] = s[which[k]].v;
+  }
+  const pendres_lyapunov_motion motion = {
+    .n = n, .pendulum = p, .x = x, .v = v, .out = l, .orbit = orbit};
+  const pendres_status status = pendres_lyapunov_move(ctx, &motion, care);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    s[which[k]].x = x[k];
+    s[which[k]].v = v[k];
+    s[which[k]].certain = l[k].certain;
+    take_verdict(&l[k], &orbit[k], &s[which[k]]);
+  }
+  return status;
+}
+
+static pendres_status settle_by_trapping(pendres_context *ctx, size_t n, const size_t *which,
+                                         pendres_settled *s)
+{
+  pendres_pendulum p[TRIALS] = {{0}};
+  pendres_outcome outcome[TRIALS];
+  double x[TRIALS] = {0.0}, v[TRIALS] = {0.0};
+  pendres_attractors *found = NULL;
+  for (size_t k = 0; k < n; k++) {
+    p[k] = s[which[k]].pendulum;
+    x[k] = s[which[k]].x;
+    v[k] = s[which[k]].v;
+  }
+  const pendres_status status = pendres_settle(ctx, n, p, x, v, outcome, &found);
+  for (size_t k = 0; k < n && status == PENDRES_OK; k++) {
+    const size_t number = outcome[k].attractor >= 0 ? (size_t)outcome[k].attractor : (size_t)-1;
+    const pendres_attractor *a = pendres_attractors_get(found, number);
+    if (a != NULL) s[which[k]].attractor = *a;
+    if (outcome[k].attractor == PENDRES_ATTRACTOR_ESCAPED)
+      s[which[k]].attractor.label = PENDRES_LABEL_ESCAPE;
+    s[which[k]].certain = outcome[k].certain;
+  }
+  pendres_attractors_free(found);
+  return status;
+}
+
+/* Settle n pendulums, at most TRIALS, from their states. */
+static pendres_status settle_all(pendres_context *ctx, size_t n, pendres_lyapunov_care care,
+                                 pendres_settled *s)
+{
+  size_t averaged[TRIALS], trapped[TRIALS], a = 0, t = 0;
+  pendres_status status = PENDRES_OK;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    pendres_rotation r;
+    int rotates = 0;
+    if (pendres_lyapunov_may_rotate(&s[i].pendulum)) {
+      averaged[a++] = i;
+      continue;
+    }
+    status = pendres_rotation_reached(ctx, &s[i].pendulum, s[i].x, s[i].v, &r, &rotates);
+    if (rotates) pendres_settled_rotate(&s[i].pendulum, &r, &s[i]);
+    else trapped[t++] = i;
+  }
+  if (a > 0 && status == PENDRES_OK) status = settle_by_averages(ctx, a, averaged, care, s);
+  if (t > 0 && status == PENDRES_OK) status = settle_by_trapping(ctx, t, trapped, s);
+  return status;
+}
+
+pendres_status pendres_settled_rotations(pendres_context *ctx, size_t n, pendres_settled *s)
+{
+  size_t all[TRIALS];
+  for (size_t i = 0; i < n; i++) all[i] = i;
+  return settle_by_averages(ctx, n, all, PENDRES_CARE_CLOSE, s);
+}
+
+/* Advance a pendulum until it is on its attractor. */
+static pendres_status arrive(pendres_context *ctx, pendres_settled *s)
+{
+  if (pendres_settled_closed(&s->attractor)) {
+    s->x = s->attractor.orbit.x;
+    s->v = s->attractor.orbit.v;
+    return PENDRES_OK;
+  }
+  if (s->attractor.label == PENDRES_LABEL_ESCAPE) return PENDRES_OK; /* there is none */
+  if (s->attractor.label == PENDRES_LABEL_RUNNING) return PENDRES_OK; /* it is there */
+  if (pendres_lyapunov_may_rotate(&s->pendulum)) return PENDRES_OK; /* its averages were there */
+  const pendres_status status =
+    pendres_strobe_advance(ctx, 1, &s->pendulum, &s->x, &s->v, ON_THE_WAY, NULL);
+  /* Whole turns are taken off, since chaos that drifts would go far. */
+  s->x = fmod(s->x, pendres_model_turn(&s->pendulum));
+  return status;
+}
+
+pendres_status pendres_settled_find(pendres_context *ctx, const pendres_pendulum *p, double x,
+                                    double v, pendres_settled *out)
+{
+  *out = pendres_settled_nothing_at(p, x, v);
+  const pendres_status status = settle_all(ctx, 1, PENDRES_CARE_FULL, out);
+  return status == PENDRES_OK ? arrive(ctx, out) : status;
+}
+
+/* The pendulum at a distance beyond the end of its state. */
+static pendres_pendulum beyond_by(const pendres_bifurcation *at, double distance)
+{
+  return pendres_parameter_with(&at->orbit.pendulum, at->parameter,
+                                pendres_parameter_beyond(at->parameter, at->value, distance));
+}
+
+/* The trials of a jump, each at its distance beyond the end of the state. */
+static void begin(const pendres_bifurcation *at, int direction, double distance[TRIALS],
+                  pendres_settled went[TRIALS])
+{
+  for (int i = 0; i < TRIALS; i++) {
+    const double part = (double)(i / 2) / (TRIALS / 2), angle = 2.39996322972865332 * i;
+    distance[i] = pendres_parameter_scale(at->parameter) * beyond[i % 2] * (1.0 + 0.5 * part);
+    const pendres_pendulum p = beyond_by(at, direction * distance[i]);
+    const double off = at->kind == PENDRES_FOLD ? 0.0 : away * (1.0 + 0.5 * part);
+    went[i] = pendres_settled_nothing_at(&p, at->orbit.x + off * cos(angle),
+                                         at->orbit.v + off * sin(angle));
+  }
+}
+
+/*
+ * Near the end of a lock a rotation slips only once in many periods, too rarely for averages, and
+ * next to a fold some stay for longer than a pendulum is settled. They are repeated further beyond
+ * the end, ten times as far in each round.
+ */
+static pendres_status go_on(pendres_context *ctx, const pendres_bifurcation *at, int direction,
+                            double distance[TRIALS], pendres_settled went[TRIALS])
+{
+  pendres_settled some[TRIALS];
+  int which[TRIALS];
+  pendres_status status = PENDRES_OK;
+  for (int round = 0; round < ROUNDS && status == PENDRES_OK; round++) {
+    size_t n = 0;
+    for (int i = 0; i < TRIALS; i++) {
+      pendres_settled *s = &went[i];
+      if (s->attractor.label != PENDRES_LABEL_UNRESOLVED) continue;
+      distance[i] *= further;
+      s->pendulum = beyond_by(at, direction * distance[i]);
+      some[n] = pendres_settled_nothing_at(&s->pendulum, s->x, s->v);
+      which[n++] = i;
+    }
+    if (n == 0) break;
+    const int last = round + 1 == ROUNDS;
+    status = settle_all(ctx, n, last ? PENDRES_CARE_FULL : PENDRES_CARE_ONCE, some);
+    for (size_t k = 0; k < n; k++) went[which[k]] = some[k];
+  }
+  return status;
+}
+
+/* Trials stand for what an experiment does not control, errors of the integration included: how
+   many of them agree tells how certain the jump is, whether each by itself is or not. */
+static pendres_status count(pendres_context *ctx, const pendres_settled went[TRIALS],
+                            pendres_settled *to, pendres_jump *jump)
+{
+  int best = 0, most = 0;
+  for (int i = 0; i < TRIALS; i++) {
+    int alike = 0;
+    for (int k = 0; k < TRIALS; k++)
+      alike += pendres_settled_alike(&went[i].attractor, &went[k].attractor);
+    if (alike <= most) continue;
+    most = alike;
+    best = i;
+  }
+  *to = went[best];
+  jump->to = to->attractor.label;
+  jump->to_period = pendres_settled_closed(&to->attractor) ? to->attractor.orbit.period : 0;
+  jump->share = (double)most / TRIALS;
+  jump->certain = most == TRIALS && to->attractor.label != PENDRES_LABEL_UNRESOLVED;
+  return arrive(ctx, to);
+}
+
+pendres_status pendres_jump_try(pendres_context *ctx, const pendres_bifurcation *at, int direction,
+                                pendres_settled *to, pendres_jump *jump)
+{
+  pendres_settled went[TRIALS];
+  double distance[TRIALS];
+  begin(at, direction, distance, went);
+  pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_ONCE, went);
+  if (status == PENDRES_OK) status = go_on(ctx, at, direction, distance, went);
+  return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
+}
+
+pendres_status pendres_jump_try_from(pendres_context *ctx, const pendres_pendulum *p,
+                                     const double *x, const double *v, pendres_settled *to,
+                                     pendres_jump *jump)
+{
+  pendres_settled went[TRIALS];
+  for (int i = 0; i < TRIALS; i++) went[i] = pendres_settled_nothing_at(p, x[i], v[i]);
+  const pendres_status status = settle_all(ctx, TRIALS, PENDRES_CARE_FULL, went);
+  return status == PENDRES_OK ? count(ctx, went, to, jump) : status;
+}

@@ -1,0 +1,257 @@
+/* hysteresis_orbit.c -- a pendulum on a closed orbit along a path; see hysteresis_orbit.h. */
+#include "analysis/sweeps/hysteresis_orbit.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "continuation/parameter.h"
+#include "engine/context_internal.h"
+#include "model/model.h"
+#include "analysis/sweeps/hysteresis_circle.h"
+#include "analysis/sweeps/hysteresis_left.h"
+#include "analysis/sweeps/hysteresis_rotation.h"
+
+enum { MOST_JUMPS = 256 /* between two values of the path */ };
+
+/* A state is followed to values this close at once, in the same scale; the work for one further
+   away is counted as its own. */
+static const double in_sight = 100.0;
+/* Orbits whose amplitudes differ by less at one value of the parameter are one orbit. */
+static const double same_orbit = 1e-6;
+
+/* Whether a stretch ends at one of the later doublings of a cascade. */
+static int cascades(const pendres_stretch *s)
+{
+  return s->end == PENDRES_STRETCH_BIFURCATION &&
+         s->bifurcation.kind == PENDRES_PERIOD_DOUBLING &&
+         2 * s->period > PENDRES_HYSTERESIS_PERIOD;
+}
+
+/* The stretch that a pendulum goes over to without a jump: that of an orbit born at the end of its
+   own stretch, or of the orbit from which its own was born. PENDRES_NOT_FOUND: it jumps. */
+static pendres_status go_over(pendres_path *w, const pendres_bifurcation *end, double limit,
+                              pendres_stretch *next)
+{
+  const int doubled = end->kind == PENDRES_PERIOD_DOUBLING ? 2 : 1;
+  if (end->kind != PENDRES_PERIOD_DOUBLING && end->kind != PENDRES_SYMMETRY_BREAKING &&
+      end->kind != PENDRES_BRANCH_POINT)
+    return PENDRES_NOT_FOUND;
+  if (w->stretch.end != PENDRES_STRETCH_BIRTH)
+    return doubled * end->orbit.period <= PENDRES_HYSTERESIS_PERIOD
+             ? pendres_stretch_born(w->ctx, end, limit, next)
+             : PENDRES_NOT_FOUND;
+  const pendres_status status =
+    pendres_stretch_from(w->ctx, &end->orbit, w->parameter, limit, next);
+  if (status != PENDRES_OK || next->points > 1) return status;
+  pendres_stretch_free(next);
+  return PENDRES_NOT_FOUND;
+}
+
+/* Whether two orbits swing about one place, or about places that are mirror images: states of rest
+   have no amplitude that would tell them apart. */
+static int about_one_place(const pendres_orbit *a, const pendres_orbit *b)
+{
+  const double turn = pendres_model_turn(&a->pendulum);
+  const double middle = 0.5 * (a->mean_angle + b->mean_angle);
+  const double bound = same_orbit + a->amplitude_error + b->amplitude_error;
+  if (fabs(remainder(a->mean_angle - b->mean_angle, turn)) < bound) return 1;
+  if (!pendres_pendulum_symmetric(&a->pendulum)) return 0;
+  const double aside = middle - pendres_model_centre(&a->pendulum, middle);
+  return fabs(remainder(2.0 * aside, turn)) < bound;
+}
+
+/*
+ * Whether the state that a pendulum has gone to is the one that it came from: followed back to
+ * where that was last, it is the same orbit there, or its mirror image. It did not end then,
+ * whatever was found.
+ */
+static pendres_status same_state(const pendres_path *w, const pendres_attractor *old, int *same)
+{
+  pendres_stretch back = pendres_stretch_none;
+  pendres_orbit there;
+  const double value = pendres_parameter_get(w->parameter, &old->orbit.pendulum);
+  int found = 0;
+  *same = 0;
+  if (!pendres_settled_closed(old) || !pendres_settled_alike(old, &w->state.attractor))
+    return PENDRES_OK;
+  pendres_status status =
+    pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, value, &back);
+  if (status == PENDRES_OK && back.end == PENDRES_STRETCH_LIMIT)
+    status = pendres_stretch_orbits(w->ctx, &back, 1, &value, &there, &found);
+  pendres_stretch_free(&back);
+  if (status == PENDRES_NOT_CONVERGED) return PENDRES_OK;
+  *same = found && fabs(there.amplitude - old->orbit.amplitude) <
+                     same_orbit + there.amplitude_error + old->orbit.amplitude_error &&
+          about_one_place(&there, &old->orbit);
+  return status;
+}
+
+/* A stretch whose computation stopped is gone on with; where that leads no further it is left, and
+   the pendulum settles at the next value. */
+static pendres_status resume(pendres_path *w, double limit)
+{
+  pendres_stretch next;
+  pendres_orbit orbit;
+  const pendres_status status = pendres_stretch_resume(w->ctx, &w->stretch, limit, &next, &orbit);
+  pendres_stretch_free(&w->stretch);
+  if (status != PENDRES_OK) return status == PENDRES_NOT_FOUND ? PENDRES_OK : status;
+  w->stretch = next;
+  w->at = pendres_parameter_get(w->parameter, &orbit.pendulum);
+  w->state = (pendres_settled){.pendulum = orbit.pendulum,
+                               .attractor = pendres_settled_orbit(&orbit),
+                               .x = orbit.x, .v = orbit.v};
+  return PENDRES_OK;
+}
+
+/* At the end of the stretch: which bifurcation it is, and what the pendulum goes to. */
+static pendres_status end_stretch(pendres_path *w, size_t step, double limit)
+{
+  static const pendres_jump_kind kinds[] = {
+    [PENDRES_REGULAR] = PENDRES_JUMP_OTHER, [PENDRES_FOLD] = PENDRES_JUMP_FOLD,
+    [PENDRES_PERIOD_DOUBLING] = PENDRES_JUMP_FLIP,
+    [PENDRES_SYMMETRY_BREAKING] = PENDRES_JUMP_SYMMETRY,
+    [PENDRES_BRANCH_POINT] = PENDRES_JUMP_BRANCH_POINT};
+  const pendres_stretch *s = &w->stretch;
+  const pendres_branch_point *last = pendres_stretch_last(s);
+  pendres_bifurcation end = s->bifurcation;
+  if (s->end == PENDRES_STRETCH_UNLOCATED)
+    end = (pendres_bifurcation){.kind = PENDRES_REGULAR, .parameter = w->parameter,
+                                .value = s->end_value, .value_error = s->end_error,
+                                .orbit = last != NULL ? last->orbit : w->state.attractor.orbit};
+  pendres_jump j = {.step = step, .direction = s->direction, .kind = kinds[end.kind],
+                    .value = end.value, .value_error = end.value_error,
+                    .from = w->state.attractor.label, .share = NAN};
+  pendres_stretch next = pendres_stretch_none;
+  int goes_on = 0;
+  pendres_status status = go_over(w, &end, limit, &next);
+  pendres_orbit arrived;
+  if (status == PENDRES_OK) status = pendres_stretch_arrive(w->ctx, &next, &arrived);
+  if (status == PENDRES_OK) {
+    w->state.attractor = pendres_settled_orbit(&arrived);
+    w->at = end.value;
+    j.gradual = j.certain = 1;
+    j.share = 1.0;
+    j.to = w->state.attractor.label;
+    j.to_period = next.period;
+  } else if (status == PENDRES_NOT_FOUND && cascades(&w->stretch)) {
+    /* What it goes to is found at the next value. */
+    w->state.attractor = pendres_settled_nothing(&end.orbit.pendulum);
+    w->state.x = end.orbit.x;
+    w->state.v = end.orbit.v;
+    w->at = end.value;
+    j.to = PENDRES_LABEL_UNRESOLVED;
+    status = PENDRES_OK;
+  } else if (status == PENDRES_NOT_FOUND) {
+    const pendres_attractor old = w->state.attractor;
+    int done = 0;
+    pendres_path_into_rotation(w, &end, &j, &done);
+    status = PENDRES_OK;
+    if (!done) status = pendres_path_onto_circle(w, &end, s->direction, &j, &done);
+    if (status == PENDRES_OK && !done)
+      status = pendres_jump_try(w->ctx, &end, s->direction, &w->state, &j);
+    w->at = pendres_parameter_get(w->parameter, &w->state.pendulum);
+    if (status == PENDRES_OK) status = same_state(w, &old, &goes_on);
+  }
+  if (status == PENDRES_OK && !goes_on) status = pendres_path_note(w, &j);
+  if (goes_on) pendres_stretch_free(&w->stretch);
+  else pendres_path_leave(w);
+  w->stretch = next;
+  return status;
+}
+
+/* Whether a value is the fold's at which the stretch ends, where the orbit cannot be told from the
+   one that it meets. */
+static int at_fold(const pendres_stretch *s, double value)
+{
+  return s->end == PENDRES_STRETCH_BIFURCATION && s->bifurcation.kind == PENDRES_FOLD &&
+         fabs(value - s->end_value) <= s->end_error;
+}
+
+/* Put the values from number i on that the stretch holds into the results; returns the number after
+   the last of them. */
+static size_t held(const pendres_path *w, size_t i)
+{
+  const int direction = w->stretch.direction;
+  double last = w->at;
+  for (; i < w->n && pendres_stretch_holds(&w->stretch, w->value[i]); i++) {
+    if ((w->value[i] - last) * direction < 0.0 || at_fold(&w->stretch, w->value[i])) break;
+    last = w->value[i];
+  }
+  return i;
+}
+
+static pendres_status put_stretch(pendres_path *w, size_t first, size_t last)
+{
+  const size_t n = last - first;
+  pendres_orbit *orbit = malloc((n + 1) * sizeof *orbit);
+  int *found = calloc(n + 1, sizeof *found);
+  pendres_status status = pendres_context_poll(w->ctx);
+  pendres_path_allow_all(w); /* they are known to be near, however many */
+  if (status != PENDRES_OK) goto done;
+  status = PENDRES_OUT_OF_MEMORY;
+  if (orbit == NULL || found == NULL)
+    (void)pendres_context_fail(w->ctx, status, "out of memory for %zu orbits", n);
+  else
+    status = pendres_stretch_orbits(w->ctx, &w->stretch, n, w->value + first, orbit, found);
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[first + i]);
+    const pendres_attractor a =
+      found[i] ? pendres_settled_orbit(&orbit[i]) : pendres_settled_nothing(&p);
+    pendres_path_put(w, first + i, &a);
+    if (!found[i]) continue;
+    w->state = (pendres_settled){
+      .pendulum = p, .attractor = a, .x = orbit[i].x, .v = orbit[i].v};
+    w->at = w->value[first + i];
+  }
+done:
+  free(orbit);
+  free(found);
+  return status;
+}
+
+/* The last value from number i on before the path turns round or takes a long step. */
+static double turning_point(const pendres_path *w, size_t i)
+{
+  const int up = w->value[i] > w->at;
+  const double most = in_sight * pendres_parameter_scale(w->parameter);
+  while (i + 1 < w->n && fabs(w->value[i + 1] - w->value[i]) <= most &&
+         (up ? w->value[i + 1] >= w->value[i] : w->value[i + 1] <= w->value[i]))
+    i++;
+  return w->value[i];
+}
+
+int pendres_path_short(const pendres_attractor *a)
+{
+  return pendres_settled_closed(a) && a->orbit.period <= PENDRES_HYSTERESIS_PERIOD;
+}
+
+pendres_status pendres_path_orbit(pendres_path *w, size_t *i)
+{
+  const size_t start = *i;
+  for (int ends = 0; ends < MOST_JUMPS && *i == start; ends++) {
+    const double limit = turning_point(w, *i);
+    const int direction = w->value[*i] >= w->at ? 1 : -1;
+    pendres_status status = PENDRES_OK;
+    if (w->stretch.branch != NULL && w->stretch.direction != direction)
+      pendres_stretch_free(&w->stretch);
+    if (w->stretch.branch == NULL)
+      status = pendres_stretch_from(w->ctx, &w->state.attractor.orbit, w->parameter, limit,
+                                    &w->stretch);
+    if (status != PENDRES_OK) return status;
+    size_t last = held(w, *i);
+    if (last > *i) {
+      status = put_stretch(w, *i, last);
+      if (pendres_path_own(status) && last > *i + 1) status = put_stretch(w, *i, last = *i + 1);
+      *i = last;
+    } else if (direction != pendres_path_direction(w, *i)) {
+      return PENDRES_OK;
+    } else if (w->stretch.end == PENDRES_STRETCH_STOPPED) {
+      status = resume(w, limit);
+      if (status != PENDRES_OK || w->stretch.branch == NULL) return status;
+    } else {
+      status = end_stretch(w, *i, limit);
+    }
+    if (status != PENDRES_OK || !pendres_path_short(&w->state.attractor)) return status;
+  }
+  return PENDRES_OK;
+}

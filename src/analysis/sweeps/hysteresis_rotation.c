@@ -1,0 +1,119 @@
+/* hysteresis_rotation.c -- rotations without a drive along a path; see hysteresis_rotation.h. */
+#include "analysis/sweeps/hysteresis_rotation.h"
+
+#include <math.h>
+
+#include "base/angles.h"
+#include "continuation/parameter.h"
+#include "engine/context_internal.h"
+#include "analysis/sweeps/hysteresis_left.h"
+
+/* Where rotations end in a saddle-node, the equilibrium that is left is followed from this distance
+   beyond on, in the parameter's scale. */
+static const double beyond = 1e-4;
+
+/* The lower equilibrium; at a torque of 1 exactly it is the upper one, too. */
+static pendres_status stand_still(const pendres_path *w, double at, pendres_settled *out)
+{
+  const pendres_pendulum p = pendres_path_pendulum(w, at);
+  const pendres_orbit_guess guess = {
+    .pendulum = p, .x = half_pi + asin(fmax(-1.0, fmin(1.0, p.torque))), .period = 1};
+  pendres_orbit orbit;
+  pendres_status outcome;
+  const pendres_status status =
+    pendres_orbit_refine(w->ctx, 1, &guess, PENDRES_ORBIT_PLAIN, &orbit, &outcome);
+  if (status != PENDRES_OK) return status;
+  *out = pendres_settled_nothing_at(&p, guess.x, 0.0);
+  if (outcome != PENDRES_NOT_CONVERGED && (orbit.stable || fabs(p.torque) == 1.0))
+    out->attractor = pendres_settled_orbit(&orbit);
+  return PENDRES_OK;
+}
+
+/* At value number i there is no rotation any more: the pendulum comes to rest. */
+static pendres_status end_rotation(pendres_path *w, size_t i)
+{
+  pendres_rotation_limit limit;
+  pendres_jump j = {.step = i, .direction = w->value[i] > w->at ? 1 : -1,
+                    .kind = PENDRES_JUMP_OTHER, .from = w->state.attractor.label, .share = 1.0,
+                    .certain = 1};
+  pendres_status status = pendres_rotation_limit_between(&w->pendulum, w->parameter, w->at,
+                                                         w->value[i], &limit);
+  double at = w->value[i];
+  if (status == PENDRES_NOT_FOUND) { /* it ends somewhere in between */
+    limit.value = 0.5 * (w->at + w->value[i]);
+    limit.error = 0.5 * fabs(w->value[i] - w->at);
+    status = PENDRES_OK;
+  } else if (status == PENDRES_OK) {
+    j.kind = limit.end == PENDRES_ROTATION_SADDLE_NODE ? PENDRES_JUMP_FOLD
+                                                       : PENDRES_JUMP_HOMOCLINIC;
+    const double next = limit.value + j.direction * beyond * pendres_parameter_scale(w->parameter);
+    if ((at - next) * j.direction > 0.0) at = next;
+  }
+  if (status == PENDRES_OK) status = stand_still(w, at, &w->state);
+  w->at = at;
+  j.value = limit.value;
+  j.value_error = limit.error;
+  j.to = w->state.attractor.label;
+  j.to_period = pendres_settled_closed(&w->state.attractor) ? 1 : 0;
+  if (status == PENDRES_OK) status = pendres_path_note(w, &j);
+  pendres_path_leave(w);
+  return status;
+}
+
+/* Value number i is the torque of 1, at which rotations end in a saddle-node: the pendulum is at
+   rest there, and the path goes on in either direction. */
+static pendres_status put_end(pendres_path *w, size_t i)
+{
+  const pendres_settled rotating = w->state;
+  const pendres_status status = stand_still(w, w->value[i], &w->state);
+  if (status != PENDRES_OK) return status;
+  pendres_path_leave(w);
+  pendres_path_put(w, i, &w->state.attractor);
+  pendres_path_leave(w);
+  w->state = rotating;
+  w->at = w->value[i];
+  return PENDRES_OK;
+}
+
+pendres_status pendres_path_rotation(pendres_path *w, size_t *i)
+{
+  const int forwards = w->state.pendulum.torque > 0.0;
+  pendres_status status = PENDRES_OK;
+  pendres_path_allow_all(w); /* those of all values are looked for at once */
+  if (w->rotations == NULL)
+    status = pendres_rotation_table_create(w->ctx, &w->pendulum, w->parameter, w->n, w->value,
+                                           &w->rotations);
+  for (; *i < w->n && status == PENDRES_OK; (*i)++) {
+    const pendres_pendulum p = pendres_path_pendulum(w, w->value[*i]);
+    const pendres_rotation *r = pendres_rotation_table_at(w->rotations, w->value[*i]);
+    const int same_way = (p.torque > 0.0) == forwards;
+    if (!pendres_rotation_may_be(&p)) {
+      w->state.attractor = pendres_settled_nothing(&p);
+      return status;
+    }
+    if (same_way && r == NULL && fabs(p.torque) == 1.0) {
+      status = put_end(w, *i);
+      continue;
+    }
+    if (!same_way || r == NULL) return end_rotation(w, *i);
+    pendres_settled_rotate(&p, r, &w->state);
+    w->at = w->value[*i];
+    pendres_path_put(w, *i, &w->state.attractor);
+  }
+  return status;
+}
+
+void pendres_path_into_rotation(pendres_path *w, const pendres_bifurcation *end,
+                                pendres_jump *jump, int *done)
+{
+  const pendres_orbit *o = &end->orbit;
+  const pendres_rotation slowest = {.mean_velocity = NAN, .mean_velocity_error = NAN, .v = o->v};
+  *done = end->kind == PENDRES_FOLD && end->parameter == PENDRES_TORQUE &&
+          pendres_rotation_may_be(&o->pendulum) && o->period == 1 && o->winding == 0;
+  if (!*done) return;
+  pendres_settled_rotate(&o->pendulum, &slowest, &w->state);
+  jump->to = w->state.attractor.label;
+  jump->to_period = 0;
+  jump->share = 1.0;
+  jump->certain = 1;
+}

@@ -1,0 +1,188 @@
+/* check.c -- where a branch attracts, and whether its points and bifurcations
+   agree. */
+#include "continuation/branch.h"
+
+#include <math.h>
+
+const char *pendres_doubt_name(pendres_doubt bit)
+{
+  switch (bit) {
+  case PENDRES_DOUBT_SIGN: return "unlisted_change";
+  case PENDRES_DOUBT_TURN: return "turn_without_fold";
+  case PENDRES_DOUBT_BIFURCATION: return "bifurcation_without_its_signs";
+  default: return NULL;
+  }
+}
+
+/*
+ * Along a branch the product (1 - m1)(1 - m2) of its multipliers changes its sign at folds and at
+ * losses of mirror symmetry, (1 + m1)(1 + m2) at period doublings, and neither does anywhere else:
+ * so an orbit cannot become stable or unstable otherwise. (Since the product of the multipliers is
+ * below 1, a complex pair does not leave the unit circle.) At a fold the parameter turns, and it
+ * turns nowhere else but where the branch was born from another, of half its map.
+ */
+
+/* A point that stands for the part of a branch next to it. */
+static int regular(const pendres_branch *b, size_t i)
+{
+  return b->point[i].bifurcation < 0;
+}
+
+/* Sign of (s - m1)(s - m2), s = 1 or -1; 0 where the sign is not known: right at a bifurcation, or
+   within the error. */
+static int sign_of(const pendres_orbit *o, double s)
+{
+  if (fabs(o->multiplier_im[0]) > 0.0) return 1;
+  const double first = s - o->multiplier_re[0], second = s - o->multiplier_re[1];
+  if (!(fmin(fabs(first), fabs(second)) > 1e-6 + 10.0 * o->multiplier_error)) return 0;
+  return (first > 0.0) == (second > 0.0) ? 1 : -1;
+}
+
+/* Whether a bifurcation is of the branch itself, not of the other that it was born from there. */
+static int own(const pendres_branch *b, const pendres_bifurcation *f)
+{
+  if (f->kind == PENDRES_SYMMETRY_BREAKING) return b->map.mirror;
+  return f->orbit.period == b->map.period;
+}
+
+/* Whether the sign changes at a bifurcation. */
+static int changes(const pendres_branch *b, const pendres_bifurcation *f, double s)
+{
+  return own(b, f) && (f->kind == PENDRES_PERIOD_DOUBLING) == (s < 0.0);
+}
+
+/* From one point that tells to the next an odd number of bifurcations changes the sign. */
+static void check_signs(pendres_branch *b, double s)
+{
+  const size_t round = b->end[0] == PENDRES_END_CLOSED ? 2 * b->count : b->count;
+  size_t last = 0;
+  int sign = 0, met = 0;
+  for (size_t k = 0; k < round; k++) {
+    const size_t i = k % b->count;
+    if (!regular(b, i)) {
+      met += changes(b, &b->bifurcation[b->point[i].bifurcation], s);
+      continue;
+    }
+    const int here = sign_of(&b->point[i].orbit, s);
+    if (here == 0) continue;
+    if (sign != 0 && (here != sign) != (met % 2 != 0)) b->point[last].doubt |= PENDRES_DOUBT_SIGN;
+    sign = here;
+    met = 0;
+    last = i;
+    if (k >= b->count) break;
+  }
+}
+
+/* ---- turns ---- */
+
+/* Which way the parameter goes from point i to the next that differs in it by more than the errors,
+   forwards or backwards, but not beyond a bifurcation; 0 if that does not tell. */
+static int side_of(const pendres_branch *b, size_t i, int step)
+{
+  const double from = pendres_branch_value(b, i), error = b->point[i].parameter_error;
+  const int closed = b->end[0] == PENDRES_END_CLOSED;
+  size_t k = i;
+  for (size_t n = 1; n < b->count; n++) {
+    if (!closed && (step > 0 ? k + 1 == b->count : k == 0)) return 0;
+    k = step > 0 ? (k + 1) % b->count : (k + b->count - 1) % b->count;
+    const double apart = pendres_branch_value(b, k) - from;
+    if (fabs(apart) > 2.0 * (error + b->point[k].parameter_error)) return apart > 0.0 ? 1 : -1;
+    if (!regular(b, k)) return 0;
+  }
+  return 0;
+}
+
+static void check_turns(pendres_branch *b)
+{
+  for (size_t i = 0; i < b->count; i++) {
+    const int before = side_of(b, i, -1), behind = side_of(b, i, 1);
+    if (before == 0 || behind == 0) continue;
+    const int turns = before == behind;
+    if (regular(b, i)) {
+      if (turns) b->point[i].doubt |= PENDRES_DOUBT_TURN;
+      continue;
+    }
+    const pendres_bifurcation *f = &b->bifurcation[b->point[i].bifurcation];
+    if (f->kind == PENDRES_FOLD ? !turns || (f->curvature > 0.0) != (before > 0)
+                                : own(b, f) && turns)
+      b->point[i].doubt |= PENDRES_DOUBT_BIFURCATION;
+  }
+}
+
+void pendres_branch_check(pendres_branch *b)
+{
+  for (size_t i = 0; i < b->count; i++) b->point[i].doubt = 0;
+  check_signs(b, 1.0);
+  check_signs(b, -1.0);
+  check_turns(b);
+}
+
+/* ---- parts that attract ---- */
+
+/* The bifurcation at a point. */
+static pendres_special kind_at(const pendres_branch *b, size_t i)
+{
+  return b->point[i].kind;
+}
+
+/* Whether points i and k, the latter a bifurcation, are at one place within their errors. */
+static int same_place(const pendres_branch *b, size_t i, size_t k)
+{
+  const double error = b->point[i].parameter_error + b->point[k].parameter_error;
+  return fabs(pendres_branch_value(b, i) - pendres_branch_value(b, k)) <= 2.0 * error;
+}
+
+/* Whether point i is so close to a bifurcation that its stability is a matter of rounding: it may
+   be on either side. A branch that starts at a bifurcation has such points. */
+static int beside(const pendres_branch *b, size_t i)
+{
+  for (int step = -1; step <= 1; step += 2)
+    for (size_t k = i; step > 0 ? k + 1 < b->count : k > 0;) {
+      const pendres_orbit *o = &b->point[k].orbit;
+      const int tells = sign_of(o, 1.0) != 0 && sign_of(o, -1.0) != 0;
+      k = step > 0 ? k + 1 : k - 1;
+      if (!regular(b, k) && (!tells || same_place(b, i, k))) return 1;
+      if (tells || !regular(b, k)) break;
+    }
+  return 0;
+}
+
+/* A stable point that is not beside a bifurcation. */
+static int attracts(const pendres_branch *b, size_t i)
+{
+  return regular(b, i) && b->point[i].orbit.stable && !beside(b, i);
+}
+
+/* The part from point i on, one that attracts; *next: where to go on. */
+static pendres_branch_part part_from(const pendres_branch *b, size_t i, size_t *next)
+{
+  pendres_branch_part part = {.first = i, .last = i};
+  while (part.first > 0 && regular(b, part.first - 1) && beside(b, part.first - 1)) part.first--;
+  if (part.first > 0 && !regular(b, part.first - 1)) part.first--;
+  size_t k = i;
+  for (; k < b->count && (!regular(b, k) || attracts(b, k) || beside(b, k)); k++)
+    if (attracts(b, k)) part.last = k;
+  /* The bifurcation next to the last point that attracts, on the far side, if there is one. */
+  size_t end = part.last + 1;
+  while (end < b->count && regular(b, end) && beside(b, end)) end++;
+  part.last = end < b->count && !regular(b, end) ? end : end - 1;
+  part.begins = kind_at(b, part.first);
+  part.ends = kind_at(b, part.last);
+  *next = k;
+  return part;
+}
+
+size_t pendres_branch_parts(const pendres_branch *b, size_t room, pendres_branch_part *out)
+{
+  size_t n = 0;
+  for (size_t i = 0; b != NULL && i < b->count;) {
+    if (!attracts(b, i)) {
+      i++;
+      continue;
+    }
+    const pendres_branch_part part = part_from(b, i, &i);
+    if (n < room && out != NULL) out[n] = part;
+    n++;
+  }
+  return n;
+}

@@ -1,0 +1,238 @@
+/* equations.c -- folds, flips and cusps as equations; see equations.h. */
+#include "continuation/equations.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_linalg.h>
+
+#include "continuation/crossing.h"
+#include "engine/context_internal.h"
+
+/* Step of one-sided differences of the determinant by the unknowns. They only steer Newton's
+   method, where a relative error of 1e-5 costs nothing. The step is so short since second
+   derivatives grow to 1e9 where orbits pass close to the top of the barrier; the determinant's own
+   rounding, 1e-15, does no harm. */
+static const double nudge = 2e-9;
+/* The derivative along the null vector enters the solution itself: central differences of order
+   six, whose truncation step^6 and rounding epsilon/step are both about 1e-13. */
+static const double stencil_step = 8e-3;
+enum { STENCIL = 6 };
+
+/* Derivative of the fold's determinant along the null vector, from its stencil's images. */
+static double stencil_value(const pendres_continuation_image stencil[STENCIL])
+{
+  static const double weight[STENCIL / 2] = {45.0, -9.0, 1.0};
+  double sum = 0.0;
+  for (int i = 0; i < STENCIL / 2; i++)
+    sum += weight[i] * (pendres_continuation_map_fold(&stencil[2 * i]) -
+                        pendres_continuation_map_fold(&stencil[2 * i + 1]));
+  return sum / (60.0 * stencil_step);
+}
+
+static void stencil_points(const double u[PENDRES_U_COUNT], const double v[2],
+                           double (*points)[PENDRES_U_COUNT])
+{
+  for (int i = 0; i < STENCIL; i++) {
+    const double far = stencil_step * (i / 2 + 1) * (i % 2 == 0 ? 1.0 : -1.0);
+    memcpy(points[i], u, sizeof points[i]);
+    points[i][PENDRES_U_Y] += far * v[0];
+    points[i][PENDRES_U_W] += far * v[1];
+  }
+}
+
+/* Work space: for each point its image and one for each nudged unknown, and their stencils. */
+typedef struct workspace {
+  double (*u)[PENDRES_U_COUNT], (*around)[PENDRES_U_COUNT];
+  pendres_continuation_image *image, *around_image;
+} workspace;
+
+static void workspace_free(workspace *w)
+{
+  free(w->u);
+  free(w->around);
+  free(w->image);
+  free(w->around_image);
+}
+
+static pendres_status workspace_create(pendres_context *ctx, size_t points, size_t around,
+                                       workspace *w)
+{
+  w->u = malloc(points * sizeof *w->u);
+  w->image = malloc(points * sizeof *w->image);
+  if (around > 0) {
+    w->around = malloc(around * sizeof *w->around);
+    w->around_image = malloc(around * sizeof *w->around_image);
+  }
+  if (w->u == NULL || w->image == NULL ||
+      (around > 0 && (w->around == NULL || w->around_image == NULL)))
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for a branch");
+  return PENDRES_OK;
+}
+
+static void plain_rows(const pendres_continuation_image *image, pendres_continuation_equations *e)
+{
+  e->equations = 2;
+  e->image = *image;
+  memcpy(e->r, image->f, sizeof image->f);
+  memcpy(e->j, image->j, sizeof image->j);
+}
+
+/* Append an equation with the values it has at the point and at each nudged one. */
+static void append_row(pendres_continuation_equations *e, const pendres_continuation_system *s,
+                       double value, const double *nudged)
+{
+  const int row = e->equations++;
+  e->r[row] = value;
+  for (int k = 0; k < PENDRES_U_COUNT; k++) e->j[row][k] = 0.0;
+  for (int k = 0; k < s->unknowns; k++) e->j[row][s->unknown[k]] = (nudged[k] - value) / nudge;
+}
+
+/* The equations of a branch point, all by one pivot; images: at the point, and nudged. */
+static void crossing_rows(const pendres_continuation_image *image,
+                          const pendres_continuation_system *s, pendres_continuation_equations *e)
+{
+  const pendres_crossing_pivot pivot = pendres_crossing_pivot_of(image, s->unknown[2]);
+  double rows[PENDRES_U_COUNT + 1][4];
+  for (int k = 0; k <= s->unknowns; k++) pendres_crossing_rows(&pivot, &image[k], rows[k]);
+  e->equations = 1;
+  e->image = *image;
+  e->r[0] = rows[0][0];
+  memcpy(e->j[0], image->j[pivot.row], sizeof e->j[0]);
+  for (int row = 1; row < 3; row++) {
+    double nudged[PENDRES_U_COUNT];
+    for (int k = 0; k < s->unknowns; k++) nudged[k] = rows[k + 1][row];
+    append_row(e, s, rows[0][row], nudged);
+  }
+}
+
+/* The images at all stencils of the points, each along its null vector. */
+static pendres_status look_around(pendres_context *ctx, const pendres_continuation_system *s,
+                                  size_t n, size_t each, workspace *w)
+{
+  for (size_t i = 0; i < n * each; i++) {
+    double v[2], first[2];
+    pendres_continuation_map_null(&w->image[i], v);
+    /* One sign for all, or differences of the derivative mean nothing. */
+    pendres_continuation_map_null(&w->image[i / each * each], first);
+    if (v[0] * first[0] + v[1] * first[1] < 0.0) {
+      v[0] = -v[0];
+      v[1] = -v[1];
+    }
+    stencil_points(w->u[i], v, w->around + i * STENCIL);
+  }
+  return pendres_continuation_map_states(ctx, s->map, s->steps, n * each * STENCIL,
+                                         (const double (*)[PENDRES_U_COUNT])w->around,
+                                         w->around_image);
+}
+
+pendres_status pendres_continuation_equations_at(pendres_context *ctx,
+                                                 const pendres_continuation_system *s, size_t n,
+                                                 const double (*u)[PENDRES_U_COUNT],
+                                                 pendres_continuation_equations *out)
+{
+  const pendres_continuation_condition condition = s->condition;
+  const size_t each = condition == PENDRES_CONDITION_NONE ? 1 : (size_t)s->unknowns + 1;
+  const int cusp = condition == PENDRES_CONDITION_CUSP;
+  workspace w = {0};
+  pendres_status status =
+    workspace_create(ctx, n * each + 1, cusp ? n * each * STENCIL + 1 : 0, &w);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0; i < n; i++)
+    for (size_t k = 0; k < each; k++) {
+      memcpy(w.u[i * each + k], u[i], sizeof w.u[0]);
+      if (k > 0) w.u[i * each + k][s->unknown[k - 1]] += nudge;
+    }
+  status = pendres_continuation_map_images(ctx, s, n * each,
+                                           (const double (*)[PENDRES_U_COUNT])w.u, w.image);
+  if (status == PENDRES_OK && cusp) status = look_around(ctx, s, n, each, &w);
+  if (status != PENDRES_OK) goto done;
+  for (size_t i = 0; i < n; i++) {
+    const pendres_continuation_image *image = w.image + i * each;
+    double value[PENDRES_U_COUNT + 1] = {0.0};
+    if (condition == PENDRES_CONDITION_CROSSING) {
+      crossing_rows(image, s, &out[i]);
+      continue;
+    }
+    plain_rows(image, &out[i]);
+    if (condition == PENDRES_CONDITION_NONE) continue;
+    for (size_t k = 0; k < each; k++)
+      value[k] = condition == PENDRES_CONDITION_FLIP ? pendres_continuation_map_flip(&image[k])
+                                                     : pendres_continuation_map_fold(&image[k]);
+    append_row(&out[i], s, value[0], value + 1);
+    if (!cusp) continue;
+    for (size_t k = 0; k < each; k++)
+      value[k] = stencil_value(w.around_image + (i * each + k) * STENCIL);
+    append_row(&out[i], s, value[0], value + 1);
+  }
+done:
+  workspace_free(&w);
+  return status;
+}
+
+/* ---- solving ---- */
+
+int pendres_continuation_equations_linear(int n, double a[][PENDRES_U_COUNT], double *b)
+{
+  double dense[PENDRES_U_COUNT * PENDRES_U_COUNT];
+  size_t order[PENDRES_U_COUNT];
+  gsl_permutation permutation = {.size = (size_t)n, .data = order};
+  int sign = 0;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) {
+      if (!isfinite(a[i][k])) return 0;
+      dense[i * n + k] = a[i][k];
+    }
+  gsl_matrix_view m = gsl_matrix_view_array(dense, (size_t)n, (size_t)n);
+  gsl_vector_view x = gsl_vector_view_array(b, (size_t)n);
+  gsl_permutation_init(&permutation);
+  if (gsl_linalg_LU_decomp(&m.matrix, &permutation, &sign) != 0) return 0;
+  /* GSL's own check of this calls its error handler, which ends the program. */
+  for (int i = 0; i < n; i++)
+    if (!(fabs(dense[i * n + i]) > 1e-300)) return 0;
+  return gsl_linalg_LU_svx(&m.matrix, &permutation, &x.vector) == 0;
+}
+
+pendres_continuation_system pendres_continuation_system_of(const pendres_continuation_map *map,
+                                                           pendres_continuation_condition condition,
+                                                           const int *unknown)
+{
+  /* Unknowns of the conditions. */
+  static const int counts[PENDRES_CONDITION_COUNT] = {2, 3, 3, 4, 3};
+  return (pendres_continuation_system){.map = map, .condition = condition,
+                                       .unknowns = counts[condition], .unknown = unknown};
+}
+
+pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
+                                                    const pendres_continuation_system *s,
+                                                    double longest, double u[PENDRES_U_COUNT],
+                                                    pendres_continuation_equations *at)
+{
+  enum { MOST = 20 };
+  const int n = s->unknowns;
+  double last = INFINITY;
+
+  for (int i = 0; i < MOST; i++) {
+    double a[PENDRES_U_COUNT][PENDRES_U_COUNT], d[PENDRES_U_COUNT] = {0.0}, length = 0.0;
+    const pendres_status status =
+      pendres_continuation_equations_at(ctx, s, 1, (const double (*)[PENDRES_U_COUNT])u, at);
+    if (status != PENDRES_OK) return status;
+    for (int r = 0; r < n; r++) {
+      d[r] = -at->r[r];
+      for (int k = 0; k < n; k++) a[r][k] = at->j[r][s->unknown[k]];
+    }
+    if (!pendres_continuation_equations_linear(n, a, d)) return PENDRES_NOT_CONVERGED;
+    for (int k = 0; k < n; k++) length = hypot(length, d[k]);
+    if (!(length < 1e3)) return PENDRES_NOT_CONVERGED;
+    const double part = length > longest ? longest / length : 1.0;
+    for (int k = 0; k < n; k++) u[s->unknown[k]] += part * d[k];
+    const pendres_pendulum p = pendres_continuation_map_pendulum(s->map->force, u);
+    if (pendres_pendulum_check(&p, NULL) != PENDRES_OK) return PENDRES_NOT_CONVERGED;
+    /* Determinants' derivatives are differences, so the next step is a hundredth of this one or
+       less; or it is rounding. */
+    if (length < 1e-13 || (length < 1e-5 && length > 0.5 * last)) return PENDRES_OK;
+    last = length;
+  }
+  return PENDRES_NOT_CONVERGED;
+}

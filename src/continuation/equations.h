@@ -1,0 +1,46 @@
+/*
+ * equations.h -- equations of fixed points, folds, flips and cusps.
+ *
+ * Owns: their values and derivatives at many points side by side, and Newton's method on them.
+ */
+#ifndef PENDRES_CONTINUATION_EQUATIONS_H
+#define PENDRES_CONTINUATION_EQUATIONS_H
+
+#include "continuation/map.h"
+
+enum { PENDRES_EQUATIONS_MOST = 4 };
+
+/* The equations at a point: r[i] = 0, i < equations. */
+typedef struct pendres_continuation_equations {
+  int equations;
+  double r[PENDRES_EQUATIONS_MOST];
+  double j[PENDRES_EQUATIONS_MOST][PENDRES_U_COUNT];
+  pendres_continuation_image image;
+} pendres_continuation_equations;
+
+/* A system of as many equations as unknowns, which are the first of `unknown`. Its steps are not
+   chosen yet. */
+pendres_continuation_system pendres_continuation_system_of(const pendres_continuation_map *map,
+                                                           pendres_continuation_condition condition,
+                                                           const int *unknown);
+
+/* The equations of a system at n points, with their derivatives by its unknowns. */
+pendres_status pendres_continuation_equations_at(pendres_context *ctx,
+                                                 const pendres_continuation_system *system,
+                                                 size_t n, const double (*u)[PENDRES_U_COUNT],
+                                                 pendres_continuation_equations *out);
+
+/*
+ * Solve a system of as many equations as unknowns from u on, by Newton's method; u is replaced, and
+ * *at is what the equations were before the last step. Steps are cut at `longest`.
+ * PENDRES_NOT_CONVERGED without a message if there is no solution near.
+ */
+pendres_status pendres_continuation_equations_solve(pendres_context *ctx,
+                                                    const pendres_continuation_system *system,
+                                                    double longest, double u[PENDRES_U_COUNT],
+                                                    pendres_continuation_equations *at);
+
+/* a x = b for n <= 5, by GSL's LU decomposition; a and b are overwritten, b by x. 0 if singular. */
+int pendres_continuation_equations_linear(int n, double a[][PENDRES_U_COUNT], double *b);
+
+#endif

@@ -1,0 +1,62 @@
+/*
+ * locate.h -- folds, flips and cusps to the tolerance, with their errors.
+ *
+ * Owns: solving their equations at two numbers of steps, and what follows from the difference.
+ */
+#ifndef PENDRES_CONTINUATION_LOCATE_H
+#define PENDRES_CONTINUATION_LOCATE_H
+
+#include <pendres/continuation.h>
+
+#include "continuation/equations.h"
+#include "continuation/orbit.h"
+
+/* A solution with the errors of its unknowns, in their order. */
+typedef struct pendres_located {
+  pendres_continuation_pair pair;
+  double error[PENDRES_EQUATIONS_MOST];
+  double curvature[2]; /* of a fold, at coarse and fine steps */
+  int parted;          /* where two branches were to cross: they come close, and do not */
+} pendres_located;
+
+/*
+ * Solve a system of as many equations as unknowns near u, with steps of its own choice, until the
+ * parameters' errors are below the tolerance of the context. PENDRES_NOT_CONVERGED (without a
+ * message) if there is nothing within `reach` of u (in the scale of arclength);
+ * PENDRES_TOLERANCE_UNREACHABLE with *out complete.
+ */
+pendres_status pendres_continuation_locate(pendres_context *ctx,
+                                           const pendres_continuation_system *system,
+                                           const double u[PENDRES_U_COUNT], double reach,
+                                           pendres_located *out);
+
+/* One end of a step along a branch. */
+typedef struct pendres_located_end {
+  const double *u, *tangent;
+  const pendres_continuation_image *image;
+} pendres_located_end;
+
+/*
+ * Whether a step leads from one branch to another since these come close, and do not cross: where
+ * they cross, too, the bordered determinant changes its sign. unknown[3]: y, w and the branches'
+ * parameter.
+ */
+pendres_status pendres_continuation_parts(pendres_context *ctx,
+                                          const pendres_continuation_map *map, const int *unknown,
+                                          const pendres_located_end ends[2], int *parts);
+
+/* Whether a status of pendres_continuation_locate() says that *out is complete. */
+int pendres_located_found(pendres_status status);
+
+/* The bifurcation that a condition is of, of this map. */
+pendres_special pendres_continuation_kind(pendres_continuation_condition condition,
+                                          const pendres_continuation_map *map);
+
+/* Make a public bifurcation of a located fold or flip in one parameter. */
+pendres_status pendres_continuation_locate_finish(pendres_context *ctx,
+                                                  pendres_continuation_condition condition,
+                                                  pendres_parameter parameter,
+                                                  const pendres_located *located,
+                                                  pendres_bifurcation *out);
+
+#endif

@@ -1,0 +1,316 @@
+/* map.c -- the map whose fixed points are followed; see map.h. */
+#include "continuation/map.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/angles.h"
+#include "engine/context_internal.h"
+#include "engine/passage.h"
+#include "engine/steps.h"
+#include "model/model.h"
+
+pendres_pendulum pendres_continuation_map_pendulum(pendres_force force,
+                                                   const double u[PENDRES_U_COUNT])
+{
+  pendres_pendulum p = {.damping = u[PENDRES_U_GAMMA],
+                        .drive_amplitude = u[PENDRES_U_DRIVE],
+                        .drive_frequency = u[PENDRES_U_OMEGA],
+                        .torque = u[PENDRES_U_TORQUE],
+                        .parametric_amplitude = u[PENDRES_U_MODULATION],
+                        .force = force};
+  memcpy(p.force_coefficients, u + PENDRES_U_POWERS, sizeof p.force_coefficients);
+  return p;
+}
+
+void pendres_continuation_map_point(const pendres_pendulum *p, double y, double w,
+                                    double u[PENDRES_U_COUNT])
+{
+  u[PENDRES_U_Y] = y;
+  u[PENDRES_U_W] = w;
+  u[PENDRES_U_OMEGA] = p->drive_frequency;
+  u[PENDRES_U_GAMMA] = p->damping;
+  u[PENDRES_U_DRIVE] = p->drive_amplitude;
+  u[PENDRES_U_TORQUE] = p->torque;
+  u[PENDRES_U_MODULATION] = p->parametric_amplitude;
+  memcpy(u + PENDRES_U_POWERS, p->force_coefficients, sizeof p->force_coefficients);
+}
+
+/* Whether pendulums lose a mirror symmetry about a centre when an unknown changes: a power that is
+   not odd about it is added to the force. */
+static int breaks_symmetry(int place, double centre)
+{
+  return place == PENDRES_U_TORQUE ||
+         (place >= PENDRES_U_POWERS && (centre != 0.0 || (place - PENDRES_U_POWERS) % 2 != 0));
+}
+
+static int is_among(int place, int unknowns, const int *unknown)
+{
+  for (int k = 0; k < unknowns; k++)
+    if (unknown[k] == place) return 1;
+  return 0;
+}
+
+/* Whether a pendulum has a parametric drive alone, or may have one on the way, and a mirror: the
+   drive leaves the symmetry only to a force that is odd without a torque. */
+static int is_reflected(const pendres_pendulum *p, int unknowns, const int *unknown)
+{
+  return p->drive_amplitude == 0.0 && p->torque == 0.0 &&
+         !is_among(PENDRES_U_DRIVE, unknowns, unknown) &&
+         (p->parametric_amplitude != 0.0 || is_among(PENDRES_U_MODULATION, unknowns, unknown));
+}
+
+/* Periods after which an orbit may be its own mirror image at the same phase; 0 if it cannot. */
+static int reflected_after(int period)
+{
+  return period == 1 ? 1 : period % 2 == 0 ? period / 2 : 0;
+}
+
+/* Whether an orbit is its own mirror image in this way: averaged over its drive cycles it rests at
+   the centre; of a pendulum at one of them. */
+static int is_own_reflection(const pendres_orbit *o, double centre)
+{
+  const double nothing = 1e-7 + 10.0 * o->first_harmonic_amplitude_error;
+  if (pendres_model_of(o->pendulum.force)->period == 0.0 &&
+      !(fabs(o->mean_angle - centre) <= nothing + o->x_error))
+    return 0;
+  for (int m = 0; m < PENDRES_ORBIT_HARMONICS; m++)
+    if (!(hypot(o->cosine[m], o->sine[m]) <= nothing)) return 0;
+  return reflected_after(o->period) > 0 && o->winding == 0;
+}
+
+pendres_continuation_map pendres_continuation_map_of(const pendres_orbit *o, int unknowns,
+                                                     const int *unknown,
+                                                     double u[PENDRES_U_COUNT])
+{
+  pendres_continuation_map map = {
+    .force = o->pendulum.force, .period = o->period, .winding = o->winding};
+  const pendres_place s = pendres_passage_in_whole(&o->pendulum, o->x, o->v);
+  pendres_pendulum still = o->pendulum;
+  still.parametric_amplitude = 0.0;
+  const double centre =
+    pendres_model_centre(&still, isfinite(o->mean_angle) ? o->mean_angle : s.y);
+  int kept = isfinite(centre);
+  pendres_continuation_map_point(&o->pendulum, s.y, s.w, u);
+  for (int k = 0; k < unknowns && kept; k++) kept = !breaks_symmetry(unknown[k], centre);
+  if (!kept) return map;
+  map.reflects = is_reflected(&o->pendulum, unknowns, unknown);
+  map.symmetric = o->pendulum.parametric_amplitude == 0.0 &&
+                  !is_among(PENDRES_U_MODULATION, unknowns, unknown);
+  if (map.symmetric || map.reflects) map.centre = centre;
+  if (map.symmetric && o->symmetric && o->period % 2 != 0 && o->winding == 0)
+    map.mirror = PENDRES_MIRROR_HALF;
+  else if (map.reflects && is_own_reflection(o, centre))
+    map.mirror = PENDRES_MIRROR_WHOLE;
+  /* About the bottom of the well, or about the top of a barrier. A caller's orbit may have any
+     number there. */
+  if (map.mirror != PENDRES_MIRROR_NONE)
+    map.winding = pendres_model_of(map.force)->period > 0.0
+                    ? (int)rint(fmin(fmax(o->mean_angle / pi, -1.0), 1.0))
+                    : 0;
+  return map;
+}
+
+pendres_status pendres_continuation_map_steps(pendres_context *ctx, pendres_force force,
+                                              const double u[PENDRES_U_COUNT], double tolerance,
+                                              int *steps)
+{
+  const pendres_pendulum p = pendres_continuation_map_pendulum(force, u);
+  const char *why = NULL;
+  if (pendres_pendulum_check(&p, &why) != PENDRES_OK)
+    return pendres_context_fail(ctx, PENDRES_NOT_CONVERGED, "the branch leaves the parameters: %s",
+                                why);
+  const double speed =
+    pendres_steps_speed(&p, u[PENDRES_U_Y], u[PENDRES_U_W] * u[PENDRES_U_OMEGA]);
+  const pendres_status status = pendres_steps_choose(ctx, &p, speed, tolerance, steps);
+  *steps += *steps % 2;
+  return status;
+}
+
+double pendres_continuation_map_fold(const pendres_continuation_image *i)
+{
+  return 1.0 - i->trace + i->determinant;
+}
+
+double pendres_continuation_map_flip(const pendres_continuation_image *i)
+{
+  return 1.0 + i->trace + i->determinant;
+}
+
+double pendres_continuation_map_growth(const pendres_continuation_image *i)
+{
+  return hypot(hypot(i->n[0][0], i->n[0][1]), hypot(i->n[1][0], i->n[1][1]));
+}
+
+void pendres_continuation_map_null(const pendres_continuation_image *image, double v[2])
+{
+  /* The larger row of N - I has more digits. */
+  const double *row =
+    hypot(image->j[0][0], image->j[0][1]) > hypot(image->j[1][0], image->j[1][1]) ? image->j[0]
+                                                                                 : image->j[1];
+  const double length = hypot(row[0], row[1]);
+  v[0] = length > 0.0 ? -row[1] / length : 1.0;
+  v[1] = length > 0.0 ? row[0] / length : 0.0;
+}
+
+/* ---- images ---- */
+
+/* Of a map. */
+static int whole_periods(const pendres_continuation_map *map)
+{
+  if (map->mirror == PENDRES_MIRROR_WHOLE) return reflected_after(map->period);
+  return map->mirror == PENDRES_MIRROR_HALF ? map->period / 2 : map->period;
+}
+
+static void read_image(const pendres_rows *rows, size_t lane,
+                       const pendres_continuation_map *map, const double u[PENDRES_U_COUNT],
+                       int columns, pendres_continuation_image *out)
+{
+  const double sign = map->mirror ? -1.0 : 1.0;
+  const double turns = map->mirror ? two_pi * map->winding + 2.0 * map->centre
+                                   : -two_pi * map->winding;
+  const double time = map->mirror == PENDRES_MIRROR_HALF
+                        ? pi * map->period / u[PENDRES_U_OMEGA]
+                        : two_pi * whole_periods(map) / u[PENDRES_U_OMEGA];
+  out->f[0] = sign * pendres_rows_get(rows, PENDRES_ROW_Y, lane) + turns - u[PENDRES_U_Y];
+  out->f[1] = sign * pendres_rows_get(rows, PENDRES_ROW_W, lane) - u[PENDRES_U_W];
+  for (int i = 0; i < 2; i++) {
+    for (int k = 0; k < PENDRES_U_COUNT; k++)
+      out->j[i][k] =
+        k < columns ? sign * pendres_rows_get(rows, PENDRES_ROW_BY_Y + 2 * k + i, lane) : NAN;
+    for (int k = 0; k < 2; k++) out->n[i][k] = out->j[i][k];
+    out->j[i][i] -= 1.0;
+  }
+  out->trace = out->n[0][0] + out->n[1][1];
+  out->determinant = exp(-u[PENDRES_U_GAMMA] * time);
+}
+
+static pendres_status run_block(pendres_block *b, const pendres_continuation_map *map, size_t n,
+                                const double (*u)[PENDRES_U_COUNT], int columns,
+                                pendres_continuation_image *out)
+{
+  pendres_status status = PENDRES_OK;
+  pendres_block_resize(b, n);
+  for (size_t i = 0; i < n; i++) {
+    const pendres_pendulum p = pendres_continuation_map_pendulum(map->force, u[i]);
+    pendres_block_load(b, i, &p, u[i][PENDRES_U_Y], u[i][PENDRES_U_W]);
+  }
+  const int whole = whole_periods(map);
+  for (int k = 0; k < whole && status == PENDRES_OK; k++) status = pendres_block_period(b);
+  if (map->mirror == PENDRES_MIRROR_HALF && status == PENDRES_OK)
+    status = pendres_block_half_period(b);
+  if (status != PENDRES_OK) return status;
+  b->ctx->cost.newton_steps += (double)n;
+  const pendres_rows rows = pendres_block_rows(b);
+  for (size_t i = 0; i < n; i++) read_image(&rows, i, map, u[i], columns, &out[i]);
+  return PENDRES_OK;
+}
+
+/* How many derivatives, in the order of u, blocks of a kind give. */
+static int columns_of(pendres_flow_kind kind)
+{
+  return kind == PENDRES_FLOW_VARIATIONAL   ? PENDRES_U_OMEGA
+         : kind == PENDRES_FLOW_SENSITIVITY ? PENDRES_U_TORQUE
+         : kind == PENDRES_FLOW_DRIVES      ? PENDRES_U_POWERS
+                                            : PENDRES_U_COUNT;
+}
+
+/* The blocks with the fewest rows that give derivatives by some unknowns. */
+static pendres_flow_kind kind_of(int unknowns, const int *unknown)
+{
+  static const pendres_flow_kind kinds[] = {PENDRES_FLOW_VARIATIONAL, PENDRES_FLOW_SENSITIVITY,
+                                            PENDRES_FLOW_DRIVES, PENDRES_FLOW_ALL};
+  int last = 0, k = 0;
+  for (int i = 0; i < unknowns; i++) last = unknown[i] > last ? unknown[i] : last;
+  while (columns_of(kinds[k]) <= last) k++;
+  return kinds[k];
+}
+
+static pendres_status images(pendres_context *ctx, const pendres_continuation_system *s, size_t n,
+                             const double (*u)[PENDRES_U_COUNT], pendres_flow_kind kind,
+                             pendres_continuation_image *out)
+{
+  pendres_block b;
+  const int columns = columns_of(kind);
+  pendres_status status = pendres_block_open(ctx, kind, s->steps, &b);
+  if (status != PENDRES_OK) return status;
+  const size_t capacity = pendres_block_capacity(&b);
+  for (size_t first = 0; first < n && status == PENDRES_OK; first += capacity) {
+    const size_t count = n - first < capacity ? n - first : capacity;
+    status = run_block(&b, s->map, count, u + first, columns, out + first);
+  }
+  return status;
+}
+
+pendres_status pendres_continuation_map_images(pendres_context *ctx,
+                                               const pendres_continuation_system *s, size_t n,
+                                               const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_image *out)
+{
+  return images(ctx, s, n, u, kind_of(s->unknowns, s->unknown), out);
+}
+
+pendres_status pendres_continuation_map_states(pendres_context *ctx,
+                                               const pendres_continuation_map *map, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_image *out)
+{
+  const pendres_continuation_system s = {.map = map, .steps = steps};
+  return images(ctx, &s, n, u, PENDRES_FLOW_VARIATIONAL, out);
+}
+
+/* ---- half maps ---- */
+
+void pendres_continuation_map_unfold(pendres_continuation_map *map)
+{
+  if (map->mirror != PENDRES_MIRROR_NONE) map->winding = 0;
+  map->mirror = PENDRES_MIRROR_NONE;
+}
+
+int pendres_continuation_map_half(const pendres_continuation_map *map, int which,
+                                  pendres_continuation_map *half)
+{
+  /* Most orbits of one or two periods are born of rest, or of orbits that are their own image. */
+  const int reflects = map->reflects && map->winding == 0 && reflected_after(map->period) > 0;
+  *half = *map;
+  if (reflects && which == (map->period > 2) && map->mirror == PENDRES_MIRROR_NONE) {
+    half->mirror = PENDRES_MIRROR_WHOLE;
+    return 1;
+  }
+  if (map->mirror == PENDRES_MIRROR_WHOLE) {
+    pendres_continuation_map_unfold(half);
+    half->period = 1;
+    return which == 0 && map->period <= 2;
+  }
+  const int first = reflects && map->period == 2 ? 1 : 0;
+  if (map->mirror != PENDRES_MIRROR_NONE || which != first) return 0;
+  if (map->period % 2 != 0) {
+    half->mirror = PENDRES_MIRROR_HALF;
+    return map->symmetric && map->winding == 0;
+  }
+  half->period /= 2;
+  half->winding /= 2;
+  return map->winding % 2 == 0;
+}
+
+pendres_status pendres_continuation_map_closes(pendres_context *ctx,
+                                               const pendres_continuation_map *half, int steps,
+                                               size_t n, const double (*u)[PENDRES_U_COUNT],
+                                               pendres_continuation_miss *miss)
+{
+  pendres_continuation_image *image = malloc((n + 1) * sizeof *image);
+  if (image == NULL)
+    return pendres_context_fail(ctx, PENDRES_OUT_OF_MEMORY, "out of memory for %zu images", n);
+  const pendres_status status = pendres_continuation_map_states(ctx, half, steps, n, u, image);
+  const double period = pendres_model_of(half->force)->period;
+  const double turn = period > 0.0 ? period : INFINITY;
+  for (size_t i = 0; i < n && status == PENDRES_OK; i++) {
+    /* The reflection of an angle may be about any multiple of pi. */
+    const double turns = half->mirror ? -rint(image[i].f[0] / turn) : 0.0;
+    miss[i] = (pendres_continuation_miss){{image[i].f[0] + two_pi * turns, image[i].f[1]},
+                                          half->winding + (int)turns};
+  }
+  free(image);
+  return status;
+}

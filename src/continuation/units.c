@@ -1,0 +1,154 @@
+/* units.c -- branches and curves behind the door; see units.h. */
+#include "continuation/units.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "continuation/layout.h"
+#include "engine/context_internal.h"
+
+typedef void convert(const pendres_scales *scales, const pendres_dimensions *d, size_t n,
+                     void *records);
+
+/* The scales of the door, with those of these parameters. */
+static pendres_scales scales_of(const pendres_door *d, pendres_parameter first,
+                                pendres_parameter second)
+{
+  pendres_door moved = *d;
+  pendres_door_move(&moved, first, second);
+  return moved.scales;
+}
+
+static void convert_bifurcations(const pendres_door *d, convert *way, size_t n,
+                                 pendres_bifurcation *b)
+{
+  for (size_t i = 0; i < n; i++) {
+    const pendres_scales s = scales_of(d, b[i].parameter, b[i].parameter);
+    way(&s, &pendres_dim_bifurcation, 1, &b[i]);
+  }
+}
+
+static void convert_branch(const pendres_door *d, convert *way, pendres_branch *b)
+{
+  const pendres_scales s = scales_of(d, b->parameter, b->parameter);
+  way(&s, &pendres_dim_branch_point, b->count, b->point);
+  convert_bifurcations(d, way, b->bifurcations, b->bifurcation);
+  way(&s, &pendres_dim_length, 1, &b->map.centre);
+}
+
+/* Points of map.h are y, w = dy/dtheta and the parameters. */
+static void convert_points(const pendres_door *d, convert *way, size_t n,
+                           double (*u)[PENDRES_U_COUNT])
+{
+  for (size_t i = 0; i < n; i++) {
+    way(&d->scales, &pendres_dim_length, 2, &u[i][PENDRES_U_Y]);
+    for (int k = PENDRES_U_OMEGA; k < PENDRES_U_COUNT; k++) {
+      const pendres_parameter parameter = (pendres_parameter)(k - PENDRES_U_OMEGA);
+      const pendres_scales s = scales_of(d, parameter, parameter);
+      way(&s, &pendres_dim_first, 1, &u[i][k]);
+    }
+  }
+}
+
+static void convert_curve(const pendres_door *d, convert *way, pendres_curve *c)
+{
+  const pendres_scales s = scales_of(d, c->parameter[0], c->parameter[1]);
+  way(&s, &pendres_dim_curve_point, c->count, c->point);
+  way(&s, &pendres_dim_cusp, c->cusps, c->cusp);
+  convert_points(d, way, c->count, c->u);
+  way(&s, &pendres_dim_length, 1, &c->map.centre);
+}
+
+/* ---- copies ---- */
+
+const pendres_bifurcation *pendres_bifurcations_inside(pendres_door *d, size_t n,
+                                                       const pendres_bifurcation *b)
+{
+  if (b == NULL || !pendres_door_changes(d)) return b;
+  pendres_bifurcation *inside = pendres_door_copy(d, b, n * sizeof *b);
+  if (inside != NULL) convert_bifurcations(d, pendres_units_in, n, inside);
+  return inside;
+}
+
+const pendres_curve_options *pendres_curve_options_inside(pendres_door *d, size_t n,
+                                                          const pendres_bifurcation *b,
+                                                          const pendres_curve_options *o)
+{
+  if (o != NULL && b != NULL && n > 0) pendres_door_move(d, b[0].parameter, o->second);
+  return pendres_door_in(d, &pendres_dim_curve_options, 1, o);
+}
+
+const pendres_branch *pendres_branch_inside(pendres_door *d, const pendres_branch *b)
+{
+  if (b == NULL || !pendres_door_changes(d)) return b;
+  pendres_branch *inside = pendres_door_copy(d, b, sizeof *b);
+  if (inside == NULL) return NULL;
+  inside->point = pendres_door_copy(d, b->point, b->count * sizeof *b->point);
+  inside->bifurcation =
+    pendres_door_copy(d, b->bifurcation, b->bifurcations * sizeof *b->bifurcation);
+  if (d->status == PENDRES_OK) convert_branch(d, pendres_units_in, inside);
+  return inside;
+}
+
+const pendres_curve *pendres_curve_inside(pendres_door *d, const pendres_curve *c)
+{
+  if (c == NULL || !pendres_door_changes(d)) return c;
+  pendres_curve *inside = pendres_door_copy(d, c, sizeof *c);
+  if (inside == NULL) return NULL;
+  inside->point = pendres_door_copy(d, c->point, c->count * sizeof *c->point);
+  inside->cusp = pendres_door_copy(d, c->cusp, c->cusps * sizeof *c->cusp);
+  inside->u = pendres_door_copy(d, c->u, c->count * sizeof *c->u);
+  if (d->status == PENDRES_OK) convert_curve(d, pendres_units_in, inside);
+  return inside;
+}
+
+const pendres_curves *pendres_curves_inside(pendres_door *d, const pendres_curves *set)
+{
+  if (set == NULL || !pendres_door_changes(d)) return set;
+  pendres_curves *inside = pendres_door_copy(d, set, sizeof *set);
+  pendres_curve **list = pendres_door_memory(d, (set->count + 1) * sizeof *list);
+  for (size_t i = 0; i < set->count && list != NULL; i++) {
+    const pendres_curve *c = pendres_curve_inside(d, set->curve[i]);
+    memcpy(&list[i], &c, sizeof c);
+  }
+  if (inside != NULL) inside->curve = list;
+  return inside;
+}
+
+/* ---- in place ---- */
+
+void pendres_branch_enter(const pendres_door *d, pendres_branch *b)
+{
+  if (b != NULL && pendres_door_changes(d)) convert_branch(d, pendres_units_in, b);
+}
+
+void pendres_branch_leave(const pendres_door *d, pendres_branch *b)
+{
+  if (b != NULL && pendres_door_changes(d)) convert_branch(d, pendres_units_out, b);
+}
+
+void pendres_branches_enter(const pendres_door *d, pendres_branches *set)
+{
+  for (size_t i = 0; set != NULL && i < set->count; i++) pendres_branch_enter(d, set->branch[i]);
+}
+
+void pendres_branches_leave(const pendres_door *d, pendres_branches *set)
+{
+  for (size_t i = 0; set != NULL && i < set->count; i++) pendres_branch_leave(d, set->branch[i]);
+}
+
+void pendres_curve_leave(const pendres_door *d, pendres_curve *c)
+{
+  if (c != NULL && pendres_door_changes(d)) convert_curve(d, pendres_units_out, c);
+}
+
+void pendres_curves_enter(const pendres_door *d, pendres_curves *set)
+{
+  for (size_t i = 0; set != NULL && i < set->count && pendres_door_changes(d); i++)
+    convert_curve(d, pendres_units_in, set->curve[i]);
+}
+
+void pendres_curves_leave(const pendres_door *d, pendres_curves *set)
+{
+  for (size_t i = 0; set != NULL && i < set->count; i++) pendres_curve_leave(d, set->curve[i]);
+}

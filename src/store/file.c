@@ -1,0 +1,343 @@
+/*
+ * file.c -- the file below a store: a part file that becomes the real one at the end.
+ *
+ * Owns: making and locking PATH.part, writing at offsets, and the way from PATH.part to PATH:
+ * fsync, rename, fsync of the folder, in this order, so that after a crash of the machine PATH is
+ * either the old file or the whole new one. Knows nothing of HDF5. Units: bytes.
+ */
+#ifndef _DEFAULT_SOURCE
+#define _DEFAULT_SOURCE /* flock */
+#endif
+#ifndef _FILE_OFFSET_BITS
+#define _FILE_OFFSET_BITS 64
+#endif
+
+#include "store/file.h"
+
+#include <pendres/store.h>
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* One pread or pwrite moves at most this much: Linux itself stops at 2 GiB. */
+#define LARGEST_PIECE ((size_t)1 << 30)
+/* How often a part file may go away between two looks at it. */
+#define OPEN_ATTEMPTS 100
+
+static pendres_status file_fail(pendres_store_file *file, const char *format, ...)
+  __attribute__((format(printf, 2, 3)));
+
+static pendres_status file_fail(pendres_store_file *file, const char *format, ...)
+{
+  va_list args;
+
+  va_start(args, format);
+  vsnprintf(file->why, sizeof file->why, format, args);
+  va_end(args);
+  return PENDRES_IO;
+}
+
+/* "cannot ACTION NAME: reason" */
+static pendres_status file_failed(pendres_store_file *file, const char *action, const char *name,
+                                  int error)
+{
+  return file_fail(file, "cannot %s '%s': %s", action, name, strerror(error));
+}
+
+static char *joined(const char *head, size_t length, const char *tail)
+{
+  char *text = malloc(length + strlen(tail) + 1);
+
+  if (text) {
+    memcpy(text, head, length);
+    strcpy(text + length, tail);
+  }
+  return text;
+}
+
+/* Whether locks tell who writes a file. HDF5's own environment variable may switch them off; then a
+   file without a lock may still be another run's. */
+static int locks_count(void)
+{
+  const char *use = getenv("HDF5_USE_FILE_LOCKING");
+
+  return !use || (strcmp(use, "FALSE") && strcmp(use, "0"));
+}
+
+/* 1 if the descriptor is still the file of that name: its writer may have renamed it meanwhile. */
+static int is_same_file(int fd, const char *name)
+{
+  struct stat opened, named;
+
+  return !fstat(fd, &opened) && !lstat(name, &named) && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+static pendres_status busy(pendres_store_file *file)
+{
+  return file_fail(file, "'%s' is being written by another process", file->part);
+}
+
+static pendres_status close_again(pendres_store_file *file, pendres_status status)
+{
+  close(file->fd);
+  file->fd = -1;
+  return status;
+}
+
+/* Can it be what a run has left: nothing, a beginning without its head, or an HDF5 file? */
+static int is_leftover(int fd)
+{
+  static const char signature[8] = { '\211', 'H', 'D', 'F', '\r', '\n', '\032', '\n' };
+  static const char nothing[8];
+  char begin[8] = { 0 };
+  const ssize_t n = pread(fd, begin, sizeof begin, 0);
+
+  return n == 0 || (n > 0 && (!memcmp(begin, signature, 8) || !memcmp(begin, nothing, 8)));
+}
+
+/*
+ * Take over a part file that is there already: one that a killed run has left is no longer locked.
+ * *again: it has gone meanwhile, and the name is free.
+ */
+static pendres_status take_over(pendres_store_file *file, int alone, int *again)
+{
+  struct stat info;
+
+  *again = 0;
+  if (!alone && !locks_count())
+    return file_fail(file, "'%s' exists: another process is writing it, or one was killed; without "
+                     "file locks (HDF5_USE_FILE_LOCKING) nobody can tell. Remove it if no run is "
+                     "writing it", file->part);
+  file->fd = open(file->part, O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file->fd < 0) {
+    *again = errno == ENOENT;
+    return file_failed(file, "write", file->part, errno);
+  }
+  if (fstat(file->fd, &info) || !S_ISREG(info.st_mode))
+    return close_again(file, file_fail(file, "'%s' exists and is not a regular file", file->part));
+  if (flock(file->fd, LOCK_EX | LOCK_NB)) {
+    if (errno == EWOULDBLOCK) return close_again(file, busy(file));
+    if (!alone)
+      return close_again(file, file_fail(file, "'%s' exists, and cannot be locked to see whether "
+                                         "it is being written: %s. Remove it if no run is writing "
+                                         "it", file->part, strerror(errno)));
+  }
+  if (!is_same_file(file->fd, file->part)) {
+    *again = 1;
+    return close_again(file, PENDRES_IO);
+  }
+  if (!is_leftover(file->fd))
+    return close_again(file, file_fail(file, "'%s' exists, and was not left by a run that was "
+                                       "killed: move it elsewhere", file->part));
+  if (ftruncate(file->fd, 0))
+    return close_again(file, file_failed(file, "empty", file->part, errno));
+  return PENDRES_OK;
+}
+
+/*
+ * Make the part file of this run. It is created, never just opened, so that the later of two runs
+ * is refused at once, with or without locks. Where there are locks one is held, which tells others
+ * that the file is in use.
+ */
+static pendres_status open_own(pendres_store_file *file, int alone)
+{
+  for (int attempt = 0; attempt < OPEN_ATTEMPTS; attempt++) {
+    int again = 0;
+    pendres_status status;
+
+    file->fd = open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file->fd >= 0) {
+      /* Another run may have taken it for a leftover before it was locked: then it is theirs. */
+      if (flock(file->fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
+        return close_again(file, busy(file));
+      return PENDRES_OK;
+    }
+    if (errno != EEXIST) return file_failed(file, "write", file->part, errno);
+    status = take_over(file, alone, &again);
+    if (!again) return status;
+  }
+  return file_fail(file, "'%s' is replaced all the time by other processes", file->part);
+}
+
+pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone)
+{
+  struct stat before;
+  pendres_status status;
+
+  memset(file, 0, sizeof *file);
+  file->fd = -1;
+  /* Refuse now what the rename would refuse hours later. */
+  status = pendres_store_target(path, &file->path, file->why, sizeof file->why);
+  if (status) return status;
+  file->part = joined(file->path, strlen(file->path), ".part");
+  if (!file->part) return PENDRES_OUT_OF_MEMORY;
+  status = open_own(file, alone);
+  /* Results that were kept from others stay so; a disk without permissions has none to keep. */
+  if (!status && !stat(file->path, &before)) (void)fchmod(file->fd, before.st_mode & 0777);
+  return status;
+}
+
+int pendres_store_file_unlockable(const char *path, char *why)
+{
+  const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  int error = 0;
+
+  if (fd < 0) return 0;
+  if (locks_count() && flock(fd, LOCK_SH | LOCK_NB)) error = errno;
+  close(fd);
+  if (error == EWOULDBLOCK)
+    snprintf(why, PENDRES_STORE_WHY, "'%s' is open for writing in another process", path);
+  else if (error)
+    snprintf(why, PENDRES_STORE_WHY, "'%s' cannot be locked: %s. HDF5_USE_FILE_LOCKING=FALSE in "
+             "the environment reads it without a lock", path, strerror(error));
+  return error != 0;
+}
+
+void pendres_store_file_destroy(pendres_store_file *file)
+{
+  while (file->refused) {
+    pendres_store_refused *next = file->refused->next;
+
+    free(file->refused);
+    file->refused = next;
+  }
+  if (file->fd >= 0) close(file->fd);
+  file->fd = -1;
+  free(file->path);
+  free(file->part);
+  file->path = file->part = NULL;
+}
+
+void pendres_store_file_unlink(const pendres_store_file *file)
+{
+  /* Remove it only if it is our own: with locking off, another process may have taken the name. */
+  if (file->fd >= 0 && is_same_file(file->fd, file->part)) unlink(file->part);
+}
+
+void pendres_store_file_abandon(pendres_store_file *file, int keep)
+{
+  if (file->fd < 0) return;
+  if (!keep) pendres_store_file_unlink(file);
+  close(file->fd);
+  file->fd = -1;
+}
+
+/* Write the folder's entry to the disk. File systems that cannot do this return EINVAL. */
+static int sync_folder(const char *path)
+{
+  const char *slash = strrchr(path, '/');
+  char *folder = slash ? joined(path, (size_t)(slash - path) + 1, "") : joined(".", 1, "");
+  int fd = -1, error = 0;
+
+  if (!folder) return ENOMEM;
+  fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd >= 0) {
+    if (fsync(fd) && errno != EINVAL && errno != ENOTSUP) error = errno;
+    close(fd);
+  }
+  /* A folder that can be written but not read cannot be opened: nothing more can be done. */
+  free(folder);
+  return error;
+}
+
+pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole)
+{
+  int error;
+
+  *whole = 0;
+  if (!is_same_file(file->fd, file->part))
+    return file_fail(file, "'%s' was taken away or replaced during the run", file->part);
+  if (file->error) return file_failed(file, "write", file->part, file->error);
+  if (fsync(file->fd) && errno != EINVAL)
+    return file_failed(file, "write", file->part, file->error = errno);
+  *whole = 1;
+  /* The file is renamed while it is still locked: nobody can take the name in between. */
+  if (rename(file->part, file->path))
+    return file_fail(file, "cannot rename '%s' to '%s': %s; the results are whole in the former",
+                     file->part, file->path, strerror(errno));
+  close(file->fd); /* its status says nothing new after fsync */
+  file->fd = -1;
+  error = sync_folder(file->path);
+  if (error) return file_failed(file, "save the folder of", file->path, error);
+  return PENDRES_OK;
+}
+
+static int refuse(pendres_store_file *file, uint64_t offset, size_t size, const void *bytes)
+{
+  pendres_store_refused *block = malloc(sizeof *block + size);
+
+  if (!block) return -1;
+  block->next = file->refused;
+  block->offset = offset;
+  block->size = size;
+  memcpy(block->bytes, bytes, size);
+  file->refused = block;
+  return 0;
+}
+
+int pendres_store_file_write(pendres_store_file *file, uint64_t offset, size_t size,
+                             const void *bytes)
+{
+  size_t done = 0;
+
+  while (!file->error && done < size) {
+    const size_t piece = size - done < LARGEST_PIECE ? size - done : LARGEST_PIECE;
+    const ssize_t n = pwrite(file->fd, (const char *)bytes + done, piece, (off_t)(offset + done));
+
+    if (n > 0)
+      done += (size_t)n;
+    else if (n == 0 || errno != EINTR)
+      file->error = n == 0 ? ENOSPC : errno;
+  }
+  return done < size ? refuse(file, offset + done, size - done, (const char *)bytes + done) : 0;
+}
+
+/* Lay the refused bytes over what was read: the oldest first, so that the newest wins. */
+static void overlay(const pendres_store_refused *block, uint64_t offset, size_t size,
+                    unsigned char *bytes)
+{
+  uint64_t from, to;
+
+  if (!block) return;
+  overlay(block->next, offset, size, bytes);
+  from = block->offset > offset ? block->offset : offset;
+  to = block->offset + block->size < offset + size ? block->offset + block->size : offset + size;
+  if (from < to)
+    memcpy(bytes + (from - offset), block->bytes + (from - block->offset), (size_t)(to - from));
+}
+
+int pendres_store_file_read(pendres_store_file *file, uint64_t offset, size_t size, void *bytes)
+{
+  size_t done = 0;
+
+  while (done < size) {
+    const size_t piece = size - done < LARGEST_PIECE ? size - done : LARGEST_PIECE;
+    const ssize_t n = pread(file->fd, (char *)bytes + done, piece, (off_t)(offset + done));
+
+    if (n == 0) break;
+    if (n > 0)
+      done += (size_t)n;
+    else if (errno != EINTR) {
+      if (!file->error) file->error = errno;
+      return -1;
+    }
+  }
+  if (done < size) memset((char *)bytes + done, 0, size - done);
+  overlay(file->refused, offset, size, bytes);
+  return 0;
+}
+
+int pendres_store_file_resize(pendres_store_file *file, uint64_t size)
+{
+  while (!file->error && ftruncate(file->fd, (off_t)size))
+    if (errno != EINTR) file->error = errno;
+  return 0;
+}

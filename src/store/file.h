@@ -1,0 +1,64 @@
+/*
+ * file.h -- the file below a store: a part file that becomes the real one at the end.
+ *
+ * Owns: the descriptor, its lock, what failed first, and the bytes that could not be written.
+ */
+#ifndef PENDRES_STORE_FILE_H
+#define PENDRES_STORE_FILE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <pendres/status.h>
+
+enum { PENDRES_STORE_WHY = 512 };
+
+/* Bytes that the disk refused, newest first. */
+typedef struct pendres_store_refused {
+  struct pendres_store_refused *next;
+  uint64_t offset;
+  size_t size;
+  unsigned char bytes[];
+} pendres_store_refused;
+
+typedef struct pendres_store_file {
+  char *path; /* what the user asked for, links followed */
+  char *part; /* what is written: path with ".part" behind it */
+  int fd;     /* -1 when closed */
+  int error;  /* errno of the first failure, 0 if none; sticky */
+  pendres_store_refused *refused;
+  char why[PENDRES_STORE_WHY]; /* the sentence on the last failure */
+} pendres_store_file;
+
+/* Make and lock the part file, or take over one that a killed run has left, which may be in use
+ * where locks are switched off, unless the caller says that it is `alone`. It has the permissions
+ * of the file that it is to replace. file is zeroed first; destroy it in any case. */
+pendres_status pendres_store_file_create(pendres_store_file *file, const char *path, int alone);
+
+/* Can the file not be locked for reading, as HDF5 locks it? 1: why[PENDRES_STORE_WHY] tells. */
+int pendres_store_file_unlockable(const char *path, char *why);
+
+/* Close what is open and free; the part file stays where it is. */
+void pendres_store_file_destroy(pendres_store_file *file);
+
+/* Remove the part file if it is open and this run's. A signal handler may call this. */
+void pendres_store_file_unlink(const pendres_store_file *file);
+
+/* Close the part file if it is open, and remove it unless `keep`. */
+void pendres_store_file_abandon(pendres_store_file *file, int keep);
+
+/* Write everything to the disk, close, rename the part file to path, and write the folder to the
+ * disk. *whole is set once the part is complete on disk, even where the rename then fails. */
+pendres_status pendres_store_file_finish(pendres_store_file *file, int *whole);
+
+/*
+ * Read and write at an offset. A write that the disk refuses is remembered in memory and counts as
+ * done: `error` tells. HDF5 cannot close a file whose last writes fail; this way it can.
+ * Reading beyond the end gives zeros. All three return 0, or -1 when even that is impossible.
+ */
+int pendres_store_file_write(pendres_store_file *file, uint64_t offset, size_t size,
+                             const void *bytes);
+int pendres_store_file_read(pendres_store_file *file, uint64_t offset, size_t size, void *bytes);
+int pendres_store_file_resize(pendres_store_file *file, uint64_t size);
+
+#endif
